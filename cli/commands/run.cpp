@@ -76,9 +76,9 @@ int run(const RunCommand& options) {
   }
   HostLineEnds line;
   if (options.line.web) {
-    auto opened = page ? open_line_here(options.line, *scenario, control, *page, console)
-                       : fail(ErrorCode::kInvalidArgument,
-                              "--web of a run of one process counts with --gui alone");
+    auto opened =
+        page ? open_line_here(options.line, *scenario, control, *page, console)
+             : fail(ErrorCode::kInvalidArgument, "--web: a run of one process also needs --gui");
     if (!opened) return complain(opened.error());
     line = *std::move(opened);
   }

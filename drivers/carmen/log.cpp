@@ -38,7 +38,7 @@ std::pair<std::int64_t, std::int64_t> stamp_range(const ParsedLog& log) {
   return {first, last};
 }
 
-/// How many scans repeat a stamp of another one; all of them if one has no such stamp.
+/// The number of scans whose stamp another scan also has; all of them if one has no such stamp.
 template <class StampOf>
 std::size_t repeats(const std::vector<ScanRow>& scans, StampOf stamp_of) {
   std::vector<std::int64_t> stamps;
@@ -53,8 +53,8 @@ std::size_t repeats(const std::vector<ScanRow>& scans, StampOf stamp_of) {
   return static_cast<std::size_t>(stamps.end() - last);
 }
 
-/// Whether the messages of a log bear stamps that cannot be theirs, while the logger's differ. The
-/// logger's clock counts from another moment, so it is one clock or the other for the whole log.
+/// Whether the message stamps of a log are implausible while the logger's are plausible. The two
+/// clocks have different epochs, so one clock is used for the whole log.
 bool is_better_by_logger(const ParsedLog& log) {
   const std::size_t few = log.scans.size() / 20;
   if (repeats(log.scans, [](const ScanRow& scan) { return std::optional(scan.stamp_ns); }) <= few) {
@@ -83,7 +83,7 @@ void take_scans(Log& log, ParsedLog& parsed, const StreamWindow& window, double 
   recording::describe(report, log.scans, window);
   recording::trim(log.scans, window);
   log.beams = parsed.beams;
-  // Only the ranges of what is left, in the order of time.
+  // Keep only the ranges of the remaining scans, in order of time.
   for (Scan& scan : log.scans) {
     const std::size_t first = log.ranges_m.size();
     const bool inside = scan.t_ns >= window.start_ns && scan.t_ns <= window.end_ns;
@@ -145,7 +145,7 @@ Result<Log> load_text(const recording::UnpackedText& text, const std::string& fi
     return fail_at({file, 0, 0}, ErrorCode::kParse,
                    "the log has no FLASER row; other messages are not read");
   }
-  // The origin of a stretch is an `ipc_timestamp`.
+  // The origin in `stretch.txt` is an `ipc_timestamp`.
   const bool by_logger = !stretch && is_better_by_logger(parsed);
   if (by_logger) stamp_by_logger(parsed);
   const auto [first_ns, last_ns] = stamp_range(parsed);
@@ -159,7 +159,7 @@ Result<Log> load_text(const recording::UnpackedText& text, const std::string& fi
   log.by_logger = by_logger;
   log.scan_report.gap_limit_ns = log.odometry_report.gap_limit_ns =
       from_seconds(options.gap_limit_s).ns;
-  // An earlier origin is the same as later stamps.
+  // Moving the origin back is equivalent to adding the offset to all stamps.
   window.origin_ns -= from_seconds(options.clock_offset_s).ns;
   take_scans(log, parsed, window, options.range_max_m);
   take_odometry(log, parsed, window);
@@ -184,7 +184,7 @@ Result<Log> load(const std::filesystem::path& path, const LoadOptions& options) 
     const auto listed = stretch->sha256.find(file.file);
     if (listed != stretch->sha256.end()) file.unchanged = listed->second == file.sha256;
     const bool cut = log.scan_report.repaired(recording::RepairKind::kCutLine) > 0;
-    // Last, so that a log with a fault is refused with the place of the fault.
+    // Checked last, so that a syntax error is reported with its line instead.
     if (file.unchanged == false && options.require_unchanged && !cut) {
       return fail_at(
           {path.string(), 0, 0}, ErrorCode::kParse,

@@ -26,7 +26,7 @@ constexpr double kLargestReal = 1e6;
 constexpr double kLongestRange_m = 1000;
 constexpr std::uint32_t kMostBeams = 100'000;
 constexpr std::int64_t kJunkLimit_ns = 1'000'000'000;
-/// Behind the content of every message: ipc_timestamp, ipc_hostname, logger_timestamp.
+/// The words after the content of every message: ipc_timestamp, ipc_hostname, logger_timestamp.
 constexpr std::size_t kTail = 3;
 
 constexpr std::array<std::string_view, 20> kMessages{
@@ -131,7 +131,7 @@ class LogParser {
     return {};
   }
 
-  /// Whether the stamp of this row cannot be one, given that of the scan right before it.
+  /// Whether the stamp of this row is invalid, given the stamp of the scan before it.
   [[nodiscard]] bool is_junk() const {
     const std::string_view text = words_[words_.size() - kTail].text;
     const auto stamp_ns = parse_stamp_ns(text);
@@ -182,7 +182,7 @@ class LogParser {
     if (gzip_cut) return take_cut("the gzip stream ends in the middle of this line");
     words_ = split(line_text_);
     if (words_.empty() || words_.front().text.front() == '#') return {};
-    // Whether a shorter last word is a shorter number or a cut one, nothing tells.
+    // A shorter last word may be a complete number or a truncated one; there is no way to tell.
     return take_cut("the log ends in the middle of this line");
   }
 
@@ -211,7 +211,7 @@ class LogParser {
   ParsedLog log_;
   int line_ = 0;
   std::string_view line_text_;
-  std::vector<Token> words_;  ///< Of the present line.
+  std::vector<Token> words_;  ///< Words of the current line.
   bool behind_scan_ = false;
   bool cut_reported_ = false;
 };

@@ -14,14 +14,14 @@ using line::ReadEnd;
 using line::Wait;
 
 constexpr Wait kConnect{1000};
-/// Without a good frame for so long the conversation begins anew.
+/// After this time without a valid frame the session is restarted.
 constexpr double kSilence_s = 0.5;
-/// Between two attempts to get a robot out of passive mode.
+/// Time between two attempts to leave passive mode.
 constexpr double kModePause_s = 0.5;
-/// A drift is worth saying after so many frames.
+/// The clock drift is reported after this much measuring.
 constexpr double kDriftAfter_s = 5;
 
-/// What no robot is without: what makes it leave safe mode, and the mode.
+/// Packets that are always requested: the mode, and the causes for leaving safe mode.
 constexpr std::array kAlways{Packet::kBumpsAndDrops,   Packet::kCliffLeft,  Packet::kCliffFrontLeft,
                              Packet::kCliffFrontRight, Packet::kCliffRight, Packet::kMode};
 
@@ -121,7 +121,7 @@ Status CreateDevice::drive(WheelSpeeds speeds, double keep_s) {
   return {};
 }
 
-/// A robot that comes back must not go on with an order from before.
+/// A robot that reconnects must not continue an old order.
 void CreateDevice::forget_order() {
   const std::lock_guard lock(order_mutex_);
   order_ = {};
@@ -147,7 +147,7 @@ void CreateDevice::run(const std::stop_token& stop) {
   }
 }
 
-/// False: the thread is to end.
+/// Returns false if the thread must end.
 bool CreateDevice::pause(Wait wait, const std::stop_token& stop) {
   const HostTime end = line::host_now() + wait;
   while (line::host_now() < end) {
@@ -184,7 +184,7 @@ Status CreateDevice::talk_until_lost(const std::stop_token& stop) {
   return ended;
 }
 
-/// Ends well when the host closes.
+/// Returns success when the host closes.
 Status CreateDevice::converse(OiSession& session, const std::stop_token& stop) {
   const HostTime began = line::host_now();
   HostTime good = began;
@@ -262,7 +262,7 @@ void CreateDevice::note_counts(const OiSession& session) {
   counted_ = counts;
 }
 
-/// Tells the wheels what is new, repeats it in time, and stops them when nobody asks any more.
+/// Sends a new order, repeats it in time, and stops the wheels when it expires.
 Status CreateDevice::keep_driving(OiSession& session) {
   Order order;
   {
@@ -291,8 +291,9 @@ Status CreateDevice::keep_driving(OiSession& session) {
   return {};
 }
 
-/// Says when the robot leaves its mode, and takes it back: not while a wheel has dropped, and
-/// at a cliff only to drive away from it, or the robot would creep over the edge.
+/// Reports that the robot left its mode, and restores the mode. It does not while a wheel has
+/// dropped; and at a cliff only for an order to drive away, because otherwise the robot would creep
+/// over the edge.
 Status CreateDevice::keep_mode(OiSession& session) {
   const HostTime now = line::host_now();
   const bool was_good = last_mode_ == options_.mode;

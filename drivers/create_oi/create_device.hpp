@@ -21,11 +21,11 @@
 
 namespace rave::oi {
 
-/// A sensor of this plug-in that lives on the frames of a device. Called from the device's thread,
-/// one call at a time, between attach() and the return of detach().
+/// A sensor of this plug-in that uses the frames of a device. Called from the device's thread, one
+/// call at a time, between attach() and the return of detach().
 class FrameListener {
  public:
-  /// `moment_s`: when the values were true, seconds of the host's clock.
+  /// `moment_s`: time at which the values were true, in seconds of the host's clock.
   virtual void take(const OiState& state, double moment_s) = 0;
   virtual void gone(std::string_view why) = 0;
   virtual void back() = 0;
@@ -34,9 +34,9 @@ class FrameListener {
   ~FrameListener() = default;
 };
 
-/// A robot with the Open Interface at the other end of a line. Its thread keeps the line open, the
-/// stream running and the mode as wanted, hands frames to its listeners and repeats the drive
-/// command. Listeners and the drive are parts of the same plug-in.
+/// A robot with the Open Interface on a line. Its thread keeps the line open, the stream running
+/// and the mode set, passes frames to its listeners and repeats the drive command. Listeners and
+/// the drive belong to the same plug-in.
 class CreateDevice final : public HardwareDevice {
  public:
   Status configure(const HardwareDeviceSetup& setup) override;
@@ -45,21 +45,21 @@ class CreateDevice final : public HardwareDevice {
   [[nodiscard]] std::string report() const override;
 
   [[nodiscard]] const Geometry& geometry() const noexcept { return options_.geometry; }
-  /// Before open(): the stream must hold these packets, too.
+  /// Adds packets to the stream. Call it before open().
   void want(std::span<const Packet> packets);
   void attach(FrameListener& listener);
   void detach(FrameListener& listener);
 
-  /// Tells the wheels. Any thread; does not wait. Without another call within `keep_s` they stop.
-  /// Error (kIo): the robot has been away for longer than `lost_after_s`.
+  /// Sets the wheel speeds. Any thread; does not block. They stop after `keep_s` without another
+  /// call. Error (kIo): the robot has been disconnected for longer than `lost_after_s`.
   Status drive(WheelSpeeds speeds, double keep_s);
 
  private:
-  /// What the wheels are to do, by whom asked and until when.
+  /// The speeds of the wheels and their expiry.
   struct Order {
     WheelSpeeds speeds;
     line::HostTime until{};
-    bool given = false;  ///< Somebody drives this robot.
+    bool given = false;  ///< An actuator drives this robot.
   };
 
   void run(const std::stop_token& stop);
@@ -91,29 +91,29 @@ class CreateDevice final : public HardwareDevice {
   bool configured_ = false;
   line::Wake wake_;  // rung by close(), and by drive() while the stream runs
 
-  // Of the device's thread.
+  // Used by the device's thread only.
   OiState robot_;
   Mode last_mode_ = Mode::kOff;
   line::HostTime last_frame_{};
-  line::HostTime mode_at_{};   // when it may be asked for its mode again
+  line::HostTime mode_at_{};   // time of the next request for the mode
   line::HostTime drive_at_{};  // when the drive command is due again
-  WheelSpeeds told_;           // what the wheels were told last
-  bool order_kept_ = false;    // the order was in force at the last look
+  WheelSpeeds told_;           // the last speeds sent
+  bool order_kept_ = false;    // the order was in force when last checked
   StreamDecoder::Counts counted_;
-  std::uint64_t missing_before_ = 0;  // in former conversations
+  std::uint64_t missing_before_ = 0;  // in earlier sessions
 
   std::mutex listeners_mutex_;  // guards listeners_; held while they are called
   std::vector<FrameListener*> listeners_;
 
   std::mutex order_mutex_;  // guards order_
   Order order_;
-  std::atomic<bool> ringing_{false};  // drive() shall ring
+  std::atomic<bool> ringing_{false};  // drive() must ring the bell
   std::atomic<bool> lost_{false};
 
   mutable std::mutex state_mutex_;  // guards state_
   mutable std::condition_variable state_changed_;
   DeviceState state_;
-  std::jthread thread_;  // last: it ends before what it uses is gone
+  std::jthread thread_;  // last member: it ends before the members it uses are destroyed
 };
 
 }  // namespace rave::oi

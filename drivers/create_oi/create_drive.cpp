@@ -6,7 +6,7 @@
 namespace rave::oi {
 namespace {
 
-/// For a standstill that need not be repeated.
+/// Expiry of a stop that needs no repetition.
 constexpr double kForGood_s = 1e6;
 
 }  // namespace
@@ -25,7 +25,7 @@ Status CreateDrive::write(const Command& command, SimTime /*now*/) {
     return fail(ErrorCode::kInvalidArgument, "expected velocities, found {}",
                 to_string(command.kind));
   }
-  // A command without values is a stop.
+  // A command without values means stop.
   const double v_mps = command.count >= 1 ? command.value[0] : 0;
   const double w_radps = command.count >= 2 ? command.value[1] : 0;
   return device_->drive(wheel_speeds(v_mps, w_radps, device_->geometry().wheel_base_m, max_mmps_),

@@ -18,7 +18,7 @@ inline constexpr std::array<ParamSpec, 3> kDriveParams{
                  "Largest speed of a wheel; never more than the device's."),
 };
 
-/// Drives the wheels of a device: velocity in, Drive Direct out.
+/// Drives the wheels of a device: converts velocities to Drive Direct commands.
 class CreateDrive final : public HardwareActuator {
  public:
   static constexpr CommandKind kAccepts = CommandKind::kVelocity;

@@ -32,7 +32,7 @@ inline constexpr std::array<ParamSpec, 12> kDeviceParams{
     line::lost_after_param(1, "Time after which a disconnected robot is reported as lost."),
 };
 
-/// What is to be known of the body for driving and for odometry.
+/// Dimensions of the body for driving and odometry.
 struct Geometry {
   double wheel_base_m = 0;
   double counts_per_m = 0;

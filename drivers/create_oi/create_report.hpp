@@ -8,22 +8,22 @@
 
 namespace rave::oi {
 
-/// What the device's thread has seen, for the report. A plain value.
+/// The state of the device's thread for the report. A plain value.
 struct DeviceState {
   bool connected = false;
-  std::uint64_t connects = 0;        ///< Times that the stream began, the first included.
-  std::uint64_t frames = 0;          ///< Handed over.
+  std::uint64_t connects = 0;        ///< Number of times that the stream began, the first included.
+  std::uint64_t frames = 0;          ///< Frames delivered.
   std::uint64_t bad_checksum = 0;    ///< Frames dropped.
-  std::uint64_t bad_layout = 0;      ///< Frames dropped: other packets than were asked for.
-  std::uint64_t skipped_bytes = 0;   ///< Of no frame.
-  std::uint64_t missing_frames = 0;  ///< Should have come by the robot's clock and did not.
-  double period_ms = 0;              ///< Mean time between frames since the last connect.
-  double clock_drift_ppm = 0;        ///< How much faster the robot's clock runs than the host's.
+  std::uint64_t bad_layout = 0;      ///< Frames dropped: packets differ from those requested.
+  std::uint64_t skipped_bytes = 0;   ///< Bytes outside of frames.
+  std::uint64_t missing_frames = 0;  ///< Frames missing according to the robot's clock.
+  double period_ms = 0;              ///< Mean period of frames since the last connect.
+  double clock_drift_ppm = 0;        ///< By how much the robot's clock runs faster than the host's.
   std::uint64_t drive_commands = 0;  ///< Sent, repetitions included.
-  std::uint64_t watchdog_stops = 0;  ///< Nobody gave a command for `watchdog_s`.
-  std::uint64_t mode_losses = 0;     ///< The robot left the mode in which it obeys.
+  std::uint64_t watchdog_stops = 0;  ///< Stops because no command came for `watchdog_s`.
+  std::uint64_t mode_losses = 0;     ///< Times that the robot left the commanded mode.
   OiState robot;
-  std::string trouble;  ///< The last one; empty if there was none.
+  std::string trouble;  ///< The last problem; empty if there was none.
 };
 
 /// One JSON object.

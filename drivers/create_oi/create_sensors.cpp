@@ -9,7 +9,7 @@
 namespace rave::oi {
 namespace {
 
-/// The halves of the bumper meet in front; the middle of each lies half way to the side.
+/// The halves of the bumper meet in front; their centres are at 45 degrees.
 constexpr float kBumperBearing_rad = static_cast<float>(kPi / 4);
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -41,7 +41,7 @@ void DeviceSensor::close() {
 }
 
 void DeviceSensor::publish(double moment_s, const void* records, std::uint32_t count) {
-  // Moments do not step back, but their way onto the clock of the run rounds.
+  // Device times never decrease, but their conversion to the run's clock rounds.
   const SimTime stamp{std::max(line::run_stamp(*sink_, moment_s).ns, last_stamp_ns_)};
   last_stamp_ns_ = stamp.ns;
   (void)sink_->publish(stamp, records, count);

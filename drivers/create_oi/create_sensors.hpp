@@ -12,9 +12,8 @@
 
 namespace rave::oi {
 
-/// What the sensors of a device have in common: they take each frame and hand over a sample.
-/// configure(), open(), close() belong to the host's thread, take(), gone() and back() to that of
-/// the device.
+/// The common part of the sensors of a device: each converts a frame to a sample. The host's thread
+/// calls configure(), open() and close(); the device's thread calls take(), gone() and back().
 class DeviceSensor : public HardwareSensor, protected FrameListener {
  public:
   Status configure(const HardwareSetup& setup, HardwareDeclaration& declaration) override;
@@ -22,11 +21,11 @@ class DeviceSensor : public HardwareSensor, protected FrameListener {
   void close() override;
 
  protected:
-  /// Reads parameters and says what the stream must hold. `device()` is there.
+  /// Reads parameters and adds the packets that the stream must contain. `device()` is set.
   virtual Status prepare(const Params& params, HardwareDeclaration& declaration) = 0;
   virtual void begin() {}
   [[nodiscard]] CreateDevice& device() const { return *device_; }
-  /// Hands over records that were true at `moment_s` of the host's clock.
+  /// Publishes records that were true at `moment_s` of the host's clock.
   void publish(double moment_s, const void* records, std::uint32_t count);
 
   void gone(std::string_view why) override;
@@ -85,8 +84,8 @@ inline constexpr std::array<ParamSpec, 1> kBatteryParams{
     number_param("period_s", "s", 1, 0.015, 600, "Time between two samples."),
 };
 
-/// Six values: charge (0 to 1; NaN: the capacity is not known), voltage V, current A (negative:
-/// discharging), charge Ah, capacity Ah, temperature degrees Celsius.
+/// Six values: charge (0 to 1; NaN: unknown capacity), voltage V, current A (negative:
+/// discharging), charge Ah, capacity Ah, temperature in degrees Celsius.
 class CreateBattery final : public DeviceSensor {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kValues;

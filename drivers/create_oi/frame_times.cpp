@@ -26,18 +26,19 @@ double FrameTimes::next(double came_s) {
     return estimate_s_;
   }
   const double gap_s = came_s - estimate_s_;
-  // As many periods as surely have passed. None: this one came together with the one before, which
-  // had stood still on the line and was taken for a later one; or it is the same once more.
+  // The number of periods that have certainly passed. Zero: the previous frame had been delayed and
+  // was taken for a later one, or this is a duplicate.
   const auto steps =
       static_cast<std::uint64_t>(std::max(0.0, std::floor(gap_s / period_s_ + kEarly)));
   if (gap_s > kJump_s) {
-    // How many frames are missing is known but for one, which would be a drift of a thousandth.
+    // The number of missing frames is now uncertain by one, which would look like a drift of a
+    // thousandth, so the measurement restarts.
     missing_ = missing() + steps - 1;
     begin(came_s);
     return estimate_s_;
   }
   if (steps == 0 && frames_ < kSettle) {
-    // It was the first one that came late: measure from here.
+    // The first frame was delayed: measure from this one.
     begin(std::max(estimate_s_, came_s));
     return estimate_s_;
   }
@@ -46,12 +47,12 @@ double FrameTimes::next(double came_s) {
   const double expected_s = estimate_s_ + static_cast<double>(steps) * period_s_;
   const double late_s = came_s - expected_s;
   if (late_s <= 0) {
-    // It cannot have come before it was made; and time does not step back.
+    // A frame cannot arrive before it was made, and times must not decrease.
     estimate_s_ = std::max(estimate_s_, came_s);
   } else if (steps > 0) {
     estimate_s_ = expected_s + kGain * late_s;
   } else if (late_s <= kEarly * period_s_) {
-    // The one before was counted as two because it was late; this one is the second.
+    // The previous frame was counted as two because it was late; this one is the second of them.
     estimate_s_ = came_s;
   }
   return estimate_s_;

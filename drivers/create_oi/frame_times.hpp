@@ -5,38 +5,40 @@
 
 namespace rave::oi {
 
-/// When frames were true, from when they came. The robot makes a frame every 15 ms by its own clock
-/// and says no time in it; a frame comes late by whatever the line and the host's scheduling add,
-/// never early. So the estimate runs ahead by the period with each frame, follows a frame that
-/// comes before it at once, and one that comes after it slowly.
+/// Estimates when frames were true from their times of arrival. The robot makes a frame every 15 ms
+/// by its own clock and sends no time. A frame is delayed by the line and the host's scheduling,
+/// and never early. So the estimate advances by one period per frame, follows an earlier arrival at
+/// once, and a later one slowly.
 ///
-/// A clock that is off by r leaves a lag of r * period / gain: 0.15 ms at 200 ppm. A frame that
-/// was lost shows as a gap of two periods. Pure.
+/// A clock error of r causes a lag of r * period / gain: 0.15 ms at 200 ppm. A lost frame appears
+/// as a gap of two periods. Pure.
 class FrameTimes {
  public:
   explicit FrameTimes(double period_s) : period_s_(period_s) {}
 
-  /// The next frame began to come at `came_s`; gives the estimate of its moment, at most `came_s`
-  /// and never before that of the frame before it.
+  /// Adds a frame whose first byte arrived at `came_s`. Returns its estimated time, at most
+  /// `came_s` and not before that of the previous frame.
   [[nodiscard]] double next(double came_s);
-  /// Forgets all: another connection.
+  /// Clears the state, for another connection.
   void reset();
 
-  /// Mean time between frames since the last gap of more than 0.2 s, lost ones counted; 0 before
-  /// there are two.
+  /// Mean period of frames since the last gap of more than 0.2 s, lost ones included; 0 with fewer
+  /// than two frames.
   [[nodiscard]] double measured_period_s() const noexcept;
-  /// For how long it has been measured.
+  /// The duration of that measurement.
   [[nodiscard]] double known_for_s() const noexcept { return estimate_s_ - first_s_; }
-  /// Frames that should have come and did not.
+  /// Number of missing frames.
   [[nodiscard]] std::uint64_t missing() const noexcept;
 
  private:
-  /// Measures from here.
+  /// Restarts the measurement at this time.
   void begin(double came_s);
 
   static constexpr double kGain = 0.02;
-  static constexpr double kEarly = 0.2;   ///< Of a period: the estimate may be late by so much.
-  static constexpr double kJump_s = 0.2;  ///< Later than this is a new beginning, not a delay.
+  /// Fraction of a period by which the estimate may be late.
+  static constexpr double kEarly = 0.2;
+  /// A longer gap restarts the estimate instead of counting as a delay.
+  static constexpr double kJump_s = 0.2;
 
   static constexpr std::uint64_t kSettle = 20;
 

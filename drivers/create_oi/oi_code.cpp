@@ -24,7 +24,7 @@ void add_word(std::string& text, std::int32_t value) {
   text += byte(bits);
 }
 
-/// First and last packet of a group.
+/// First and last packet number of a group.
 struct Group {
   std::uint8_t id;
   std::uint8_t first;
@@ -94,7 +94,7 @@ std::string stream_command(std::span<const std::uint8_t> packets) {
 
 std::string drive_direct_command(std::int32_t left_mmps, std::int32_t right_mmps) {
   std::string text{byte(kDriveDirect)};
-  // The right wheel comes first.
+  // The protocol sends the right wheel first.
   add_word(text, std::clamp(right_mmps, -kMaxWheel_mmps, kMaxWheel_mmps));
   add_word(text, std::clamp(left_mmps, -kMaxWheel_mmps, kMaxWheel_mmps));
   return text;

@@ -6,17 +6,17 @@ namespace {
 
 using line::ReadEnd;
 
-/// Commands are short: a line that takes none for so long is stuck.
+/// Commands are short: a line that blocks for this long is stuck.
 constexpr line::Wait kSend{100};
 
-/// A command has at most so many bytes of data that a robot may still be waiting for: songs. Zero
-/// is no command, so what is left over of these does nothing.
+/// The largest number of data bytes (of a song) that the robot may still expect from an interrupted
+/// command. Zeros fill it; surplus zeros are ignored, because 0 is not a command.
 constexpr std::size_t kFill = 34;
 
 }  // namespace
 
 Status OiSession::send(std::string_view command) {
-  // Not woken by the bell: a command is sent whole or not at all.
+  // Not interrupted by the bell: a command is sent completely or not at all.
   return line_.write(command, kSend, nullptr);
 }
 

@@ -12,8 +12,8 @@
 
 namespace rave::oi {
 
-/// A conversation with a robot over an open line. For one thread; reads end when `wake` rings,
-/// which must outlive the session.
+/// A session with a robot over an open line. For one thread; reads end when `wake` rings, which
+/// must outlive the session.
 class OiSession {
  public:
   OiSession(line::ByteLine line, const line::Wake* wake, std::vector<std::uint8_t> packets)
@@ -22,21 +22,20 @@ class OiSession {
         decoder_(std::move(packets)),
         times_(kStreamPeriod_s) {}
 
-  /// Opens the interface, chooses the mode, stands still, and asks for the stream. A robot that is
-  /// in the middle of a command of a former host is brought to order by it.
-  /// Errors: kIo (the line is gone), kTimeout.
+  /// Opens the interface, sets the mode, stops the wheels and requests the stream. It also recovers
+  /// a robot that still waits for the rest of an earlier host's command. Errors: kIo (the line is
+  /// lost), kTimeout.
   [[nodiscard]] Status begin(Mode mode);
-  /// Stands still, ends the stream, and leaves the robot in passive mode, as far as the line
-  /// allows.
+  /// Stops the wheels, ends the stream and sets passive mode, if the line permits.
   void end() noexcept;
-  /// Sends a command. Errors: as begin().
+  /// Sends a command. Errors: those of begin().
   [[nodiscard]] Status send(std::string_view command);
 
   struct Next {
-    line::ReadEnd end = line::ReadEnd::kTimeout;  ///< kBytes: `frame` is there.
+    line::ReadEnd end = line::ReadEnd::kTimeout;  ///< kBytes: `frame` is set.
     const Frame* frame = nullptr;                 ///< Valid until the next call.
   };
-  /// The next good frame.
+  /// Reads the next valid frame.
   [[nodiscard]] Next next(line::HostTime limit);
 
   [[nodiscard]] const std::string& lost() const noexcept { return line_.lost(); }
@@ -52,8 +51,8 @@ class OiSession {
   FrameTimes times_;
   std::array<char, 1024> room_{};
   std::size_t have_ = 0;  // bytes in room_
-  std::size_t used_ = 0;  // of them, those the decoder has had
-  double came_s_ = 0;     // the bytes in room_
+  std::size_t used_ = 0;  // of these, passed to the decoder
+  double came_s_ = 0;     // time of arrival of the bytes in room_
 };
 
 }  // namespace rave::oi

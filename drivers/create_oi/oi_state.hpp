@@ -8,7 +8,7 @@
 
 namespace rave::oi {
 
-/// What the robot last said of itself, in the units of the protocol.
+/// The last reported state of the robot, in units of the protocol.
 struct OiState {
   bool bump_left = false;
   bool bump_right = false;
@@ -21,11 +21,11 @@ struct OiState {
   Mode mode = Mode::kOff;
   std::uint8_t charging_state = 0;
   std::uint16_t voltage_mv = 0;
-  std::int16_t current_ma = 0;  ///< Negative: out of the battery.
+  std::int16_t current_ma = 0;  ///< Negative: discharging.
   std::int8_t temperature_c = 0;
   std::uint16_t charge_mah = 0;
   std::uint16_t capacity_mah = 0;
-  std::uint16_t left_counts = 0;  ///< Of the encoder; rolls over.
+  std::uint16_t left_counts = 0;  ///< Encoder counts; wraps around.
   std::uint16_t right_counts = 0;
 
   [[nodiscard]] bool any_drop() const noexcept { return drop_left || drop_right; }
@@ -34,9 +34,9 @@ struct OiState {
   }
 };
 
-/// Puts the packets of a frame (number and data of each in turn) into a state; packets that it has
-/// no place for are passed over. False: the body ends within a packet or has one of unknown size;
-/// the state then holds what came before.
+/// Decodes the packets of a frame (number and data of each) into a state; unknown packets are
+/// skipped. False: the body ends within a packet or has one of unknown size; the state then has the
+/// packets before.
 bool read_packets(std::span<const std::uint8_t> body, OiState& state) noexcept;
 
 }  // namespace rave::oi

@@ -10,14 +10,14 @@
 namespace rave::oi {
 namespace {
 
-constexpr double kMargin = 1.3;         // the robot's own regulator overshoots
-constexpr double kSlack_s = 0.05;       // stamps jitter, and late frames come in bunches
-constexpr double kPause_s = 0.25;       // no frame for so long: something happened
-constexpr double kLongestPause_s = 20;  // by then the counters may have gone round
-constexpr std::int32_t kOddFrames = 5;  // in a row are no garbled ones
+constexpr double kMargin = 1.3;         // the robot's speed control overshoots
+constexpr double kSlack_s = 0.05;       // stamps jitter, and late frames come in bursts
+constexpr double kPause_s = 0.25;       // longer without a frame counts as an interruption
+constexpr double kLongestPause_s = 20;  // after longer the counters may have wrapped more than once
+constexpr std::int32_t kOddFrames = 5;  // implausible frames in a row: not corruption but a restart
 constexpr std::int32_t kNearZero = 40;  // counts
 
-/// How far a counter went, either way round.
+/// The difference of two counter values, modulo 2^16.
 std::int32_t counted(std::uint16_t before, std::uint16_t now) noexcept {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(now - before));
 }
@@ -36,7 +36,8 @@ void WheelOdometer::begin(std::uint16_t left_counts, std::uint16_t right_counts,
   keep_mark(t_s);
 }
 
-/// Anywhere within what it can drive is as likely as anywhere else.
+/// Uncertainty of the unseen drive: a uniform distribution over the distance that the robot could
+/// drive.
 void WheelOdometer::doubt(double unseen_s) {
   const double far_m = options_.max_wheel_mps * unseen_s;
   const double turn_rad = std::min(2 * far_m / options_.wheel_base_m, kPi);
@@ -95,7 +96,7 @@ void WheelOdometer::move(double left_m, double right_m) {
 }
 
 void WheelOdometer::keep_mark(double t_s) {
-  // Frames that come in a bunch bear one time: the last of them counts.
+  // Frames of a burst have the same time: the last one counts.
   if (!marks_.empty() && marks_.back().t_s >= t_s) marks_.pop_back();
   marks_.push_back({t_s, left_m_, right_m_});
   while (marks_.size() > 2 && marks_[1].t_s <= t_s - options_.window_s) marks_.pop_front();

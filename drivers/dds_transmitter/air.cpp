@@ -11,12 +11,12 @@
 namespace rave::dds_transmitter {
 namespace {
 
-/// How often somebody looks after what wakes nobody up: who comes and goes, what was refused.
+/// Period of polling for events that wake no reader: matches and refusals.
 constexpr line::Wait kLook{50};
-/// Of so many writers each is complained of once.
+/// Limit of writers that a warning is logged for.
 constexpr std::size_t kMostComplaints = 1000;
 
-/// The airs of this process.
+/// The networks that this process has joined.
 struct Airs {
   std::mutex mutex;
   std::vector<std::pair<AirOptions, std::weak_ptr<Air>>> all;
@@ -184,7 +184,7 @@ void Air::look() {
         tell(LogLevel::kInfo, event.line());
         break;
       case kRefused:
-        // Whoever sends such things does so at a rate.
+        // A sender of invalid samples sends many, so only the first is logged.
         if (complained_of_.size() < kMostComplaints && complained_of_.insert(event.writer).second) {
           tell(LogLevel::kWarning, event.line());
         }

@@ -20,46 +20,46 @@
 
 namespace rave::dds_transmitter {
 
-/// What has gone through an air. A value.
+/// Counters of an air. A value.
 struct AirCounts {
   std::uint64_t sent = 0;
   std::uint64_t not_sent = 0;  ///< The queue was full, or DDS refused it.
   std::uint64_t received = 0;
-  std::uint64_t refused = 0;  ///< Samples that are no packets of ours.
+  std::uint64_t refused = 0;  ///< Samples that are not valid packets.
   std::uint64_t foreign = 0;  ///< Samples of other runs.
-  std::uint64_t others = 0;   ///< Processes that hear this one now.
+  std::uint64_t others = 0;   ///< Processes that currently match this one.
 };
 
-/// One robot's place in an air: where what is heard goes, and who is told what goes wrong.
+/// One robot in an air: its receiver and its log.
 struct AirPlace {
   PacketSink* sink = nullptr;
   std::uint32_t network = 0;
   HostServices host;
 };
 
-/// This process in the air of one network: one participant and one thread for all robots of the
-/// process whose transmitters have the same options. Robots of the process hear each other
-/// directly. All functions may be called from any thread.
+/// The connection of this process to one network: one participant and one thread for all robots of
+/// the process whose transmitters have equal options. Robots of the process receive each other's
+/// packets directly. All functions may be called from any thread.
 class Air {
  public:
-  /// The air with these options: the one that this process has, or a new one. Errors: those of
+  /// Returns the process's air with these options, or creates it. Errors: those of
   /// bus::Bus::open().
   [[nodiscard]] static Result<std::shared_ptr<Air>> join(const AirOptions& options);
   Air(const Air&) = delete;
   Air& operator=(const Air&) = delete;
   ~Air() = default;
 
-  /// From now on the place hears what is sent. The first one starts the thread. Error: kIo.
+  /// Begins to pass received packets to the place. The first call starts the thread. Error: kIo.
   [[nodiscard]] Status attach(const AirPlace& place);
-  /// When it returns nothing is handed to the place any more. The last one ends the thread.
+  /// Ends that; after its return the place receives nothing. The last call ends the thread.
   void detach(const AirPlace& place);
-  /// Hands a packet on to all other places here and, by the thread, to other processes. Errors:
-  /// kInvalidArgument (no packet, or too long), kIo (the queue is full).
+  /// Passes a packet to all other places of this process and, through the thread, to other
+  /// processes. Errors: kInvalidArgument (not a packet, or too long), kIo (the queue is full).
   [[nodiscard]] Status send(std::span<const std::byte> bytes, const AirPlace& from);
   [[nodiscard]] AirCounts counts() const;
 
  private:
-  /// Packets that wait for the thread: their bytes one after the other.
+  /// Packets waiting for the thread: their bytes, concatenated.
   struct Queue {
     std::vector<std::byte> bytes;
     std::vector<std::size_t> sizes;
@@ -75,7 +75,8 @@ class Air {
   void tell(LogLevel level, const std::string& text);
 
   const AirOptions options_;
-  // Of the thread while it runs, else of whoever joins and leaves; they need those before them.
+  // Used by the thread while it runs, otherwise by attach() and detach(). Declared after the
+  // members they need.
   std::unique_ptr<bus::Bus> bus_;
   std::optional<bus::Writer<bus::Packet>> writer_;
   std::optional<bus::Reader<bus::Packet>> reader_;
@@ -90,8 +91,8 @@ class Air {
   mutable std::mutex queue_mutex_;  // guards waiting_ and counts_
   Queue waiting_;
   AirCounts counts_;
-  std::mutex thread_mutex_;  // attach() and detach() come one at a time
-  std::jthread thread_;      // last: it ends before what it uses is gone
+  std::mutex thread_mutex_;  // serialises attach() and detach()
+  std::jthread thread_;      // last member: it ends before the members it uses are destroyed
 };
 
 }  // namespace rave::dds_transmitter

@@ -8,7 +8,7 @@
 namespace rave::dds_transmitter {
 namespace {
 
-/// Keeps these participants apart from those of hosts: neither sees that the other exists.
+/// Separates these participants from those of hosts: they do not discover each other.
 constexpr const char* kTag = "rave radio";
 
 }  // namespace

@@ -12,10 +12,11 @@
 
 namespace rave::dds_transmitter {
 
-/// What decides which air a transmitter is in: those with the same options share one participant.
+/// The options that determine the air of a transmitter: those with equal options share one
+/// participant.
 struct AirOptions {
   std::string network;
-  bus::RunId run;  ///< Made of `network` unless one is given.
+  bus::RunId run;  ///< Derived from `network` unless given.
   std::uint32_t domain = 0;
   std::string interface;
   std::vector<std::string> peers;
@@ -27,13 +28,13 @@ struct AirOptions {
   friend bool operator==(const AirOptions&, const AirOptions&) = default;
 };
 
-/// Reads the parameters of the driver. Error kParse: `run` is no number of a run.
+/// Reads the parameters of the driver. Error kParse: `run` is not a run id.
 [[nodiscard]] Result<AirOptions> read_options(const HardwareSetup& setup);
 
-/// The run that all who know the name of a network share.
+/// The run id derived from the name of a network.
 [[nodiscard]] bus::RunId run_of_network(std::string_view network);
 
-/// How such an air is joined.
+/// The bus configuration for an air.
 [[nodiscard]] bus::BusConfig bus_config(const AirOptions& options);
 
 }  // namespace rave::dds_transmitter

@@ -22,7 +22,7 @@ bus::Packet sample_of(const RadioPacket& packet, std::uint64_t number) noexcept 
   sample.range_m = packet.range_m;
   sample.antenna_z_m = packet.antenna_z_m;
   sample.line_of_sight = packet.line_of_sight;
-  // Cyclone DDS writes through no pointer of a sample that it sends.
+  // Safe cast: Cyclone DDS does not write to the samples that it sends.
   sample.payload._buffer =
       const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(packet.payload.data()));
   sample.payload._length = static_cast<std::uint32_t>(packet.payload.size());

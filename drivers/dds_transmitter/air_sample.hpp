@@ -11,14 +11,13 @@
 
 namespace rave::dds_transmitter {
 
-/// A packet of a radio as a sample of `rave/radio`, which shows the packet's payload. Robots and
-/// communicator are the hashes of their names, since hosts of this topic need not number them
-/// alike; the network is that of the run, and the sender's start that of the writer.
+/// Converts a radio packet to a sample of `rave/radio`, which refers to the packet's payload.
+/// Robots and communicator are sent as hashes of their names, because hosts may number them
+/// differently. The network is identified by the run, and the sender's start by the writer id.
 [[nodiscard]] bus::Packet sample_of(const RadioPacket& packet, std::uint64_t number) noexcept;
 
-/// And back, for those of `network`; its payload is the sample's. Error kInvalidArgument: names
-/// that no robot can have, or more bytes than `max_packet_bytes` with the head. The sample has
-/// passed bus::validate().
+/// The inverse, for `network`; the payload refers to the sample. Error kInvalidArgument: invalid
+/// names, or more than `max_packet_bytes` with header. The sample must have passed bus::validate().
 [[nodiscard]] Result<RadioPacket> packet_of(const bus::Packet& sample, std::uint32_t network,
                                             std::size_t max_packet_bytes);
 

@@ -27,7 +27,7 @@ constexpr ParamSpec kParams[] = {
                   "Bytes of packets that may wait to be sent; further packets are lost."),
 };
 
-/// Packets as samples of `rave/radio`, through the air that all robots of the process share.
+/// Sends packets as samples of `rave/radio`, through the air that all robots of the process share.
 class DdsTransmitter final : public Transmitter {
  public:
   ~DdsTransmitter() override { close(); }
@@ -68,7 +68,7 @@ class DdsTransmitter final : public Transmitter {
     nlohmann::ordered_json json;
     json["network"] = network_;
     json["others"] = counts.others;
-    // Of all robots of this process together.
+    // Sums over all robots of this process.
     json["sent"] = counts.sent;
     json["not_sent"] = counts.not_sent;
     json["received"] = counts.received;

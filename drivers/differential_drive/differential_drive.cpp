@@ -11,7 +11,7 @@ constexpr ParamSpec kParams[] = {
     number_param("max_wheel_speed_mps", "m/s", 1.0, 0, 100, "Largest speed of each wheel."),
 };
 
-/// Two driven wheels without inertia: what is asked for within the limits is reached at once.
+/// Two driven wheels without inertia: a speed within the limits is reached at once.
 class DifferentialDrive final : public VirtualActuator {
  public:
   static constexpr CommandKind kAccepts = CommandKind::kVelocity;

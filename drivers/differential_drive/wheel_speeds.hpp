@@ -14,21 +14,22 @@ struct WheelSpeeds {
   double right_mps = 0;
 };
 
-/// Source: R. Siegwart, I. Nourbakhsh, D. Scaramuzza, "Introduction to Autonomous Mobile Robots",
-/// 2nd ed., MIT Press 2011, section 3.2.
+/// The wheel speeds for a body velocity. Source: R. Siegwart, I. Nourbakhsh, D. Scaramuzza,
+/// "Introduction to Autonomous Mobile Robots", 2nd ed., MIT Press 2011, section 3.2.
 [[nodiscard]] inline WheelSpeeds wheel_speeds(double v_mps, double w_radps,
                                               double separation_m) noexcept {
   const double half_mps = 0.5 * separation_m * w_radps;
   return {v_mps - half_mps, v_mps + half_mps};
 }
 
-/// The inverse: velocity of the body, which has no sideways part.
+/// The inverse: the velocity of the body, without lateral component.
 [[nodiscard]] inline Twist2 body_velocity(WheelSpeeds wheels, double separation_m) noexcept {
   return {0.5 * (wheels.left_mps + wheels.right_mps), 0,
           (wheels.right_mps - wheels.left_mps) / separation_m};
 }
 
-/// Both speeds scaled alike until the faster one is at most max_mps: the radius of the curve stays.
+/// Scales both speeds by the same factor so that the faster is at most max_mps: the curvature does
+/// not change.
 [[nodiscard]] inline WheelSpeeds limited(WheelSpeeds wheels, double max_mps) noexcept {
   const double fastest_mps = std::max(std::abs(wheels.left_mps), std::abs(wheels.right_mps));
   if (fastest_mps <= max_mps) return wheels;
@@ -36,8 +37,7 @@ struct WheelSpeeds {
   return {scale * wheels.left_mps, scale * wheels.right_mps};
 }
 
-/// What a velocity command asks of the wheels; a stop for no command, another kind, or values that
-/// are not finite.
+/// The wheel speeds for a velocity command; 0 for no command, another kind, or non-finite values.
 [[nodiscard]] inline WheelSpeeds wanted_speeds(const Command& command, double separation_m,
                                                double max_mps) noexcept {
   if (command.kind != CommandKind::kVelocity) return {};

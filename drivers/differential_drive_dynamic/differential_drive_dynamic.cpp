@@ -26,14 +26,14 @@ constexpr ParamSpec kParams[] = {
     number_param("slip_duration_s", "s", 0.2, 0.001, 60, "Duration of one slip."),
 };
 
-/// One wheel with its motor, speed control and grip.
+/// One wheel with motor, speed control and slip.
 struct Wheel {
   double reference_mps = 0;  ///< The command after the motor's lag.
   SpeedState speed;
-  double slip_left_s = 0;  ///< Time until it grips again.
+  double slip_left_s = 0;  ///< Remaining time of the slip.
 };
 
-/// Two driven wheels of the second order that now and then slip.
+/// Two driven wheels with second-order speed control and occasional slip.
 class DifferentialDriveDynamic final : public VirtualActuator {
  public:
   static constexpr CommandKind kAccepts = CommandKind::kVelocity;
@@ -45,7 +45,7 @@ class DifferentialDriveDynamic final : public VirtualActuator {
     return parameters_changed(setup.parameters());
   }
 
-  /// The wheels go on as fast as they are.
+  /// The wheels keep their present speeds.
   Status parameters_changed(const Params& params) override {
     separation_m_ = params.number("wheel_separation_m");
     max_mps_ = params.number("max_wheel_speed_mps");
@@ -64,7 +64,8 @@ class DifferentialDriveDynamic final : public VirtualActuator {
     if (input.dt_s != dt_s_) prepare(input.dt_s);
     if (input.contact != 0) restart_from(input.velocity);
     const WheelSpeeds wanted = wanted_speeds(input.command, separation_m_, max_mps_);
-    // Always two draws, so that what one wheel does never changes the chance of the other.
+    // Always take two draws, so that slip of one wheel does not change the random numbers of the
+    // other.
     RandomStream random = input.random();
     const double left_draw = random.uniform();
     const double right_draw = random.uniform();
@@ -92,7 +93,8 @@ class DifferentialDriveDynamic final : public VirtualActuator {
     wheel.reference_mps = wanted_mps + lag_ * (wheel.reference_mps - wanted_mps);
     wheel.speed =
         advanced(wheel.speed, wheel.reference_mps, transition_, max_acceleration_mps2_, dt_s_);
-    // Half a step of slack: a duration of whole steps must not end one early or late by rounding.
+    // Compare with half a step, so that rounding does not end a slip of whole steps one step early
+    // or late.
     const bool slips = wheel.slip_left_s > 0.5 * dt_s_;
     if (slips) {
       wheel.slip_left_s -= dt_s_;

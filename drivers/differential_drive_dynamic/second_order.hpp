@@ -6,7 +6,7 @@
 
 namespace rave {
 
-/// A 2x2 matrix by rows; here the exact motion of (speed error, acceleration) over one step.
+/// A 2x2 matrix by rows: the exact transition of (speed error, acceleration) over one step.
 struct Transition {
   double a = 1;
   double b = 0;
@@ -24,7 +24,7 @@ struct Transition {
 /// "Nineteen dubious ways to compute the exponential of a matrix", SIAM Review 20(4), 1978).
 [[nodiscard]] inline Transition second_order_transition(double omega_radps, double zeta,
                                                         double dt_s) noexcept {
-  // Time counted in 1/omega, so that the matrix is of order one.
+  // Time in units of 1/omega, so that the matrix is of order one.
   double tau = omega_radps * dt_s;
   int halvings = 0;
   while (tau * (1.0 + 2.0 * zeta) > 0.25) {
@@ -48,8 +48,8 @@ struct SpeedState {
   double acceleration_mps2 = 0;
 };
 
-/// One step of speed'' = omega^2 (wanted - speed) - 2 zeta omega speed', exact for a `wanted` that
-/// is held, with a limit on the acceleration.
+/// One step of speed'' = omega^2 (wanted - speed) - 2 zeta omega speed', exact for constant
+/// `wanted`, with a limit on the acceleration.
 [[nodiscard]] inline SpeedState advanced(const SpeedState& now, double wanted_mps,
                                          const Transition& step, double max_acceleration_mps2,
                                          double dt_s) noexcept {

@@ -71,7 +71,7 @@ class GoalPointController final : public Controller {
   static constexpr Command kStop = velocity_command(0, 0);
 
   static bool finite(const ControlInput& input) {
-    // A sum of finite numbers may overflow; that too is no place to drive to.
+    // The sum may overflow even if all terms are finite; such goals are refused too.
     return std::isfinite(input.command.value[0] + input.command.value[1] + input.command.value[2] +
                          input.pose.x_m + input.pose.y_m + input.pose.yaw_rad);
   }
@@ -85,14 +85,14 @@ class GoalPointController final : public Controller {
       return velocity_command(0, std::clamp(heading_gain_per_s_ * error_rad, -max_turn_rate_radps_,
                                             max_turn_rate_radps_));
     }
-    // From this speed the robot can still stop at the goal.
+    // The highest speed from which the robot can stop at the goal: v^2 = 2 a d.
     const double braking_mps = std::sqrt(2.0 * max_deceleration_mps2_ * distance_m);
     const double gain_per_s =
         std::min({distance_gain_per_s_, limit_mps / distance_m, braking_mps / distance_m});
     const SinCos error = sincos(error_rad);
     const double v_mps = gain_per_s * distance_m * error.cos;
     const double w_radps = heading_gain_per_s_ * error_rad + gain_per_s * error.sin * error.cos;
-    // Slowing both alike keeps the curvature, so the path stays that of the law.
+    // Scaling both velocities keeps the curvature, so the path stays that of the control law.
     const double scale = std::min(1.0, max_turn_rate_radps_ / std::max(std::abs(w_radps), 1e-9));
     return velocity_command(scale * v_mps, scale * w_radps);
   }

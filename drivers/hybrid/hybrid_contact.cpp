@@ -17,7 +17,7 @@ void HybridContact::fuse(const FuseItem& item) const {
   std::uint32_t count = item.real->count;
   std::copy(real, real + count, result);
   for (std::uint32_t i = 0; i < item.imagined->count; ++i) {
-    // Of a real half that says nothing (drop-out), the virtual one stands alone.
+    // If the real half has no reading (drop-out), the virtual one counts alone.
     if (item.real->count == 0 && count < capacity_) {
       result[count++] = imagined[i];
       continue;

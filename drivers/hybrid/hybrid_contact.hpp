@@ -19,7 +19,7 @@ class HybridContact final : public HybridSensor {
   void fuse(const FuseItem& item) const override;
 
  private:
-  std::uint32_t capacity_ = 1;  ///< Of the real half, and so of the result.
+  std::uint32_t capacity_ = 1;  ///< Capacity of the real half and of the result.
 };
 
 }  // namespace rave

@@ -30,7 +30,7 @@ class HybridPose final : public HybridSensor {
   void fuse(const FuseItem& item) const override;
 
  private:
-  /// Variances of one half from its parameters; 0: as the readings state.
+  /// Variances of one half from its parameters; 0: those of the readings.
   struct Stated {
     const char* half = "";
     double xy_m2 = 0;

@@ -35,17 +35,17 @@ Status HybridRanges::start(const HybridSetup& setup) {
   return {};
 }
 
-/// Comparisons with NaN are false, so what is not a number never wins and is only kept where the
-/// other half has nothing either.
+/// Comparisons with NaN are false, so NaN never wins; it remains only if the other half has no
+/// return either.
 float HybridRanges::nearest(float real_m, float virtual_m) const noexcept {
   if (std::isnan(real_m)) return virtual_m < kNoReturn ? virtual_m : real_m;
   return virtual_m < real_m ? virtual_m : real_m;
 }
 
 float HybridRanges::occluded(float real_m, float virtual_m) const noexcept {
-  // Something real that is nearer than what can be measured hides the rest.
+  // A real body below the minimum range occludes all others.
   if (real_m < range_min_m_) return real_m;
-  // A virtual NaN and what lies beyond the reach of the real sensor are not seen.
+  // The real sensor could not see a virtual NaN or a body beyond its range.
   if (!(virtual_m <= range_max_m_)) return real_m;
   if (virtual_m >= real_m) return real_m;
   return virtual_m < range_min_m_ ? too_near_m_ : virtual_m;
@@ -56,7 +56,7 @@ void HybridRanges::fuse(const FuseItem& item) const {
   const auto* const imagined = static_cast<const float*>(item.imagined_records);
   auto* const result = static_cast<float*>(item.result_records);
   const std::uint32_t rays = item.real->count;
-  // Drop-out of ranges is per ray; should a half have fewer, it has nothing to say of the rest.
+  // Drop-out of ranges is per ray; further rays of one half are ignored.
   const std::uint32_t both = std::min(rays, item.imagined->count);
   for (std::uint32_t i = 0; i < both; ++i) {
     result[i] = occlusion_ ? occluded(real[i], imagined[i]) : nearest(real[i], imagined[i]);

@@ -31,8 +31,8 @@ class HybridRanges final : public HybridSensor {
   [[nodiscard]] float occluded(float real_m, float virtual_m) const noexcept;
 
   bool occlusion_ = false;
-  float too_near_m_ = 0;   ///< Reading of a body that is nearer than range_min_m_.
-  float range_min_m_ = 0;  ///< Of the real half.
+  float too_near_m_ = 0;   ///< The reading for a body nearer than range_min_m_.
+  float range_min_m_ = 0;  ///< Range limit of the real half.
   float range_max_m_ = 0;
 };
 

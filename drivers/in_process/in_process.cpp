@@ -9,7 +9,7 @@ constexpr ParamSpec kParams[] = {
                  "Byte rate that all its communicators share; 0: no limit."),
 };
 
-/// Says that the host carries the messages itself.
+/// Declares that the host delivers the messages itself.
 class InProcess final : public Transmitter {
  public:
   Status configure(const HardwareSetup& setup, TransmitterDeclaration& declaration) override {

@@ -17,7 +17,7 @@ constexpr ParamSpec kParams[] = {
                   "Rectangles without reception, four numbers each: x_min, y_min, x_max, y_max."),
 };
 
-/// A rectangle along the axes of W; its border belongs to it.
+/// An axis-aligned rectangle in W, border included.
 struct Zone {
   double x_min_m = 0;
   double y_min_m = 0;
@@ -50,7 +50,7 @@ Result<std::vector<Zone>> read_zones(std::span<const double> numbers) {
   return zones;
 }
 
-/// An indoor GPS: the pose of the robot in W with noise, gaps and dead zones.
+/// An indoor GPS: the pose of the robot in W with noise, drop-outs and dead zones.
 class IndoorPositioning final : public VirtualSensor {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kPose;
@@ -66,7 +66,7 @@ class IndoorPositioning final : public VirtualSensor {
 
   void sample(const WorldView& /*world*/, const SampleItem& item) const override {
     RandomStream random = item.random();
-    // Drawn whether it counts or not, so that a zone does not change the noise of other samples.
+    // Always drawn, so that a zone does not change the noise of other samples.
     const bool lost = random.uniform() < dropout_probability_;
     const auto in_zone = [&](const Zone& zone) { return zone.holds(item.X_WR); };
     if (lost || std::any_of(zones_.begin(), zones_.end(), in_zone)) {

@@ -20,11 +20,11 @@ constexpr ParamSpec kParams[] = {
                   "Largest number of reported robots, lowest ids first."),
 };
 
-/// Robots within range that one sample can look at before layers and sight sort them out. On the
-/// stack, because a sample must not allocate.
+/// Limit of robots within range before the filters of layer and visibility. On the stack, because a
+/// sample must not allocate.
 constexpr std::size_t kCandidates = 1024;
 
-/// Feels how other robots move: a sensor without a real analogue.
+/// Measures the motion of other robots: a sensor without a real counterpart.
 class NeighbourVelocity final : public VirtualSensor {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kNeighbours;

@@ -43,11 +43,11 @@ constexpr auto kPoseParams =
                            "The sensor of that robot whose readings are played; empty: the "
                            "reported pose of the robot, in the world frame."));
 
-/// Plays the readings of one recorded sensor as its hardware delivered them: from a thread of its
-/// own, with the recorded stamps. Opened again it starts over and gives the same samples.
+/// Plays the readings of one recorded sensor like its hardware: from its own thread, with the
+/// recorded stamps. Each open() starts over with the same samples.
 ///
-/// Belongs to the thread of the host; only play() runs on the player's own, and reads what
-/// configure() left.
+/// Belongs to the thread of the host; only play() runs in the player's thread, and reads data of
+/// configure().
 template <ReadingKind kKind>
 class Player final : public HardwareSensor {
  public:
@@ -96,8 +96,8 @@ class Player final : public HardwareSensor {
       if (live_) {
         if (!sink.wait_until(sample.delivered)) return;
       } else {
-        // All of the time before the stamp: publish() may have to wait for room, and the host could
-        // be waiting for a moment in between.
+        // Completes only the time before the stamp: publish() may wait for room while the host
+        // waits for completeness.
         sink.complete_up_to({sample.stamp.ns - 1});
       }
       if (!sink.publish(sample.stamp, timeline_.records.data() + sample.offset, sample.count)) {
@@ -110,7 +110,7 @@ class Player final : public HardwareSensor {
   Timeline timeline_;
   std::string report_ = "{}";
   bool live_ = false;
-  std::jthread thread_;  // last: it ends before what it reads is gone
+  std::jthread thread_;  // last member: it ends before the data it reads is destroyed
 };
 
 template <ReadingKind kKind>

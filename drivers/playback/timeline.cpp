@@ -13,16 +13,16 @@ namespace {
 
 using ByteSpan = std::span<const std::byte>;
 
-/// The readings of a sensor of events as the device gave them: until the program decides, a percept
-/// holds those of all steps since, so what was already in the one before is taken off again. Each
-/// sighting bears its own stamp, so equal bits are the same sighting.
+/// The new readings of an event sensor. Until the program decides, a percept contains the events of
+/// all steps since the last decision, so those of the previous percept are removed. Each sighting
+/// has its own stamp, so equal bytes are the same sighting.
 ByteSpan new_events(ByteSpan before, ByteSpan now) {
   const bool grown = now.size() > before.size() && !before.empty() &&
                      std::memcmp(now.data(), before.data(), before.size()) == 0;
   return grown ? now.subspan(before.size()) : now;
 }
 
-/// Moves the stamps that sightings bear themselves.
+/// Shifts the stamps inside sightings.
 void shift_sightings(std::span<std::byte> records, std::int64_t by_ns) {
   for (std::size_t at = 0; at + sizeof(Sighting) <= records.size(); at += sizeof(Sighting)) {
     Sighting sighting;
@@ -32,7 +32,7 @@ void shift_sightings(std::span<std::byte> records, std::int64_t by_ns) {
   }
 }
 
-/// Collects samples: from the start on, in order.
+/// Collects samples from the start time on, in order.
 class Builder {
  public:
   Builder(ReadingKind kind, double start_s)
@@ -44,7 +44,7 @@ class Builder {
     SimTime at = stamp - start_;
     if (at.ns < 0) {
       if (events_) return;
-      // Of a state the last one before the start holds from the first step on.
+      // For a state sensor, the last sample before the start applies from the first step on.
       at = {};
       timeline_.samples.clear();
       timeline_.records.clear();
@@ -141,7 +141,7 @@ Wish wish_of(const Params& params, ReadingKind kind) {
 }
 
 Result<Timeline> load_timeline(const Wish& wish, const std::string& folder, ReadingKind kind) {
-  // An absolute file name replaces the folder in front of it.
+  // operator/ ignores the folder if the path is absolute.
   const std::filesystem::path path = std::filesystem::path(folder) / wish.file;
   const auto load = [&]() -> Result<Timeline> {
     RAVE_TRY_ASSIGN(const auto reader, record::McapReader::open(path));
@@ -159,7 +159,7 @@ Result<Timeline> load_timeline(const Wish& wish, const std::string& folder, Read
 }
 
 std::string report_json(const Wish& wish, const Timeline& timeline) {
-  // Divided, not multiplied by 1e-9: so that whole milliseconds print as such.
+  // Division instead of multiplication by 1e-9, so that whole milliseconds print exactly.
   const auto seconds = [](SimTime t) { return static_cast<double>(t.ns) / 1e9; };
   nlohmann::ordered_json json;
   json["file"] = wish.file;
@@ -177,7 +177,7 @@ std::string report_json(const Wish& wish, const Timeline& timeline) {
     json["first_stamp_s"] = seconds(timeline.samples.front().stamp);
     json["last_stamp_s"] = seconds(timeline.samples.back().stamp);
   }
-  // A file's name may be no UTF-8, which JSON cannot hold.
+  // File names may not be UTF-8, which JSON requires.
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

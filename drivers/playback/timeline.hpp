@@ -14,39 +14,40 @@
 
 namespace rave::playback {
 
-/// What the parameters of a player ask for.
+/// The parameters of a player.
 struct Wish {
-  std::string file;    ///< As given.
-  std::string robot;   ///< Its name in the record.
-  std::string sensor;  ///< Its name there; empty: the reported pose of the robot (poses only).
+  std::string file;   ///< As in the parameter.
+  std::string robot;  ///< Name of the robot in the recording.
+  /// Name of the sensor there; empty: the reported pose of the robot (poses only).
+  std::string sensor;
   record::PerceptPart part = record::PerceptPart::kResult;
-  double start_s = 0;  ///< Time of the record that is run time 0.
+  double start_s = 0;  ///< Time in the recording that becomes time 0 of the run.
   bool live = false;
-  /// Sightings only: those of several steps belong together until the program decides.
+  /// Sightings only: collect those of several steps until the program decides.
   bool collect = false;
 };
 [[nodiscard]] Wish wish_of(const Params& params, ReadingKind kind);
 
-/// One recorded reading on its way into a run. Times are of that run.
+/// One recorded reading to be played. Times are those of the new run.
 struct Sample {
   SimTime stamp;
-  SimTime delivered;       ///< When the recorded run got it; not before `stamp`.
-  std::size_t offset = 0;  ///< Bytes, into Timeline::records.
+  SimTime delivered;       ///< When the recorded run received it; not before `stamp`.
+  std::size_t offset = 0;  ///< Offset in bytes into Timeline::records.
   std::uint32_t count = 0;
 };
 
-/// All that a player will publish, by stamp, which never steps back.
+/// All samples of a player, ordered by stamp.
 struct Timeline {
   std::vector<Sample> samples;
   std::vector<std::byte> records;
-  std::uint32_t largest = 0;    ///< Records of one sample at most.
-  std::uint64_t left_out = 0;   ///< Readings whose stamp stepped back.
+  std::uint32_t largest = 0;    ///< Largest number of records in a sample.
+  std::uint64_t left_out = 0;   ///< Readings omitted because their stamps decreased.
   record::RecordedSensor info;  ///< Geometry of a range sensor.
 };
 
-/// Reads what a player of `kind` is to play. `folder` is where a relative file name starts. Errors:
-/// those of reading a record (naming the file), a robot or sensor that is not in it (with the
-/// nearest name), a sensor of another kind.
+/// Loads the samples of a player of `kind`. `folder` is the base of a relative file name. Errors:
+/// those of reading a recording (naming the file), an unknown robot or sensor (with the nearest
+/// name), a sensor of another kind.
 [[nodiscard]] Result<Timeline> load_timeline(const Wish& wish, const std::string& folder,
                                              ReadingKind kind);
 

@@ -4,7 +4,7 @@
 namespace rave {
 namespace {
 
-/// Stands where the actuator of a recorded robot would be: the past cannot be steered.
+/// Replaces the actuator of a recorded robot, which cannot be controlled.
 class ReplayIgnored final : public HardwareActuator {
  public:
   static constexpr CommandKind kAccepts = CommandKind::kVelocity;

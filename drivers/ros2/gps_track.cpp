@@ -12,12 +12,11 @@
 namespace rave::ros2_driver {
 namespace {
 
-/// Beyond, the plane of the world is nowhere near the ground.
+/// Beyond this distance the plane of the world is far from the ground.
 constexpr double kFarthest_m = 100'000;
 constexpr std::int64_t kOldestHeading_ns = 1'000'000'000;
 constexpr std::uint8_t kUnknownCovariance = 0;
-/// Places of east and north in a covariance of three by three, and of the yaw in that of an
-/// orientation.
+/// Indices of east and north in a 3x3 covariance, and of the yaw in that of an orientation.
 constexpr std::size_t kEast = 0;
 constexpr std::size_t kNorth = 4;
 constexpr std::size_t kYaw = 8;
@@ -36,7 +35,7 @@ Result<GeoFrame> read_geo_origin(std::span<const double> numbers) {
   if (numbers.size() < 2 || numbers.size() > all.size()) {
     return fail(ErrorCode::kInvalidArgument,
                 "`geo_origin` has {} numbers; expected that of the scenario, or latitude and "
-                "longitude in degrees, and if need be altitude in metres and the yaw of the "
+                "longitude in degrees, and optionally altitude in metres and the yaw of the "
                 "world's x axis from east in degrees",
                 numbers.size());
   }
@@ -66,7 +65,7 @@ Status GpsTrack::check_heading(std::int64_t stamp_ns) const {
   if (!options_.has_imu) return {};
   if (!heard_) return fail(ErrorCode::kState, "no orientation has come yet");
   const std::int64_t age_ns = std::abs(stamp_ns - heading_.stamp_ns);
-  // Without a stamp it was true when it came.
+  // A message without a stamp counts as true on arrival.
   if (heading_.stamp_ns == 0 || stamp_ns == 0 || age_ns <= kOldestHeading_ns) return {};
   return fail(ErrorCode::kState, "the newest orientation is {:.1f} s from the fix",
               static_cast<double>(age_ns) * 1e-9);

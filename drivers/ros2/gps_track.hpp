@@ -12,28 +12,28 @@
 
 namespace rave::ros2_driver {
 
-/// The frame of the world on the earth: latitude and longitude in degrees, and if given altitude in
-/// metres and the yaw of the world's x axis from east, in degrees. Error kInvalidArgument.
+/// Makes the frame of the world from latitude and longitude in degrees and, if given, altitude in
+/// metres and the yaw of the world's x axis from east in degrees. Error kInvalidArgument.
 [[nodiscard]] Result<GeoFrame> read_geo_origin(std::span<const double> numbers);
 
 struct GpsOptions {
-  Doubt doubt;                   ///< Where messages do not have theirs.
-  double course_distance_m = 0;  ///< Way between two fixes from which a heading follows.
-  Vec2 antenna_m;                ///< In the frame of the body.
-  bool has_imu = false;          ///< The heading comes from there.
+  Doubt doubt;                   ///< Used if a message has no covariance.
+  double course_distance_m = 0;  ///< Least distance between two fixes that gives a heading.
+  Vec2 antenna_m;                ///< Position of the antenna in the body frame.
+  bool has_imu = false;          ///< Whether the heading comes from an inertial unit.
 };
 
-/// The pose of a robot in the world out of the fixes of its receiver. A receiver has no heading: it
-/// is that of an inertial unit, or else of the way that the antenna went. A value; messages have
-/// passed ros2::validate(). One thread at a time.
+/// The pose of a robot in the world from the fixes of its receiver. A receiver gives no heading: it
+/// comes from an inertial unit, or from the direction of travel of the antenna. A value; messages
+/// must have passed ros2::validate(). One thread at a time.
 class GpsTrack {
  public:
   GpsTrack(const GeoFrame& frame, const GpsOptions& options) : frame_(frame), options_(options) {}
 
-  /// Error kInvalidArgument: it measures no orientation.
+  /// Adds an orientation. Error kInvalidArgument: the message has none.
   Status hear(const ros2::Imu& message);
-  /// Errors: kState (no fix; no heading yet, or one that is older by more than a second),
-  /// kInvalidArgument (too far from the origin to be in this world).
+  /// The pose for a fix. Errors: kState (no fix; no heading yet, or one more than a second old),
+  /// kInvalidArgument (too far from the origin of the world).
   [[nodiscard]] Result<PoseReading> take(const ros2::NavSatFix& message);
 
  private:
@@ -49,8 +49,8 @@ class GpsTrack {
   GeoFrame frame_;
   GpsOptions options_;
   Heading heading_;
-  bool heard_ = false;          // something of the inertial unit
-  std::optional<Vec2> anchor_;  // where the way of the next heading begins
+  bool heard_ = false;          // whether an orientation has arrived
+  std::optional<Vec2> anchor_;  // start of the distance for the next heading
 };
 
 }  // namespace rave::ros2_driver

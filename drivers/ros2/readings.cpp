@@ -15,14 +15,14 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 
-/// Places of x, y and the heading in a covariance of six by six.
+/// Indices of x, y and heading in a 6x6 covariance.
 constexpr std::size_t kXX = 0;
 constexpr std::size_t kYY = 7;
 constexpr std::size_t kYawYaw = 35;
 
-/// Many nodes leave the covariance at zero, which is what no sensor has.
+/// Many nodes leave the covariance at zero, which no real sensor has; the parameters apply then.
 Doubt doubt_of(std::span<const double, 36> covariance, const Doubt& otherwise) {
-  // One number stands for both axes: the larger, which promises no more than the sender does.
+  // One number represents both axes: the larger one, which does not understate the uncertainty.
   const double xy = std::max(covariance[kXX], covariance[kYY]);
   return {xy > 0 ? xy : otherwise.variance_xy_m2,
           covariance[kYawYaw] > 0 ? covariance[kYawYaw] : otherwise.variance_yaw_rad2};
@@ -49,7 +49,7 @@ std::vector<double> bearings_of(const Fan& fan) {
 
 float range_of(float range, double min_m, double max_m) noexcept {
   if (std::isnan(range) || (range < 0 && range != -kNothing)) return kNoReading;
-  // Many scanners write 0 where nothing comes back.
+  // Many scanners report 0 for no return.
   if ((range == 0 && min_m > 0) || range > max_m) return kNothing;
   return range < min_m ? static_cast<float>(min_m) : range;
 }

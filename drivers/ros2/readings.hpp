@@ -9,10 +9,11 @@
 #include "rave/ros2/messages.hpp"
 #include "ros2/ros2_options.hpp"
 
-/// From messages of ROS 2 to readings. Messages have passed ros2::validate(). Pure; any thread.
+/// Converts messages of ROS 2 to readings. Messages must have passed ros2::validate(). Pure; any
+/// thread.
 namespace rave::ros2_driver {
 
-/// Where the rays of a scanner go, and how far.
+/// The rays of a scanner and their limits.
 struct Fan {
   std::uint32_t rays = 0;
   double first_rad = 0;
@@ -25,19 +26,17 @@ struct Fan {
 [[nodiscard]] Fan fan_of(const ros2::LaserScan& scan) noexcept;
 [[nodiscard]] std::vector<double> bearings_of(const Fan& fan);
 
-/// A range as RAVE has it. Beyond the largest range, and 0 where that is no range, is "nothing
-/// there" (infinity); too near to be measured, minus infinity included, is the least range; NaN and
-/// what is negative is no reading (NaN).
+/// Converts a range. Above the maximum, or 0 where that is not a valid range: no return (infinity).
+/// Below the minimum, minus infinity included: the minimum. NaN and negative: no reading (NaN).
 [[nodiscard]] float range_of(float range, double min_m, double max_m) noexcept;
-/// Whether any of the ranges of one message is more than NaN, 0 or negative. Where none is, the
-/// sensor does not work.
+/// Whether any range of a message is valid, that is not NaN, 0 or negative. If none is, the sensor
+/// is faulty.
 [[nodiscard]] bool says_something(std::span<const float> ranges) noexcept;
-/// All of a scan. Error kInvalidArgument: the scanner is not the one that the fan is of, or it says
-/// nothing.
+/// Converts a scan. Error kInvalidArgument: its rays differ from the fan, or no range is valid.
 [[nodiscard]] Status ranges_of(const ros2::LaserScan& scan, const Fan& fan,
                                std::span<float> ranges_m);
 
-/// Errors of these: what leans too much.
+/// Errors: tilt above the limit, see ros2::planar().
 [[nodiscard]] Result<OdometryReading> odometry_of(const ros2::Odometry& message,
                                                   const Doubt& doubt);
 [[nodiscard]] Result<PoseReading> pose_of(const ros2::Odometry& message, const Doubt& doubt);

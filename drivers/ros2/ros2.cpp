@@ -16,7 +16,7 @@ Description describe(const char* name, const char* summary, std::span<const Para
           .device = "ros2"};
 }
 
-/// Of what others want, which may never come.
+/// Description of sensors for commands of others, which may never come.
 Description describe_wish(const char* name, const char* summary,
                           std::span<const ParamSpec> params) {
   Description wish = describe(name, summary, params);

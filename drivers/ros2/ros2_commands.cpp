@@ -20,7 +20,7 @@ void Ros2Command::take(const ros2::Twist& twist, std::int64_t stamp_ns) {
 
 void Ros2Command::drain() {
   if (plain_) plain_->take([this](const ros2::Twist& message) { take(message, 0); });
-  // A command counts from when it came: the clock of who gives it may be any.
+  // A command counts from its arrival, because the sender's clock is unknown.
   if (stamped_) stamped_->take([this](const ros2::TwistStamped& m) { take(m.twist, 0); });
 }
 

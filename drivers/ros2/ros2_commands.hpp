@@ -3,11 +3,11 @@
 
 #include "ros2/topic_sensor.hpp"
 
-/// What others want of a robot of ours, as sensors: its program decides what to do with it. Silence
-/// is no failure, and nobody need be there when the run starts.
+/// Commands of other nodes to a robot of this run, as sensors: its program decides what to do with
+/// them. Silence is not a failure, and no sender needs to be present at the start.
 namespace rave::ros2_driver {
 
-/// The velocity that somebody gives, as Twist or TwistStamped.
+/// Velocity commands, as Twist or TwistStamped.
 class Ros2Command final : public TopicSensor {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kVelocity;
@@ -21,12 +21,12 @@ class Ros2Command final : public TopicSensor {
   [[nodiscard]] const std::string& topic() const override;
   void take(const ros2::Twist& twist, std::int64_t stamp_ns);
 
-  // One of the two.
+  // Exactly one of the two is set.
   std::optional<ros2::Reader<ros2::Twist>> plain_;
   std::optional<ros2::Reader<ros2::TwistStamped>> stamped_;
 };
 
-/// The pose that somebody sends it to, in the frame of the message.
+/// Goal poses, in the frame of the message.
 class Ros2Goal final : public OneTopicSensor<ros2::PoseStamped> {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kPose;

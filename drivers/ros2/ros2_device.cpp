@@ -12,7 +12,8 @@ namespace rave::ros2_driver {
 Status Ros2Device::configure(const HardwareDeviceSetup& setup) {
   RAVE_TRY_ASSIGN(options_, read_options(setup.parameters(), setup.robot.name));
   host_ = setup.host;
-  // Here and not in open(), so that sensors can ask the robot what they are.
+  // Created here instead of in open(), so that sensors can query the robot when they are
+  // configured.
   RAVE_TRY_ASSIGN(participant_, ros2::Participant::open(options_.network));
   RAVE_TRY_ASSIGN(ros2::Waiter waiter, ros2::Waiter::create(*participant_));
   waiter_.emplace(std::move(waiter));

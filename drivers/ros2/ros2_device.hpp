@@ -19,19 +19,19 @@
 
 namespace rave::ros2_driver {
 
-/// A part of this plug-in that lives on topics of a device. Called from the device's thread, one
-/// call at a time, between attach() and the return of detach(), while the device is open.
+/// A part of this plug-in that uses topics of a device. Called from the device's thread, one call
+/// at a time, between attach() and the return of detach(), while the device is open.
 class TopicUser {
  public:
-  /// Takes what has come and does what is due. Returns when it must be called again at the latest.
+  /// Processes received messages and due tasks. Returns the latest time of the next call.
   virtual line::HostTime attend(line::HostTime now) = 0;
 
  protected:
   ~TopicUser() = default;
 };
 
-/// A robot that speaks ROS 2, on the network. Its thread waits for messages and hands it to the
-/// sensors and actuators of this plug-in that live on it.
+/// A ROS 2 robot on the network. Its thread waits for messages and calls the sensors and actuators
+/// of this plug-in that use it.
 class Ros2Device final : public HardwareDevice {
  public:
   Status configure(const HardwareDeviceSetup& setup) override;
@@ -39,28 +39,28 @@ class Ros2Device final : public HardwareDevice {
   void close() override;
   [[nodiscard]] std::string report() const override;
 
-  // For the parts, after configure().
+  // For its users, after configure().
   [[nodiscard]] const ros2::Participant& participant() const noexcept { return *participant_; }
   [[nodiscard]] const DeviceOptions& options() const noexcept { return options_; }
-  /// The whole name of a topic of this robot. Errors: those of ros2::whole_name().
+  /// The absolute name of a topic of this robot. Errors: those of ros2::whole_name().
   [[nodiscard]] Result<std::string> topic(std::string_view name) const;
-  /// Wakes the device's thread when something comes to one of the readers of its users.
+  /// Wakes the device's thread when a reader of its users receives a message.
   [[nodiscard]] const ros2::Waiter& waiter() const noexcept { return *waiter_; }
   void attach(TopicUser& user);
   void detach(TopicUser& user);
-  /// The device's thread attends to all its users now. Any thread.
+  /// Makes the device's thread call all its users now. Any thread.
   void ring() const noexcept { waiter_->ring(); }
-  /// One more sensor has heard nothing for too long, or one of those hears again. Any thread.
+  /// Counts the sensors that have been silent for too long. Any thread.
   void count_silent(bool more) noexcept { silent_ += more ? 1 : -1; }
-  /// One more sensor of those that may not be silent is open, or one less. Any thread.
+  /// Counts the open sensors that may not be silent. Any thread.
   void count_listening(bool more) noexcept { listening_ += more ? 1 : -1; }
-  /// Whether all sensors of the robot are silent: then it may hear nothing either. One alone is
-  /// dead by itself, and the guard's.
+  /// Whether all sensors of the robot are silent, so that it may not receive commands either. A
+  /// single silent sensor is faulty by itself; the guard handles that.
   [[nodiscard]] bool away() const noexcept { return silent_ > 0 && silent_ >= listening_; }
   void log(LogLevel level, std::string_view text) const;
 
-  /// Waits until `reader` has a message for which `suits(const Message&)` holds, at most until the
-  /// start of a run may take no longer. Error kTimeout says why none came. Host's thread.
+  /// Waits for a message of `reader` for which `suits(const Message&)` is true, at most for the
+  /// start timeout. Error kTimeout gives the reason. Host's thread.
   template <class Message, class Suits>
   [[nodiscard]] Status await(ros2::Reader<Message>& reader, Suits&& suits) const {
     RAVE_TRY_ASSIGN(const ros2::Waiter waiter, ros2::Waiter::create(participant()));
@@ -83,7 +83,7 @@ class Ros2Device final : public HardwareDevice {
   }
 
  private:
-  /// How often somebody looks after what wakes nobody up.
+  /// Period of polling for events that wake no reader.
   static constexpr line::Wait kLook{50};
 
   [[nodiscard]] Status no_message(std::string_view topic, std::string_view why,
@@ -100,7 +100,7 @@ class Ros2Device final : public HardwareDevice {
 
   std::mutex users_mutex_;  // guards users_; held while they are called
   std::vector<TopicUser*> users_;
-  std::jthread thread_;  // last: it ends before what it uses is gone
+  std::jthread thread_;  // last member: it ends before the members it uses are destroyed
 };
 
 }  // namespace rave::ros2_driver

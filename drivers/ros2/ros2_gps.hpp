@@ -6,8 +6,8 @@
 
 namespace rave::ros2_driver {
 
-/// The pose of a robot out of its satellite navigation, with the heading of an inertial unit or of
-/// its way. A receiver without a fix is there but gives no pose, which grows stale.
+/// The pose of a robot from satellite navigation, with the heading of an inertial unit or of its
+/// travel. Without a fix the sensor is alive but gives no pose, so the pose becomes stale.
 class Ros2Gps final : public TwoTopicSensor<ros2::NavSatFix, ros2::Imu> {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kPose;

@@ -21,7 +21,7 @@ Result<DeviceOptions> read_options(const Params& params, const char* robot) {
   options.name_space = params.text("namespace");
   options.network.node_namespace = options.name_space;
   options.timing = line::read_timing(params);
-  // Any topic in it shows whether the namespace is one.
+  // Any topic in the namespace shows whether its name is valid.
   RAVE_TRY(ros2::whole_name(options.name_space, "topic"));
   return options;
 }

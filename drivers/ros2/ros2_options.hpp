@@ -37,7 +37,7 @@ inline constexpr std::array<ParamSpec, 9> kDeviceParams{
     line::lost_after_param(1, "Time after which a silent topic is reported as lost."),
 };
 
-/// The parameter that every sensor has, with its own default.
+/// The parameter `topic` of every sensor, each with its own default.
 constexpr ParamSpec topic_param(const char* topic) noexcept {
   return text_param("topic", topic,
                     "Topic to read, in the device's namespace unless it begins with a slash.");

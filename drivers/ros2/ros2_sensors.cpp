@@ -81,7 +81,7 @@ void Ros2TfPose::add(ros2::Reader<ros2::TfMessage>& reader, bool is_static) {
 
 void Ros2TfPose::drain() {
   add(*beside_, true);
-  // After each message, so that a burst gives each of its poses.
+  // After each message, so that every pose of a burst is published.
   main_->take([this](const ros2::TfMessage& message) {
     Status added = tree_.add(message, false);
     auto found = tree_.find(map_frame_, base_frame_);
@@ -89,7 +89,7 @@ void Ros2TfPose::drain() {
       main_->refuse(added ? std::move(found).error() : std::move(added).error());
       return;
     }
-    // Most messages are of other frames.
+    // Most messages contain other frames only.
     if (found->stamp_ns == newest_ns_ && newest_ns_ != 0) return;
     newest_ns_ = found->stamp_ns;
     const PoseReading reading{found->X_AB.x, found->X_AB.y, found->X_AB.yaw, doubt_.variance_xy_m2,

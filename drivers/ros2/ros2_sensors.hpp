@@ -8,10 +8,10 @@
 #include "ros2/tf_tree.hpp"
 #include "ros2/topic_sensor.hpp"
 
-/// One class for each kind of message that a robot's sensor can be made of.
+/// One class per kind of message for sensors of a robot.
 namespace rave::ros2_driver {
 
-/// The first scan says how many rays there are and where they go; others are refused.
+/// The first scan defines the rays; scans with other rays are refused.
 class Ros2Laser final : public OneTopicSensor<ros2::LaserScan> {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kRanges;
@@ -36,7 +36,7 @@ class Ros2Range final : public OneTopicSensor<ros2::RangeReading> {
   double bearing_rad_ = 0;
 };
 
-/// A message that is one reading, whose uncertainty is in the parameters where it has none itself.
+/// A message with one reading. Parameters give the uncertainty if the message has none.
 template <ReadingKind kKind, class Message, class Reading,
           Result<Reading> (*kConvert)(const Message&, const Doubt&)>
 class Ros2State final : public OneTopicSensor<Message> {
@@ -59,12 +59,12 @@ class Ros2State final : public OneTopicSensor<Message> {
 
 using Ros2Odometry =
     Ros2State<ReadingKind::kOdometry, ros2::Odometry, OdometryReading, odometry_of>;
-/// The pose that a motion capture or a localisation writes.
+/// The pose from motion capture or localisation.
 using Ros2Pose = Ros2State<ReadingKind::kPose, ros2::PoseStamped, PoseReading, pose_of>;
-/// The pose out of odometry, for robots that have nothing better.
+/// The pose from odometry, for robots without a better source.
 using Ros2OdometryPose = Ros2State<ReadingKind::kPose, ros2::Odometry, PoseReading, pose_of>;
 
-/// A message that is so many values.
+/// A message with a fixed number of values.
 template <class Message, std::size_t kCount,
           std::array<double, kCount> (*kConvert)(const Message&) noexcept>
 class Ros2Values final : public OneTopicSensor<Message> {
@@ -90,8 +90,8 @@ using Ros2Imu = Ros2Values<ros2::Imu, 10, imu_values>;
 /// NaN: not measured.
 using Ros2Battery = Ros2Values<ros2::BatteryState, 6, battery_values>;
 
-/// The pose as the chain of transforms from the map to the robot's body. Those that never change
-/// are on the topic beside that of the others.
+/// The pose from the chain of transforms from the map to the robot's body. Static transforms are on
+/// a separate topic.
 class Ros2TfPose final : public TwoTopicSensor<ros2::TfMessage, ros2::TfMessage> {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kPose;

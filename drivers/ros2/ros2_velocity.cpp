@@ -12,9 +12,9 @@
 namespace rave::ros2_driver {
 namespace {
 
-/// For how long a robot is told to stand; then others may drive it.
+/// How long stop commands are sent; afterwards other nodes may drive the robot.
 constexpr double kTellToStand_s = 1;
-/// How long the last word may take to arrive.
+/// How long to wait until the last command has arrived.
 constexpr Duration kLastWord{200'000'000};
 constexpr const char* kTwist = "geometry_msgs/msg/Twist";
 constexpr const char* kTwistStamped = "geometry_msgs/msg/TwistStamped";
@@ -93,7 +93,7 @@ Status Ros2Velocity::write(const Command& command, SimTime /*now*/) {
     return fail(ErrorCode::kInvalidArgument, "expected velocities, found {}",
                 to_string(command.kind));
   }
-  // A command without values is a stop.
+  // A command without values means stop.
   const double v_mps = command.count >= 1 ? held(command.value[0], max_v_mps_) : 0;
   const double w_radps = command.count >= 2 ? held(command.value[1], max_w_radps_) : 0;
   bool changed = false;
@@ -146,7 +146,7 @@ line::HostTime Ros2Velocity::attend(line::HostTime now) {
 }
 
 void Ros2Velocity::send(double v_mps, double w_radps) {
-  // A failure shows in readers(), or the robot's own watchdog stops it.
+  // readers() reveals a failure, or the robot's own watchdog stops it.
   if (auto* const plain = std::get_if<Plain>(&writer_)) {
     (void)plain->write(twist(v_mps, w_radps));
   } else if (auto* const stamped = std::get_if<Stamped>(&writer_)) {

@@ -11,8 +11,8 @@
 
 namespace rave::ros2_driver {
 
-/// Drives a robot by velocity: Twist or TwistStamped, whichever it reads. open(), write() and
-/// close() belong to the host, one after the other; attend() to the device's thread. They share the
+/// Drives a robot by velocity: Twist or TwistStamped, whichever it reads. The host calls open(),
+/// write() and close(), one after the other; the device's thread calls attend(). They share the
 /// order.
 class Ros2Velocity final : public HardwareActuator, public TopicUser {
  public:
@@ -32,21 +32,21 @@ class Ros2Velocity final : public HardwareActuator, public TopicUser {
   using Plain = ros2::Writer<ros2::Twist>;
   using Stamped = ros2::Writer<ros2::TwistStamped>;
 
-  /// What the robot is to do, until when.
+  /// The commanded velocity and its expiry.
   struct Order {
     double v_mps = 0;
     double w_radps = 0;
     line::HostTime until{};
     bool given = false;
-    bool fresh = false;  ///< Has not been sent yet.
+    bool fresh = false;  ///< Not sent yet.
   };
 
-  /// Which message others read at the topic; waits for somebody. Error kTimeout: nobody does.
+  /// Finds which of the messages others read on the topic; waits for a reader. Error kTimeout.
   [[nodiscard]] Result<bool> find_stamped(const std::string& topic, std::string_view wanted) const;
   [[nodiscard]] Status make_writer(const std::string& topic, bool stamped);
   void send(double v_mps, double w_radps);
   [[nodiscard]] std::size_t readers() const;
-  /// Says who at the topic gets nothing, and why.
+  /// Logs readers with incompatible QoS, and the reason.
   void look_after();
 
   Ros2Device* device_ = nullptr;
@@ -60,8 +60,8 @@ class Ros2Velocity final : public HardwareActuator, public TopicUser {
   std::mutex mutex_;  // guards what follows
   std::variant<std::monostate, Plain, Stamped> writer_;
   Order order_;
-  line::HostTime due_{};       // when the order is sent again
-  line::HostTime quiet_at_{};  // until then a robot without an order is told to stand
+  line::HostTime due_{};       // time of the next repetition
+  line::HostTime quiet_at_{};  // until then stop commands are sent without an order
 };
 
 }  // namespace rave::ros2_driver

@@ -4,7 +4,8 @@
 namespace rave::ros2_driver {
 namespace {
 
-/// So many old stamps in a row, each newer than the one before, are of a sender that began anew.
+/// This many old stamps in a row, each newer than the one before, mean that the sender was
+/// restarted.
 constexpr int kRestartAfter = 10;
 
 }  // namespace
@@ -32,7 +33,7 @@ StreamClock::Taken StreamClock::take(std::int64_t stamp_ns, double arrived_s) {
   any_ = true;
   newest_ns_ = stamp_ns;
   old_in_a_row_ = 0;
-  // From the first stamp on, so that nanoseconds since 1970 lose nothing on their way to a double.
+  // Relative to the first stamp, so that nanoseconds since 1970 keep their precision as a double.
   const double sent_s = static_cast<double>(stamp_ns - origin_ns_) * 1e-9;
   clock_.add(sent_s, arrived_s);
   return {true, sent_s + clock_.offset_s(sent_s)};

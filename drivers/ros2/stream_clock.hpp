@@ -7,17 +7,19 @@
 
 namespace rave::ros2_driver {
 
-/// Puts the stamps of one topic on the host's clock, whatever clock they are from: that of another
-/// machine, or of a simulation. Pure: no clock is read. Not for several threads at once.
+/// Converts the stamps of one topic to the host's clock, whatever clock they are from: that of
+/// another machine, or of a simulation. Pure: reads no clock. Not thread-safe.
 class StreamClock {
  public:
   struct Taken {
-    bool good = false;  ///< False: not newer than what came before.
-    double host_s = 0;  ///< When the message was true, by the host's clock, least delay included.
+    bool good = false;  ///< False: not newer than the previous one.
+    /// Time at which the message was true, in the host's clock, least delay included.
+    double host_s = 0;
   };
-  /// A message with this stamp came at `arrived_s`. A stamp of 0 is none: it was true on arrival.
+  /// Adds a message with this stamp that arrived at `arrived_s`. A stamp of 0 means none: true on
+  /// arrival.
   [[nodiscard]] Taken take(std::int64_t stamp_ns, double arrived_s);
-  /// What came before says nothing of what comes.
+  /// Forgets earlier messages, for a new sender.
   void restart();
 
   [[nodiscard]] std::uint64_t old() const noexcept { return old_; }

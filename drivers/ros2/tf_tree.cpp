@@ -10,7 +10,7 @@
 namespace rave::ros2_driver {
 namespace {
 
-/// Frames had a slash in front before tf2, and some nodes still write it.
+/// Frame names had a leading slash before tf2, and some nodes still write it.
 std::string_view frame(const char* text) {
   std::string_view name(text == nullptr ? "" : text);
   if (name.starts_with('/')) name.remove_prefix(1);

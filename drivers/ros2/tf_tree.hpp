@@ -12,30 +12,31 @@
 
 namespace rave::ros2_driver {
 
-/// The newest transforms between frames, seen from above: each frame has one parent. A value; not
-/// for several threads at once.
+/// The newest transforms between frames, projected to the plane; each frame has one parent. A
+/// value; not thread-safe.
 class TfTree {
  public:
   static constexpr std::size_t kMostFrames = 4096;
-  /// No chain is longer; one that is goes round in a circle.
+  /// A longer chain is taken for a cycle.
   static constexpr int kLongestChain = 64;
 
-  /// Takes all transforms of a message that passed validate(). Static ones have no time. What leans
-  /// matters only to who asks for it. Error kInvalidArgument: more than kMostFrames.
+  /// Adds all transforms of a message that has passed validate(). Static ones have no time. Tilted
+  /// ones are errors only for find() across them. Error kInvalidArgument: more than kMostFrames.
   [[nodiscard]] Status add(const ros2::TfMessage& message, bool is_static);
 
   struct Found {
     Pose2 X_AB;
-    std::int64_t stamp_ns = 0;  ///< Of the newest transform on the way that has a time; 0: none.
+    /// Newest stamp among the transforms of the chain that have one; 0: none.
+    std::int64_t stamp_ns = 0;
   };
-  /// Where frame `leaf` (B) is in frame `root` (A), which is above it. Errors: kNotFound says where
-  /// the chain ends, kInvalidArgument what leans.
+  /// The pose of frame `leaf` (B) in its ancestor `root` (A). Errors: kNotFound says where the
+  /// chain ends; kInvalidArgument names the tilted transform.
   [[nodiscard]] Result<Found> find(std::string_view root, std::string_view leaf) const;
 
  private:
   struct Link {
     std::string parent;
-    Result<Pose2> X_PC;  ///< Of the child in its parent; or why there is none in the plane.
+    Result<Pose2> X_PC;  ///< Pose of the child in its parent, or why it has none in the plane.
     std::int64_t stamp_ns = 0;
     bool is_static = false;
   };

@@ -22,7 +22,8 @@ Status TopicSensor::open(SampleSink& sink) {
   if (sink_ != nullptr) return fail(ErrorCode::kState, "opened twice; close it first");
   {
     const std::lock_guard lock(mutex_);
-    // What waited since configure() is old, and its arrival says nothing of the clock.
+    // Messages that waited since configure() are old, and their arrival says nothing about the
+    // clock.
     drain();
     sink_ = &sink;
     state_ = {};
@@ -92,7 +93,7 @@ void TopicSensor::publish(std::int64_t stamp_ns, const void* records, std::uint3
     state_.rate_hz = static_cast<double>(state_.samples - 1) /
                      std::chrono::duration<double>(now - first_).count();
   }
-  // Moments do not step back, but a better estimate of the clock may say so.
+  // Sender times never decrease, but a better clock estimate may shift them back.
   const SimTime moment =
       line::run_stamp(*sink_, taken.host_s - device_->options().timing.latency_s);
   last_stamp_ns_ = std::max(moment.ns, last_stamp_ns_);
@@ -122,7 +123,7 @@ std::string TopicSensor::report() const {
   json["losses"] = state_.losses;
   json["clock_drift_ppm"] = clock_.drift_ppm();
   json["trouble"] = state_.trouble;
-  // Others' texts may be no UTF-8, which JSON cannot hold.
+  // Texts of other nodes may not be UTF-8, which JSON requires.
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

@@ -11,18 +11,18 @@
 
 namespace rave::ros2_driver {
 
-/// What one sensor's stream was like, for the report. A plain value.
+/// Statistics of one sensor's stream, for the report. A plain value.
 struct TopicState {
   std::uint64_t samples = 0;
-  std::uint64_t refused = 0;  ///< Messages that could not be used.
-  std::uint64_t losses = 0;   ///< Times that it was silent for too long.
-  double rate_hz = 0;         ///< Of samples, by the host's clock.
-  std::string trouble;        ///< The last one; empty if there was none.
+  std::uint64_t refused = 0;  ///< Unusable messages.
+  std::uint64_t losses = 0;   ///< Times of silence beyond the limit.
+  double rate_hz = 0;         ///< Rate of samples, by the host's clock.
+  std::string trouble;        ///< The last problem; empty if there was none.
 };
 
-/// What the sensors of this plug-in have in common, whatever they read. configure(), open(),
-/// close() and report() belong to the host's thread, attend() and what it calls to the device's
-/// own; they share what `mutex_` guards.
+/// The common part of the sensors of this plug-in. The host's thread calls configure(), open(),
+/// close() and report(); the device's thread calls attend() and what it calls. They share what
+/// `mutex_` guards.
 class TopicSensor : public HardwareSensor, public TopicUser {
  public:
   TopicSensor() = default;
@@ -37,25 +37,25 @@ class TopicSensor : public HardwareSensor, public TopicUser {
   line::HostTime attend(line::HostTime now) final;
 
  protected:
-  /// Makes the readers, waits for the first message, and says what it is.
+  /// Creates the readers, waits for the first message, and declares its properties.
   virtual Status prepare(const Params& params, HardwareDeclaration& declaration) = 0;
-  /// Takes all messages that have come, and calls publish() for each that it can use.
+  /// Takes all received messages, and calls publish() for each usable one.
   virtual void drain() = 0;
-  /// Takes what is to be told of the readers into the state, and why nothing comes.
+  /// Adds the state of the readers, and the reason for silence.
   virtual void look_after(TopicState& state) = 0;
   [[nodiscard]] virtual std::string explain_silence() const = 0;
   [[nodiscard]] virtual std::vector<dds_entity_t> readers() const = 0;
   [[nodiscard]] virtual const std::string& topic() const = 0;
 
-  /// Of a topic that is silent as long as nobody has anything to say.
+  /// Permits silence, for topics without a regular rate.
   void allow_silence() noexcept { may_be_silent_ = true; }
   [[nodiscard]] Ros2Device& device() const noexcept { return *device_; }
-  /// From drain(): records of a message with this stamp. Old ones are dropped.
+  /// For drain(): publishes records of a message with this stamp. Old ones are dropped.
   void publish(std::int64_t stamp_ns, const void* records, std::uint32_t count);
-  /// From drain(): something came that is no reading, but nobody is lost either.
+  /// For drain(): notes a message without a reading, so that the sensor does not count as lost.
   void note_alive();
-  /// Makes a reader of a topic in the device's namespace. Errors: those of Ros2Device::topic() and
-  /// ros2::Reader::create().
+  /// Creates a reader of a topic in the device's namespace. Errors: those of Ros2Device::topic()
+  /// and ros2::Reader::create().
   template <class Message>
   Status make_reader(std::string_view topic, std::optional<ros2::Reader<Message>>& reader,
                      const bus::QosProfile& profile = ros2::kReadNewest) const {
@@ -65,7 +65,7 @@ class TopicSensor : public HardwareSensor, public TopicUser {
     reader.emplace(std::move(made));
     return {};
   }
-  /// From look_after(): what one reader has to tell.
+  /// For look_after(): adds the state of one reader.
   template <class Message>
   void look_at(ros2::Reader<Message>& reader, TopicState& state) const {
     state.refused += reader.refused();
@@ -74,7 +74,7 @@ class TopicSensor : public HardwareSensor, public TopicUser {
       warn(fmt::format("`{}`: {}", reader.topic(), *text), state);
     }
   }
-  /// From look_after(): something that a user should know.
+  /// For look_after(): logs a problem.
   void warn(std::string text, TopicState& state) const;
 
  private:
@@ -90,9 +90,9 @@ class TopicSensor : public HardwareSensor, public TopicUser {
   line::HostTime first_{};
   line::HostTime last_{};
   std::int64_t last_stamp_ns_ = 0;
-  std::uint64_t refused_before_ = 0;  // when something came last
+  std::uint64_t refused_before_ = 0;  // value at the last message
   bool lost_ = false;
-  bool alive_ = false;  // something came since the last look
+  bool alive_ = false;  // a message arrived since the last check
 };
 
 /// A sensor that reads one topic.
@@ -102,18 +102,18 @@ class OneTopicSensor : public TopicSensor {
   Status make_reader(const Params& params) {
     return TopicSensor::make_reader(params.text("topic"), reader_);
   }
-  /// Makes the reader and waits for a message that suits.
+  /// Creates the reader and waits for a suitable message.
   template <class Suits>
   Status begin_reading(const Params& params, Suits&& suits) {
     RAVE_TRY(make_reader(params));
     return device().await(*reader_, suits);
   }
-  /// The same for those that need no more of the first message than that it comes.
+  /// Like the above, for sensors that accept any first message.
   Status begin_reading(const Params& params) {
     return begin_reading(params, [](const Message& /*message*/) { return true; });
   }
 
-  /// What the message means. An error refuses it.
+  /// Converts a message. An error refuses it.
   virtual Status take(const Message& message) = 0;
 
   void drain() final {
@@ -131,8 +131,8 @@ class OneTopicSensor : public TopicSensor {
   std::optional<ros2::Reader<Message>> reader_;
 };
 
-/// A sensor that lives on one topic and may read another one beside it. prepare() makes `main_`
-/// and, if there is to be one, `beside_`.
+/// A sensor that reads one topic, and optionally a second one. prepare() creates `main_` and, if
+/// needed, `beside_`.
 template <class Message, class Beside>
 class TwoTopicSensor : public TopicSensor {
  protected:

@@ -46,7 +46,7 @@ struct LaserOptions {
 /// Errors: those of line::read_address.
 [[nodiscard]] Result<LaserOptions> read_options(const Params& params);
 
-/// What to ask of a device. Error (kInvalidArgument): steps that it does not have.
+/// The request for a device. Error (kInvalidArgument): steps that it does not have.
 [[nodiscard]] Result<ScanRequest> request_for(const LaserOptions& options,
                                               const Parameters& device);
 

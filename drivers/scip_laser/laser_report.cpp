@@ -30,7 +30,7 @@ std::string report_json(const std::string& where, const Identity& identity,
   json["clock_drift_ppm"] = state.clock_drift_ppm;
   json["clock_restarts"] = state.clock_restarts;
   json["trouble"] = state.trouble;
-  // What a device says of itself may be no UTF-8, which JSON cannot hold.
+  // Texts of the device may not be UTF-8, which JSON requires.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

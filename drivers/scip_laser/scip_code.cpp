@@ -36,7 +36,7 @@ double UnwrappedTime::seconds(std::uint32_t timer_ms) noexcept {
     if (step_ms >= kTurn_ms / 2) step_ms -= kTurn_ms;
     if (step_ms < -kTurn_ms / 2) step_ms += kTurn_ms;
     last_ms_ += step_ms;
-    // Far back at the very beginning would be below zero, which stands for "none yet".
+    // A time far before zero would be negative, which means "none yet".
     if (last_ms_ < 0) last_ms_ += kTurn_ms;
   }
   return static_cast<double>(last_ms_) * 1e-3;

@@ -7,8 +7,8 @@
 
 namespace rave::scip {
 
-// Source of all in this folder: Hokuyo Automatic Co., "Communication Protocol Specification For
-// SCIP2.0 Standard", C-42-03320B.
+// Source of everything in this folder: Hokuyo Automatic Co., "Communication Protocol Specification
+// For SCIP2.0 Standard", C-42-03320B.
 
 /// The character that closes a line: low six bits of the sum of its characters, plus 0x30.
 [[nodiscard]] char checksum(std::string_view text) noexcept;
@@ -17,12 +17,11 @@ namespace rave::scip {
 /// character is outside 0x30 to 0x6f.
 [[nodiscard]] std::optional<std::uint32_t> decode(std::string_view characters) noexcept;
 
-/// The device's timer: 24 bits of milliseconds, made to go on for ever.
+/// The device's timer of 24 bits in milliseconds, extended beyond its wrap-around.
 class UnwrappedTime {
  public:
-  /// Seconds since the timer's zero before the first call. A reading below the last one is taken
-  /// for the next turn (4.66 h) if it lies less than half a turn ahead, and for a step back
-  /// otherwise.
+  /// Seconds since the timer's zero before the first call. A reading below the last one counts as a
+  /// wrap-around (4.66 h) if it is less than half a period ahead, otherwise as a step back.
   [[nodiscard]] double seconds(std::uint32_t timer_ms) noexcept;
   void reset() noexcept { last_ms_ = -1; }
 

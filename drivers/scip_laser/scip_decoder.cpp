@@ -8,7 +8,7 @@
 namespace rave::scip {
 namespace {
 
-/// The next line of `text`, which loses it. `text` ends in a line end.
+/// Removes the first line from `text`, which must end in a newline, and returns it.
 std::string_view cut_line(std::string_view& text) noexcept {
   const std::size_t end = text.find('\n');
   const std::string_view line = text.substr(0, end);
@@ -16,13 +16,13 @@ std::string_view cut_line(std::string_view& text) noexcept {
   return line;
 }
 
-/// Whether the lines of a reply end in a semicolon that the checksum leaves out.
+/// Whether lines of the reply end in a semicolon that the checksum excludes.
 bool has_semicolons(std::string_view echo) noexcept {
   const std::string_view command = echo.substr(0, 2);
   return command == "VV" || command == "PP" || command == "II";
 }
 
-/// The line without its checksum, or nothing if that is wrong.
+/// The line without its checksum; empty if that is wrong.
 std::string_view checked(std::string_view line) noexcept {
   if (line.size() < 2) return {};
   const std::string_view text = line.substr(0, line.size() - 1);

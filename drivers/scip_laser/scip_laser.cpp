@@ -23,14 +23,14 @@ using line::HostTime;
 using line::ReadEnd;
 using line::Wait;
 
-/// A device that gives no good scan for this many periods, and at least for kSilence_s, is started
-/// anew.
+/// A device without a valid scan for this many periods, and at least for kSilence_s, is
+/// reconnected.
 constexpr double kSilentPeriods = 5;
 constexpr double kSilence_s = 0.5;
 constexpr Wait kConnect{1000};
 
-/// A laser that speaks SCIP 2.0. configure(), open(), close() and report() belong to the host's
-/// thread; run() and what it calls to the driver's own. They share `state_`, under its mutex.
+/// A SCIP 2.0 laser. The host's thread calls configure(), open(), close() and report(); the
+/// driver's thread runs run() and what it calls. They share `state_`, under its mutex.
 class ScipLaser final : public HardwareSensor {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kRanges;
@@ -41,7 +41,7 @@ class ScipLaser final : public HardwareSensor {
   [[nodiscard]] std::string report() const override;
 
  private:
-  /// What a stretch of scans without interruption needs.
+  /// The state of an uninterrupted series of scans.
   struct Stretch {
     line::ClockOffset clock;
     UnwrappedTime timer;
@@ -51,14 +51,14 @@ class ScipLaser final : public HardwareSensor {
   };
 
   [[nodiscard]] Result<Identity> find_device();
-  /// Between two scans.
+  /// Time between two scans.
   [[nodiscard]] double period_s() const {
     return identity_.parameters.scan_period_s() * (1 + request_.skipped_scans);
   }
   void run(SampleSink& sink, const std::stop_token& stop);
   [[nodiscard]] Status scan_until_lost(SampleSink& sink, HostTime& last_scan);
   [[nodiscard]] Status stream(ScipSession& session, SampleSink& sink, HostTime& last_scan);
-  /// True: it was a good scan.
+  /// Returns true for a valid scan.
   [[nodiscard]] bool take(const ScipSession::Next& next, Stretch& stretch, SampleSink& sink);
   void report_loss(SampleSink& sink, HostTime last_scan, const Error& why);
   template <class Change>
@@ -80,7 +80,7 @@ class ScipLaser final : public HardwareSensor {
 
   mutable std::mutex mutex_;  // guards state_
   LaserState state_;
-  std::jthread thread_;  // last: it ends before what it uses is gone
+  std::jthread thread_;  // last member: it ends before the members it uses are destroyed
 };
 
 Result<Identity> ScipLaser::find_device() {
@@ -185,7 +185,7 @@ Status ScipLaser::scan_until_lost(SampleSink& sink, HostTime& last_scan) {
   return ended;
 }
 
-/// Ends well when the sink or the host closes.
+/// Returns success when the sink or the host closes.
 Status ScipLaser::stream(ScipSession& session, SampleSink& sink, HostTime& last_scan) {
   const double silence_s = std::max(kSilence_s, kSilentPeriods * period_s());
   Stretch stretch;
@@ -234,7 +234,7 @@ bool ScipLaser::take(const ScipSession::Next& next, Stretch& stretch, SampleSink
   if (end != ScanEnd::kScan) return false;
   const double device_s = stretch.timer.seconds(scan_.timer_ms);
   if (device_s <= stretch.last_device_s) {
-    // The same scan again, or an older one that was held up. The timer must not follow it.
+    // A duplicate, or an older scan that was delayed: restore the timer.
     (void)stretch.timer.seconds(static_cast<std::uint32_t>(
         static_cast<std::uint64_t>(std::llround(stretch.last_device_s * 1e3)) & 0xffffffU));
     note([](LaserState& state) { ++state.repeated; });

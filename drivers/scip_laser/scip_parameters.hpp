@@ -11,7 +11,7 @@
 
 namespace rave::scip {
 
-/// What a device says of itself in answer to PP.
+/// The properties of a device from its reply to PP.
 struct Parameters {
   std::string model;                ///< MODL
   std::int32_t range_min_mm = 0;    ///< DMIN
@@ -19,7 +19,7 @@ struct Parameters {
   std::int32_t steps_per_turn = 0;  ///< ARES
   std::int32_t first_step = 0;      ///< AMIN
   std::int32_t last_step = 0;       ///< AMAX
-  std::int32_t front_step = 0;      ///< AFRT: the step that looks straight ahead
+  std::int32_t front_step = 0;      ///< AFRT: the step straight ahead
   std::int32_t rpm = 0;             ///< SCAN: turns of the motor per minute
 
   friend bool operator==(const Parameters&, const Parameters&) = default;
@@ -29,11 +29,11 @@ struct Parameters {
   [[nodiscard]] double bearing_rad(std::int32_t step) const noexcept;
 };
 
-/// From the lines of a reply to PP, `DMIN:20` and so on. Lines with other keys are left alone.
-/// Errors (kParse): a key is missing or twice there, a value is no number or out of all reason.
+/// Parses the lines of a reply to PP, `DMIN:20` and so on. Other keys are ignored. Errors (kParse):
+/// a key is missing or duplicated; a value is not a number or implausible.
 [[nodiscard]] Result<Parameters> parse_parameters(std::span<const std::string_view> lines);
 
-/// The value of one key of a reply to VV or II; empty if it is not there.
+/// The value of a key in a reply to VV or II; empty if it is missing.
 [[nodiscard]] std::string_view value_of(std::span<const std::string_view> lines,
                                         std::string_view key) noexcept;
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kBlock = 64;  ///< Characters of data in one line.
 constexpr std::size_t kTimer = 4;
 
-/// Whether the lines from the second on hold `characters` characters in full blocks.
+/// Whether the lines after the first contain `characters` characters in full blocks.
 bool has_shape(const Reply& reply, std::size_t characters) noexcept {
   const std::size_t blocks = (characters + kBlock - 1) / kBlock;
   if (reply.lines.size() != 1 + blocks || reply.lines[0].size() != kTimer) return false;
@@ -26,7 +26,7 @@ bool has_shape(const Reply& reply, std::size_t characters) noexcept {
 
 float range_of(std::uint32_t value_mm, const ScanRequest& request) noexcept {
   const auto mm = static_cast<std::int32_t>(value_mm);
-  // The largest number that fits says that the range is at least that.
+  // The largest encodable number means "at least that far".
   const bool saturated =
       value_mm + 1 == 1U << (6U * static_cast<std::uint32_t>(request.characters));
   if (saturated || mm < request.range_min_mm || mm > request.range_max_mm) {
@@ -35,7 +35,7 @@ float range_of(std::uint32_t value_mm, const ScanRequest& request) noexcept {
   return static_cast<float>(mm) * 1e-3F;
 }
 
-/// Ranges may lie across the end of a block.
+/// A range may be split between two blocks.
 bool read_ranges(const Reply& reply, const ScanRequest& request, Scan& scan) {
   scan.ranges_m.clear();
   std::uint32_t value = 0;
@@ -54,7 +54,7 @@ bool read_ranges(const Reply& reply, const ScanRequest& request, Scan& scan) {
   return true;
 }
 
-/// An echo is the command; of a continuous one it may count down the scans that are left.
+/// The echo repeats the command; in continuous mode it may contain the number of remaining scans.
 bool echoes(std::string_view echo, const ScanRequest& request) {
   const std::string command = request.command();
   if (!request.continuous) return echo == command;
@@ -97,7 +97,7 @@ std::string describe_status(std::string_view status) {
     if (code == 10) meaning = "the laser is off";
     if (code >= 21 && code <= 49) meaning = "measuring stopped to check an error";
     if (code >= 50 && code <= 97) meaning = "hardware trouble";
-    if (code == 98) meaning = "measuring goes on after a check of the laser";
+    if (code == 98) meaning = "measurement continues after a check of the laser";
   }
   return fmt::format("status {} ({})", status, meaning);
 }

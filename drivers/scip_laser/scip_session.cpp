@@ -6,8 +6,8 @@ namespace {
 
 using line::ReadEnd;
 
-constexpr line::Wait kAnswer{500};   // a device answers within some ten milliseconds
-constexpr line::Wait kPerhaps{300};  // for commands that an odd device leaves without an answer
+constexpr line::Wait kAnswer{500};   // devices answer within some ten milliseconds
+constexpr line::Wait kPerhaps{300};  // for commands that some devices do not answer
 
 }  // namespace
 
@@ -62,7 +62,7 @@ Result<const Reply*> ScipSession::ask_well(std::string_view command) {
 
 Result<Identity> ScipSession::identify() {
   decoder_.reset();
-  // An empty line first ends a command that a former host left unfinished.
+  // The empty line ends a command that an earlier host left unfinished.
   RAVE_TRY(send(""));
   for (const std::string_view command : {"QT", "SCIP2.0", "QT"}) {
     const auto answer = ask(command, kPerhaps);
@@ -84,7 +84,7 @@ Result<Identity> ScipSession::identify() {
 
 Status ScipSession::begin(const ScanRequest& request) {
   RAVE_TRY_ASSIGN(const Reply* const lit, ask("BM", kAnswer));
-  // 02: it was on.
+  // 02: already on.
   if (lit->status != "00" && lit->status != "02") {
     return fail(ErrorCode::kIo, "the laser cannot be switched on: {}",
                 describe_status(lit->status));
@@ -97,7 +97,7 @@ Status ScipSession::begin(const ScanRequest& request) {
 Status ScipSession::poll(const ScanRequest& request) { return send(request.command()); }
 
 void ScipSession::end() noexcept {
-  // Not woken by the bell that ends the session.
+  // Not interrupted by the bell that ends the session.
   (void)line_.write("QT\n", line::Wait(50), nullptr);
 }
 

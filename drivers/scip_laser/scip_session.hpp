@@ -12,7 +12,7 @@
 
 namespace rave::scip {
 
-/// What a device says of itself in answer to VV and PP.
+/// The properties of a device from its replies to VV and PP.
 struct Identity {
   std::string product;
   std::string firmware;
@@ -21,29 +21,29 @@ struct Identity {
   Parameters parameters;
 };
 
-/// A conversation with a device over an open line. For one thread; every wait ends when `wake`
-/// rings (null: nobody rings), which must outlive the session.
+/// A session with a device over an open line. For one thread; every wait ends when `wake` rings
+/// (null: none), which must outlive the session.
 class ScipSession {
  public:
   ScipSession(line::ByteLine line, const line::Wake* wake) : line_(std::move(line)), wake_(wake) {}
 
-  /// Stops whatever runs (QT), changes to SCIP 2.0, resets (RS), and reads VV and PP. A device
-  /// that is torn out of a scan or still speaks SCIP 1.1 is brought to order by it.
-  /// Errors: kTimeout (no answer), kIo (the line is gone), kParse, kState (woken).
+  /// Stops any measurement (QT), selects SCIP 2.0, resets (RS), and reads VV and PP. It also
+  /// recovers a device that is sending a scan or is in SCIP 1.1 mode. Errors: kTimeout (no answer),
+  /// kIo (the line is lost), kParse, kState (woken).
   [[nodiscard]] Result<Identity> identify();
-  /// Lights the laser (BM) and, in continuous mode, asks for scans.
+  /// Switches the laser on (BM) and, in continuous mode, requests scans.
   [[nodiscard]] Status begin(const ScanRequest& request);
-  /// Asks for one scan, in polled mode.
+  /// Requests one scan, in polled mode.
   [[nodiscard]] Status poll(const ScanRequest& request);
-  /// Takes the laser out of service as far as the line allows: no answer is waited for.
+  /// Switches the laser off if the line permits, without waiting for an answer.
   void end() noexcept;
 
   struct Next {
-    line::ReadEnd end = line::ReadEnd::kTimeout;  ///< kBytes: `reply` is there.
+    line::ReadEnd end = line::ReadEnd::kTimeout;  ///< kBytes: `reply` is set.
     const Reply* reply = nullptr;                 ///< Valid until the next call.
     line::HostTime arrived;                       ///< When the first byte of the reply was read.
   };
-  /// The next reply, whatever its kind.
+  /// Reads the next reply of any kind.
   [[nodiscard]] Next next(line::HostTime limit);
 
   [[nodiscard]] const std::string& lost() const noexcept { return line_.lost(); }
@@ -51,9 +51,9 @@ class ScipSession {
 
  private:
   [[nodiscard]] Status send(std::string_view command);
-  /// Sends a command and waits for the reply with its echo; others are passed over.
+  /// Sends a command and waits for the reply with its echo; other replies are skipped.
   [[nodiscard]] Result<const Reply*> ask(std::string_view command, line::Wait limit);
-  /// The same, and the status must be 00.
+  /// Like ask(), but the status must be 00.
   [[nodiscard]] Result<const Reply*> ask_well(std::string_view command);
 
   line::ByteLine line_;
@@ -61,7 +61,7 @@ class ScipSession {
   ScipDecoder decoder_;
   std::array<char, 4096> room_{};
   std::size_t have_ = 0;  // bytes in room_
-  std::size_t used_ = 0;  // of them, those the decoder has had
+  std::size_t used_ = 0;  // of these, passed to the decoder
   line::HostTime chunk_came_{};
   line::HostTime reply_came_{};
 };

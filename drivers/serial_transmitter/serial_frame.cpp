@@ -18,7 +18,7 @@ void append_frame(std::span<const std::byte> packet, std::vector<std::byte>& out
   const std::uint16_t crc = crc16(packet);
   out.push_back(std::byte{0});
   std::size_t code_at = out.size();
-  std::uint8_t code = 1;  // one more than the bytes that follow it
+  std::uint8_t code = 1;  // number of following bytes of the block, plus one
   out.push_back(std::byte{0});
   const auto put = [&](std::byte byte) {
     if (byte != std::byte{0}) {

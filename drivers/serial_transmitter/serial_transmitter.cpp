@@ -36,8 +36,8 @@ constexpr ParamSpec kParams[] = {
     text_param("network", "rave", "Name of the network; packets of other networks are ignored."),
 };
 
-/// Packets as frames on a serial line. configure(), open(), send(), close() and report() belong to
-/// the host's thread, run() to the driver's own; they share what `mutex_` guards.
+/// Sends packets as frames on a serial line. The host's thread calls configure(), open(), send(),
+/// close() and report(); the driver's thread runs run(). They share what `mutex_` guards.
 class SerialTransmitter final : public Transmitter {
  public:
   Status configure(const HardwareSetup& setup, TransmitterDeclaration& declaration) override;
@@ -57,9 +57,9 @@ class SerialTransmitter final : public Transmitter {
   };
 
   void run(line::ByteLine line, const std::stop_token& stop);
-  /// Reads and writes until the line is lost or the thread is to end; why it was lost.
+  /// Reads and writes until the line is lost or the thread must end; returns the reason of a loss.
   [[nodiscard]] std::string serve(line::ByteLine& line, const std::stop_token& stop);
-  /// Sends what may be sent now; the time at which to look again.
+  /// Sends what the byte rate permits; returns the time of the next call.
   [[nodiscard]] Result<HostTime> write_due(line::ByteLine& line);
   void take(std::span<const char> bytes);
 
@@ -70,14 +70,14 @@ class SerialTransmitter final : public Transmitter {
   line::Wake wake_;
   PacketSink* sink_ = nullptr;
   std::optional<FrameDecoder> decoder_;  // of the driver's thread
-  HostTime free_at_{};                   // ... when the next frame may be sent
+  HostTime free_at_{};                   // ... earliest time of the next frame
 
-  mutable std::mutex mutex_;  // guards what follows up to the thread
+  mutable std::mutex mutex_;  // guards the members below, except the thread
   std::deque<std::vector<std::byte>> queue_;
   std::size_t queued_bytes_ = 0;
   bool connected_ = false;
   State state_;
-  std::jthread thread_;  // last: it ends before what it uses is gone
+  std::jthread thread_;  // last member: it ends before the members it uses are destroyed
 };
 
 Status SerialTransmitter::configure(const HardwareSetup& setup,
@@ -86,7 +86,7 @@ Status SerialTransmitter::configure(const HardwareSetup& setup,
   const bool serial = !params.text("device").empty();
   RAVE_TRY_ASSIGN(address_, line::read_address(params));
   byte_rate_ = params.number("byte_rate");
-  // Eight data bits between a start and a stop bit.
+  // Ten bits per byte: eight data bits, a start and a stop bit.
   const double line_rate = serial ? static_cast<double>(params.integer("baud")) / 10 : 0;
   if (byte_rate_ == 0 || (line_rate > 0 && byte_rate_ > line_rate)) byte_rate_ = line_rate;
   queue_bytes_ = static_cast<std::size_t>(params.integer("queue_bytes"));
@@ -158,7 +158,7 @@ void SerialTransmitter::run(line::ByteLine line, const std::stop_token& stop) {
       if (stop.stop_requested()) return;
       {
         const std::lock_guard lock(mutex_);
-        // What waited is old by the time the line is back.
+        // Waiting packets are obsolete when the line is back.
         queue_.clear();
         queued_bytes_ = 0;
         connected_ = false;
@@ -187,7 +187,7 @@ std::string SerialTransmitter::serve(line::ByteLine& line, const std::stop_token
     const auto look_again = write_due(line);
     if (!look_again) return look_again.error().message;
     const auto got = line.read(room, line::until(*look_again), &wake_);
-    // First clear, then look: what comes in between rings again.
+    // Clear the bell before looking: data that arrives in between rings it again.
     if (got.end == ReadEnd::kWoken) wake_.clear();
     if (got.end == ReadEnd::kLost) return line.lost();
     if (got.end == ReadEnd::kBytes) take({room.data(), got.size});

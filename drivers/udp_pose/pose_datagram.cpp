@@ -14,13 +14,13 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kFarthest_m = 1e6;
-constexpr double kLatest_s = 1e10;  // the clock of the world until the year 2286
+constexpr double kLatest_s = 1e10;  // Unix time until the year 2286
 constexpr double kMostYaw_rad = 1e4;
 constexpr double kMostVariance = 1e6;
 constexpr std::size_t kLongestName = 64;
 constexpr std::array<std::string_view, 7> kKeys{"body", "t", "x", "y", "yaw", "cov", "seq"};
 
-/// Notices keys that come twice, of which the parser would silently keep one.
+/// Detects duplicate keys, of which the parser would silently keep one.
 class Guard {
  public:
   bool operator()(int depth, Json::parse_event_t event, Json& parsed) {

@@ -10,7 +10,7 @@
 
 namespace rave::udp_pose {
 
-/// What one datagram says. All numbers are finite.
+/// The content of a datagram. All numbers are finite.
 struct PoseDatagram {
   std::string body;
   double t_s = 0;  ///< Sender's clock.
@@ -26,13 +26,13 @@ struct PoseDatagram {
   std::optional<std::int64_t> seq;
 };
 
-/// No datagram is longer.
+/// Longer datagrams are refused.
 inline constexpr std::size_t kMaxDatagram = 2048;
 
-/// Reads one JSON object: `body` (text, 1 to 64 bytes), `t`, `x`, `y`, `yaw` (numbers), `cov`
-/// (optional: three numbers, none negative), `seq` (optional: a whole number, not negative).
-/// Strict: other keys, missing ones, keys that come twice, NaN, infinities and numbers beyond
-/// reason are errors (kParse), and so is anything behind the object.
+/// Parses one JSON object: `body` (text, 1 to 64 bytes), `t`, `x`, `y`, `yaw` (numbers), `cov`
+/// (optional: three non-negative numbers), `seq` (optional: a non-negative integer). Strict:
+/// unknown, missing or duplicate keys, NaN, infinities, implausible numbers and data after the
+/// object are errors (kParse).
 [[nodiscard]] Result<PoseDatagram> parse_datagram(std::string_view bytes);
 
 }  // namespace rave::udp_pose

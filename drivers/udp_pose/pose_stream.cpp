@@ -6,10 +6,11 @@
 namespace rave::udp_pose {
 namespace {
 
-/// So many old samples in a row, each newer than the one before, come from a sender that began
-/// anew: a network does not hold back that many and then give them in order.
+/// This many old samples in a row, each newer than the one before, mean that the sender was
+/// restarted: a network does not delay that many and then deliver them in order.
 constexpr std::int32_t kRestartAfter = 10;
-/// A gap of more is no loss but a sender that was silent or counts in another way.
+/// A larger gap in the sequence means that the sender was silent or numbers differently, not that
+/// samples were lost.
 constexpr std::int64_t kLargestLoss = 1'000'000;
 
 }  // namespace

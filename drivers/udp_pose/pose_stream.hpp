@@ -9,39 +9,41 @@
 
 namespace rave::udp_pose {
 
-/// What the stream was like, for the report. A plain value.
+/// Statistics of the stream, for the report. A plain value.
 struct StreamState {
   std::uint64_t samples = 0;       ///< Accepted.
-  std::uint64_t refused = 0;       ///< Datagrams that are none of ours.
+  std::uint64_t refused = 0;       ///< Invalid datagrams.
   std::uint64_t other_bodies = 0;  ///< Datagrams of other bodies.
   std::uint64_t duplicates = 0;
   std::uint64_t out_of_order = 0;
   std::uint64_t late = 0;
-  std::uint64_t lost = 0;       ///< Numbers of the sequence that never came (or came too late).
-  std::uint64_t restarts = 0;   ///< Times that the sender began anew.
-  std::uint64_t held_back = 0;  ///< Dropped: a better clock estimate put them too early.
-  double rate_hz = 0;           ///< Of accepted samples by the sender's clock.
-  double clock_offset_s = 0;    ///< Host (its steady clock) minus sender, smallest delay included.
+  std::uint64_t lost = 0;      ///< Sequence numbers that never arrived, or arrived too late.
+  std::uint64_t restarts = 0;  ///< Restarts of the sender.
+  /// Dropped: a better clock estimate moved them before the previous one.
+  std::uint64_t held_back = 0;
+  double rate_hz = 0;         ///< Rate of accepted samples by the sender's clock.
+  double clock_offset_s = 0;  ///< Host (its steady clock) minus sender, least delay included.
   double clock_drift_ppm = 0;
-  double mean_delay_s = 0;  ///< Beyond the smallest, of all samples that were in order.
+  double mean_delay_s = 0;  ///< Mean delay beyond the least one, of all samples in order.
   double max_delay_s = 0;
   std::string trouble;  ///< Why the last datagram was refused; empty if none was.
 };
 
-/// Orders the samples of one body and estimates the sender's clock. Pure: no clock is read, no
-/// socket opened. Not for several threads at once.
+/// Orders the samples of one body and estimates the sender's clock. Pure: reads no clock, opens no
+/// socket. Not thread-safe.
 class PoseStream {
  public:
-  /// A sample that takes longer than `max_delay_s` beyond the smallest delay is late.
+  /// A sample counts as late if its delay exceeds the least delay by more than `max_delay_s`.
   PoseStream(std::string body, double max_delay_s)
       : body_(std::move(body)), max_delay_s_(max_delay_s) {}
 
   enum class Verdict { kAccepted, kRefused, kOtherBody, kDuplicate, kOutOfOrder, kLate };
   struct Taken {
     Verdict verdict = Verdict::kRefused;
-    double host_s = 0;  ///< When the pose was true, by the host's clock, smallest delay included.
+    /// Time at which the pose was true, in the host's clock, least delay included.
+    double host_s = 0;
   };
-  /// One datagram that arrived at `host_s`. Of an accepted one `datagram` is filled.
+  /// Processes one datagram that arrived at `host_s`. Sets `datagram` if it is accepted.
   Taken take(std::string_view bytes, double host_s, PoseDatagram& datagram);
 
   [[nodiscard]] const StreamState& state() const noexcept { return state_; }

@@ -35,8 +35,8 @@ constexpr std::array<ParamSpec, 8> kParams{
     line::lost_after_param(2, "Time after which a silent stream is reported as lost."),
 };
 
-/// Poses that somebody else measures and sends. configure(), open(), close() and report() belong
-/// to the host's thread, run() to the driver's own. They share `state_`, under its mutex.
+/// Receives poses from another program. The host's thread calls configure(), open(), close() and
+/// report(); the driver's thread runs run(). They share `state_`, under its mutex.
 class UdpPose final : public HardwareSensor {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kPose;
@@ -48,7 +48,7 @@ class UdpPose final : public HardwareSensor {
 
  private:
   void run(SampleSink& sink, const std::stop_token& stop);
-  /// False: dropped, because the stamp would step back.
+  /// False: dropped, because the stamp would decrease.
   [[nodiscard]] bool publish(const PoseDatagram& datagram, double host_s, SampleSink& sink);
   void report_silence(SampleSink& sink) const;
 
@@ -64,7 +64,7 @@ class UdpPose final : public HardwareSensor {
 
   mutable std::mutex mutex_;  // guards state_
   StreamState state_;
-  std::jthread thread_;  // last: it ends before what it uses is gone
+  std::jthread thread_;  // last member: it ends before the members it uses are destroyed
 };
 
 Status UdpPose::configure(const HardwareSetup& setup, HardwareDeclaration& declaration) {
@@ -77,7 +77,8 @@ Status UdpPose::configure(const HardwareSetup& setup, HardwareDeclaration& decla
   latency_s_ = params.number("latency_s");
   lost_after_s_ = params.number("lost_after_s");
   RAVE_TRY(wake_.open());
-  // Here and not in open(), so that a port in use is an error of the start and keeps its number.
+  // Bound here instead of in open(), so that a port in use is an error at the start, and the port
+  // stays the same.
   const auto port = static_cast<std::uint16_t>(params.integer("port"));
   RAVE_TRY_ASSIGN(socket_, line::DatagramSocket::open(listen_, port, nullptr));
   declaration.capacity = 1;
@@ -108,12 +109,13 @@ void UdpPose::close() {
 void UdpPose::run(SampleSink& sink, const std::stop_token& stop) {
   PoseStream stream(body_, max_delay_s_);
   PoseDatagram datagram;
-  std::array<char, kMaxDatagram + 1> text{};  // one more: a longer one must not look whole
+  std::array<char, kMaxDatagram + 1> text{};  // one byte more, to detect longer datagrams
   const auto room = std::as_writable_bytes(std::span(text));
   std::uint64_t held_back = 0;
   bool silence_reported = false;
   line::HostTime silent_at = line::after_seconds(line::host_now(), lost_after_s_);
-  // What waited in the socket since configure() is old, and its arrival says nothing of the clock.
+  // Datagrams that waited since configure() are old, and their arrival says nothing about the
+  // clock.
   while (socket_->receive(room, line::Wait(0), wake_).end == line::ReadEnd::kBytes) {
   }
   while (!stop.stop_requested()) {
@@ -147,7 +149,7 @@ bool UdpPose::publish(const PoseDatagram& datagram, double host_s, SampleSink& s
   PoseReading pose{datagram.x_m, datagram.y_m, datagram.yaw_rad, doubt_.variance_xy_m2,
                    doubt_.variance_yaw_rad2};
   if (datagram.variance) {
-    // One number stands for both axes: the larger, which promises no more than the sender does.
+    // One number represents both axes: the larger one, which does not understate the uncertainty.
     pose.variance_xy_m2 = std::max(datagram.variance->x_m2, datagram.variance->y_m2);
     pose.variance_yaw_rad2 = datagram.variance->yaw_rad2;
   }

@@ -14,7 +14,7 @@
 namespace rave::udp_transmitter {
 namespace {
 
-constexpr std::uint32_t kMaxPacket = 1400;  // one frame of Ethernet, whatever stands before it
+constexpr std::uint32_t kMaxPacket = 1400;  // fits into one Ethernet frame with all headers
 
 constexpr ParamSpec kParams[] = {
     text_param("listen", "127.0.0.1", "Numeric address of this machine to listen on."),
@@ -27,8 +27,8 @@ constexpr ParamSpec kParams[] = {
                  "Byte rate that all its communicators share; 0: no limit."),
 };
 
-/// Packets as datagrams. configure(), open(), send(), close() and report() belong to the host's
-/// thread, run() to the driver's own.
+/// Sends packets as datagrams. The host's thread calls configure(), open(), send(), close() and
+/// report(); the driver's thread runs run().
 class UdpTransmitter final : public Transmitter {
  public:
   Status configure(const HardwareSetup& setup, TransmitterDeclaration& declaration) override {
@@ -109,14 +109,14 @@ class UdpTransmitter final : public Transmitter {
 
  private:
   void run(const std::stop_token& stop) {
-    std::array<std::byte, kMaxPacket + 1> room{};  // one more: a longer one must not look whole
+    std::array<std::byte, kMaxPacket + 1> room{};  // one byte more, to detect longer datagrams
     while (!stop.stop_requested()) {
       const auto got = socket_->receive(room, line::Wait(60'000), wake_);
       if (got.end == line::ReadEnd::kBytes) {
         ++received_;
         sink_->receive(room.data(), got.size);
       } else if (got.end == line::ReadEnd::kLost && wake_.wait(line::Wait(100))) {
-        return;  // nothing can be heard for now; what is sent says why
+        return;  // nothing can be received at present; send() reports the reason
       }
     }
   }
@@ -129,7 +129,7 @@ class UdpTransmitter final : public Transmitter {
   std::uint64_t sent_ = 0;
   std::uint64_t unsent_ = 0;
   std::atomic<std::uint64_t> received_{0};
-  std::jthread thread_;  // last: it ends before what it uses is gone
+  std::jthread thread_;  // last member: it ends before the members it uses are destroyed
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace {
 
 using recording::check_seconds;
 
-/// The three logs of one robot, as read.
+/// The three logs of one robot.
 struct RobotFiles {
   LogFile poses;
   LogFile odometry;
@@ -104,7 +104,7 @@ Result<RobotLog> make_robot(int number, RobotFiles files, const StreamWindow& wi
                             const LoadOptions& options, const Subjects& subjects) {
   RobotLog robot;
   robot.subject = number;
-  // An earlier origin is the same as later stamps.
+  // Moving the origin back is equivalent to adding the offset to all stamps.
   StreamWindow state_window = window;
   state_window.origin_ns -= from_seconds(options.state_clock_offset_s).ns;
   if (options.streams.poses) {
@@ -149,7 +149,8 @@ Result<Dataset> load(const std::filesystem::path& path, const LoadOptions& optio
   Dataset data;
   RAVE_TRY_ASSIGN(data.subjects, read_subjects(folder, options));
   std::map<int, RobotFiles> files;
-  // Without a stated origin every robot is read: the earliest stamp may be of one not asked for.
+  // Without a stated origin, read all robots: the earliest stamp may belong to one that was not
+  // requested.
   const StreamChoice streams = folder.stretch() ? options.streams : StreamChoice{};
   for (const int robot : folder.stretch() ? options.robots : folder.robots()) {
     RAVE_TRY_ASSIGN(files[robot], read_robot(folder, robot, streams, options));

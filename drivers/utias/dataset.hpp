@@ -15,12 +15,12 @@
 
 namespace rave::utias {
 
-/// The recording of one robot. All times are nanoseconds from the one origin of the data set.
+/// The recording of one robot. All times are nanoseconds from the common origin of the data set.
 struct RobotLog {
   int subject = 0;
-  /// With the margin; its last pose is held where the recording ends early.
+  /// With margin; after the end of the recording the last pose holds.
   PoseTrack poses;
-  /// Commanded velocities in order of time, with the margin; hold the last (command_at).
+  /// Commanded velocities in order of time, with margin; each holds until the next (command_at).
   std::vector<OdometrySample> odometry;
   /// Within the window.
   SightingLog sightings;
@@ -29,9 +29,9 @@ struct RobotLog {
   StreamReport sighting_report;
 };
 
-/// Some stretch of a UTIAS data set, in memory. A plain value.
+/// A part of a UTIAS data set in memory. A plain value.
 struct Dataset {
-  /// Absolute stamp (Unix time) of the moment 0: the earliest row of any robot's logs.
+  /// Absolute stamp (Unix time) of time 0: the earliest row of any robot's logs.
   std::int64_t origin_ns = 0;
   std::int64_t start_ns = 0;
   std::int64_t end_ns = 0;
@@ -45,9 +45,9 @@ struct Dataset {
 
 /// Reads a folder of logs: `Barcodes.dat`, `Landmark_Groundtruth.dat` and three files per robot,
 /// each plain or gzipped (`.gz`), with or without the `stretch.txt` of tools/cut_utias.py. Without
-/// it the origin is the earliest stamp of all robots in the folder.
-/// Errors: kNotFound (folder, file, robot), kInvalidArgument (options), kParse (a log or table
-/// that breaks its format, with file:line:column), kIo.
+/// it the origin is the earliest stamp of all robots in the folder. Errors: kNotFound (folder,
+/// file, robot), kInvalidArgument (options), kParse (a malformed log or table, with
+/// file:line:column), kIo.
 [[nodiscard]] Result<Dataset> load(const std::filesystem::path& folder,
                                    const LoadOptions& options = {});
 

@@ -92,7 +92,7 @@ Result<LogFile> Folder::read(std::string_view stem, std::span<const Column> colu
   const auto expected = stretch_->sha256.find(file.name);
   if (expected == stretch_->sha256.end()) return file;
   file.unchanged = expected->second == file.sha256;
-  // Last, so that a log with a fault is refused with the place of the fault.
+  // Checked last, so that a syntax error is reported with its line instead.
   if (!*file.unchanged && options.require_unchanged && !accepted_as_cut(file.log)) {
     return fail_at({file.path, 0, 0}, ErrorCode::kParse,
                    "the file differs from the one that {} lists (SHA-256 {}, listed {}); restore "

@@ -15,9 +15,9 @@
 
 namespace rave::utias {
 
-/// One log file, read and parsed; stamps still absolute.
+/// One parsed log file; stamps are still absolute.
 struct LogFile {
-  std::string path;  ///< As it is named in messages.
+  std::string path;  ///< As shown in messages.
   std::string name;  ///< Without folder.
   std::string sha256;
   std::optional<bool> unchanged;
@@ -27,17 +27,16 @@ struct LogFile {
 /// The folder of a data set. Keeps no file open.
 class Folder {
  public:
-  /// Reads `stretch.txt` if there is one. Errors: kNotFound if there is no such folder; those of
-  /// parse_stretch.
+  /// Reads `stretch.txt` if it exists. Errors: kNotFound (no such folder); those of parse_stretch.
   [[nodiscard]] static Result<Folder> open(const std::filesystem::path& path);
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
   [[nodiscard]] const std::optional<Stretch>& stretch() const noexcept { return stretch_; }
-  /// The numbers of the robots that have at least one log here, ascending.
+  /// The numbers of the robots with at least one log, ascending.
   [[nodiscard]] const std::vector<int>& robots() const noexcept { return robots_; }
 
-  /// Reads `<stem>.dat.gz` or, without that, `<stem>.dat`. Errors: kNotFound (names the file),
-  /// those of unpack_text and parse_log, and kParse for a file that differs from its digest.
+  /// Reads `<stem>.dat.gz` or, if that does not exist, `<stem>.dat`. Errors: kNotFound (names the
+  /// file), those of unpack_text and parse_log, and kParse for a file that differs from its digest.
   [[nodiscard]] Result<LogFile> read(std::string_view stem, std::span<const Column> columns,
                                      const LoadOptions& options) const;
 

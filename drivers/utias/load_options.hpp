@@ -10,14 +10,14 @@
 
 namespace rave::utias {
 
-/// What the number in a sighting row means.
+/// The meaning of the number in a sighting row.
 enum class CodeMeaning : std::uint8_t {
-  kBarcode,  ///< What it is: look the subject up in `Barcodes.dat`.
-  kSubject,  ///< What the log's header claims; wrong, and here to show that a check notices.
+  kBarcode,  ///< The true meaning: a barcode, to be looked up in `Barcodes.dat`.
+  kSubject,  ///< The claim of the log's header; wrong, and here to show that a check detects it.
 };
 
-/// Which logs of a robot are wanted; the others stay empty in its RobotLog and are not read, unless
-/// the folder has no `stretch.txt` and the origin must be found.
+/// Which logs of a robot to load; the others stay empty. They are read nevertheless if the folder
+/// has no `stretch.txt` and the origin must be found.
 struct StreamChoice {
   bool poses = true;
   bool odometry = true;
@@ -29,27 +29,27 @@ struct LoadOptions {
   std::vector<int> robots = {1, 2, 3, 4, 5};
   StreamChoice streams;
 
-  /// The window, seconds from the origin of the data set, both ends included. By default the
-  /// stretch that the folder holds; a wider one than that is refused.
+  /// The window, seconds from the origin of the data set, both ends included. Default: the whole
+  /// stretch in the folder; a wider window is refused.
   std::optional<double> start_s;
   std::optional<double> end_s;
-  /// How much more is kept of poses and odometry at both ends, seconds in [0, 1000]. The last row
-  /// before that is kept too, to be held.
+  /// Margin of poses and odometry at both ends, seconds in [0, 1000]. The last row before it is
+  /// kept too, for its value.
   double margin_s = 1.0;
 
   CodeMeaning code_meaning = CodeMeaning::kBarcode;
-  /// Added to the stamps of sightings only, seconds within +-1000; the window applies afterwards.
+  /// Offset added to the stamps of sightings, seconds within +-1000; applied before the window.
   double clock_offset_s = 0;
-  /// The same for poses and odometry. A stretch cut by tools/cut_utias.py holds a margin of 1 s.
+  /// The offset for poses and odometry. A stretch made by tools/cut_utias.py has a margin of 1 s.
   double state_clock_offset_s = 0;
 
   ParsePolicy parse;
-  /// Refuse files whose SHA-256 differs from `stretch.txt` (a log accepted as cut is exempt).
+  /// Refuse files whose SHA-256 differs from `stretch.txt`, except logs accepted as truncated.
   bool require_unchanged = true;
   /// Largest unpacked size of one file.
   std::size_t max_unpacked_bytes = std::size_t{256} << 20;
 
-  /// Longer stretches without rows are listed in the reports, seconds.
+  /// Gaps above this many seconds are listed in the reports.
   double pose_gap_limit_s = 0.15;
   double odometry_gap_limit_s = 0.2;
   double sighting_gap_limit_s = 5.0;

@@ -18,8 +18,8 @@ std::size_t first_after(std::span<const OdometrySample> samples, std::int64_t t_
   return static_cast<std::size_t>(found - samples.begin());
 }
 
-/// The pose after `length_ns` at constant forward and turning speed. The chord of an arc points
-/// along the mean heading and is sin(h)/h of its length, h being half the turn.
+/// The pose after `length_ns` at constant forward and turning speed. The chord of the arc points
+/// along the mean heading and is sin(h)/h times as long, where h is half the turn.
 Pose2 move_on_arc(const Pose2& from, const OdometrySample& command, std::int64_t length_ns) {
   const double dt_s = static_cast<double>(length_ns) * 1e-9;
   const double half_turn = 0.5 * command.w_radps * dt_s;

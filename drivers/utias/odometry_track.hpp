@@ -17,15 +17,15 @@ struct OdometrySample {
   double w_radps = 0;
 };
 
-/// The command in force at a moment: the latest at or before it, held however old it is, because
-/// the log comes in bursts. None before the first. `samples`: ascending in time.
+/// The command in force at a time: the latest at or before it, of any age, because the log comes in
+/// bursts. Empty before the first. `samples`: ascending in time.
 [[nodiscard]] std::optional<OdometrySample> command_at(std::span<const OdometrySample> samples,
                                                        std::int64_t t_ns) noexcept;
 
-/// Where the robot would be had it obeyed the commands: each command is held until the next one
-/// and moves the robot on an arc. Returns the pose at `from_ns` (= `start`), at every command in
-/// between, at least every 0.1 s, and at `to_ns`. Before the first command it stands still.
-/// `samples`: ascending in time. Empty if to_ns < from_ns.
+/// The path of a robot that obeys the commands exactly: each command holds until the next and moves
+/// the robot along an arc. Returns the pose at `from_ns` (= `start`), at every command, at least
+/// every 0.1 s, and at `to_ns`. It stands still before the first command. `samples`: ascending in
+/// time. Empty if to_ns < from_ns.
 [[nodiscard]] std::vector<PoseSample> integrate_odometry(std::span<const OdometrySample> samples,
                                                          const Pose2& start, std::int64_t from_ns,
                                                          std::int64_t to_ns);

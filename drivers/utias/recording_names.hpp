@@ -7,7 +7,7 @@
 #include "recording/stretch.hpp"
 #include "recording/unpack.hpp"
 
-// What all readers of recordings share, under the names of this one.
+// Names of the common recording library in this namespace.
 namespace rave::utias {
 
 using recording::describe_timing;

@@ -14,31 +14,31 @@ inline constexpr int kUnknownSubject = 0;
 /// One barcode seen by a robot's camera. Nanoseconds from the origin.
 struct Sighting {
   std::int64_t t_ns = 0;
-  /// The number in the log: a barcode, whatever the log's header says.
+  /// The number in the log: a barcode, in spite of the log's header.
   int code = 0;
-  /// Whom the code belongs to (robots 1 to 5, landmarks 6 to 20), or kUnknownSubject.
+  /// The subject with this code (robots 1 to 5, landmarks 6 to 20), or kUnknownSubject.
   int subject = kUnknownSubject;
-  /// From the robot's centre to the centre of the subject, metres.
+  /// Distance from the robot's centre to the centre of the subject, metres.
   double range_m = 0;
-  /// From the robot's heading, counter-clockwise, radians.
+  /// Direction relative to the robot's heading, counter-clockwise, radians.
   double bearing_rad = 0;
 };
 
-/// The sightings of one robot in order of time; those of one stamp in the order of the file.
-/// Immutable; may be read from any thread.
+/// The sightings of one robot in order of time; those of one stamp in file order. Immutable; may be
+/// read from any thread.
 class SightingLog {
  public:
   SightingLog() = default;
-  /// `sightings`: ascending in time (a programmer's mistake otherwise).
+  /// `sightings`: ascending in time (precondition).
   explicit SightingLog(std::vector<Sighting> sightings);
 
   [[nodiscard]] std::span<const Sighting> all() const noexcept { return sightings_; }
 
-  /// Sightings of one stamp come from one camera image: they are read as one group.
+  /// Sightings with one stamp come from one image and form a group.
   [[nodiscard]] std::size_t group_count() const noexcept { return group_begins_.size(); }
   /// `index` < group_count(); never empty.
   [[nodiscard]] std::span<const Sighting> group(std::size_t index) const noexcept;
-  /// The index of the first group stamped after a moment; group_count() if there is none.
+  /// The index of the first group after a time; group_count() if there is none.
   [[nodiscard]] std::size_t first_group_after(std::int64_t t_ns) const noexcept;
 
  private:

@@ -19,11 +19,11 @@ struct UnknownCode {
   std::int64_t count = 0;
 };
 
-/// What one stream of one robot holds.
+/// The content of one stream of one robot.
 struct StreamReport : recording::StreamReport {
   int robot = 0;
   StreamKind kind = StreamKind::kPoses;
-  /// Sightings only: codes that belong to no subject, by code. Their rows are kept.
+  /// Sightings only: codes without a subject, by code. Their rows are kept.
   std::vector<UnknownCode> unknown_codes;
 };
 

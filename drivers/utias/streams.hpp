@@ -31,15 +31,15 @@ struct Stream {
   StreamReport report;
 };
 
-/// Sort, drop doubles, bring headings into range, cut to the window with its margin; report it.
+/// Sorts, removes duplicates, wraps headings, cuts to the window with its margin, and reports it.
 [[nodiscard]] Stream<std::vector<PoseSample>> make_poses(LogFile file, int robot,
                                                          const StreamWindow& window,
                                                          std::int64_t gap_limit_ns);
 [[nodiscard]] Stream<std::vector<OdometrySample>> make_odometry(LogFile file, int robot,
                                                                 const StreamWindow& window,
                                                                 std::int64_t gap_limit_ns);
-/// The same for sightings: equal stamps stay, the offset is added to the stamps, and nothing
-/// outside of the window is kept.
+/// Likewise for sightings: equal stamps are kept, the offset is added to the stamps, and there is
+/// no margin.
 [[nodiscard]] Stream<std::vector<Sighting>> make_sightings(
     LogFile file, int robot, const StreamWindow& window, std::int64_t gap_limit_ns,
     std::int64_t clock_offset_ns, CodeMeaning meaning, const Subjects& subjects);

@@ -12,7 +12,7 @@
 
 namespace rave::utias {
 
-/// A tube with a barcode. Position of its centre in the motion capture's frame W, metres.
+/// A tube with a barcode. Position of its centre in the frame W of the motion capture, metres.
 struct Landmark {
   int subject = 0;
   int code = 0;
@@ -22,12 +22,12 @@ struct Landmark {
   double y_std_m = 0;
 };
 
-/// Who is who: subjects (robots and landmarks) and the barcodes that they carry.
+/// The subjects (robots and landmarks) and their barcodes.
 class Subjects {
  public:
-  /// Checks and joins the rows of `Barcodes.dat` and `Landmark_Groundtruth.dat`; the file names
-  /// are for messages. Errors (kParse): a subject or barcode given twice, a landmark or a robot of
-  /// `robots` without a barcode, a barcode of a subject that is neither.
+  /// Joins the rows of `Barcodes.dat` and `Landmark_Groundtruth.dat`; the file names are used in
+  /// messages. Errors (kParse): a duplicate subject or barcode, a landmark or a robot of `robots`
+  /// without a barcode, a barcode of an unknown subject.
   [[nodiscard]] static Result<Subjects> join(std::span<const LogRow> barcodes,
                                              const std::string& barcode_file,
                                              std::span<const LogRow> landmarks,
@@ -38,7 +38,7 @@ class Subjects {
   [[nodiscard]] const std::map<int, int>& subject_by_code() const noexcept {
     return subject_by_code_;
   }
-  /// The subject that carries a barcode, or kUnknownSubject.
+  /// The subject with a barcode, or kUnknownSubject.
   [[nodiscard]] int subject_of_code(int code) const noexcept;
   /// The barcode of a subject, or -1.
   [[nodiscard]] int code_of_subject(int subject) const noexcept;

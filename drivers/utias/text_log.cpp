@@ -49,14 +49,14 @@ std::string_view expectation(ColumnKind kind) noexcept {
   return "a number";
 }
 
-/// Fills rows one value at a time.
+/// Converts the values of a row one by one.
 class RowReader {
  public:
   explicit RowReader(std::span<const Column> columns) noexcept : columns_(columns) {}
 
   [[nodiscard]] std::size_t column_count() const noexcept { return columns_.size(); }
 
-  /// The row, or the first fault in it.
+  /// The row, or its first error.
   [[nodiscard]] tl::expected<LogRow, Fault> read(std::span<const Token> tokens,
                                                  std::size_t line_length, int line) const {
     if (tokens.size() != columns_.size()) return tl::unexpected(wrong_count(tokens, line_length));
@@ -170,7 +170,7 @@ class LogParser {
     if (comment) return {};
     const auto row = reader_.read(tokens, line.size(), line_);
     const bool whole = row.has_value() && decimals(tokens.back().text) >= last_decimals_;
-    // A value that is wrong in itself is not explained by a cut, unless it is the last one.
+    // A truncated line explains an invalid value only if it is the last one.
     const bool surplus_or_inner =
         !row && (row.error().non_finite || row.error().column < tokens.back().column ||
                  tokens.size() > reader_.column_count());

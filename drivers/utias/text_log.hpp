@@ -14,48 +14,48 @@
 
 namespace rave::utias {
 
-/// What a column of a log holds, and so where its value goes in a LogRow.
+/// The type of a column, and the member of LogRow that receives its value.
 enum class ColumnKind : std::uint8_t {
   kStamp,        ///< Seconds with up to nine decimals -> `stamp_ns`.
   kCode,         ///< Whole number from 0 to 1 000 000 -> next of `codes`.
   kReal,         ///< Finite, within +-1e6 -> next of `reals`.
-  kNonNegative,  ///< The same, not below 0.
+  kNonNegative,  ///< Like kReal, but not below 0.
 };
 
 struct Column {
-  std::string_view name;  ///< With its unit, for messages.
+  std::string_view name;  ///< Includes its unit; for messages.
   ColumnKind kind = ColumnKind::kReal;
 };
 
 struct LogRow {
-  int line = 0;  ///< From 1, comments counted.
+  int line = 0;  ///< From 1, comment lines included.
   std::int64_t stamp_ns = 0;
   std::array<int, 2> codes{};
   std::array<double, 4> reals{};
 };
 
-/// What to do with a row in the middle of a log that does not follow the format.
+/// What to do with a malformed row within a log.
 enum class BadRowPolicy : std::uint8_t {
-  kRefuse,  ///< An error that names file, line and column.
-  kSkip,    ///< Leave the row out and report it.
+  kRefuse,  ///< Error with file, line and column.
+  kSkip,    ///< Skip the row and report it.
 };
 
 struct ParsePolicy {
   BadRowPolicy bad_rows = BadRowPolicy::kRefuse;
-  /// Keep the whole lines of a log that ends in the middle of one.
+  /// Keep the complete lines of a log with a truncated last line.
   bool accept_cut = false;
 };
 
 struct ParsedLog {
-  std::vector<LogRow> rows;  ///< In the order of the file.
+  std::vector<LogRow> rows;  ///< In file order.
   std::vector<Repair> repairs;
 };
 
-/// Rows of numbers apart by blanks; `#` starts a comment line, blank lines are passed over. A last
-/// line without newline counts as cut if columns are missing, if its last value cannot be read or
-/// has fewer decimals than the row before, or if the gzip stream broke off.
-/// Errors (kParse, with `file`, line, column): wrong number of columns, a value that is not what
-/// its column holds, NaN or infinity, a cut log unless the policy accepts it.
+/// Parses rows of numbers separated by blanks; `#` starts a comment line, blank lines are skipped.
+/// A last line without newline counts as truncated if columns are missing, if its last value is
+/// invalid or has fewer decimals than in the row before, or if the gzip stream is truncated. Errors
+/// (kParse, with `file`, line, column): a wrong number of columns, an invalid value, NaN or
+/// infinity, a truncated log unless the policy accepts it.
 [[nodiscard]] Result<ParsedLog> parse_log(const UnpackedText& log, const std::string& file,
                                           std::span<const Column> columns,
                                           const ParsePolicy& policy);

@@ -48,7 +48,7 @@ class VelocityController final : public Controller {
  private:
   static constexpr Command kStop = velocity_command(0, 0);
 
-  // Once, because a broken program sends the same in every decision.
+  // Logged once, because a faulty program repeats the same command.
   void complain(double v_mps, double w_radps) {
     if (complained_) return;
     complained_ = true;

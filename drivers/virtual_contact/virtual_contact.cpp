@@ -5,7 +5,7 @@
 namespace rave {
 namespace {
 
-/// Bumper all around the body: whether it touches anything, and on which side.
+/// A bumper around the whole body: reports whether it touches anything, and on which side.
 class VirtualContact final : public VirtualSensor {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kContact;

@@ -10,7 +10,7 @@ constexpr ParamSpec kParams[] = {
     number_param("range_max_m", "m", 0.8, 0, 1000, "Largest range; farther bodies give no return."),
 };
 
-/// Infra-red ranger: one beam along the sensor's x axis, cast by the engine.
+/// An infra-red ranger: one beam along the sensor's x axis, cast by the engine.
 class VirtualInfrared final : public VirtualSensor {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kRanges;

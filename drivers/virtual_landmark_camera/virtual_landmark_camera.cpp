@@ -18,7 +18,8 @@ constexpr ParamSpec kParams[] = {
     integer_param("max_sightings", 32, 1, 4096, "Largest number of codes in one image."),
 };
 
-/// Camera that reads barcodes: range and bearing to the axis of every landmark in its field.
+/// A camera that reads barcodes: range and bearing to the axis of every landmark in its field of
+/// view.
 class VirtualLandmarkCamera final : public VirtualSensor {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kSightings;
@@ -66,9 +67,9 @@ class VirtualLandmarkCamera final : public VirtualSensor {
   }
 
  private:
-  /// The line of sight runs at the height of the code that is nearest to the camera's own. The
-  /// code goes round its body, so it can be read from whatever part of the width is in view: the
-  /// middle and nearly the edges are tried.
+  /// The line of sight is at the height of the code nearest to the camera's own. The code surrounds
+  /// its body, so it is readable from any visible part of the width: the centre and points near the
+  /// edges are tested.
   [[nodiscard]] bool readable(const WorldView& world, const SampleItem& item,
                               const Landmark& landmark) const {
     constexpr double kNearlyEdge = 0.9;

@@ -19,7 +19,7 @@ constexpr ParamSpec kParams[] = {
     number_param("range_max_m", "m", 8, 0, 1000, "Largest range; farther bodies give no return."),
 };
 
-/// Scanning laser: declares its rays, the engine casts them.
+/// A scanning laser: it declares its rays, and the engine casts them.
 class VirtualLaser final : public VirtualSensor {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kRanges;
@@ -51,7 +51,7 @@ class VirtualLaser final : public VirtualSensor {
     }
     bearings_rad_.assign(rays, 0.0);
     if (rays == 1) return {};
-    // A full ring has as many gaps as rays: its last ray would otherwise lie on its first.
+    // A full circle has as many gaps as rays; otherwise the last ray would coincide with the first.
     const auto gaps = static_cast<double>(fov_deg < 360 ? rays - 1 : rays);
     for (std::size_t i = 0; i < rays; ++i) {
       bearings_rad_[i] = deg_to_rad(fov_deg * (static_cast<double>(i) / gaps - 0.5));

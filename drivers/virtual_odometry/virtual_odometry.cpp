@@ -28,7 +28,7 @@ struct WheelTravel {
   double right_m = 0;
 };
 
-/// Wheel odometry of a differential drive, with the drift of unequal wheels and of slip.
+/// Wheel odometry of a differential drive, with drift from unequal wheels and random error.
 class VirtualOdometry final : public VirtualSensor {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kOdometry;
@@ -36,7 +36,7 @@ class VirtualOdometry final : public VirtualSensor {
   struct State {
     bool started = false;
     Pose2 X_WR;  ///< True pose at the last sample.
-    Pose2 X_OR;  ///< As integrated; O is where the robot was at the first sample.
+    Pose2 X_OR;  ///< Integrated pose; O is the robot's frame at the first sample.
     PoseCovariance covariance;
   };
 
@@ -75,7 +75,7 @@ class VirtualOdometry final : public VirtualSensor {
   }
 
  private:
-  /// What the encoders count between two true poses. Sideways motion turns no wheel.
+  /// The wheel travel between two true poses. Lateral motion turns no wheel.
   [[nodiscard]] WheelTravel measured(const Pose2& X_WR_before, const Pose2& X_WR) const {
     const Twist2 moved = twist_between(X_WR_before, X_WR, 1.0);
     const double half_turn_m = 0.5 * separation_m_ * moved.wz;

@@ -17,7 +17,7 @@ constexpr ParamSpec kParams[] = {
     number_param("range_max_m", "m", 6, 0, 1000, "Largest range; farther bodies give no return."),
 };
 
-/// One ultrasonic ranger: declares rays across its cone, the engine takes the nearest of them.
+/// An ultrasonic ranger: it declares rays across its cone, and the engine returns the minimum.
 class VirtualSonar final : public VirtualSensor {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kRanges;
@@ -40,7 +40,7 @@ class VirtualSonar final : public VirtualSensor {
   void sample(const WorldView& /*world*/, const SampleItem& /*item*/) const override {}
 
  private:
-  /// Both edges of the cone carry a ray, and so does the axis: the number of gaps is even.
+  /// An even number of gaps, so that both edges and the axis of the cone have a ray.
   void spread(double cone_deg, double resolution_deg) {
     const double half_gaps = std::ceil(0.5 * cone_deg / resolution_deg);
     const auto rays = 2 * static_cast<std::size_t>(half_gaps) + 1;

@@ -167,7 +167,7 @@ TEST_F(Results, RecordsThatAreMissingOrTornAreNamedAndTheRestIsRead) {
   const Ended info = run_rave({"info", folder("run"), "--json"});
   EXPECT_EQ(info.exit_code, 1);
   EXPECT_NE(info.err.find("there is no recording of host `host-3`"), std::string::npos) << info.err;
-  EXPECT_NE(info.err.find("host-1/run.mcap` is torn"), std::string::npos) << info.err;
+  EXPECT_NE(info.err.find("host-1/run.mcap` is incomplete"), std::string::npos) << info.err;
   const Json json = Json::parse(info.out, nullptr, false);
   EXPECT_EQ(json["run"]["robots"].size(), 10U);
   EXPECT_EQ(json["missing"].size(), 2U);

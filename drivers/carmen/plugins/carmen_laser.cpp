@@ -55,7 +55,7 @@ class Laser {
   }
 
  private:
-  /// Of the scans before the start the last one is held, as any state.
+  /// The last scan before the start is kept, so that there is a state from the first step on.
   [[nodiscard]] recording::Timeline<float> timeline(const Log& log) const {
     recording::Timeline<float> timeline;
     const auto least = static_cast<float>(range_min_m_);

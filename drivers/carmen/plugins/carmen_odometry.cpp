@@ -20,7 +20,7 @@ constexpr auto kParams = recording::join_params(
                      "the poses of the scans within 0.4 s."),
     });
 
-/// The body's velocity by the slope of the track; 0 where there are too few scans.
+/// Sets the body's velocity to the slope of the track; 0 if there are too few scans.
 void differentiate(OdometryReading& reading, const recording::PoseTrack& track, std::int64_t t_ns) {
   const auto velocity = track.velocity(t_ns, from_seconds(0.4).ns);
   const SinCos heading = sincos(reading.yaw_rad);

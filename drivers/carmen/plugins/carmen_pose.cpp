@@ -16,7 +16,7 @@ constexpr auto kParams = recording::join_params(
                     pose_doubt::heading_sigma(0.3, recording::kHeadingSigmaDoc),
                 });
 
-/// Where the laser was at each scan, in the frame of the log.
+/// The laser pose at each scan, in the frame of the log.
 struct Poses {
   using Record = PoseReading;
   static constexpr ReadingKind kReading = ReadingKind::kPose;

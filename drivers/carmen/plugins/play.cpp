@@ -18,7 +18,7 @@ Result<LogPlay> load_play(const HardwareSetup& setup, double range_max_m) {
   options.clock_offset_s = play.options.clock_offset_s;
   options.accept_cut = play.options.accept_cut;
   options.range_max_m = range_max_m;
-  // An absolute path replaces the folder in front of it.
+  // operator/ ignores the folder if the path is absolute.
   RAVE_TRY_ASSIGN(play.log, load(std::filesystem::path(setup.folder) / play.path, options));
   return play;
 }

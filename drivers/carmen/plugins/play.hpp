@@ -12,7 +12,7 @@
 
 namespace rave::carmen {
 
-/// The parameters that all players of CARMEN logs have.
+/// The parameters common to all players of CARMEN logs.
 inline constexpr auto kLogParams = recording::join_params(
     std::array<ParamSpec, 1>{
         required(text_param("log", "",
@@ -21,17 +21,17 @@ inline constexpr auto kLogParams = recording::join_params(
     },
     recording::kPlayParams);
 
-/// A log, read and ready to be played.
+/// A log that is ready to be played.
 struct LogPlay {
-  std::string path;  ///< As the parameter gives it.
+  std::string path;  ///< As in the parameter.
   recording::PlayOptions options;
   Log log;
 };
 
-/// Reads what the parameters of a player ask for. Errors: those of load().
+/// Reads the log that the parameters of a player name. Errors: those of load().
 [[nodiscard]] Result<LogPlay> load_play(const HardwareSetup& setup, double range_max_m = 80);
 
-/// The report of a stream as one JSON object, described in README.md of this driver.
+/// The report of a stream as one JSON object; the README.md of this driver describes it.
 [[nodiscard]] std::string report_json(const LogPlay& play, std::string_view stream,
                                       const recording::StreamReport& report);
 

@@ -20,14 +20,14 @@ constexpr ParamSpec domain_param(const char* doc) noexcept {
   return integer_param("domain", 0, 0, 230, doc);
 }
 
-/// What one of kMulticasts means; any other word is `none`.
+/// The meaning of a word of kMulticasts; other words mean `none`.
 [[nodiscard]] bus::Multicast multicast_of(std::string_view word) noexcept;
 
-/// The addresses in a parameter `peers`, between commas; blanks around them do not count.
+/// The addresses in a parameter `peers`, separated by commas; blanks are ignored.
 [[nodiscard]] std::vector<std::string> split_peers(std::string_view text);
 
-/// Takes the parameters `domain`, `interface`, `peers` and `multicast` into what has members of
-/// these names, such as bus::BusConfig.
+/// Copies the parameters `domain`, `interface`, `peers` and `multicast` to members of these names,
+/// such as those of bus::BusConfig.
 template <class Network>
 void read_network(const Params& params, Network& network) {
   network.domain = static_cast<std::uint32_t>(params.integer("domain"));

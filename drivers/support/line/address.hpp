@@ -10,7 +10,7 @@
 
 namespace rave::line {
 
-/// Where a byte stream is: a serial device, or a TCP server.
+/// The address of a byte stream: a serial device, or a TCP server.
 struct Address {
   std::string device;  ///< Path; empty for TCP.
   std::int64_t baud = 0;
@@ -18,24 +18,24 @@ struct Address {
   std::string port;  ///< Decimal.
 
   [[nodiscard]] bool is_serial() const noexcept { return !device.empty(); }
-  /// For people: the path, or `host:port`.
+  /// The path, or `host:port`, for messages.
   [[nodiscard]] std::string text() const;
 };
 
-/// From the parameters `device`, `baud` and `address` (`host:port`, an IPv6 host in brackets).
-/// Errors (kInvalidArgument): both or none of device and address, a baud rate that no serial line
-/// has, an address that is none.
+/// Makes an address from the parameters `device`, `baud` and `address` (`host:port`, an IPv6 host
+/// in brackets). Errors (kInvalidArgument): both or none of device and address, an unsupported baud
+/// rate, an invalid address.
 [[nodiscard]] Result<Address> parse_address(std::string_view device, std::int64_t baud,
                                             std::string_view address);
 
-/// The parameter `address` of those that also have `device`.
+/// The parameter `address` of drivers that also have `device`.
 inline constexpr ParamSpec kAddressParam =
     text_param("address", "", "TCP server, `host:port`; or give `device`.");
 
-/// The same from all parameters of a driver that has the three.
+/// Like parse_address(), for a driver with these three parameters.
 [[nodiscard]] Result<Address> read_address(const Params& params);
 
-/// The constant of termios for a bit rate; 0 if there is none.
+/// The termios constant for a bit rate; 0 if there is none.
 [[nodiscard]] unsigned speed_of(std::int64_t baud) noexcept;
 
 /// A port number in decimal, 0 to 65535. Error: kInvalidArgument.

@@ -5,17 +5,17 @@
 
 namespace rave::line {
 
-/// How long to wait before the next attempt to reach a device: twice as long each time, up to a
-/// limit. Short at first, because a cable that slipped is back at once.
+/// The delay before the next attempt to connect to a device. It doubles each time up to a limit; it
+/// starts short, because a loose cable is soon back.
 class Backoff {
  public:
   using Wait = std::chrono::milliseconds;
   static constexpr Wait kFirst{20};
   static constexpr Wait kLongest{500};
 
-  /// The wait that stands before the next attempt.
+  /// The delay before the next attempt.
   [[nodiscard]] Wait next() noexcept;
-  /// The device answered.
+  /// Call it after a successful attempt.
   void reset() noexcept { wait_ = kFirst; }
 
  private:

@@ -18,7 +18,7 @@ int detail::wait_ready(int fd, short events, HostTime end, const Wake* wake) noe
     const int ready = ::poll(wanted.data(), wanted.size(), static_cast<int>(until(end).count()));
     if (ready < 0 && errno == EINTR) continue;
     if (wanted[1].revents != 0) return -1;
-    if (ready < 0 || wanted[0].revents != 0) return 1;  // an error shows at the next call
+    if (ready < 0 || wanted[0].revents != 0) return 1;  // the next call reports an error
     if (host_now() >= end) return 0;
   }
 }

@@ -12,12 +12,12 @@
 
 namespace rave::line {
 
-/// What came of waiting for bytes.
+/// The result of waiting for bytes.
 enum class ReadEnd {
-  kBytes,    ///< `size` bytes are there.
-  kTimeout,  ///< Nothing came within the limit.
+  kBytes,    ///< `size` bytes were read.
+  kTimeout,  ///< Nothing arrived within the limit.
   kWoken,    ///< The bell rang.
-  kLost,     ///< The line is gone; lost() says why.
+  kLost,     ///< The line is lost; see lost().
 };
 
 struct ReadResult {
@@ -29,9 +29,9 @@ struct ReadResult {
 /// no flow control) or a TCP connection. Owns its descriptor. For one thread at a time.
 class ByteLine {
  public:
-  /// Opens the line; what lay in a serial line's buffers is thrown away. Waits at most `limit` for
-  /// a TCP server, and no longer than until `wake` rings (null: nobody rings).
-  /// Errors: kNotFound (no such device or host), kIo, kTimeout, kState (woken).
+  /// Opens the line and clears the buffers of a serial line. Waits at most `limit` for a TCP
+  /// server, or until `wake` rings (null: none). Errors: kNotFound (no such device or host), kIo,
+  /// kTimeout, kState (woken).
   [[nodiscard]] static Result<ByteLine> open(const Address& address, Wait limit, const Wake* wake);
 
   ByteLine(ByteLine&& other) noexcept;
@@ -40,11 +40,12 @@ class ByteLine {
   ByteLine& operator=(const ByteLine&) = delete;
   ~ByteLine();
 
-  /// Takes what has come, waiting at most `limit` for the first byte.
+  /// Reads available bytes; waits at most `limit` for the first.
   [[nodiscard]] ReadResult read(std::span<char> room, Wait limit, const Wake* wake) noexcept;
-  /// Sends all bytes. Errors: kIo (lost), kTimeout (the device does not take them), kState (woken).
+  /// Sends all bytes. Errors: kIo (lost), kTimeout (the device does not accept them), kState
+  /// (woken).
   [[nodiscard]] Status write(std::string_view bytes, Wait limit, const Wake* wake);
-  /// Why the line is gone; empty while it is not.
+  /// Why the line was lost; empty if it is open.
   [[nodiscard]] const std::string& lost() const noexcept { return lost_; }
 
  private:
@@ -56,7 +57,7 @@ class ByteLine {
 };
 
 namespace detail {
-/// Waits until `fd` can do one of `events`: 1, or 0 after the limit, or -1 when woken.
+/// Waits for one of `events` on `fd`: 1, or 0 after the limit, or -1 when woken.
 [[nodiscard]] int wait_ready(int fd, short events, HostTime end, const Wake* wake) noexcept;
 [[nodiscard]] Result<int> open_serial(const Address& address);
 [[nodiscard]] Result<int> open_tcp(const Address& address, Wait limit, const Wake* wake);

@@ -23,7 +23,7 @@ void ClockOffset::add(double device_s, double host_s) {
       reset();
       ++restarts_;
     } else if (late_in_a_row_ > 0) {
-      return;  // so late that it says nothing of the clock
+      return;  // so late that it says nothing about the clock
     }
   }
   newest_s_ = device_s;
@@ -34,7 +34,7 @@ void ClockOffset::add(double device_s, double host_s) {
 bool ClockOffset::stepped(double device_s, double difference_s) {
   if (device_s < newest_s_) return true;
   const double excess_s = difference_s - offset_s(device_s);
-  // Nothing arrives before it was sent, so the clock must have gone forward.
+  // No sample arrives before it is sent, so the clock must have jumped forward.
   if (excess_s < -options_.jump_s) return true;
   late_in_a_row_ = excess_s > options_.jump_s ? late_in_a_row_ + 1 : 0;
   return late_in_a_row_ >= options_.jump_samples;
@@ -74,7 +74,7 @@ void ClockOffset::fit() {
   origin_s_ = buckets_.back().x;
   const bool long_enough = origin_s_ - buckets_.front().x >= options_.slope_after_s;
   drift_ = long_enough ? hull_slope() : 0;
-  // A slope that was cut off, or none, must still leave every sample above the line.
+  // With a clamped slope, or none, every sample must still be above the line.
   offset_s_ = buckets_.back().y;
   for (const Point& p : buckets_) {
     offset_s_ = std::min(offset_s_, p.y - drift_ * (p.x - origin_s_));

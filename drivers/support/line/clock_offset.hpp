@@ -7,46 +7,49 @@
 
 namespace rave::line {
 
-/// Relates the clock of a device to that of the host, from nothing but samples that bear the
-/// device's time and arrive after some delay. What is found is offset + smallest delay: the two
-/// cannot be told apart by one-way traffic.
+/// Relates the clock of a device to that of the host, using only samples with the device's time
+/// that arrive after some delay. The result is offset + least delay; one-way traffic cannot
+/// separate the two.
 ///
-/// For each sample, arrival minus device time lies above the line `offset + drift * time` by its
-/// delay. The line is the edge of the lower convex hull of the recent samples that lies under their
-/// mean, which has the least sum of delays of all lines below them. Source: S. B. Moon, P. Skelly,
-/// D. Towsley, "Estimation and removal of clock skew from network delay measurements", INFOCOM
-/// 1999.
+/// For each sample, arrival minus device time is above the line `offset + drift * time` by its
+/// delay. The line is the edge of the lower convex hull of recent samples that is below their mean;
+/// of all lines below the samples it has the least sum of delays. Source: S. B. Moon, P. Skelly, D.
+/// Towsley, "Estimation and removal of clock skew from network delay measurements", INFOCOM 1999.
 ///
-/// Pure: no clock is read. Not for several threads at once.
+/// Pure: reads no clock. Not thread-safe.
 class ClockOffset {
  public:
   struct Options {
-    double window_s = 30;            ///< How long a sample counts.
-    double bucket_s = 0.5;           ///< Of this long only the least delayed sample is kept.
-    double slope_after_s = 5;        ///< Less than this gives no drift: it would be noise.
-    double max_drift = 500e-6;       ///< What a quartz may be off by.
-    double jump_s = 0.5;             ///< A clock that steps by more is learnt anew, ...
-    std::int32_t jump_samples = 20;  ///< ... forward after this many in a row: they may be late.
+    double window_s = 30;  ///< How long a sample is used.
+    /// Only the least delayed sample of each interval of this length is kept.
+    double bucket_s = 0.5;
+    /// No drift is computed from shorter spans, because it would be noise.
+    double slope_after_s = 5;
+    double max_drift = 500e-6;  ///< Largest error of a quartz clock.
+    double jump_s = 0.5;        ///< After a larger clock step the estimate restarts, ...
+    /// ... forward only after this many in a row, because samples may just be late.
+    std::int32_t jump_samples = 20;
   };
 
   ClockOffset() : ClockOffset(Options{}) {}
   explicit ClockOffset(const Options& options) : options_(options) {}
 
-  /// A sample that bears `device_s` came at `host_s`. A device time that steps back starts anew.
+  /// Adds a sample with device time `device_s` that arrived at `host_s`. A decreasing device time
+  /// restarts the estimate.
   void add(double device_s, double host_s);
-  /// Forgets everything but the count of restarts.
+  /// Clears everything except the count of restarts.
   void reset();
 
   [[nodiscard]] bool known() const noexcept { return !buckets_.empty(); }
-  /// Host time minus device time when the device's clock shows `device_s`; 0 if nothing is known.
+  /// Host time minus device time at device time `device_s`; 0 if unknown.
   [[nodiscard]] double offset_s(double device_s) const noexcept {
     return offset_s_ + drift_ * (device_s - origin_s_);
   }
   /// Offset at the newest sample.
   [[nodiscard]] double offset_s() const noexcept { return offset_s(newest_s_); }
-  /// How much faster the host's clock runs, parts in a million.
+  /// By how much the host's clock runs faster, in parts per million.
   [[nodiscard]] double drift_ppm() const noexcept { return drift_ * 1e6; }
-  /// How often a step of the device's clock made it start anew.
+  /// The number of restarts after steps of the device's clock.
   [[nodiscard]] std::uint64_t restarts() const noexcept { return restarts_; }
 
  private:

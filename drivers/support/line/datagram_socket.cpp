@@ -41,8 +41,8 @@ T as(const sockaddr_storage& storage) {
   return address;
 }
 
-/// Joins the group over the interface that has `own`, sends there, and hears itself's neighbours on
-/// this machine.
+/// Joins the group over the interface with address `own`, sends over it, and receives packets of
+/// other sockets on this machine.
 bool join(int fd, const Peer& group, const addrinfo& own) {
   const int one = 1;
   if (own.ai_family == AF_INET) {
@@ -117,7 +117,7 @@ Result<DatagramSocket> DatagramSocket::open(const std::string& host, std::uint16
                 std::strerror(errno));
   };
   if (opened.fd_ < 0) return failed("open");
-  // Several listen to one group on one machine; an address of its own belongs to one alone.
+  // Several sockets may listen to one group; a unicast address belongs to one socket.
   const int one = 1;
   const sockaddr* where =
       group != nullptr ? reinterpret_cast<const sockaddr*>(&group->address) : own->ai_addr;
@@ -127,7 +127,7 @@ Result<DatagramSocket> DatagramSocket::open(const std::string& host, std::uint16
   sockaddr_storage bound{};
   socklen_t size = sizeof bound;
   if (::getsockname(opened.fd_, reinterpret_cast<sockaddr*>(&bound), &size) == 0) {
-    // The port stands in the same place in both families.
+    // The port is at the same place in both address families.
     opened.port_ = ntohs(as<sockaddr_in>(bound).sin_port);
   }
   return opened;

@@ -9,20 +9,20 @@
 
 namespace rave::line {
 
-/// The clock that arrivals are measured by: steady, and the same in all processes of a machine.
+/// The clock for times of arrival: monotonic, and equal in all processes of a machine.
 using HostClock = std::chrono::steady_clock;
 using HostTime = HostClock::time_point;
 using Wait = std::chrono::milliseconds;
 
 [[nodiscard]] inline HostTime host_now() noexcept { return HostClock::now(); }
 
-/// Another number each time a program is started, for TransmitterDeclaration::boot.
+/// A number that differs for each start of a program, for TransmitterDeclaration::boot.
 [[nodiscard]] inline std::uint32_t boot_number() noexcept {
   const auto ticks = host_now().time_since_epoch().count();
   return static_cast<std::uint32_t>(mix64(static_cast<std::uint64_t>(ticks)));
 }
 
-/// Seconds since the clock's own start.
+/// Seconds since the clock's epoch.
 [[nodiscard]] inline double host_seconds(HostTime t) noexcept {
   return std::chrono::duration<double>(t.time_since_epoch()).count();
 }
@@ -31,15 +31,15 @@ using Wait = std::chrono::milliseconds;
   return t + std::chrono::nanoseconds(from_seconds(seconds).ns);
 }
 
-/// What is left until `t`; at least 0, rounded up so that a wait of it does not end early.
+/// The time until `t`; at least 0, rounded up so that a wait does not end early.
 [[nodiscard]] inline Wait until(HostTime t) noexcept {
   const auto left = std::chrono::ceil<Wait>(t - host_now());
   return left > Wait::zero() ? left : Wait::zero();
 }
 
-/// The moment of the run at which the host's clock showed `host_s`, never later than now. The age
-/// counts as seconds of the run: exact at pace 1, and a live run at another pace is off by its
-/// share of the age.
+/// The time of the run at which the host's clock showed `host_s`; never later than now. The age is
+/// counted in seconds of the run: exact at pace 1; at another pace it is wrong by a fraction of the
+/// age.
 [[nodiscard]] inline SimTime run_stamp(const SampleSink& sink, double host_s) noexcept {
   const double age_s = host_seconds(host_now()) - host_s;
   return sink.now() - (age_s > 0 ? from_seconds(age_s) : Duration{});

@@ -5,19 +5,19 @@
 
 namespace rave::line {
 
-/// How long a driver of a real device waits for it, and what is known of the way from it.
+/// Timeouts of a driver for a real device, and the delay of its data.
 struct Timing {
   double latency_s = 0;
   double start_timeout_s = 0;
   double lost_after_s = 0;
 };
 
-/// The parameter `latency_s`: a time that surely passes before something arrives here.
+/// The parameter `latency_s`: the least delay until data arrives.
 constexpr ParamSpec latency_param(const char* doc, double max_s = 1) noexcept {
   return number_param("latency_s", "s", 0, 0, max_s, doc);
 }
 
-/// The parameter `start_timeout_s`: how long the start of a run waits.
+/// The parameter `start_timeout_s`: the timeout at the start of a run.
 constexpr ParamSpec start_timeout_param(const char* doc) noexcept {
   return number_param("start_timeout_s", "s", 5, 0.1, 600, doc);
 }
@@ -27,7 +27,7 @@ constexpr ParamSpec lost_after_param(double value_s, const char* doc) noexcept {
   return number_param("lost_after_s", "s", value_s, 0.1, 600, doc);
 }
 
-/// What the three parameters say, all of which the driver has.
+/// Reads the three parameters, all of which the driver must have.
 [[nodiscard]] constexpr Timing read_timing(const Params& params) noexcept {
   return {params.number("latency_s"), params.number("start_timeout_s"),
           params.number("lost_after_s")};

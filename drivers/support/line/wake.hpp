@@ -7,8 +7,8 @@
 
 namespace rave::line {
 
-/// Ends the waiting of another thread: what a driver's close() rings so that its thread leaves a
-/// poll at once. Stays rung until clear(). ring() may be called from any thread.
+/// Interrupts a wait of another thread: a driver's close() rings it so that its thread leaves
+/// poll() at once. It stays rung until clear(). ring() may be called from any thread.
 class Wake {
  public:
   Wake() = default;
@@ -16,14 +16,14 @@ class Wake {
   Wake& operator=(const Wake&) = delete;
   ~Wake();
 
-  /// Must come first. Error: kIo.
+  /// Call it first. Error: kIo.
   [[nodiscard]] Status open();
   void ring() noexcept;
   void clear() noexcept;
   [[nodiscard]] bool rung() const noexcept;
   /// Waits for the bell; false: it did not ring within `limit`.
   [[nodiscard]] bool wait(std::chrono::milliseconds limit) const noexcept;
-  /// For poll(); readable while rung.
+  /// Descriptor for poll(); readable while rung.
   [[nodiscard]] int fd() const noexcept { return fd_; }
 
  private:

@@ -6,7 +6,7 @@
 
 namespace rave::pose_doubt {
 
-/// Variances of a pose, of each of x and y, and of the heading.
+/// Variance of x and y each, and of the heading.
 struct Doubt {
   double variance_xy_m2 = 0;
   double variance_yaw_rad2 = 0;
@@ -22,7 +22,7 @@ constexpr ParamSpec heading_sigma(double sigma_deg, const char* doc) noexcept {
   return number_param("heading_sigma_deg", "deg", sigma_deg, 0, 180, doc);
 }
 
-/// What the two parameters say.
+/// The variances from the two parameters.
 [[nodiscard]] constexpr Doubt read_doubt(const Params& params) noexcept {
   const double position_m = params.number("position_sigma_m");
   const double heading_rad = deg_to_rad(params.number("heading_sigma_deg"));

@@ -11,7 +11,7 @@ namespace rave::recording {
 
 inline constexpr std::array<const char*, 2> kClocks{"stepped", "live"};
 
-/// The parameters that all players of recordings have.
+/// The parameters common to all players of recordings.
 inline constexpr std::array<ParamSpec, 5> kPlayParams{
     choice_param("clock", "stepped", kClocks,
                  "Whether samples follow simulation time or the wall clock."),
@@ -23,11 +23,11 @@ inline constexpr std::array<ParamSpec, 5> kPlayParams{
     bool_param("accept_cut", false, "Accept a truncated log and use its complete lines."),
 };
 
-// What the parameters of pose_doubt mean where a recording has nothing of it.
+// Descriptions of the parameters of pose_doubt, for recordings without uncertainty.
 inline constexpr const char* kPositionSigmaDoc = "Stated standard deviation of x and of y.";
 inline constexpr const char* kHeadingSigmaDoc = "Stated standard deviation of the heading.";
 
-/// One list of parameters behind the other.
+/// Concatenates two lists of parameters.
 template <std::size_t kFirst, std::size_t kSecond>
 constexpr std::array<ParamSpec, kFirst + kSecond> join_params(
     const std::array<ParamSpec, kFirst>& first,
@@ -49,7 +49,7 @@ struct PlayOptions {
 };
 
 [[nodiscard]] inline PlayOptions play_options(const Params& params) {
-  // Negative stands for "not given": a parameter without a value does not exist.
+  // A parameter always has a value, so a negative one means "not given".
   const auto given = [](double seconds) {
     return seconds < 0 ? std::nullopt : std::optional<double>(seconds);
   };

@@ -14,7 +14,7 @@
 
 namespace rave::recording {
 
-/// What a stream hands to its player.
+/// The data of a stream for its player.
 template <class Record>
 struct Played {
   Timeline<Record> timeline;
@@ -22,15 +22,16 @@ struct Played {
   bool live = false;
 };
 
-/// Plays one stream of a recording as its hardware delivered it: from a thread of its own, with
-/// the original stamps. Opened again it starts over and gives the same samples.
+/// Plays one stream of a recording like its hardware: from its own thread, with the original
+/// stamps. Each open() starts over with the same samples.
 ///
-/// `Stream` says what is special: types and constants `Record`, `kReading`, `kCapacity` (at least
-/// so many records are made room for), `kCollect`; `load(setup)`, a Result<Played<Record>>; and
-/// `declare(declaration)`, which may add to what is declared and what points into the stream.
+/// `Stream` defines the specifics: types and constants `Record`, `kReading`, `kCapacity` (least
+/// number of records to make room for), `kCollect`; `load(setup)`, which returns a
+/// Result<Played<Record>>; and `declare(declaration)`, which may add to the declaration and refer
+/// to the stream.
 ///
-/// Belongs to the thread of the host; only play() runs on the player's own, and reads what
-/// configure() left.
+/// Belongs to the thread of the host; only play() runs in the player's thread, and reads data of
+/// configure().
 template <class Stream>
 class Player final : public HardwareSensor {
  public:
@@ -68,8 +69,8 @@ class Player final : public HardwareSensor {
       if (played_.live) {
         if (!sink.wait_until(group.stamp)) return;
       } else {
-        // All of the time before the next stamp, not only up to the last one: publish() may have
-        // to wait for room, and the host could be waiting for a moment in between.
+        // Completes only the time before the next stamp: publish() may wait for room while the host
+        // waits for completeness.
         sink.complete_up_to({group.stamp.ns - 1});
       }
       const auto* records = &played_.timeline.records[group.first];
@@ -81,7 +82,7 @@ class Player final : public HardwareSensor {
   Stream stream_;
   Played<typename Stream::Record> played_;
   bool configured_ = false;
-  std::jthread thread_;  // last: it ends before what it reads is gone
+  std::jthread thread_;  // last member: it ends before the data it reads is destroyed
 };
 
 }  // namespace rave::recording

@@ -11,7 +11,7 @@
 namespace rave::recording {
 namespace {
 
-/// The slope of a straight line fitted to points of which the sums are fed.
+/// The slope of a least-squares line, from the sums over its points.
 class LineFit {
  public:
   void add(double t_s, double x, double y, double yaw) noexcept {
@@ -108,7 +108,7 @@ std::optional<WorldVelocity> PoseTrack::velocity(std::int64_t t_ns,
   if (begin > 0 && samples_[begin - 1].t_ns == t_ns - half_window_ns) --begin;
   if (end < begin + 3 || samples_.back().t_ns < t_ns) return std::nullopt;
   if (samples_[end - 1].t_ns - samples_[begin].t_ns < half_window_ns) return std::nullopt;
-  // Times and positions relative to the first sample: small numbers keep the sums exact enough.
+  // Relative to the first sample: small numbers keep the sums precise.
   const PoseSample& base = samples_[begin];
   LineFit fit;
   double yaw = 0;

@@ -16,7 +16,7 @@ struct PoseSample {
   Pose2 pose;
 };
 
-/// The angle brought into (-pi, pi]. `angle_rad` must be finite.
+/// The equivalent angle in (-pi, pi]. `angle_rad` must be finite.
 [[nodiscard]] double wrap_angle(double angle_rad) noexcept;
 
 /// The velocity of R in W, expressed in W (not in R): m/s and rad/s.
@@ -29,35 +29,35 @@ struct WorldVelocity {
 class PoseTrack {
  public:
   PoseTrack() = default;
-  /// `samples`: strictly ascending in time (a programmer's mistake otherwise).
+  /// `samples`: strictly ascending in time (precondition).
   explicit PoseTrack(std::vector<PoseSample> samples);
 
   [[nodiscard]] std::span<const PoseSample> samples() const noexcept { return samples_; }
 
-  /// The pose at a moment: linear between the two samples around it, heading by the shorter turn.
-  /// After the last sample the last pose is held, for the body is still there: ask `age_ns`.
-  /// None before the first sample.
+  /// The pose at a time: linear interpolation between the neighbouring samples, heading by the
+  /// shorter turn. After the last sample it is the last pose, because the body is still there; see
+  /// age_ns(). Empty before the first sample.
   [[nodiscard]] std::optional<Pose2> interpolate(std::int64_t t_ns) const noexcept;
 
-  /// The stamp of the latest sample at or before a moment; none before the first.
+  /// The stamp of the latest sample at or before a time; empty before the first.
   [[nodiscard]] std::optional<std::int64_t> last_stamp_ns(std::int64_t t_ns) const noexcept;
 
-  /// How old the latest sample is at a moment; none before the first.
+  /// The age of the latest sample at a time; empty before the first.
   [[nodiscard]] std::optional<std::int64_t> age_ns(std::int64_t t_ns) const noexcept;
 
-  /// Whether a moment lies between two samples that are more than `limit_ns` apart, more than
-  /// that after the last sample, or before the first. A moment with a sample is in no gap.
+  /// Whether a time is between two samples that are more than `limit_ns` apart, more than that
+  /// after the last sample, or before the first. The time of a sample is in no gap.
   [[nodiscard]] bool in_gap(std::int64_t t_ns, std::int64_t limit_ns) const noexcept;
 
-  /// The velocity at a moment: the slope of the straight line fitted by least squares to the
-  /// samples within `half_window_ns` of it. Differences of neighbours are useless here: stamps
-  /// jitter, a sixth of them is under 5 ms apart. None unless there are three samples that span
-  /// at least `half_window_ns`, so not in a wide gap and not after the last sample.
+  /// The velocity at a time: the slope of a least-squares line through the samples within
+  /// `half_window_ns`. Differences of neighbouring samples would be too noisy: stamps jitter, and
+  /// one in six is less than 5 ms after the previous one. Empty unless there are three samples that
+  /// span at least `half_window_ns`, so also in a wide gap and after the last sample.
   [[nodiscard]] std::optional<WorldVelocity> velocity(
       std::int64_t t_ns, std::int64_t half_window_ns = 100'000'000) const noexcept;
 
  private:
-  /// The index of the first sample after a moment.
+  /// The index of the first sample after a time.
   [[nodiscard]] std::size_t after(std::int64_t t_ns) const noexcept;
 
   std::vector<PoseSample> samples_;

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Divided, not multiplied by 1e-9: so that whole milliseconds print as such.
+/// Division instead of multiplication by 1e-9, so that whole milliseconds print exactly.
 double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
 
 Json stamp(const std::optional<std::int64_t>& ns) { return ns ? Json(seconds(*ns)) : Json(); }
@@ -34,7 +34,7 @@ Json repairs_of(const StreamReport& report) {
   return list;
 }
 
-/// What robot_host looks at; see README.md.
+/// The part that robot_host evaluates; see README.md.
 Json dropped_of(const StreamReport& report) {
   std::string because;
   for (const Repair& repair : report.repairs) {
@@ -73,7 +73,7 @@ void add_timing(Json& json, const StreamReport& report, const Window& window) {
 }
 
 std::string text_of(const Json& json) {
-  // A folder's name may be no UTF-8, which JSON cannot hold.
+  // Folder names may not be UTF-8, which JSON requires.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

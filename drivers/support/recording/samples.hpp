@@ -10,11 +10,11 @@
 #include "recording/stream_report.hpp"
 #include "recording/window.hpp"
 
-// From the rows of a log to samples of a window. A row has `stamp_ns` (absolute) and `line`, a
-// sample `t_ns`, from the origin.
+// Converts the rows of a log to the samples of a window. Rows have an absolute `stamp_ns` and a
+// `line`, samples a `t_ns` from the origin.
 namespace rave::recording {
 
-/// Orders rows by stamp, rows of one stamp as in the file, and reports each step back.
+/// Sorts rows by stamp, stably, and reports each step back.
 template <class Row>
 void sort_rows(std::vector<Row>& rows, StreamReport& report) {
   bool sorted = true;
@@ -28,7 +28,7 @@ void sort_rows(std::vector<Row>& rows, StreamReport& report) {
                    [](const Row& a, const Row& b) { return a.stamp_ns < b.stamp_ns; });
 }
 
-/// Keeps the last row of each stamp: the value that held from then on. `rows`: sorted.
+/// Keeps the last row of each stamp, whose value holds from then on. `rows`: sorted.
 template <class Row>
 void drop_duplicates(std::vector<Row>& rows, const StreamWindow& window, StreamReport& report) {
   std::vector<Row> kept;
@@ -47,10 +47,10 @@ void drop_duplicates(std::vector<Row>& rows, const StreamWindow& window, StreamR
   rows = std::move(kept);
 }
 
-/// Brings the heading into (-pi, pi] and reports it.
+/// Wraps the heading into (-pi, pi] and reports a change.
 void wrap_heading(Pose2& pose, int line, StreamReport& report);
 
-/// Fills the timing of the report from all samples, also those outside of the window.
+/// Sets the timing of the report from all samples, including those outside of the window.
 template <class Sample>
 void describe(StreamReport& report, const std::vector<Sample>& samples,
               const StreamWindow& window) {
@@ -60,7 +60,7 @@ void describe(StreamReport& report, const std::vector<Sample>& samples,
   describe_timing(report, stamps, window.start_ns, window.end_ns);
 }
 
-/// Cuts to the window and its margin, keeping one sample before it.
+/// Cuts the samples to the window and its margin, and keeps one sample before it.
 template <class Sample>
 void trim(std::vector<Sample>& samples, const StreamWindow& window) {
   const std::int64_t first_ns = window.start_ns - window.margin_ns;

@@ -6,7 +6,7 @@ namespace rave::recording {
 std::optional<std::int64_t> parse_stamp_ns(std::string_view text) noexcept {
   constexpr int kDecimals = 9;
   std::int64_t value = 0;
-  int decimals = -1;  // -1 until the point has been seen
+  int decimals = -1;  // negative before the decimal point
   int digits = 0;
   for (const char c : text) {
     if (c == '.' && decimals < 0) {

@@ -91,7 +91,7 @@ void describe_timing(StreamReport& report, std::span<const std::int64_t> stamps_
     const std::int64_t begin = first == stamps_ns.end() ? end_ns : std::min(*first, end_ns);
     add_gap(GapKind::kLateStart, start_ns, begin - start_ns);
   }
-  // The row before the window and the one after it bound the gaps that reach across its edges.
+  // Include the row before the window and the one after it, for gaps across its ends.
   auto row = first == stamps_ns.begin() ? first : first - 1;
   for (; row != stamps_ns.end() && *row < end_ns; ++row) {
     if (row + 1 == stamps_ns.end()) {

@@ -10,21 +10,22 @@
 
 namespace rave::recording {
 
-/// What the reader mended, so that nobody takes mended data for whole data.
+/// Repairs by the reader, reported so that nobody takes repaired data for intact data.
 enum class RepairKind : std::uint8_t {
-  kDuplicateStamp,    ///< Rows dropped because a later row has the same stamp (not of sightings).
-  kStepBack,          ///< Rows stamped before their predecessor; the stream was sorted, stably.
-  kSkippedRow,        ///< Rows with wrong columns, left out because the caller asked for it.
-  kSkippedNonFinite,  ///< Rows with NaN or infinity, left out because the caller asked for it.
-  kHeadingWrapped,    ///< Headings outside (-pi, pi], brought into it.
-  kCutLine,           ///< The log ended in the middle; the broken last line was left out.
-  kJunkStamp,         ///< Rows dropped because their stamp means nothing.
+  kDuplicateStamp,  ///< Rows dropped because a later row has the same stamp (not of sightings).
+  kStepBack,        ///< Rows with a stamp before that of their predecessor; the stream was sorted,
+                    ///< stably.
+  kSkippedRow,      ///< Rows with wrong columns, skipped because the caller requested it.
+  kSkippedNonFinite,  ///< Rows with NaN or infinity, skipped because the caller requested it.
+  kHeadingWrapped,    ///< Headings outside (-pi, pi], wrapped.
+  kCutLine,           ///< A truncated last line, left out.
+  kJunkStamp,         ///< Rows dropped because their stamp is invalid.
 };
 
-/// Which part of the window a gap lies in.
+/// The position of a gap in the window.
 enum class GapKind : std::uint8_t {
   kInside,     ///< Between two rows.
-  kLateStart,  ///< From the start of the window to the first row: there is no value to hold.
+  kLateStart,  ///< From the start of the window to the first row: no value to hold.
   kEarlyEnd,   ///< From the last row to the end of the window: the last value is held.
 };
 
@@ -34,28 +35,28 @@ enum class GapKind : std::uint8_t {
 struct Repair {
   RepairKind kind = RepairKind::kDuplicateStamp;
   std::int64_t count = 0;
-  /// Line of the first case in the unpacked text, from 1.
+  /// Line of the first occurrence in the unpacked text, from 1.
   int first_line = 0;
 };
 
-/// A stretch without rows that is longer than the stream's limit. Nanoseconds from the origin.
+/// An interval without rows that exceeds the stream's limit. Nanoseconds from the origin.
 struct Gap {
   GapKind kind = GapKind::kInside;
   std::int64_t start_ns = 0;
   std::int64_t length_ns = 0;
 };
 
-/// What one stream of a recording holds within the window that was asked for. Times count from the
-/// origin of the recording. Repairs are counted over the whole file, all else over the window.
+/// The content of one stream of a recording within the requested window. Times are from the origin
+/// of the recording. Repairs are counted in the whole file, everything else in the window.
 struct StreamReport {
-  /// File name without folder, and the SHA-256 (hexadecimal) of its bytes as they lie on disk.
+  /// File name without folder, and SHA-256 of the file in hexadecimal.
   std::string file;
   std::string sha256;
-  /// Whether the digest equals the one in `stretch.txt`; none if that lists no such file.
+  /// Whether the digest equals the one in `stretch.txt`; empty if that does not list the file.
   std::optional<bool> unchanged;
 
   std::int64_t rows = 0;
-  /// Different stamps among the rows (sightings share them).
+  /// Number of distinct stamps (sightings may share one).
   std::int64_t stamps = 0;
   std::optional<std::int64_t> first_ns;
   std::optional<std::int64_t> last_ns;
@@ -63,30 +64,30 @@ struct StreamReport {
   double mean_rate_hz = 0;
 
   std::int64_t gap_limit_ns = 0;
-  /// Longer than the limit, in order of time; length as recorded even where the window cuts it.
+  /// Gaps above the limit, in order of time, with their full lengths even if the window cuts them.
   std::vector<Gap> gaps;
-  /// The largest gap between two rows, whatever the limit, and where it starts.
+  /// The largest gap between two rows, also below the limit, and its start.
   std::int64_t largest_gap_ns = 0;
   std::int64_t largest_gap_start_ns = 0;
-  /// The oldest that the latest row gets at any moment of the window, its end included.
+  /// The largest age of the latest row within the window, its end included.
   std::int64_t largest_age_ns = 0;
 
   std::vector<Repair> repairs;
-  /// Rows of the window that are not played because a later row has the same stamp.
+  /// Rows of the window that are skipped because a later row has the same stamp.
   std::int64_t duplicates_in_window = 0;
 
-  /// Adds to the count of a kind of repair; the line of the first call is kept.
+  /// Adds to the count of a kind of repair; keeps the line of the first call.
   void add_repair(RepairKind repair, std::int64_t count, int line);
-  /// How often a kind of repair was made.
+  /// The count of a kind of repair.
   [[nodiscard]] std::int64_t repaired(RepairKind repair) const noexcept;
-  /// Rows of the window that are not played. Of rows without a usable stamp nobody knows whether
-  /// they belong to the window, so all of them count; those that a mapping program put into a log
-  /// (`junk_stamp`) only if there is nothing else.
+  /// Rows of the window that are not played. Rows without a usable stamp cannot be assigned to the
+  /// window, so all of them count; those added by a mapping program (`junk_stamp`) count only if
+  /// there are no others.
   [[nodiscard]] std::int64_t dropped() const noexcept;
 };
 
-/// Fills everything between `rows` and `largest_age_ns` from the stamps of a stream: all stamps
-/// known, ascending, also those outside of [start_ns, end_ns].
+/// Sets all members from `rows` to `largest_age_ns` from the stamps of a stream: all known stamps,
+/// ascending, including those outside of [start_ns, end_ns].
 void describe_timing(StreamReport& report, std::span<const std::int64_t> stamps_ns,
                      std::int64_t start_ns, std::int64_t end_ns);
 

@@ -11,7 +11,7 @@
 
 namespace rave::recording {
 
-/// All that a player will publish, in the order of the stamps, which differ from group to group.
+/// The samples of a player, grouped by stamp, in order.
 template <class Record>
 struct Timeline {
   struct Group {
@@ -22,9 +22,9 @@ struct Timeline {
   std::vector<Record> records;
   std::vector<Group> groups;
 
-  /// Begins the group of a stamp that is later than the last group's.
+  /// Begins the group of a stamp, which must be later than that of the last group.
   void begin(SimTime stamp) { groups.push_back({stamp, records.size(), 0}); }
-  /// Adds to the group begun last.
+  /// Adds a record to the last group.
   void add(const Record& record) {
     records.push_back(record);
     ++groups.back().count;
@@ -36,9 +36,9 @@ struct Timeline {
   }
 };
 
-/// The timeline of a state, of which the newest value holds, for a run that starts at `start_ns` of
-/// the recording and goes on to `end_ns`. Of the samples up to the start only the last is kept and
-/// stamped 0, so that there is a value from the first step on. `samples`: ascending in `t_ns`.
+/// The timeline of a state sensor, whose newest value holds, for a run from `start_ns` to `end_ns`
+/// of the recording. Of the samples up to the start only the last is kept, with stamp 0, so that
+/// there is a value from the first step on. `samples`: ascending in `t_ns`.
 template <class Record, class Sample, class Convert>
 [[nodiscard]] Timeline<Record> state_timeline(std::span<const Sample> samples,
                                               std::int64_t start_ns, std::int64_t end_ns,

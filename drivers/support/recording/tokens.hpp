@@ -10,19 +10,19 @@
 
 namespace rave::recording {
 
-/// A word of a line; views the line.
+/// A word of a line, as a view.
 struct Token {
   std::string_view text;
-  int column = 0;  ///< Of its first byte, from 1.
+  int column = 0;  ///< Column of its first byte, from 1.
 };
 
-/// The words of a line, apart by blanks, tabs and carriage returns.
+/// The words of a line, separated by blanks, tabs and carriage returns.
 [[nodiscard]] std::vector<Token> split(std::string_view line);
 
-/// A word shortened to 24 bytes and with unprintable ones replaced, for a message.
+/// A word for messages: at most 24 bytes, unprintable ones replaced.
 [[nodiscard]] std::string shown(std::string_view token);
 
-/// The number that the whole text is; none if it is anything else or out of the type's range.
+/// The number that the whole text represents; empty if it is not a number or out of range.
 template <class T>
 [[nodiscard]] std::optional<T> parse_number(std::string_view text) noexcept {
   T value{};

@@ -11,7 +11,7 @@
 namespace rave::recording {
 namespace {
 
-/// Owns zlib's state while one file is unpacked.
+/// Owns the zlib state for one file.
 class Inflater {
  public:
   Inflater() noexcept : ready_(inflateInit2(&stream_, 16 + MAX_WBITS) == Z_OK) {}
@@ -57,7 +57,7 @@ Result<UnpackedText> unpack_text(std::string_view bytes, const std::string& file
   Inflater inflater;
   if (!inflater.ready()) return failure(file, "zlib could not be started");
   z_stream& stream = inflater.stream();
-  std::string input(bytes);  // zlib's interface wants bytes that it could write to
+  std::string input(bytes);  // zlib's interface requires non-const input
   stream.next_in = reinterpret_cast<Bytef*>(input.data());
   stream.avail_in = static_cast<uInt>(input.size());
   UnpackedText result;

@@ -10,16 +10,16 @@
 
 namespace rave::recording {
 
-/// The text of a log file, and whether its gzip stream ended before its time.
+/// The text of a log file, and whether its gzip stream is truncated.
 struct UnpackedText {
   std::string text;
-  /// True if the gzip stream broke off; `text` is what came before.
+  /// True if the gzip stream is truncated; `text` is its valid part.
   bool cut = false;
 };
 
-/// Unpacks gzip (any number of members); bytes that do not start like gzip are taken as plain
-/// text. `file` is for messages only. Errors (kParse): damaged data, a checksum or length that
-/// does not match, bytes after the end of the stream, more than `max_bytes` of text.
+/// Unpacks gzip with any number of members; bytes without gzip's magic number are taken as plain
+/// text. `file` is used in messages. Errors (kParse): damaged data, a wrong checksum or length,
+/// bytes after the end of the stream, more than `max_bytes` of text.
 [[nodiscard]] Result<UnpackedText> unpack_text(std::string_view bytes, const std::string& file,
                                                std::size_t max_bytes);
 

@@ -11,7 +11,8 @@
 
 namespace rave::recording {
 
-/// What turns the rows of a log into samples. Nanoseconds; the window counts from the origin.
+/// The parameters for converting rows of a log to samples. Nanoseconds; the window is relative to
+/// the origin.
 struct StreamWindow {
   std::int64_t origin_ns = 0;  ///< Absolute.
   std::int64_t start_ns = 0;
@@ -19,21 +20,21 @@ struct StreamWindow {
   std::int64_t margin_ns = 0;
 };
 
-/// What is asked for of a recording, seconds from its origin, both ends included. Unset: all.
+/// The requested part of a recording, seconds from its origin, both ends included. Unset: all.
 struct WindowWish {
   std::optional<double> start_s;
   std::optional<double> end_s;
-  /// How much more is kept at both ends, seconds in [0, 1000].
+  /// Margin that is also kept at both ends, seconds in [0, 1000].
   double margin_s = 1.0;
 };
 
-/// kInvalidArgument, with the name, unless least <= value <= most.
+/// Error kInvalidArgument, with the name, unless least <= value <= most.
 [[nodiscard]] Status check_seconds(std::string_view name, double value, double least, double most);
 
-/// The window within the stretch, or, without one, within what lies between the first and the last
-/// absolute stamp, the first of which then is the origin. `path` is for messages.
-/// Errors: kInvalidArgument (values out of range; an empty window, or one that is not within what
-/// is there), kParse (neither stretch nor rows: first_ns > last_ns).
+/// The window within the stretch. Without a stretch it is within the first and last absolute stamp,
+/// and the first is the origin. `path` is used in messages. Errors: kInvalidArgument (values out of
+/// range; a window that is empty or exceeds the data), kParse (neither stretch nor rows: first_ns >
+/// last_ns).
 [[nodiscard]] Result<StreamWindow> choose_window(const std::optional<Stretch>& stretch,
                                                  std::int64_t first_ns, std::int64_t last_ns,
                                                  const WindowWish& wish, const std::string& path);

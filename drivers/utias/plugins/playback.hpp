@@ -14,7 +14,7 @@
 
 namespace rave::utias {
 
-/// The parameters that all three players have.
+/// The parameters common to the three players.
 inline constexpr auto kPlaybackParams = recording::join_params(
     std::array<ParamSpec, 2>{
         required(
@@ -23,26 +23,26 @@ inline constexpr auto kPlaybackParams = recording::join_params(
     },
     recording::kPlayParams);
 
-/// One stream of one robot, read and ready to be played. A plain value.
+/// One stream of one robot, ready to be played. A plain value.
 struct Playback {
-  /// As the parameter gives it.
+  /// As in the parameter.
   std::string folder;
   double clock_offset_s = 0;
   bool live = false;
   StreamKind kind = StreamKind::kPoses;
-  /// Holds the one robot, and of it the one stream. Its stamps include the offset of the clock.
+  /// Contains this robot and this stream only. Stamps include the clock offset.
   Dataset data;
 
   [[nodiscard]] const RobotLog& robot() const noexcept { return data.robots.front(); }
   [[nodiscard]] const StreamReport& report() const noexcept;
-  /// The run starts where the window does.
+  /// Time 0 of the run is the start of the window.
   [[nodiscard]] SimTime run_time(std::int64_t t_ns) const noexcept {
     return {t_ns - data.start_ns};
   }
 };
 
-/// Reads what the parameters of a player ask for, the log of `kind` and no other.
-/// `code_meaning` matters for sightings only. Errors: those of load().
+/// Loads the log of `kind` that the parameters of a player name. `code_meaning` applies to
+/// sightings only. Errors: those of load().
 [[nodiscard]] Result<Playback> load_playback(const HardwareSetup& setup, StreamKind kind,
                                              CodeMeaning code_meaning);
 

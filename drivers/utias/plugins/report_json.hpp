@@ -7,8 +7,8 @@
 
 namespace rave::utias {
 
-/// The report of a stream as one JSON object, described in README.md of this driver. All times are
-/// seconds from the origin of the data set, the offset of the clock included.
+/// The report of a stream as one JSON object; the README.md of this driver describes it. All times
+/// are seconds from the origin of the data set, clock offset included.
 [[nodiscard]] std::string report_json(const Playback& playback);
 
 }  // namespace rave::utias

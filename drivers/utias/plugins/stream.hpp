@@ -9,9 +9,9 @@
 
 namespace rave::utias {
 
-/// A stream of one recorded robot for recording::Player. `Kind` says what is special: types and
+/// A stream of one recorded robot for recording::Player. `Kind` defines the specifics: types and
 /// constants `Record`, `kReading`, `kKind`, `kCapacity`, `kCollect`; `code_meaning(params)`; and
-/// `timeline(params, playback)`, a Timeline<Record>.
+/// `timeline(params, playback)`, which returns a Timeline<Record>.
 template <class Kind>
 struct Stream : Kind {
   using Record = typename Kind::Record;

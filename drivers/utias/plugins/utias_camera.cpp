@@ -15,15 +15,15 @@ constexpr auto kParams = recording::join_params(
                                       "known mistake, for checks that must detect it."),
                      });
 
-/// What the camera is said to have read on a landmark. A number that is no subject must not turn
-/// into somebody's barcode by chance: it becomes a negative one, which nobody carries.
+/// The code that the camera reports. With the wrong meaning, a number that is not a subject becomes
+/// negative, so that it cannot match a barcode by chance.
 int code_read(int number, CodeMeaning meaning, const Subjects& subjects) {
   if (meaning == CodeMeaning::kBarcode) return number;
   const int code = subjects.code_of_subject(number);
   return code >= 0 ? code : -1 - number;
 }
 
-/// The barcodes that the robot's camera saw, all of one image in one sample.
+/// The barcodes that the robot's camera saw; those of one image in one sample.
 struct Camera {
   using Record = rave::Sighting;
   static constexpr ReadingKind kReading = ReadingKind::kSightings;

@@ -7,7 +7,7 @@
 namespace rave::utias {
 namespace {
 
-/// The commanded velocities, which the recording calls odometry.
+/// The commanded velocities, which the data set calls odometry.
 struct Commands {
   using Record = VelocityReading;
   static constexpr ReadingKind kReading = ReadingKind::kVelocity;

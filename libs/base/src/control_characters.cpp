@@ -8,7 +8,7 @@ constexpr bool is_control(unsigned code) noexcept {
   return code < 0x20 || (code >= 0x7f && code < 0xa0);
 }
 
-/// How many bytes follow a first one; 0: it is none.
+/// The number of continuation bytes after a lead byte; 0: not a lead byte.
 constexpr std::size_t followers(unsigned first) noexcept {
   if (first >= 0xc0 && first < 0xe0) return 1;
   if (first >= 0xe0 && first < 0xf0) return 2;

@@ -18,7 +18,7 @@ constinit thread_local const CrashNote* crash_note = nullptr;
 
 namespace {
 
-/// A line that is put together without memory of the heap, which may be what broke.
+/// Builds a line without heap memory, which may be corrupt after a crash.
 class Line {
  public:
   Line& operator<<(const char* text) noexcept {
@@ -72,14 +72,14 @@ void on_crash(int signal) {
     line << "\n";
     line.write();
   }
-  // SA_RESETHAND has put back what the signal does by itself.
+  // SA_RESETHAND has restored the default action.
   std::raise(signal);
 }
 
 }  // namespace
 
 void install_crash_note() noexcept {
-  // Also for a stack that has run over, at least in the first thread.
+  // The alternative stack also serves stack overflows, at least in the first thread.
   alignas(16) static char stack[64 * 1024];
   stack_t alternative{};
   alternative.ss_sp = stack;

@@ -37,7 +37,7 @@ tl::unexpected<Error> system_failure(const std::filesystem::path& path, std::str
 }  // namespace
 
 Result<int> open_regular_file(const std::filesystem::path& path) {
-  // With O_NONBLOCK a pipe opens at once; reading a regular file is the same with it.
+  // O_NONBLOCK opens a pipe without waiting; it does not affect regular files.
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (fd < 0) return system_failure(path, "open");
   struct stat info {};

@@ -10,7 +10,7 @@ namespace rave {
 
 std::uint64_t content_hash(std::span<const std::byte> bytes) noexcept {
 #if RAVE_HASH_AVX2
-  // Shorter input is not hashed by vectors; the value is the same whichever way.
+  // Shorter inputs use no vector instructions; the hash is the same either way.
   constexpr std::size_t kVectorsFrom = 241;
   static const bool kHasAvx2 = __builtin_cpu_supports("avx2") != 0;
   if (bytes.size() >= kVectorsFrom && kHasAvx2) {

@@ -6,8 +6,8 @@
 
 namespace rave {
 
-/// content_hash() by wider vectors, for processors that have AVX2. The same value. It takes no
-/// class: a function of one that is compiled with it would be called by others too.
+/// content_hash() with AVX2 instructions; the same value. It uses no class: inline functions
+/// compiled for AVX2 in this file could be linked into callers without AVX2.
 [[nodiscard]] std::uint64_t content_hash_avx2(const void* bytes, std::size_t count) noexcept;
 
 }  // namespace rave

@@ -8,7 +8,7 @@
 namespace rave {
 
 int edit_distance(std::string_view a, std::string_view b) {
-  // Three rows of the dynamic program are enough: the swap looks two rows back.
+  // Three rows of the dynamic programming table suffice: a swap looks two rows back.
   std::vector<int> before(b.size() + 1);
   std::vector<int> last(b.size() + 1);
   std::vector<int> row(b.size() + 1);
@@ -33,7 +33,8 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
   int best_score = static_cast<int>(std::max<std::size_t>(2, name.size() / 3)) + 1;
   for (const std::string_view candidate : candidates) {
     int score = edit_distance(name, candidate);
-    // `range` for `range_m`: a name without its unit is one slip, whatever the unit's length.
+    // A name without its unit, `range` for `range_m`, counts as one edit, whatever the unit's
+    // length.
     if (!name.empty() && candidate.size() > name.size() && candidate.starts_with(name) &&
         candidate[name.size()] == '_') {
       score = std::min(score, 1);

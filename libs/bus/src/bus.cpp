@@ -14,9 +14,9 @@
 namespace rave::bus {
 namespace {
 
-/// The numbers that domains of buses beside others have within this process, which say nothing of
-/// ports: these and up, where no other bus can have its own. DDS Security asks for permission under
-/// that number, which is given for 0 to 230: with it the highest one that is free is taken.
+/// Domain numbers within this process for buses with `beside`; they do not affect ports. They start
+/// above the range of other buses. DDS Security checks permissions with this number, which are
+/// granted for 0 to 230, so with security the highest free number in that range is used.
 constexpr std::uint32_t kFirstBeside = 5000;
 constexpr std::uint32_t kMostBeside = 200;
 constexpr std::uint32_t kHighestSecured = 230;
@@ -41,7 +41,7 @@ Qos partitions_of(const RunId& run, Side side) {
   return qos;
 }
 
-/// Who is at the other end of `entity` now.
+/// The entities that currently match `entity`.
 std::vector<dds_instance_handle_t> matched(dds_entity_t entity, bool reads) {
   const auto list = reads ? dds_get_matched_publications : dds_get_matched_subscriptions;
   std::vector<dds_instance_handle_t> handles(16);
@@ -55,14 +55,14 @@ std::vector<dds_instance_handle_t> matched(dds_entity_t entity, bool reads) {
   }
 }
 
-/// The process of the reader or writer at the other end, as that says it itself.
+/// The writer id that the matched reader or writer announces.
 std::uint64_t writer_of(dds_entity_t entity, bool reads, dds_instance_handle_t handle,
                         const RunId& run, const Participants& participants) {
   const auto data_of = reads ? dds_get_matched_publication_data : dds_get_matched_subscription_data;
   dds_builtintopic_endpoint_t* const data = data_of(entity, handle);
   if (data == nullptr) return 0;
   const Identity who = read_identity(data->qos);
-  // Its ends are here for a little longer than a process that has been told to be lost.
+  // Endpoints remain visible for a moment after their participant is lost.
   const bool lost = participants.gone(data->participant_key);
   dds_builtintopic_free_endpoint(data);
   return who.run == run && !lost ? who.writer : 0;
@@ -77,7 +77,7 @@ dds_guid_t participant_of(dds_entity_t entity, bool reads, dds_instance_handle_t
   return guid;
 }
 
-/// Whether there is a domain in this process, whose owner catches the log of Cyclone DDS.
+/// Whether this process has a domain; its owner receives the log of Cyclone DDS.
 bool has_domains() { return dds_get_children(DDS_CYCLONEDDS_HANDLE, nullptr, 0) > 0; }
 
 }  // namespace
@@ -108,13 +108,13 @@ Status Bus::open_domain() {
   return {};
 }
 
-/// In the first place that no other hub of this machine has.
+/// Uses the first reserved port that no other hub of this machine has.
 Status Bus::open_hub() {
   for (int hub = 0; hub < BusConfig::kMostHubs; ++hub) {
     domain_ = dds_create_domain(number_, cyclone_xml(config_, hub).c_str());
     if (domain_ == DDS_RETCODE_PRECONDITION_NOT_MET) break;
     if (domain_ < 0) continue;
-    // That a place was taken concerns nobody.
+    // Drop the log lines about ports in use.
     if (log_) static_cast<void>(log_->take());
     return {};
   }
@@ -123,10 +123,11 @@ Status Bus::open_hub() {
 
 Status Bus::open_participant() {
   const Qos qos(dds_create_qos());
-  // Nobody can encrypt what a participant says of itself; members are told by a writer.
+  // Announcements of participants are never encrypted; members announce themselves through a writer
+  // instead.
   const bool secured = !config_.security.empty();
   if (secured) {
-    // Cyclone DDS tells these of every process, unless they are something else already.
+    // Cyclone DDS announces these properties of every process unless they are set.
     for (const char* const name : {"__ProcessName", "__Pid", "__Hostname"}) {
       dds_qset_prop(qos.get(), name, "");
     }
@@ -145,7 +146,7 @@ Status Bus::open_participant() {
       {publisher_, subscriber_, std::ranges::min(participants_->readers()), dds_entity_t{0}});
   if (worst < 0) return refused(worst);
   if (secured && !config_.anonymous) RAVE_TRY(introduce());
-  // What certificates are to protect must not go beside them.
+  // The local transport is not encrypted, so it must not be used with certificates.
   if (config_.short_way && !config_.anonymous && !secured) {
     if (auto socket = ShortSocket::open({config_.run, writer_, 0})) {
       short_way_ = std::make_unique<ShortSocket>(*std::move(socket));
@@ -178,7 +179,7 @@ tl::unexpected<Error> Bus::refused(dds_return_t code) {
 }
 
 Bus::~Bus() {
-  // Deleting a domain deletes all that is in it.
+  // Deletes everything in the domain too.
   if (domain_ > 0) dds_delete(domain_);
 }
 
@@ -199,13 +200,14 @@ Result<dds_entity_t> Bus::add_endpoint(const TopicSpec& topic, bool reads) {
   endpoint.reads = reads;
   endpoint.topic = topic.name;
   open_short_way(endpoint, topic);
-  // A reader without a socket does not say whose it is: its address could be somebody else's.
+  // A reader without a socket does not announce its process: the address could belong to another
+  // reader.
   if (topic.short_way != 0 && !config_.anonymous && (!reads || endpoint.receiver)) {
     write_identity({config_.participant, config_.run, writer_}, qos.get());
   }
   const dds_entity_t entity = reads ? dds_create_reader(subscriber_, handle, qos.get(), nullptr)
                                     : dds_create_writer(publisher_, handle, qos.get(), nullptr);
-  // The endpoint keeps the topic alive.
+  // The endpoint keeps a reference to the topic.
   dds_delete(handle);
   if (entity < 0) {
     return fail(ErrorCode::kIo, "cannot {} {}: {}", reads ? "read" : "write", topic.name,
@@ -223,7 +225,8 @@ void Bus::open_short_way(Endpoint& endpoint, const TopicSpec& topic) {
     endpoint.sender = std::make_unique<ShortSender>(topic, config_.run, short_way_->descriptor());
     return;
   }
-  // A second reader of the topic gets none; writers see that there are two and send by DDS.
+  // A second reader of the topic in this process gets no socket; writers see two readers and use
+  // DDS.
   if (auto socket = ShortSocket::open({config_.run, writer_, topic.short_way})) {
     endpoint.receiver = std::make_unique<ShortReceiver>(topic, config_.run, *std::move(socket));
   }
@@ -279,7 +282,7 @@ bool Bus::speaks_for(dds_entity_t reader, dds_instance_handle_t from, std::uint6
   if (peer != end->heard.end()) return participants_->speaks_for(peer->participant, writer);
   const dds_guid_t participant = participant_of(reader, true, from);
   if (std::ranges::count(participant.v, 0) == std::ssize(participant.v)) {
-    // It has gone. The last words of the process itself count, unless it was heard otherwise.
+    // The writer has left. Accept its last samples unless the id belongs to another known writer.
     return std::ranges::none_of(end->heard, [&](const Endpoint::Peer& known) {
       return participants_->speaks_for(known.participant, writer);
     });
@@ -313,7 +316,7 @@ void Bus::collect_matches(Endpoint& endpoint) {
     if (std::ranges::find(endpoint.peers, handle, &Endpoint::Peer::handle) != endpoint.peers.end())
       continue;
     endpoint.peers.push_back({handle, participant_of(endpoint.entity, endpoint.reads, handle)});
-    // It may have come after the participants were read.
+    // It may have appeared after the participants were read.
     participants_->collect(events_);
     add(endpoint.peers.back(), true);
   }
@@ -326,7 +329,7 @@ void Bus::collect_incompatible(const Endpoint& endpoint) {
 }
 
 void Bus::note_foreign(const std::string& topic) {
-  // Once in a thousand: whoever sends in the wrong partition sends at a rate.
+  // One event per thousand: a sender in the wrong partition sends continuously.
   ++foreign_samples_;
   if (foreign_told_++ % kMaxEvents == 0) {
     events_.push_back({EventKind::kForeignRun, topic, "", 0,

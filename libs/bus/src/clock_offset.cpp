@@ -6,8 +6,8 @@
 namespace rave::bus {
 
 Result<ClockReading> read_clock(const ClockExchange& exchange) {
-  // Clocks of different machines may be any number apart, so only differences are formed within
-  // one.
+  // Clocks of different machines differ arbitrarily, so differences are formed within one clock
+  // only.
   const std::int64_t away = exchange.heard_ns - exchange.asked_ns;
   const std::int64_t held = exchange.answered_ns - exchange.received_ns;
   if (away < 0 || held < 0 || held > away) {
@@ -15,7 +15,7 @@ Result<ClockReading> read_clock(const ClockExchange& exchange) {
                 "impossible clock exchange of {} ns, of which {} ns at the other end", away, held);
   }
   const std::int64_t on_the_way = away - held;
-  // Odd sums are cut by half a nanosecond; the bound is rounded up to cover it.
+  // Halving an odd sum truncates half a nanosecond; rounding the bound up covers it.
   const std::int64_t there = exchange.received_ns - exchange.asked_ns;
   return ClockReading{{there - on_the_way / 2}, {on_the_way / 2 + 1}};
 }
@@ -24,7 +24,7 @@ Status ClockOffset::add(const ClockExchange& exchange) {
   RAVE_TRY_ASSIGN(const ClockReading reading, read_clock(exchange));
   entries_.push_back({exchange.heard_ns, reading});
   while (entries_.front().heard_ns < exchange.heard_ns - options_.window.ns) entries_.pop_front();
-  // One that is newer and no worse stays better for as long as both are in the window.
+  // A newer exchange with no larger bound stays better as long as both are in the window.
   while (entries_.size() > 1) {
     const Entry& older = entries_[entries_.size() - 2];
     if (bound_at(older, exchange.heard_ns) < reading.bound) break;

@@ -31,7 +31,7 @@ std::string escape(std::string_view text) {
   return escaped;
 }
 
-/// Control characters have no business in names, and `$` starts the name of a variable there.
+/// Names must not contain control characters; `$` would begin a variable in the XML.
 bool plain(std::string_view text) {
   return !has_control_characters(text) && text.find('$') == std::string_view::npos;
 }
@@ -57,22 +57,22 @@ std::string general(const BusConfig& config) {
   const char* const multicast = config.multicast == Multicast::kOff         ? "false"
                                 : config.multicast == Multicast::kDiscovery ? "spdp"
                                                                             : "true";
-  // Loopback can do multicast, although Linux does not say so of it.
+  // The loopback interface supports multicast although Linux does not report it.
   const bool unsaid = config.loopback() && config.multicast != Multicast::kOff;
   const char* const assume = unsaid ? " multicast=\"true\"" : "";
   std::string xml = fmt::format(
       "<General><Interfaces><NetworkInterface {}=\"{}\"{}/></Interfaces>"
       "<AllowMulticast>{}</AllowMulticast>",
       kind, escape(config.interface), assume, multicast);
-  // Nothing gets lost on loopback but by full buffers, and a packet there may have 64 KB; elsewhere
-  // a fragment must fit into a frame, or the loss of one frame costs 40 others.
+  // Loopback loses packets only through full buffers and permits packets of 64 KB. Elsewhere a
+  // fragment must fit into an Ethernet frame, or the loss of one frame would cost 40 others.
   if (config.loopback()) {
     xml += "<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>63000B</FragmentSize>";
   }
   return xml + "</General>";
 }
 
-/// The places of peers where those are whom a process with this reach looks for. Empty: at any.
+/// The participant indices of the processes that a process with this reach looks for. Empty: any.
 std::vector<int> places(const BusConfig& config) {
   if (config.multicast != Multicast::kOff || config.reach == Reach::kAll) return {};
   std::vector<int> places;
@@ -82,7 +82,7 @@ std::vector<int> places(const BusConfig& config) {
   return places;
 }
 
-/// The UDP port at which the process in a place hears of others (RTPS 2.2, 9.6.1.1).
+/// The discovery port of the process with a participant index (RTPS 2.2, 9.6.1.1).
 int port_of(const BusConfig& config, int place) {
   return 7400 + 250 * static_cast<int>(config.domain) + 10 + 2 * place;
 }
@@ -92,14 +92,14 @@ std::string discovery(const BusConfig& config, int hub) {
   if (peers.empty() && config.loopback()) peers = {config.interface};
   const std::vector<int> where = places(config);
   const bool is_hub = config.reach == Reach::kHub && !where.empty();
-  // With `none` as index and without multicast every process sees itself alone and says nothing.
+  // With index `none` and without multicast, a process would only ever discover itself.
   std::string xml = fmt::format(
       "<Discovery><ParticipantIndex>{}</ParticipantIndex>"
       "<MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex>"
       "<LeaseDuration>{}ms</LeaseDuration>",
       is_hub ? std::to_string(BusConfig::kMostPlain + hub) : "auto", config.max_processes - 1,
       config.lease.ns / 1'000'000);
-  // The number that its domain has within this process is another one then.
+  // The domain has another number within this process then.
   if (config.beside) xml += fmt::format("<ExternalDomainId>{}</ExternalDomainId>", config.domain);
   if (!config.tag.empty()) xml += fmt::format("<Tag>{}</Tag>", escape(config.tag));
   if (!peers.empty()) {
@@ -115,18 +115,17 @@ std::string discovery(const BusConfig& config, int hub) {
   return xml + "</Discovery>";
 }
 
-/// A world of 10 000 robots is half a megabyte: the usual limits would stop a writer after one, and
-/// a sample of many megabytes is no message of ours. The limit stays what it is: Cyclone DDS would
-/// lower it to almost nothing where messages get lost, and writers that do not wait would drop
-/// what has room. Where many processes join at once, each is
-/// asked by all others again and again what it has got; ten times a second is more than fifty of
-/// them can answer before they are taken for dead. Longer breaks would delay two that just miss
-/// each other. One thread receives at all sockets: it is ended through a descriptor. Threads with a
-/// socket each are ended by a packet that the process sends to itself, which never arrives if its
-/// address has gone or a packet filter drops it; then the end of the domain waits for ever.
-/// Packets are received into buffers that fill slowly, one byte behind the other, and are replaced
-/// when full. Of the usual size, 1 MiB, a quiet process touches new pages for more than an hour,
-/// which cannot be told from a leak.
+/// A world of 10 000 robots has half a megabyte: the default limits would stop a writer after one,
+/// and a sample of many megabytes is invalid. The limit is fixed, because Cyclone DDS would lower
+/// it to almost nothing after losses, and writers that do not block would drop samples for which
+/// there is room. When many processes join at once, each is asked repeatedly by all others for
+/// acknowledgements; at ten times a second, more than fifty of them could not answer before they
+/// count as lost. Longer intervals would delay two processes that just miss each other. One thread
+/// receives at all sockets and is ended through a descriptor. Threads with one socket each would be
+/// ended by a packet that the process sends to itself; if its address is gone or a packet filter
+/// drops it, closing the domain would block forever. Receive buffers fill slowly and are replaced
+/// when full. With the default size of 1 MiB, an idle process touches new pages for more than an
+/// hour, which looks like a leak.
 std::string internals() {
   return "<Internal><SocketReceiveBufferSize max=\"8MiB\"/>"
          "<HeartbeatInterval>200ms</HeartbeatInterval>"

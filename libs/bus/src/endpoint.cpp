@@ -8,7 +8,7 @@
 namespace rave::bus {
 
 void take(dds_entity_t reader, Loan& loan) {
-  // Null pointers ask Cyclone for memory of its own.
+  // Null pointers make Cyclone DDS lend its own memory.
   loan.samples.fill(nullptr);
   const dds_return_t count = dds_take(reader, loan.samples.data(), loan.infos.data(), Loan::kBatch,
                                       std::uint32_t{Loan::kBatch});

@@ -12,10 +12,11 @@ namespace rave::bus {
 namespace {
 
 constexpr std::chrono::seconds kPerLine{1};
-/// Who makes up processes does not fill the memory either.
+/// Bounds the memory if a sender invents writer ids.
 constexpr std::size_t kMostWriters = 1000;
 
-/// Of one character as character_at() takes it: whether it is no UTF-8 (RFC 3629, section 4).
+/// Whether the bytes of one character (see character_at()) are not valid UTF-8 (RFC 3629, section
+/// 4).
 bool broken(std::string_view bytes) {
   const auto byte = [bytes](std::size_t at) { return static_cast<unsigned char>(bytes[at]); };
   const unsigned first = byte(0);
@@ -26,7 +27,7 @@ bool broken(std::string_view bytes) {
          (first == 0xf4 && second > 0x8f);
 }
 
-/// As it can be shown anywhere: `?` for what is no UTF-8 and for control characters.
+/// The text with `?` for invalid UTF-8 and control characters.
 std::string printable(std::string_view text) {
   std::string result;
   for (std::size_t at = 0; at < text.size();) {

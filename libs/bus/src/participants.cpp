@@ -13,11 +13,11 @@
 namespace rave::bus {
 namespace {
 
-/// The user data of our participants: this word, the run and the writer, in hexadecimal digits.
+/// The user data of RAVE participants: this word, the run and the writer id in hexadecimal.
 constexpr std::string_view kIdentityMark = "rave1 ";
 constexpr std::size_t kRunDigits = 32;
 constexpr std::size_t kWriterDigits = 16;
-/// More names of processes that have gone are not kept.
+/// Limit of remembered names of lost processes.
 constexpr std::size_t kMostGone = 1000;
 
 std::array<std::uint8_t, 16> key_of(const dds_guid_t& guid) { return std::to_array(guid.v); }
@@ -26,7 +26,7 @@ struct DdsFree {
   void operator()(void* memory) const noexcept { dds_free(memory); }
 };
 
-/// Calls visit(const Sample&, const dds_sample_info_t&) for all that a built-in topic has.
+/// Calls visit(const Sample&, const dds_sample_info_t&) for all new samples of a built-in topic.
 template <class Sample, class Visit>
 void take_all(dds_entity_t reader, Visit&& visit) {
   constexpr std::size_t kBatch = 32;
@@ -57,7 +57,7 @@ Identity read_identity(const dds_qos_t* qos) {
   char* name = nullptr;
   if (dds_qget_entity_name(qos, &name) && name != nullptr) {
     const std::unique_ptr<char, DdsFree> owner(name);
-    // It is shown to people, and comes from anybody.
+    // Names come from the network and are shown to people.
     identity.name = without_control_characters(std::string_view(name).substr(0, 256), "?");
   }
   void* data = nullptr;
@@ -81,8 +81,9 @@ Participants::Participants(dds_entity_t participant, const RunId& run, Duration 
     : run_(run),
       secured_(secured),
       lease_(lease),
-      // A process is heard of each 0.8 leases at least, so a fifth without us may lose it. Those
-      // that have lost us as well must be found again.
+      // Every process sends at least each 0.8 leases, so after a standstill of a fifth of a lease
+      // others may count as lost. They, and processes that lost this one, need time to be
+      // discovered again.
       standstill_({lease.ns / 5}, lease * 3) {
   readers_.push_back(
       dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr));
@@ -108,12 +109,12 @@ std::map<Participants::Guid, Identity> Participants::take_writers() const {
 }
 
 void Participants::collect(std::vector<BusEvent>& events) {
-  // A participant is told before its writers: of whom a writer has come it is there.
+  // A participant is announced before its writers, so the participant of a known writer is known.
   const std::map<Guid, Identity> said = take_writers();
   take_all<dds_builtintopic_participant_t>(
       readers_.front(),
       [this, &events](const dds_builtintopic_participant_t& sample, const auto& info) {
-        // Who came and went since the last time has one sample that says both.
+        // A participant that appeared and left since the last call has one sample for both.
         if (info.valid_data) appear(sample, events);
         if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) disappear(sample.key);
       });
@@ -125,12 +126,12 @@ void Participants::collect(std::vector<BusEvent>& events) {
   judge(events);
 }
 
-/// Tells who is gone, unless it is this process that was.
+/// Reports lost participants, unless this process stood still.
 void Participants::judge(std::vector<BusEvent>& events) {
-  // Not before: whoever is missed because of a standstill has been read after it.
+  // Checked after reading, because participants lost through a standstill are read after it.
   standstill_.look();
   if (Standstill::Clock::now() < standstill_.silence_counts_from()) {
-    // Others may have missed this process though it has heard them again at once.
+    // Others may have lost this process even if it has received from them again.
     const bool long_enough = 2 * standstill_.stood().ns > lease_.ns;
     if ((missed_.empty() && !long_enough) || std::exchange(told_, true)) return;
     events.push_back({EventKind::kStoodStill, "", "", 0,
@@ -159,13 +160,13 @@ void Participants::learn(const Guid& key, const Identity& who, std::vector<BusEv
     std::ranges::copy(key, guid.v);
     owners_.try_emplace(who.writer, guid);
   }
-  // It is back before anybody was told that it had gone.
+  // It was found again before its loss was reported.
   if (missed_.erase(key) > 0) return;
   if (!foreign(who)) {
     events.push_back({EventKind::kParticipantAppeared, "", who.name, who.writer, ""});
     return;
   }
-  // A run may have many processes, of which each process of this one would be told.
+  // One event per foreign run, which may have many processes.
   if (foreign_told_.size() >= kMostGone || !foreign_told_.insert(who.run.text()).second) return;
   events.push_back({EventKind::kForeignRun, "", who.name, who.writer,
                     "a process of run " + who.run.text() + " is in this domain"});
@@ -179,7 +180,7 @@ void Participants::disappear(const dds_guid_t& guid) {
   const auto owner = owners_.find(writer);
   if (owner != owners_.end() && key_of(owner->second) == node.key()) {
     owners_.erase(owner);
-    // Another one may have said the same too early.
+    // Another participant may have claimed the same id before.
     for (const auto& [key, who] : known_) {
       if (who.writer != writer || who.run != run_) continue;
       std::ranges::copy(key, owners_[writer].v);

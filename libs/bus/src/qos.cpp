@@ -4,8 +4,8 @@
 namespace rave::bus {
 namespace {
 
-/// Objects or writers of one topic: twice the robots that a world can have. Someone who makes up
-/// new ones for ever gets no further.
+/// Limit of instances or writers of one topic: twice the largest number of robots. It bounds the
+/// memory if a sender invents new ones.
 constexpr std::int32_t kMostInstances = 2 * 65536;
 
 }  // namespace
@@ -23,14 +23,13 @@ Qos make_qos(const QosProfile& profile) {
   dds_qset_resource_limits(qos.get(), most, kMostInstances, DDS_LENGTH_UNLIMITED);
   if (profile.durable) {
     dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
-    // What a late reader is given follows this policy and not the history.
+    // This policy, not the history, determines the samples for late readers.
     dds_qset_durability_service(qos.get(), 0, history, depth, most, DDS_LENGTH_UNLIMITED,
                                 DDS_LENGTH_UNLIMITED);
   }
-  // A process that ends takes back neither its robots nor the obstacles it has placed; who wants
-  // that says so with dispose().
+  // The end of a process does not remove its robots or obstacles; dispose() does.
   dds_qset_writer_data_lifecycle(qos.get(), false);
-  // A process knows what it has sent itself.
+  // A process does not receive its own samples.
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   const dds_data_representation_id_t representation = DDS_DATA_REPRESENTATION_XCDR1;
   dds_qset_data_representation(qos.get(), 1, &representation);

@@ -35,7 +35,7 @@ const void* ReaderCore::take_short(std::size_t& budget) {
     auto datagram = short_->receive();
     if (!datagram) return nullptr;
     if (datagram->writer == 0 && short_->may_meet()) {
-      // It may have come since the others were looked at.
+      // The writer may have matched after the last check.
       bus_->meet(*bus_->endpoint(reader_));
       datagram->writer = short_->sender();
     }
@@ -54,7 +54,7 @@ const void* ReaderCore::take_short(std::size_t& budget) {
 }
 
 bool ReaderCore::is_of(std::uint64_t writer, const dds_sample_info_t& info) {
-  // Only what came by the short way has none.
+  // Only samples of the local transport have no handle.
   const bool known = info.publication_handle == 0
                          ? writer == sender_
                          : bus_->speaks_for(reader_, info.publication_handle, writer);

@@ -20,11 +20,11 @@
 namespace rave::bus {
 namespace {
 
-/// About twice what it takes to wake a process that sleeps.
+/// About twice the time to wake a sleeping process.
 constexpr Duration kAwake{20'000};
-/// Who gave way for so long did so to somebody who does not wait for messages.
+/// If yielding took this long, the processor is used by a process that does not wait for messages.
 constexpr std::chrono::milliseconds kLongAway{1};
-/// How long nobody looks after that: twice as long if it happens again soon.
+/// Time without spinning after that; doubles if it happens again soon.
 constexpr std::chrono::milliseconds kCrowded{20};
 constexpr std::chrono::milliseconds kMostCrowded{1000};
 
@@ -52,7 +52,8 @@ void Relay::run() noexcept {
     if (over_) return;
     std::array<dds_attach_t, 1> woken{};
     static_cast<void>(dds_waitset_wait(set_, woken.data(), woken.size(), DDS_INFINITY));
-    // It waits to be asked again: what is in the set stays there until somebody takes it.
+    // The thread waits for the next request: the condition in the set persists until a sample is
+    // taken.
     answered_ = true;
     static_cast<void>(::eventfd_write(event_, 1));
   }
@@ -80,9 +81,9 @@ void Relay::note_answer() {
   tell_of_dds();
 }
 
-/// An answer is often under way, and to sleep and to be woken takes longer than it. Whoever has
-/// work to do on this processor goes first; if that is much, a sleeper is woken sooner than one who
-/// gave way gets his turn, and sleeps.
+/// An answer often arrives sooner than it takes to sleep and wake up, so spin first. Yield to other
+/// work on this processor; if there is much of it, sleep instead, because sleepers are scheduled
+/// before threads that yield.
 bool Relay::look(Duration most) {
   auto now = std::chrono::steady_clock::now();
   const auto end = now + std::chrono::nanoseconds(std::min(most.ns, kAwake.ns));
@@ -104,7 +105,7 @@ Relay::Came Relay::wait(Duration timeout) {
   Duration left{std::max<std::int64_t>(0, timeout.ns)};
   const auto end = std::chrono::steady_clock::now() + std::chrono::nanoseconds(left.ns);
   for (;; left = left_until(end)) {
-    // As long as the thread has not answered, there has been nothing.
+    // Without an answer of the thread there was nothing.
     if (!asked_) {
       if (ready()) return Came::kSet;
       asked_ = true;
@@ -117,7 +118,7 @@ Relay::Came Relay::wait(Duration timeout) {
     const int count =
         ::ppoll(polled_.data(), polled_.size(), timeout.ns < 0 ? nullptr : &most, nullptr);
     if (count < 0 && errno == EINTR) continue;
-    // The thread may be about to say it.
+    // The thread may be about to answer.
     if (count <= 0) return ready() ? Came::kSet : Came::kNothing;
     eventfd_t times = 0;
     if (polled_.front().revents != 0) static_cast<void>(::eventfd_read(event_, &times));

@@ -19,10 +19,9 @@ namespace rave::bus {
 
 class ShortReceiver;
 
-/// Waits for sockets and a wait set of DDS at once: poll() knows nothing of DDS, so a thread waits
-/// there and says through a flag and an event descriptor that it is time to look. What comes by a
-/// socket does not pass that thread. Owner: a WaitSet, which deletes the entities afterwards;
-/// thread: its own.
+/// Waits for sockets and a DDS wait set at once. poll() cannot wait for DDS, so a thread does and
+/// signals through a flag and an event descriptor. Datagrams do not pass that thread. Owner: a
+/// WaitSet, which deletes the entities afterwards. Thread: its own.
 class Relay {
  public:
   /// `bell`: a guard condition in the set. Error: kIo.
@@ -31,22 +30,22 @@ class Relay {
   Relay& operator=(const Relay&) = delete;
   ~Relay();
 
-  /// `receiver` must outlive this; it is told what ends a wait.
+  /// `receiver` must outlive the relay; it is told what ended a wait.
   void add(ShortReceiver& receiver);
   enum class Came : std::uint8_t { kNothing, kSocket, kSet };
-  /// What there is to look at first; `timeout` below 0 waits for ever.
+  /// Waits; returns what to look at first. Negative `timeout`: without limit.
   [[nodiscard]] Came wait(Duration timeout);
 
  private:
   Relay(dds_entity_t set, dds_entity_t bell, int event)
       : set_(set), bell_(bell), event_(event), polled_{{event, POLLIN, 0}} {}
   void run() noexcept;
-  /// Whether the set has something, and then tells the receivers.
+  /// Whether the set has a condition that holds; if so, tells the receivers.
   [[nodiscard]] bool ready() const;
-  /// Whether a datagram has come, or comes within this time. Ends when the thread has answered.
+  /// Whether a datagram arrives within this time. Returns early when the thread has answered.
   [[nodiscard]] bool look(Duration most);
   void tell_of_dds() const;
-  /// If the thread has answered it may be asked again.
+  /// Resets the request after an answer.
   void note_answer();
 
   dds_entity_t set_;
@@ -56,8 +55,8 @@ class Relay {
   std::vector<ShortReceiver*> receivers_;
   std::chrono::steady_clock::time_point crowded_until_{};
   std::chrono::milliseconds crowded_for_{};
-  bool asked_ = false;  ///< The thread has been asked to look; its answer was not noted.
-  /// The answer. The event descriptor only ends a sleep, and may do so once for an old one.
+  bool asked_ = false;  ///< A request to the thread whose answer was not processed yet.
+  /// The answer. The event descriptor only ends a sleep, possibly for an earlier answer.
   std::atomic<bool> answered_ = false;
   std::counting_semaphore<> ask_{0};
   std::atomic<bool> over_ = false;

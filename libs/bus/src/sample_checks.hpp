@@ -10,13 +10,13 @@
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/validate.hpp"
 
-/// What the validations of several topics share.
+/// Checks used by several topics.
 namespace rave::bus {
 
-/// Half a century: no run is longer, and no machine has been up for longer.
+/// Half a century: an upper bound of run times and uptimes.
 inline constexpr std::int64_t kMaxTime_ns = 1'577'880'000'000'000'000;
 
-/// Angles may have been wound up by turning, but not for ever.
+/// A bound of accumulated angles.
 inline constexpr double kMaxAngle_rad = 2e6 * std::numbers::pi;
 
 inline tl::unexpected<Error> invalid(std::string text) {
@@ -24,7 +24,7 @@ inline tl::unexpected<Error> invalid(std::string text) {
 }
 
 inline Status check_number(std::string_view field, double value, double limit) {
-  // Written so that NaN fails.
+  // NaN fails this condition.
   if (std::fabs(value) <= limit) return {};
   return invalid(fmt::format("{} is {}, not within +-{}", field, value, limit));
 }
@@ -37,7 +37,7 @@ Status check_numbers(std::string_view list, std::string_view field, const Sequen
     return invalid(
         fmt::format("{}.{} has {} entries for {} robots", list, field, values.size(), size));
   }
-  // One pass that the compiler can do in vectors; who is to blame is looked for only then.
+  // One pass that the compiler can vectorise; the faulty element is searched only on failure.
   bool good = true;
   for (const double value : values) good &= std::fabs(value) <= limit;
   for (std::size_t i = 0; !good; ++i) {
@@ -47,7 +47,7 @@ Status check_numbers(std::string_view list, std::string_view field, const Sequen
   return {};
 }
 
-/// Numbers of robots, ascending; `entries` is where they stand in `list`.
+/// Checks that ids of robots ascend; `entries` is their name in `list`.
 template <class Sequence>
 Status check_robot_numbers(std::string_view list, std::string_view entries, const Sequence& ids) {
   const auto values = elements(ids);
@@ -89,7 +89,7 @@ inline Status check_time(std::string_view field, std::int64_t time_ns) {
   return invalid(fmt::format("{} is {}, not within +-{}", field, time_ns, kMaxTime_ns));
 }
 
-/// Names end up in logs and on terminals.
+/// Names appear in logs and on terminals.
 inline Status check_label(std::string_view field, std::string_view text, bool needed) {
   if (needed && text.empty()) return invalid(fmt::format("{} is empty", field));
   if (!has_control_characters(text)) return {};
@@ -101,8 +101,8 @@ inline Status check_id(std::string_view field, std::uint32_t id) {
   return {};
 }
 
-/// A change of an obstacle as its authority made it; whether its polygons are convex is for those
-/// who make shapes of them. `field`: where it stands in its message.
+/// Checks an obstacle change of an authority, except the convexity of its polygons, which is
+/// checked when shapes are made. `field`: its place in the message.
 [[nodiscard]] Status check_obstacle_change(const std::string& field,
                                            const rave_wire_ObstacleChange& change);
 

@@ -16,17 +16,17 @@ namespace {
 
 constexpr std::array<unsigned char, 7> kMark = {'r', 'a', 'v', 'e', 's', 'w', 1};
 constexpr std::uint32_t kXcdr1 = 1;
-/// After a sample that was too big, or that some got and others had no room for, so many are not
-/// tried: the next ones fare the same.
+/// After a sample that was too large, or for which some readers had no room, this many samples are
+/// sent by DDS at once: the next ones would probably fail too.
 constexpr unsigned kNotTried = 63;
-/// One byte more than the longest: what fills it is too long.
+/// Larger than the longest sample, to detect longer ones.
 constexpr std::size_t kBufferBytes = kMostShortBytes + sizeof(std::uint64_t);
 static_assert(kMostShortBytes % sizeof(std::uint64_t) == 0 &&
               kMark.size() + 1 == kShortHeaderBytes);
-/// Lock-step asks again after 20 ms at the soonest.
+/// Lock-step repeats a request after 20 ms at the earliest.
 constexpr std::int64_t kCountAfter_ms = 5;
 
-/// Of the clock that costs least; it goes on each 1 to 10 ms.
+/// The cheapest clock; its resolution is 1 to 10 ms.
 std::int64_t coarse_ms() noexcept {
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
@@ -37,7 +37,7 @@ std::int64_t coarse_ms() noexcept {
 
 ShortAddress::ShortAddress(const RunId& run, std::uint64_t writer, std::uint8_t topic) {
   name.sun_family = AF_UNIX;
-  // The first byte is 0: no file.
+  // The first byte is 0: the abstract namespace.
   const auto end = fmt::format_to_n(name.sun_path + 1, sizeof name.sun_path - 1,
                                     "rave/{}/{:016x}/{}", run.text(), writer, topic);
   size = static_cast<socklen_t>(end.out - reinterpret_cast<char*>(&name));
@@ -51,7 +51,7 @@ std::optional<ShortSocket> ShortSocket::open(const ShortAddress& address) {
   const int descriptor = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (descriptor < 0) return std::nullopt;
   ShortSocket socket(descriptor);
-  // What readers have not taken yet is charged to who sent it; the system allows what it allows.
+  // Unread datagrams count against the sender's buffer; the system may grant less.
   constexpr int kRoom = 4 << 20;
   static_cast<void>(::setsockopt(descriptor, SOL_SOCKET, SO_SNDBUF, &kRoom, sizeof kRoom));
   if (::bind(descriptor, reinterpret_cast<const sockaddr*>(&address.name), address.size) != 0) {
@@ -83,12 +83,12 @@ const void* ShortDecoder::decode(std::span<std::byte> datagram) {
   const auto cdr = datagram.subspan(kShortHeaderBytes);
   const auto size = static_cast<std::uint32_t>(cdr.size());
   std::uint32_t end = 0;
-  // As a reader of Cyclone DDS does it: what does not follow the type is not read.
+  // Like a reader of Cyclone DDS: data that does not match the type is not read.
   if (dds_stream_normalize_data(reinterpret_cast<char*>(cdr.data()), &end, size, false, kXcdr1,
                                 type_->m_ops) == nullptr) {
     return nullptr;
   }
-  // Not to be finished, or Cyclone frees memory that is ours.
+  // Do not finish the stream: Cyclone DDS would free memory that it does not own.
   dds_istream_t stream;
   dds_istream_init(&stream, size, cdr.data(), kXcdr1);
   dds_stream_read(&stream, static_cast<char*>(sample_), type_->m_ops);
@@ -107,7 +107,7 @@ void ShortSender::meet(std::vector<std::uint64_t> writers) {
   for (const std::uint64_t writer : writers_) addresses_.emplace_back(run_, writer, topic_);
   auto sorted = writers_;
   std::ranges::sort(sorted);
-  // Of two readers of one process only one has the socket.
+  // If a process has two readers, only one of them has the socket.
   near_ =
       !sorted.empty() && sorted.front() != 0 && std::ranges::adjacent_find(sorted) == sorted.end();
 }
@@ -125,10 +125,10 @@ std::span<const unsigned char> ShortSender::encode(const void* sample) {
   }
   std::ranges::copy(kMark, stream.m_buffer);
   stream.m_buffer[kMark.size()] = topic_;
-  // The header is as long as the strictest alignment.
+  // The header length is a multiple of the strictest alignment.
   stream.m_index = kShortHeaderBytes;
   const bool good = dds_stream_write(&stream, static_cast<const char*>(sample), type_->m_ops);
-  // Cyclone has freed what it could not fill.
+  // Cyclone DDS has freed the buffer on failure.
   buffer_ = good ? stream.m_buffer : nullptr;
   capacity_ = good ? stream.m_size : 0;
   if (!good) return {};
@@ -156,7 +156,7 @@ bool ShortSender::send(const void* sample) {
     if (errno == EMSGSIZE || (no_room && addresses_.size() > 1)) {
       not_tried_ = kNotTried;
     } else if (!no_room && errno != EINTR) {
-      near_ = false;  // it is elsewhere, or gone
+      near_ = false;  // on another machine, or gone
     }
     return false;
   }
@@ -176,7 +176,7 @@ void ShortReceiver::meet(const std::vector<std::uint64_t>& writers) {
   for (const std::uint64_t writer : writers_) {
     if (writer != 0) known.push_back({writer, ShortAddress(run_, writer, 0)});
   }
-  // The last words of who has gone may lie in the queue, and count as with DDS.
+  // Last datagrams of a writer that left may still be queued, and count as with DDS.
   leaving_.clear();
   for (const Known& before : known_) {
     if (std::ranges::find(known, before.writer, &Known::writer) == known.end()) {

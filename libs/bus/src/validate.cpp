@@ -42,7 +42,7 @@ Status check_reports(std::string_view list, const rave_wire_RobotReports& report
       fmt::format("{}.flags has {} entries for {} robots", list, reports.flags._length, size));
 }
 
-/// Inputs are in the order in which everybody applies them, and none is there twice.
+/// Checks that inputs are in the order of application, without duplicates.
 template <class Sequence>
 Status check_inputs(std::string_view list, const Sequence& sequence) {
   const auto inputs = elements(sequence);
@@ -65,7 +65,7 @@ Status check_inputs(std::string_view list, const Sequence& sequence) {
   return {};
 }
 
-/// Every corner lies to the left of every edge: convex, counterclockwise, and wound once.
+/// Every vertex is to the left of every edge: convex, counter-clockwise, and wound once.
 bool convex(std::span<const double> x, std::span<const double> y) {
   for (std::size_t i = 0; i < x.size(); ++i) {
     const std::size_t next = (i + 1) % x.size();
@@ -115,7 +115,7 @@ Status check_body(const Sequence& body, bool needed) {
   return {};
 }
 
-/// Of a wish or its answer.
+/// Checks the address of a request or answer.
 template <class Message>
 Status check_address(const Message& sample) {
   RAVE_TRY(check_writer(sample));
@@ -124,7 +124,7 @@ Status check_address(const Message& sample) {
   return {};
 }
 
-/// Text that ends up in logs and on terminals.
+/// Checks text that appears in logs and on terminals.
 template <class Sequence>
 Status check_line(const Sequence& sequence, std::size_t most) {
   const std::string_view text = text_of(sequence);
@@ -247,7 +247,7 @@ Status validate(const LineInfo& sample) {
   if (!url.starts_with("ws://") && !url.starts_with("wss://")) {
     return invalid("url: expected ws:// or wss://");
   }
-  // It goes into a header of the page, where these would begin something else.
+  // The URL is inserted into a header of the page, where these characters are separators.
   if (url.find_first_of(" ;,'\"<>") != std::string_view::npos) {
     return invalid("url has an invalid character");
   }

@@ -25,7 +25,7 @@ Status check_poses(const Sequence& sequence) {
     RAVE_TRY(check_number("poses.vx_mps", pose.vx_mps, kMaxSpeed_mps));
     RAVE_TRY(check_number("poses.vy_mps", pose.vy_mps, kMaxSpeed_mps));
     RAVE_TRY(check_number("poses.wz_radps", pose.wz_radps, kMaxTurn_radps));
-    // Variances may be infinite: nothing is known.
+    // Variances may be infinite: unknown.
     if (!(pose.variance_xy_m2 >= 0 && pose.variance_yaw_rad2 >= 0)) {
       return invalid(fmt::format("poses[{}] has an invalid variance", i));
     }
@@ -68,7 +68,7 @@ Status check_columns(const WorldStep& world) {
   return check_numbers("world", "wz_radps", world.wz_radps, size, kMaxTurn_radps);
 }
 
-/// A list of entries that each name a robot of the world.
+/// Checks entries that each name a robot of the world.
 template <class Sequence>
 Status check_named(std::string_view list, const Sequence& sequence, std::size_t robots) {
   const auto entries = elements(sequence);
@@ -79,7 +79,7 @@ Status check_named(std::string_view list, const Sequence& sequence, std::size_t 
                              wrong - entries.begin(), wrong->robot, robots));
 }
 
-/// As check_named(), but an event may concern the world and no robot.
+/// Like check_named(), but an event may concern the world instead of a robot.
 template <class Sequence>
 Status check_events(std::string_view list, const Sequence& sequence, std::size_t robots) {
   const auto events = elements(sequence);
@@ -99,7 +99,7 @@ Status check_refused(const rave_wire_AuthorityState& authority, std::size_t robo
                              authority.refused_count));
 }
 
-/// Orders of people; which of them a robot takes is for its host to say.
+/// Checks an order; whether the robot takes it is decided by its host.
 Status check_order(const rave_wire_WorldInput& input) {
   RAVE_TRY(check_label("inputs.by", input.by, false));
   RAVE_TRY(check_label("inputs.text", input.text, false));

@@ -9,7 +9,7 @@ namespace rave::bus {
 namespace {
 
 constexpr std::uint8_t kParts = 3;
-/// More numbers than any kind of reading has.
+/// More values than any kind of reading has.
 constexpr std::uint32_t kMostFields = 64;
 
 Status check_reading(std::size_t index, const rave_wire_Reading& reading) {

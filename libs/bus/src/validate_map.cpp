@@ -10,7 +10,7 @@ namespace {
 constexpr double kFinestCell_m = 1e-3;
 constexpr double kCoarsestCell_m = 1e3;
 
-/// Cells of a tile along one side; 0: the map has no such tile.
+/// Number of cells of a tile along one side; 0: no such tile.
 std::uint32_t side_of(std::uint32_t cells, std::uint32_t tile) {
   const std::uint64_t first = std::uint64_t{tile} * rave_wire_kTileCells;
   if (first >= cells) return 0;
@@ -18,7 +18,7 @@ std::uint32_t side_of(std::uint32_t cells, std::uint32_t tile) {
 }
 
 Status check_frame(const MapTile& sample) {
-  // Written so that NaN fails.
+  // NaN fails this condition.
   if (!(sample.resolution_m >= kFinestCell_m && sample.resolution_m <= kCoarsestCell_m)) {
     return invalid(fmt::format("resolution_m is {}, not within {} to {}", sample.resolution_m,
                                kFinestCell_m, kCoarsestCell_m));

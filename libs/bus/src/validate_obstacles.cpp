@@ -32,7 +32,7 @@ Status check_shape(const std::string& field, const rave_wire_BodyShape& shape) {
       fmt::format("{}: z_min_m {} is not below z_max_m {}", field, shape.z_min_m, shape.z_max_m));
 }
 
-/// What a new obstacle has and others have not.
+/// Checks the members that only new obstacles have.
 Status check_body(const std::string& field, const rave_wire_ObstacleChange& change) {
   const auto shapes = elements(change.shapes);
   const bool adds = change.kind == rave_wire_OBSTACLE_ADD;

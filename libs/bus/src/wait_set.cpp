@@ -87,10 +87,10 @@ Woken WaitSet::wait(Duration timeout, const std::stop_token& stop) {
     }
   }
   bus_->participants_->standstill().look(timeout);
-  // Nobody sets it any more: the next wait may have another token.
+  // The token is not used any more: the next wait may have another one.
   if (stop.stop_requested()) dds_set_guardcondition(stop_, false);
-  // Whoever rings after this has done what it rings for before the caller looks again.
-  // If a socket was first the bell ends the next wait.
+  // A caller that rings later has finished its work before the caller of wait() looks again. If a
+  // datagram came first, the bell ends the next wait.
   bool rung = false;
   if (came != Relay::Came::kSocket) static_cast<void>(dds_take_guardcondition(bell_, &rung));
   if (rung && came == Relay::Came::kNothing) came = Relay::Came::kSet;

@@ -11,9 +11,9 @@
 namespace rave::bus {
 namespace {
 
-/// Who is refused again and again is told so no more often than this.
+/// Minimum interval of refusals to the same sender.
 constexpr std::chrono::seconds kScolding{1};
-/// A line of the log.
+/// Longest line in the log.
 constexpr std::size_t kMostTold = 300;
 
 std::string for_log(std::string text) {
@@ -40,7 +40,7 @@ bool WishBook::Budget::take(double per_second, double most, Clock::time_point no
   return true;
 }
 
-/// Null: there is no room for another one.
+/// Null: no room for another sender.
 WishBook::Asker* WishBook::asker_of(std::uint64_t writer, Clock::time_point now) {
   auto place = askers_.find(writer);
   if (place == askers_.end()) {
@@ -50,7 +50,8 @@ WishBook::Asker* WishBook::asker_of(std::uint64_t writer, Clock::time_point now)
         if (i->second.open > 0) continue;
         if (oldest == askers_.end() || i->second.heard < oldest->second.heard) oldest = i;
       }
-      if (oldest == askers_.end()) return nullptr;  // not with kMostOpen below kMostAskers
+      // impossible while kMostOpen is below kMostAskers
+      if (oldest == askers_.end()) return nullptr;
       askers_.erase(oldest);
     }
     place = askers_.try_emplace(writer).first;
@@ -59,7 +60,7 @@ WishBook::Asker* WishBook::asker_of(std::uint64_t writer, Clock::time_point now)
   return &place->second;
 }
 
-/// Bytes of the long answers that are kept for others than this one.
+/// Total size of long answers kept for senders other than this one.
 std::size_t WishBook::kept_long(const Asker* but) const {
   std::size_t bytes = 0;
   for (const auto& [writer, asker] : askers_) {
@@ -92,7 +93,7 @@ void WishBook::reply(Asker* asker, Reply reply, Clock::time_point now) {
   send(std::move(reply), 0);
 }
 
-/// What of an answer goes in one message.
+/// Sends the part of an answer that fits into one message.
 void WishBook::send(Reply reply, std::size_t from) {
   auto part = answer_part(reply.text, from);
   if (!part) return;
@@ -102,7 +103,7 @@ void WishBook::send(Reply reply, std::size_t from) {
 
 void WishBook::refuse(const Heard& wish, Asker& asker, std::string_view why,
                       Clock::time_point now) {
-  // Without an answer it is asked again, when there may be room.
+  // A sender without an answer repeats the request later, when there may be room.
   if (asker.scolded && now - *asker.scolded < kScolding) return;
   asker.scolded = now;
   asker.last = wish.number;
@@ -112,8 +113,8 @@ void WishBook::refuse(const Heard& wish, Asker& asker, std::string_view why,
 
 void WishBook::hear(const Heard& wish, Clock::time_point now) {
   const auto [writer, number, from, line] = wish;
-  // Who asks too often takes nothing from the others, and who makes up askers is stopped before
-  // anything is kept of them.
+  // A known sender uses its own budget. New senders share one, so that invented ids are stopped
+  // before anything is stored about them.
   const bool known = askers_.contains(writer);
   if (!known && !all_.take(kAllPerSecond, kAllAtOnce, now)) return;
   Asker* const asker = asker_of(writer, now);

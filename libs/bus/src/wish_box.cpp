@@ -18,18 +18,18 @@ void WishBox::serve() {
     if (wish.target != self_) return;
     book_.hear({wish.writer, wish.number, wish.from, text_of(wish.text)}, WishBook::Clock::now());
   });
-  // Most steps of a run are done without a wish.
+  // Fast path: most steps have no requests.
   if (heard == 0 && idle_) return;
   for (WishBook::Reply& reply : book_.take(WishBook::Clock::now())) {
     WishAnswer answer{};
     answer.target = reply.target;
     answer.number = reply.number;
     answer.taken = reply.taken;
-    // The wire type has octets that can be written to.
+    // The wire type requires non-const octets.
     answer.text._buffer = reinterpret_cast<std::uint8_t*>(reply.text.data());
     answer.text._length = static_cast<std::uint32_t>(reply.text.size());
     answer.text._maximum = answer.text._length;
-    // What does not get through is given again to whoever asks again.
+    // A lost answer is sent again when the request is repeated.
     static_cast<void>(answers_.write(answer));
   }
   idle_ = book_.idle();

@@ -12,12 +12,12 @@ namespace {
 constexpr std::string_view kFrom = "from ";
 constexpr std::string_view kOf = " of ";
 constexpr std::string_view kColon = ": ";
-/// The heading needs less than what is left of a message.
+/// The rest of the message is enough for the part header.
 constexpr std::size_t kPartBytes = rave_wire_kMaxWishAnswerBytes - 64;
-/// A character of UTF-8 has so many bytes after its first one.
+/// Number of continuation bytes of a UTF-8 character.
 constexpr std::size_t kMostFollowing = 3;
 
-/// What of `text` goes in one part; no character is cut.
+/// The beginning of `text` that fits into one part; characters are not split.
 std::string_view first_part(std::string_view text) {
   std::size_t size = std::min(text.size(), kPartBytes);
   const auto follows = [&] { return (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80; };
@@ -77,7 +77,8 @@ Status AnswerParts::add(std::string_view message) {
     return refused(fmt::format("it begins at byte {} instead of {}", from, text_.size()));
   }
   const std::size_t left = total - from;
-  // Whoever sends single bytes would be listened to without end.
+  // Parts have a minimum size, so that a sender of single bytes cannot prolong the answer without
+  // end.
   const std::size_t least = std::min(left, kPartBytes - kMostFollowing);
   if (message.size() < least || message.size() > left) {
     return refused(fmt::format("it has {} bytes of {}", message.size(), left));

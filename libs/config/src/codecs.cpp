@@ -38,7 +38,7 @@ RawNode Codec<bool>::schema(const FieldOptions&) { return typed_schema("boolean"
 void Codec<double>::read(const ReadContext& context, const RawNode& node, double& value) {
   const auto found = node.as_double();
   if (!found) {
-    // A number that overflows is still a number to look at.
+    // A number that overflows is still reported as a number.
     const bool too_large = node.is_scalar() && !node.is_text() && !node.as_bool();
     context.wrong(node, too_large ? number_expectation("a number within the range of a double",
                                                        context.options)

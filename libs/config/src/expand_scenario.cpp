@@ -31,7 +31,7 @@ class Expansion {
     diagnostics_.add(Error{code, std::move(message), where});
   }
 
-  /// The text of a file that a line names; what is wrong is reported at that line.
+  /// Reads the file that a line names; errors are reported at that line.
   std::optional<std::string> read(const fs::path& path, const SourceLocation& where) {
     auto text = rave::read_file(path, kMaxFileBytes);
     if (text) return *std::move(text);
@@ -43,7 +43,8 @@ class Expansion {
     return (folder / name).lexically_normal();
   }
 
-  /// Without a look at the disk other than for the current folder, which may be gone.
+  /// Resolves against the current folder, which may not exist any more; no other access to the
+  /// disk.
   static std::string absolute(const fs::path& path) {
     std::error_code error;
     const fs::path whole = fs::absolute(path, error);
@@ -66,7 +67,8 @@ class Expansion {
       resolve_maps(world.maps, path.parent_path());
     }
     resolve_maps(scenario.maps, folder_);
-    // Only a page needs them, and it says what is missing: a replay elsewhere goes without.
+    // Only the page needs these files and reports missing ones; a replay on another machine works
+    // without.
     for (GuiComponentFile& component : scenario.gui.components) {
       component.module.value = absolute(beside(folder_, *component.module));
     }

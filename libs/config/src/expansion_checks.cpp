@@ -64,7 +64,7 @@ class Checks {
     }
   }
 
-  /// Two bodies with one code could be taken for each other by whoever reads it.
+  /// Two bodies with one barcode could not be distinguished by a camera.
   void unique_barcodes() {
     struct Bearer {
       std::string what;
@@ -119,13 +119,13 @@ class Checks {
   void multiple_of_step(std::string_view key, const Located<double>& time_s) {
     const std::int64_t step_ns = from_seconds(*scenario_.step_s).ns;
     const std::int64_t ns = from_seconds(*time_s).ns;
-    // A period below half a nanosecond rounds to none.
+    // A period below half a nanosecond rounds to 0.
     if (ns % step_ns == 0 && (ns > 0 || *time_s == 0)) return;
     report(time_s.where, "`{}`: found {}, expected a multiple of the scenario's step ({} s)", key,
            *time_s, *scenario_.step_s);
   }
 
-  /// A robot, or the entry that stands for several.
+  /// Checks that a name is a robot or an entry.
   void robots_exist(std::string_view key, const Located<std::string>& name) {
     std::vector<std::string_view> names;
     for (const ExpandedRobot& robot : expanded_.robots) names.push_back(robot.name);
@@ -140,7 +140,7 @@ class Checks {
                        [&name](const SensorFile& s) { return *s.name == name; });
   }
 
-  /// Whether any robot has the sensor; reports if not.
+  /// Whether any robot has the sensor; reports an error if not.
   bool sensor_exists(std::string_view key, const Located<std::string>& name) {
     std::set<std::string_view> all;
     for (const RobotGroup& group : expanded_.groups) {
@@ -167,7 +167,7 @@ class Checks {
            *check.twin);
   }
 
-  /// The groups that a name of a robot or of an entry stands for; reports if there are none.
+  /// The groups of a robot or entry; reports an error if there are none.
   std::set<std::size_t> groups_of(const Located<std::string>& name) {
     std::set<std::size_t> found;
     std::set<std::string_view> all;

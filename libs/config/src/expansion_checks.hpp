@@ -6,7 +6,7 @@
 
 namespace rave::config {
 
-/// What can only be checked once a scenario and its files are together.
+/// Checks that concern a scenario together with its files.
 void check_expansion(const ExpandedScenario& expanded, Diagnostics& diagnostics);
 
 }  // namespace rave::config

@@ -70,7 +70,7 @@ std::string number_expectation(std::string_view noun, const FieldOptions& option
 }
 
 bool in_range(double value, const FieldOptions& options) noexcept {
-  // Written so that NaN is outside of any range.
+  // NaN fails these conditions, so it is in no range.
   if (options.min && !(options.exclusive_min ? value > *options.min : value >= *options.min)) {
     return false;
   }

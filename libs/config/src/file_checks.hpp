@@ -11,7 +11,7 @@
 #include "rave/config/located.hpp"
 #include "rave/config/shape_file.hpp"
 
-// Checks that robot, world and scenario files share. Each reports to the context.
+// Checks common to robot, world and scenario files. Each reports to the context.
 namespace rave::config {
 
 [[nodiscard]] bool is_variable_name(std::string_view name) noexcept;
@@ -22,16 +22,16 @@ void check_colour(const std::optional<std::string>& colour, CheckContext& check)
 void check_heights(std::string_view key, const HeightRange& z_m, CheckContext& check);
 void check_barcode(const std::optional<int>& barcode, const std::optional<HeightRange>& z_m,
                    CheckContext& check);
-/// Exactly one of the three, and a polygon that is simple.
+/// Checks that exactly one member is set, and that a polygon is simple.
 void check_outline(const Outline& outline, CheckContext& check);
-/// The parameters of a driver: a mapping or nothing.
+/// Checks the parameters of a driver: a mapping or null.
 void check_params(const RawNode& params, CheckContext& check);
 
-/// `the {what} `{name}` is named twice: …` for the second of two, with the place of the first.
+/// The message for the second of two items with one name, with the place of the first.
 [[nodiscard]] std::string named_twice(std::string_view what, std::string_view name,
                                       const SourceLocation& first);
 
-/// Reports items whose `name` was used by an earlier one.
+/// Reports items with the `name` of an earlier one.
 template <class Items>
 void check_unique(std::string_view what, const Items& items, CheckContext& check) {
   std::map<std::string_view, const SourceLocation*> seen;

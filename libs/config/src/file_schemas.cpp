@@ -19,8 +19,8 @@ RawNode variable_schema() {
   return schema;
 }
 
-/// `{type: T, …}` becomes `{type: [T, string], pattern: …, …}`: the limits of numbers do not
-/// concern strings and the pattern does not concern numbers.
+/// Converts `{type: T, …}` to `{type: [T, string], pattern: …, …}`: limits of numbers do not apply
+/// to strings, and the pattern does not apply to numbers.
 void allow_variable_as_number(RawNode& schema) {
   const RawNode type = *schema.find("type");
   RawNode types = RawNode::sequence();
@@ -42,7 +42,7 @@ void allow_variable_as_choice(RawNode& schema) {
   schema.append("anyOf", std::move(choices));
 }
 
-/// A robot file's schema in which `$(name)` may stand for every number, bool and choice.
+/// Extends the schema of robot files so that `$(name)` is valid for every number, bool and choice.
 void allow_variables(RawNode& schema) {
   if (!schema.is_mapping()) return;
   const RawNode* type = schema.find("type");

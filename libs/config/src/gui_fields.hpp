@@ -7,7 +7,7 @@
 #include "rave/config/gui_file.hpp"
 #include "robot_fields.hpp"
 
-// How `gui:` of scenario files is read, written and described.
+// The description of `gui:` in scenario files.
 namespace rave::config {
 
 constexpr auto enum_names(EnumTag<GuiRole> /*tag*/) {

@@ -18,18 +18,18 @@ struct KnownKey {
   std::string_view unit;
 };
 
-/// What to say of a key that is none of the known ones.
+/// The message for an unknown key.
 [[nodiscard]] std::string unknown_key_message(std::string_view key,
                                               std::span<const KnownKey> known);
 
 /// The comment of a written field: `[m] Sentence.`
 [[nodiscard]] std::string field_comment(std::string_view doc, std::string_view unit);
 
-/// A schema with the description in front and the default (if any) behind.
+/// A schema with its description first and the default, if any, last.
 [[nodiscard]] RawNode annotated_schema(const RawNode& schema, std::string_view doc,
                                        std::string_view unit, const RawNode* initial);
 
-/// The schema of a mapping with these properties and no others.
+/// The schema of a mapping with exactly these properties.
 [[nodiscard]] RawNode object_schema(RawNode properties, RawNode required);
 
 }  // namespace rave::config

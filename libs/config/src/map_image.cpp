@@ -13,7 +13,7 @@ constexpr auto enum_names(EnumTag<MapMode>) {
                     EnumName{MapMode::kRaw, "raw"}};
 }
 
-/// `negate` is 0 or 1 in the files that ROS writes; true and false are understood as well.
+/// `negate` is 0 or 1 in files of ROS; true and false are accepted too.
 struct MapFlag {
   bool on = false;
 };
@@ -68,7 +68,7 @@ void validate(const MapServerFile& c, CheckContext& check) {
   }
 }
 
-/// Source: http://wiki.ros.org/map_server, "Value Interpretation".
+/// The state of a cell. Source: http://wiki.ros.org/map_server, "Value Interpretation".
 CellState state_of(std::uint8_t shade, bool opaque, const MapServerFile& file) {
   double p = file.negate.on ? shade / 255.0 : (255 - shade) / 255.0;
   if (file.mode == MapMode::kScale && !opaque) return CellState::kUnknown;
@@ -99,7 +99,7 @@ Result<MapImage> read_map_text(std::string_view yaml, const std::filesystem::pat
   RAVE_TRY_ASSIGN(const MapServerFile file, read_text<MapServerFile>(yaml, yaml_path.string()));
   const std::filesystem::path path = yaml_path.parent_path() / file.image.value;
   const auto decode = [&path]() -> Result<GreyImage> {
-    // Reading a pipe or a terminal would wait for ever.
+    // Reading a pipe or a terminal would block.
     std::error_code ignored;
     if (std::filesystem::exists(path, ignored) &&
         !std::filesystem::is_regular_file(path, ignored)) {

@@ -4,7 +4,7 @@
 namespace rave::config {
 namespace {
 
-/// The occupied cells that no rectangle covers yet.
+/// The occupied cells not covered by a rectangle yet.
 class Rest {
  public:
   explicit Rest(const MapImage& map)
@@ -16,15 +16,14 @@ class Rest {
 
   [[nodiscard]] bool has(int column, int row) const { return open_[index(column, row)] != 0; }
 
-  /// The largest rectangle with this top left cell that first grows as far right as it can, then
-  /// down.
+  /// The largest rectangle with this top left cell that grows right first, then down.
   [[nodiscard]] CellRectangle grow_right(int column, int row) const {
     CellRectangle r{column, row, 1, 1};
     while (column + r.width < width_ && has(column + r.width, row)) ++r.width;
     while (row + r.height < height_ && all_of({column, row + r.height, r.width, 1})) ++r.height;
     return r;
   }
-  /// The same, down first.
+  /// Likewise, down first.
   [[nodiscard]] CellRectangle grow_down(int column, int row) const {
     CellRectangle r{column, row, 1, 1};
     while (row + r.height < height_ && has(column, row + r.height)) ++r.height;

@@ -54,7 +54,7 @@ std::string number_text(double value) {
   if (std::isnan(value)) return ".nan";
   if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
   std::string text = fmt::format("{}", value);
-  // YAML 1.1 takes `1e+21` for text; it wants a point.
+  // YAML 1.1 reads `1e+21` as text; it requires a decimal point.
   const std::size_t exponent = text.find('e');
   if (exponent != std::string::npos && text.find('.') == std::string::npos) {
     text.insert(exponent, ".0");

@@ -27,7 +27,7 @@ std::vector<std::string_view> views_of(const std::vector<std::string>& names) {
   return {names.begin(), names.end()};
 }
 
-/// What `f` gives for the C++ type of a parameter; an enum is a text.
+/// Calls `f` with the C++ type of a parameter; an enum is a std::string.
 template <class F>
 auto with_type(ParamType type, F&& f) {
   switch (type) {

@@ -13,12 +13,12 @@ bool is_space(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f';
 }
 
-/// Reads the words of a PGM: numbers between white space and comments.
+/// Reads the tokens of a PGM: numbers separated by white space and comments.
 class PgmScanner {
  public:
   PgmScanner(std::string_view bytes, std::size_t start) : bytes_(bytes), next_(start) {}
 
-  /// The next number up to 10^9; nothing at the end or at something else.
+  /// The next number up to 10^9; empty at the end or before anything else.
   std::optional<std::uint32_t> number() {
     skip_blank();
     std::uint32_t value = 0;
@@ -34,7 +34,7 @@ class PgmScanner {
     skip_blank();
     return next_ >= bytes_.size();
   }
-  /// What follows the one white space behind the header.
+  /// The data after the single white space that ends the header.
   [[nodiscard]] std::string_view raster() const {
     return next_ < bytes_.size() && is_space(bytes_[next_]) ? bytes_.substr(next_ + 1)
                                                             : std::string_view{};
@@ -130,7 +130,7 @@ Result<GreyImage> decode_pgm(std::string_view bytes, std::string_view file_name)
   }
   PgmScanner scanner(bytes, 2);
   RAVE_TRY_ASSIGN(Header header, read_header(scanner, file_name));
-  // Nothing of the size that the header claims is allocated before the bytes are seen to be there.
+  // Memory is allocated only after the data is known to have the size in the header.
   RAVE_TRY(ascii ? read_ascii(scanner, file_name, header)
                  : read_binary(scanner.raster(), file_name, header));
   header.image.opaque.assign(header.pixels, 1);

@@ -31,7 +31,7 @@ Result<std::vector<PlannedHost>> equal_parts(const ExpandedScenario& scenario) {
   return hosts;
 }
 
-/// Gives the robots that a host names to it.
+/// Assigns the robots that a host names to it.
 Status claim(const ExpandedScenario& scenario, const HostFile& file, std::size_t host,
              std::vector<std::size_t>& host_of) {
   for (const Located<std::string>& name : file.robots) {
@@ -56,7 +56,7 @@ Status claim(const ExpandedScenario& scenario, const HostFile& file, std::size_t
   return {};
 }
 
-/// Who has which robot; those that nobody names go to the host that names none.
+/// The host of each robot; unnamed robots go to the host that names none.
 Result<std::vector<std::size_t>> share(const ExpandedScenario& scenario) {
   const std::vector<HostFile>& files = scenario.scenario.hosts;
   std::vector<std::size_t> host_of(scenario.robots.size(), kNobody);

@@ -11,8 +11,8 @@
 namespace rave::config {
 namespace {
 
-/// Decodes one PNG. libpng reports errors by longjmp, which must not cross the construction of an
-/// object: whatever lives across a jump is a member, and each guarded function has no locals.
+/// Decodes one PNG. libpng reports errors by longjmp, which must not skip destructors: objects that
+/// exist across a jump are members, and each guarded function has no locals.
 class PngDecoder {
  public:
   PngDecoder(std::string_view bytes, std::string_view name)
@@ -30,7 +30,7 @@ class PngDecoder {
     if (!read_header()) return failure();
     RAVE_TRY(check_image_size(width_, height_, name_));
     if (!set_up_rows()) return failure();
-    // Interlaced images arrive in passes over all rows, the others row by row.
+    // Interlaced images arrive in passes over all rows, others row by row.
     row_bytes_ = png_get_rowbytes(png_, info_);
     buffer_.resize(passes_ > 1 ? row_bytes_ * height_ : row_bytes_);
     image_.width = static_cast<int>(width_);
@@ -61,7 +61,7 @@ class PngDecoder {
   bool read_header() {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_read_fn(png_, this, on_read);
-    png_set_user_limits(png_, 0x7FFFFFFF, 0x7FFFFFFF);  // check_image_size says it better
+    png_set_user_limits(png_, 0x7FFFFFFF, 0x7FFFFFFF);  // check_image_size() has a better message
     png_set_chunk_malloc_max(png_, 8U << 20);
     png_read_info(png_, info_);
     width_ = png_get_image_width(png_, info_);

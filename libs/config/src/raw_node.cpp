@@ -14,7 +14,7 @@
 namespace rave::config {
 namespace {
 
-/// from_chars knows no leading plus sign.
+/// from_chars() does not accept a leading plus sign.
 std::string_view without_plus(std::string_view text) {
   return text.starts_with('+') ? text.substr(1) : text;
 }
@@ -28,7 +28,7 @@ std::optional<T> parse_number(std::string_view text) {
   return value;
 }
 
-/// At most 40 bytes on one line, cut between characters.
+/// At most 40 bytes on one line; characters are not split.
 std::string excerpt(std::string_view text) {
   constexpr std::size_t kMaxBytes = 40;
   std::string part(text.substr(0, kMaxBytes));

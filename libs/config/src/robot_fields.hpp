@@ -4,7 +4,7 @@
 #include "rave/config/robot_file.hpp"
 #include "shape_fields.hpp"
 
-// How robot files are read, written and described.
+// The description of robot files.
 namespace rave::config {
 
 inline constexpr double kLongest_s = 1.0e6;

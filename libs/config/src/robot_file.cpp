@@ -12,7 +12,8 @@ Result<RobotFile> read_robot_text(std::string_view text, std::string_view file_n
   if (auto tree = parse_yaml(text, file_name, diagnostics)) {
     const std::size_t errors_before = diagnostics.size();
     substitute_variables(*tree, given, diagnostics);
-    // A variable that was not put in would be reported once more as a text in place of a number.
+    // Skipped after an error: an unresolved variable would be reported again as a text instead of a
+    // number.
     if (diagnostics.size() == errors_before) robot = read_node<RobotFile>(*tree, diagnostics);
   }
   if (diagnostics.ok()) return robot;

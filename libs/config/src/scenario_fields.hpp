@@ -6,7 +6,7 @@
 #include "robot_fields.hpp"
 #include "world_fields.hpp"
 
-// How scenario files are read, written and described.
+// The description of scenario files.
 namespace rave::config {
 
 inline constexpr double kMaxRobots = 100000;
@@ -334,7 +334,7 @@ void describe(V& v, ScenarioFile& c) {
 
 void validate(const ScenarioFile& c, CheckContext& check);
 
-/// Puts the variables of robots that are written out in place into the tree.
+/// Substitutes the variables of robots that are defined inline in the scenario.
 void substitute_inline_robots(RawNode& scenario, Diagnostics& diagnostics);
 
 }  // namespace rave::config

@@ -7,7 +7,7 @@
 
 namespace rave::config {
 
-/// Coordinates beyond this are slips of the pen; the world's arithmetic is exact enough within.
+/// Larger coordinates are probably typing errors; within, the arithmetic is precise enough.
 inline constexpr double kFarthest_m = 1.0e6;
 /// The smallest size of a body for which a convex polygon can be made.
 inline constexpr double kSmallest_m = 1.0e-4;

@@ -15,13 +15,13 @@ namespace {
 
 constexpr std::size_t kLineWidth = 100;
 
-/// Characters that other tools may strip, refuse or take for a line break.
+/// Characters that other tools may strip, refuse or treat as a line break.
 bool needs_escape(std::uint32_t code) {
   return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x2028 || code == 0x2029 ||
          code == 0xFEFF || code == 0xFFFE || code == 0xFFFF;
 }
 
-/// In double quotes. JSON has no `\x`, so that both formats use `\u`.
+/// The text in double quotes. Escapes are `\u`, because JSON has no `\x`.
 std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   for (std::size_t i = 0; i < text.size();) {
@@ -46,7 +46,7 @@ std::string in_quotes(std::string_view text) {
   return out + '"';
 }
 
-/// Whether any YAML reader takes the unquoted text for this text.
+/// Whether every YAML reader takes the unquoted text as this text.
 bool is_plain_word(std::string_view text) {
   if (text.empty()) return false;
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
@@ -58,7 +58,7 @@ bool is_plain_word(std::string_view text) {
     if (!allowed) return false;
     lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
-  // YAML 1.1 reads some of these as booleans; the others look like something they are not.
+  // YAML 1.1 reads some of these as booleans; the others look like other types.
   for (const std::string_view word :
        {"true", "false", "yes", "no", "on", "off", "y", "n", "null", "nan", "inf"}) {
     if (lower == word) return false;
@@ -72,7 +72,8 @@ std::string scalar_text(const RawNode& node) {
   return is_plain_word(node.scalar()) ? node.scalar() : in_quotes(node.scalar());
 }
 
-/// The node if it fits behind its key: scalars, empty collections, short lists of such.
+/// The node as text if it fits on the line of its key: scalars, empty collections, short lists of
+/// these.
 std::string inline_text(const RawNode& node) {
   if (node.is_null() || node.is_scalar()) return scalar_text(node);
   if (node.size() == 0) return node.is_mapping() ? "{}" : "[]";
@@ -110,7 +111,7 @@ class YamlText {
   }
 
  private:
-  /// `lead` replaces the indentation of the first entry: the dash of a list item.
+  /// `lead` replaces the indentation of the first entry, for the dash of a list item.
   void mapping(const RawNode& node, std::size_t indent, const std::string& lead) {
     for (std::size_t i = 0; i < node.size(); ++i) {
       const std::string spaces(indent, ' ');

@@ -7,7 +7,7 @@
 
 namespace rave::config {
 
-/// One character of a UTF-8 text; length 0 if the bytes at `offset` are none (RFC 3629: no
+/// One character of a UTF-8 text; length 0 if the bytes at `offset` are invalid (RFC 3629: no
 /// overlong forms, no surrogates, nothing above U+10FFFF).
 struct Utf8Character {
   std::uint32_t code = 0;

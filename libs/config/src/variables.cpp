@@ -33,7 +33,7 @@ class Substitution {
   }
 
  private:
-  /// The text with its variables put in; `whole` is set if it is one variable and nothing else.
+  /// Substitutes the variables of a scalar; sets `whole` if it consists of one variable.
   bool expand(const RawNode& node, std::string& text, const RawNode*& whole) {
     const std::string_view all = node.scalar();
     for (std::size_t i = 0; i < all.size();) {
@@ -79,7 +79,7 @@ class Substitution {
  private:
   const RawNode& variables_;
   Diagnostics& diagnostics_;
-  std::shared_ptr<const std::string> file_;  // owned by all nodes that were replaced
+  std::shared_ptr<const std::string> file_;  // owned by all replaced nodes
 };
 
 void check_value(std::string_view name, const RawNode& value, Diagnostics& diagnostics) {
@@ -124,7 +124,7 @@ RawNode values_in_force(RawNode declared, const Variables& given, Diagnostics& d
 void substitute_variables(RawNode& robot, const Variables& given, Diagnostics& diagnostics) {
   if (!robot.is_mapping()) return;
   const RawNode* declared = robot.find("variables");
-  // What is no mapping is reported when the struct is read.
+  // A value that is not a mapping is reported when the struct is read.
   if (declared && !declared->is_mapping() && !declared->is_null()) return;
   const std::size_t errors_before = diagnostics.size();
   const RawNode values = values_in_force(

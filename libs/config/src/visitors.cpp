@@ -41,7 +41,7 @@ RawNode annotated_schema(const RawNode& schema, std::string_view doc, std::strin
     all.append("description", RawNode::text(text));
   }
   for (std::size_t i = 0; i < schema.size(); ++i) all.append(schema.key(i), schema.child(i));
-  // JSON has no infinity, so such a default cannot be written.
+  // JSON has no infinity, so such a default is omitted.
   if (initial && !has_non_finite(*initial)) all.append("default", *initial);
   return all;
 }

@@ -4,7 +4,7 @@
 #include "rave/config/world_file.hpp"
 #include "shape_fields.hpp"
 
-// How world files are read, written and described.
+// The description of world files.
 namespace rave::config {
 
 template <class V>

@@ -21,7 +21,7 @@ RobotEntry entry_of(const RobotGroup& group) {
   return entry;
 }
 
-/// The poses of the group's robots, which follow each other from `first` on.
+/// Adds the poses of the group's robots.
 void add_poses(std::span<const ExpandedRobot> robots, RobotEntry& entry) {
   if (robots.empty() || !robots.front().pose) return;
   if (robots.size() == 1) {

@@ -16,7 +16,7 @@
 namespace rave::config {
 namespace {
 
-/// Leaves the parser's event loop; caught in parse_yaml.
+/// Ends the parser's event loop; caught in parse_yaml().
 struct Abort {
   Error error;
 };
@@ -27,8 +27,8 @@ int height_of(const RawNode& node) {
   return node.is_scalar() || node.is_null() ? 0 : height + 1;
 }
 
-/// yaml-cpp makes one byte each of the escapes `\N` and `\_` (U+0085 and U+00A0), which is no
-/// UTF-8.
+/// yaml-cpp converts the escapes `\N` and `\_` (U+0085 and U+00A0) to single bytes, which are
+/// invalid UTF-8.
 std::string with_whole_escapes(const std::string& text) {
   const std::size_t bad = first_invalid_utf8(text);
   if (bad == text.size()) return text;
@@ -51,7 +51,7 @@ class TreeBuilder : public YAML::EventHandler {
   [[nodiscard]] SourceLocation place(const YAML::Mark& mark) const {
     return {*file_, mark.line + 1, mark.column + 1};
   }
-  /// Where the last scalar of the file begins if it is quoted.
+  /// The place of the last scalar of the file if it is quoted.
   [[nodiscard]] const std::optional<YAML::Mark>& last_quoted() const noexcept {
     return last_scalar_;
   }
@@ -106,8 +106,8 @@ class TreeBuilder : public YAML::EventHandler {
     YAML::Mark mark;
     YAML::anchor_t anchor = 0;
     std::size_t nodes_before = 0;
-    bool has_key = false;  // a key was read and waits for its value
-    bool drop = false;     // the waiting key is not usable; so is its value
+    bool has_key = false;  // a key waits for its value
+    bool drop = false;     // the waiting key is invalid; drop its value
     std::string key;
     YAML::Mark key_mark;
     std::unordered_set<std::string> seen;
@@ -164,10 +164,10 @@ class TreeBuilder : public YAML::EventHandler {
     value(std::move(frame.node), frame.mark, frame.anchor, nodes_ - frame.nodes_before);
   }
 
-  /// Puts a finished node where it belongs. `size` counts it and what is in it.
+  /// Adds a finished node to its parent. `size` is the number of nodes in it.
   void value(RawNode node, const YAML::Mark& mark, YAML::anchor_t anchor, std::size_t size) {
     if (anchor != 0) {
-      count(size, mark);  // the copy that is kept for aliases
+      count(size, mark);  // the copy kept for aliases
       anchors_[anchor] = Anchored{node, size};
     }
     if (stack_.empty()) {
@@ -187,7 +187,7 @@ class TreeBuilder : public YAML::EventHandler {
   void entry(Frame& frame, RawNode node, const YAML::Mark& mark) {
     frame.has_key = false;
     if (frame.drop) return;
-    // The place of a value that was left empty is wherever the next word stands: say the key's.
+    // An empty value has the place of the next token; use that of its key.
     if (node.is_null() && mark.line != frame.key_mark.line) node = located({}, frame.key_mark);
     frame.node.append(std::move(frame.key), std::move(node));
     frame.node.set_key_where(frame.node.size() - 1, frame.key_mark.line + 1,
@@ -229,7 +229,7 @@ SourceLocation place_of(std::string_view text, std::size_t offset, std::string_v
           static_cast<int>(offset - line_start) + 1};
 }
 
-/// What must hold of the characters before a parser sees them.
+/// Checks the characters before parsing.
 std::optional<Error> check_characters(std::string_view text, std::string_view file_name) {
   if (text.size() > kMaxFileBytes) {
     return Error{ErrorCode::kParse, fmt::format("the file is larger than {} bytes", kMaxFileBytes),
@@ -241,7 +241,7 @@ std::optional<Error> check_characters(std::string_view text, std::string_view fi
   }
   for (std::size_t i = 0; i < text.size();) {
     const TextCharacter here = character_at(text, i);
-    // Those that can be are their last byte.
+    // The control characters permitted here are single bytes.
     const auto c = static_cast<unsigned char>(text[i + here.bytes - 1]);
     if (here.control && c != '\t' && c != '\n' && c != '\r') {
       return Error{ErrorCode::kParse, fmt::format("found a control character (code {})", c),
@@ -259,7 +259,7 @@ void parse_all(const std::string& text, YAML::EventHandler& handler) {
   }
 }
 
-/// Counts how often a text stands in the scalars of a document.
+/// Counts occurrences of a text in the scalars of a document.
 class ScalarSearch : public YAML::EventHandler {
  public:
   explicit ScalarSearch(std::string_view wanted) : wanted_(wanted) {}
@@ -294,9 +294,9 @@ std::size_t count_in_scalars(std::string_view wanted, const std::string& text) {
   return search.found();
 }
 
-/// yaml-cpp takes the end of the file for a closing quote if a line break stands before it, so that
-/// a file that was cut in the middle would pass. A comment that is put behind such a file becomes
-/// part of the scalar; behind a whole file it stays a comment.
+/// yaml-cpp accepts the end of the file as a closing quote after a line break, so a truncated file
+/// would pass. If a comment appended to the text becomes part of a scalar, a quote is open;
+/// otherwise it stays a comment.
 bool is_quote_open(std::string_view text) {
   constexpr std::string_view kMark = "#end-of-file-2f6c1d";
   const std::size_t with = count_in_scalars(kMark, fmt::format("{}\n{}\n", text, kMark));

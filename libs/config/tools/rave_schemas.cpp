@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::filesystem::path folder = argv[1];
-  std::error_code ignored;  // that it cannot be made shows when the first file is written
+  std::error_code ignored;  // an error shows when the first file is written
   std::filesystem::create_directories(folder, ignored);
   const std::pair<const char*, std::string> schemas[] = {
       {"robot", rave::config::robot_schema()},

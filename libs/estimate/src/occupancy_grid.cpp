@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t kMostCells = 100'000'000;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Along one axis: which way the cells go, how far the next border is and how far apart they are,
-/// both as lengths along the ray.
+/// The traversal along one axis: direction of the cells, distance to the next border, and distance
+/// between borders, both as lengths along the ray.
 struct Stride {
   int step = 0;
   double next_m = kFar;
@@ -56,7 +56,7 @@ void OccupancyGrid::add(const ScanView& scan) {
     const SinCos turn = sincos(scan.X_WS.yaw + scan.bearings_rad[i]);
     return Vec2{turn.cos, turn.sin};
   };
-  // Ends first: a cell that one beam ends in is not free because another one passes.
+  // Ends first: within a scan, a cell with an end is not free because another beam passes it.
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range_m = static_cast<double>(scan.ranges_m[i]);
     if (range_m <= model_.range_max_m) {
@@ -89,7 +89,7 @@ void OccupancyGrid::mark_end(Vec2 p_W) {
 void OccupancyGrid::trace(Vec2 from_W, Vec2 direction, double length_m) {
   const double x = (from_W.x - frame_.origin_W.x) / frame_.resolution_m;
   const double y = (from_W.y - frame_.origin_W.y) / frame_.resolution_m;
-  // A sensor outside of the grid sees into it rarely; such beams are left out.
+  // Beams of a sensor outside of the grid are ignored; it rarely sees into the grid.
   if (!(x >= 0 && x < frame_.columns && y >= 0 && y < frame_.rows)) return;
   int column = static_cast<int>(x);
   int row = static_cast<int>(y);

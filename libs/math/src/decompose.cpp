@@ -19,7 +19,7 @@ std::uint64_t edge_key(std::uint32_t from, std::uint32_t to) noexcept {
   return (static_cast<std::uint64_t>(from) << 32U) | to;
 }
 
-/// Cuts ears off a simple counter-clockwise polygon until nothing is left.
+/// Cuts ears off a simple counter-clockwise polygon until it is empty.
 class EarClipper {
  public:
   explicit EarClipper(Vertices vertices) : vertices_(vertices) {
@@ -47,7 +47,7 @@ class EarClipper {
         unlink(at);
         --left;
         refused = 0;
-        // Skipping one keeps the triangles from becoming a thin fan about a single vertex.
+        // Skipping one vertex avoids a fan of thin triangles about a single vertex.
         at = next_[following];
       } else {
         ++refused;
@@ -63,7 +63,7 @@ class EarClipper {
     return detail::orientation(vertices_[previous_[i]], vertices_[i], vertices_[next_[i]]);
   }
 
-  /// Only a vertex at which the outline turns inwards can be the first to reach into a triangle.
+  /// It suffices to test reflex vertices: the first vertex inside a triangle is reflex.
   [[nodiscard]] bool is_ear(std::uint32_t i) const noexcept {
     const Vec2 a = vertices_[previous_[i]];
     const Vec2 b = vertices_[i];
@@ -87,7 +87,7 @@ class EarClipper {
     const std::uint32_t after = next_[i];
     next_[before] = after;
     previous_[after] = before;
-    // Cutting an ear can only make its neighbours less reflex.
+    // Cutting an ear can only reduce the angles of its neighbours.
     std::erase_if(reflex_, [&](std::uint32_t k) {
       return k == i || ((k == before || k == after) && turn(k) >= 0);
     });
@@ -99,7 +99,7 @@ class EarClipper {
   std::vector<std::uint32_t> reflex_;
 };
 
-/// Joins convex pieces across common edges as long as the result stays convex.
+/// Merges convex pieces across common edges while the result is convex.
 class Merger {
  public:
   Merger(Vertices vertices, std::vector<Loop> pieces)
@@ -126,7 +126,7 @@ class Merger {
     }
   }
 
-  /// The piece's vertices from `first` on.
+  /// The piece's vertices, starting at `first`.
   [[nodiscard]] Loop starting_at(std::uint32_t piece, std::uint32_t first) const {
     Loop loop = pieces_[piece];
     std::rotate(loop.begin(), std::find(loop.begin(), loop.end(), first), loop.end());
@@ -139,7 +139,7 @@ class Merger {
     if (mine == owner_.end() || other == owner_.end() || mine->second == other->second) return;
     const std::uint32_t kept = mine->second;
     const std::uint32_t given = other->second;
-    // to ... from of the one, then what lies between from and to of the other.
+    // The vertices from `to` to `from` of one piece, then those between them of the other.
     Loop merged = starting_at(kept, to);
     const Loop rest = starting_at(given, from);
     if (merged.size() + rest.size() - 2 > ConvexPolygon::kMaxVertices) return;
@@ -161,7 +161,8 @@ class Merger {
 
   Vertices vertices_;
   std::vector<Loop> pieces_;
-  /// The piece to the left of each directed edge. Only looked up, never walked through.
+  /// The piece to the left of each directed edge. Only looked up, never iterated, so its order does
+  /// not matter.
   std::unordered_map<std::uint64_t, std::uint32_t> owner_;
 };
 
@@ -176,7 +177,7 @@ Result<std::vector<ConvexPolygon>> decompose(std::span<const Vec2> polygon) {
     std::vector<Vec2> corners;
     corners.reserve(loop.size());
     for (const std::uint32_t i : loop) corners.push_back(vertices[i]);
-    // The only reason to be refused here is to be a sliver.
+    // make() can refuse a piece here only because it is a sliver.
     if (auto piece = ConvexPolygon::make(corners)) pieces.push_back(*std::move(piece));
   }
   if (pieces.empty()) {

@@ -12,7 +12,8 @@ constexpr double kPole_m = kEquator_m * (1 - kFlattening);
 constexpr double kEccentricity2 = kFlattening * (2 - kFlattening);
 constexpr double kSecondEccentricity2 = kEccentricity2 / (1 - kEccentricity2);
 
-/// Length of the normal of the ellipsoid from its surface to the axis of the poles.
+/// The radius of curvature in the prime vertical: the length of the normal from the ellipsoid to
+/// the polar axis.
 double normal_m(double sin_latitude) noexcept {
   return kEquator_m / std::sqrt(1 - kEccentricity2 * sin_latitude * sin_latitude);
 }
@@ -30,7 +31,7 @@ Point3 earth_point(const GeoPoint& place) noexcept {
 
 GeoPoint geo_point(const Point3& earth) noexcept {
   const double from_axis_m = std::sqrt(earth.x * earth.x + earth.y * earth.y);
-  // The reduced latitude; from its first guess two rounds lead below the rounding of a double.
+  // Iteration over the reduced latitude; two rounds are precise to the rounding of a double.
   double reduced_rad = atan2(earth.z * kEquator_m, from_axis_m * kPole_m);
   double latitude_rad = 0;
   for (int round = 0; round < 2; ++round) {

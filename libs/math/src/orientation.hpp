@@ -9,9 +9,9 @@
 
 namespace rave::detail {
 
-/// The exact sign of a sum of up to 12 doubles, by keeping it as a sum of parts that do not
-/// overlap. Source: Shewchuk, "Adaptive precision floating-point arithmetic and fast robust
-/// geometric predicates", 1997.
+/// The exact sign of a sum of up to 12 doubles, represented as non-overlapping components. Source:
+/// Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates",
+/// 1997.
 class ExactSum {
  public:
   void add(double value) noexcept {
@@ -27,7 +27,7 @@ class ExactSum {
     add(both.error);
     add(both.sum);
   }
-  /// The largest part that is not zero decides.
+  /// The largest nonzero component determines the sign.
   [[nodiscard]] int sign() const noexcept {
     for (int i = count_ - 1; i >= 0; --i) {
       const double part = parts_[static_cast<std::size_t>(i)];
@@ -41,12 +41,12 @@ class ExactSum {
   int count_ = 0;
 };
 
-/// 1 if a, b, c turn to the left, -1 to the right, 0 if they lie on one line: exactly.
+/// 1 if a, b, c turn left, -1 right, 0 if they are collinear: exactly.
 [[nodiscard]] inline int orientation(Vec2 a, Vec2 b, Vec2 c) noexcept {
   const double left = (a.x - c.x) * (b.y - c.y);
   const double right = (a.y - c.y) * (b.x - c.x);
   const double estimate = left - right;
-  // Shewchuk's bound on the rounding of the three lines above, rounded up.
+  // Shewchuk's bound of the rounding error of the three lines above, rounded up.
   const double bound = 4.0e-16 * (std::abs(left) + std::abs(right));
   if (estimate > bound) return 1;
   if (estimate < -bound) return -1;

@@ -10,9 +10,9 @@
 
 namespace rave::detail {
 
-/// A polygon whose vertices and normals were taken to another frame; lives on the stack.
+/// A polygon whose vertices and normals were transformed to another frame; lives on the stack.
 struct PlacedPolygon {
-  // Left without values on purpose: only the first `count` are ever read.
+  // Deliberately uninitialised: only the first `count` elements are read.
   std::array<double, ConvexPolygon::kMaxVertices> x;
   std::array<double, ConvexPolygon::kMaxVertices> y;
   std::array<double, ConvexPolygon::kMaxVertices> normal_x;

@@ -6,7 +6,7 @@
 
 #include "rave/base/check.hpp"
 
-// Compiled once for each set of instructions.
+// Highway compiles this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/random_batch.cpp"
 #include <hwy/foreach_target.h>
@@ -26,17 +26,17 @@ using WordVector = hn::Vec<Words>;
 using ProductVector = hn::Vec<Products>;
 
 constexpr std::size_t kRounds = 10;
-/// Blocks in a vector, one to a lane, and numbers in a group of so many blocks.
+/// Blocks per vector (one per lane), and numbers per group of these blocks.
 constexpr std::size_t kBlocks = hn::MaxLanes(Floats());
 constexpr std::size_t kGroup = 4 * kBlocks;
 
-/// The four words of each block, one vector for each word.
+/// The four words of each block, one vector per word.
 struct Blocks {
   WordVector word[4];
 };
 
-/// Every other block. A word lies in the lower half of 64 bits, since a product needs twice its
-/// room. What is in the upper half does not matter: a multiplication does not read it.
+/// Every other block. A word is in the lower half of 64 bits, because a product needs twice its
+/// width. The upper half is ignored by the multiplication.
 struct HalfBlocks {
   ProductVector word[4];
 };
@@ -98,7 +98,7 @@ HWY_INLINE Blocks mixed(const Blocks& counter, const RoundKeys& keys) {
   return all;
 }
 
-/// Counters that stand in memory, of which the last group may have fewer than a vector holds.
+/// Counters in memory; the last group may have fewer than a vector holds.
 class GivenCounters {
  public:
   explicit GivenCounters(const RandomCounter* counters) : counters_(counters) {}
@@ -120,7 +120,7 @@ class GivenCounters {
   const RandomCounter* counters_;
 };
 
-/// Counters of one stream, one after the other; after 2^32 - 1 comes 0.
+/// Consecutive counters of one stream; 0 follows 2^32 - 1.
 class CountersInTurn {
  public:
   explicit CountersInTurn(const RandomCounter& first) : first_(first) {}
@@ -214,7 +214,7 @@ struct AsNormals {
   }
 };
 
-/// What does not fill a group goes through a buffer.
+/// An incomplete group goes through a buffer.
 template <class As, class Counters>
 HWY_INLINE void fill(const RandomKey& key, const Counters& counters, typename As::Value* out,
                      std::size_t count) {

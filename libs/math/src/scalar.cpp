@@ -7,7 +7,7 @@ namespace rave::detail {
 
 namespace {
 
-// 2/pi: 64 zero bits, then its first 1216 binary places.
+// 2/pi: 64 zero bits, then its first 1216 binary digits.
 constexpr std::array<std::uint64_t, 20> kTwoOverPi = {
     0x0000000000000000, 0xA2F9836E4E441529, 0xFC2757D1F534DDC0, 0xDB6295993C439041,
     0xFE5163ABDEBBC561, 0xB7246E3A424DD2E0, 0x06492EEA09D1921C, 0xFE1DEB1CB129A73E,
@@ -42,7 +42,7 @@ ReducedAngle reduce_huge(double angle) noexcept {
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(angle);
   const std::uint64_t mantissa = (bits & 0xFFFFFFFFFFFFFULL) | 0x10000000000000ULL;
   const auto exponent = static_cast<int>((bits >> 52U) & 0x7FFU) - 1075;
-  // Places of 2/pi that contribute whole multiples of 4 quadrants are left out.
+  // Digits of 2/pi that contribute multiples of 4 quadrants are skipped.
   const auto start = static_cast<std::size_t>(exponent) + 62;
   const WideProduct third = multiply(mantissa, bits_from(start + 128));
   const WideProduct second = multiply(mantissa, bits_from(start + 64));
@@ -51,7 +51,7 @@ ReducedAngle reduce_huge(double angle) noexcept {
       mantissa * bits_from(start) + second.high + static_cast<std::uint64_t>(middle < second.low);
   std::uint64_t quadrant = top >> 62U;
 
-  // What follows the two quadrant bits is a fraction of a quadrant; above one half it is counted
+  // The bits after the two quadrant bits are a fraction of a quadrant; above one half it is counted
   // back from the next quadrant.
   top = (top << 2U) | (middle >> 62U);
   middle = (middle << 2U) | (third.low >> 62U);
@@ -101,11 +101,11 @@ double wrap_outside(double angle) noexcept {
     wrapped = second.sum + (first.error + second.error - n * (4 * kHalfPi4));
   } else {
     const ReducedAngle reduced = reduce_huge(angle);
-    // Quadrant 3 is one back rather than three on.
+    // Quadrant 3 is -1 instead of +3.
     const double quarters = reduced.quadrant == 3U ? -1.0 : static_cast<double>(reduced.quadrant);
     wrapped = quarters * (0.5 * kPi) + reduced.value;
   }
-  // Half a turn has one name, and rounding may have left the interval by a little.
+  // pi represents half a turn, and rounding may exceed the interval slightly.
   if (wrapped > kPi) wrapped -= 2.0 * kPi;
   if (wrapped <= -kPi) wrapped += 2.0 * kPi;
   return wrapped > kPi ? kPi : wrapped;

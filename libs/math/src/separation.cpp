@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The edge of one polygon beyond which the other lies farthest.
+/// The edge of one polygon with the largest distance to the other polygon.
 struct FaceQuery {
   double distance = -kInfinity;
   std::size_t edge = 0;
@@ -34,8 +34,8 @@ FaceQuery best_face(const PlacedPolygon& face, const PlacedPolygon& other) noexc
   return best;
 }
 
-/// The part of the edge, metres from its first vertex, that faces the other's nearest vertices.
-/// Empty (low > high) if the nearest points are not perpendicular to the edge.
+/// The part of the edge, in metres from its first vertex, opposite the nearest vertices of the
+/// other. Empty (low > high) if the nearest points are not perpendicular to the edge.
 struct Overlap {
   double low = 0;
   double high = 0;
@@ -43,7 +43,7 @@ struct Overlap {
 
 Overlap facing_part(const PlacedPolygon& face, const FaceQuery& query,
                     const PlacedPolygon& other) noexcept {
-  // Vertices this near to the nearest one count as parallel to the edge, metres.
+  // Vertices this close to the nearest one count as parallel to the edge, metres.
   constexpr double kParallel_m = 1.0e-9;
   const Vec2 normal = face.normal(query.edge);
   const Vec2 tangent{-normal.y, normal.x};
@@ -59,7 +59,7 @@ Overlap facing_part(const PlacedPolygon& face, const FaceQuery& query,
     high = std::max(high, along);
   }
   const double length = dot(tangent, end - start);
-  // Overlapping shapes always have their contact on the edge; only rounding says otherwise.
+  // The contact of overlapping shapes is always on the edge; rounding could say otherwise.
   if (query.distance <= 0) {
     return {std::clamp(low, 0.0, length), std::clamp(high, 0.0, length)};
   }
@@ -82,7 +82,7 @@ Separation nearest_vertices(const PlacedPolygon& a, const PlacedPolygon& b,
     }
   }
   const double distance = std::sqrt(best);
-  // Vertices that touch define no direction.
+  // Coincident vertices define no direction.
   const Vec2 normal = distance > 1.0e-12 ? (1.0 / distance) * (on_b - on_a) : fallback_normal;
   return {distance, normal, on_a, on_b};
 }
@@ -123,7 +123,7 @@ Separation separate(const PlacedPolygon& a, const PlacedPolygon& b) noexcept {
 
 Separation distance(const ConvexPolygon& a, const Pose2& X_WA, const ConvexPolygon& b,
                     const Pose2& X_WB) noexcept {
-  // Worked out about the origin of B, so that no digits are lost far from that of W.
+  // Computed relative to the origin of B, to keep precision far from the origin of W.
   detail::PlacedPolygon placed_a;
   detail::PlacedPolygon placed_b;
   placed_a.place(a, sincos(X_WA.yaw), X_WA.position() - X_WB.position());

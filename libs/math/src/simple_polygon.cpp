@@ -34,7 +34,7 @@ bool segments_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) noexcept {
          (cda == 0 && within_box(a, c, d)) || (cdb == 0 && within_box(b, c, d));
 }
 
-/// Whether edges i < j of the outline have more in common than the vertex that joins them.
+/// Whether edges i < j of the outline share more than their common vertex.
 bool edges_cross(std::span<const Vec2> v, std::size_t i, std::size_t j) noexcept {
   const std::size_t n = v.size();
   const auto at = [&](std::size_t k) { return v[k % n]; };
@@ -46,8 +46,8 @@ bool edges_cross(std::span<const Vec2> v, std::size_t i, std::size_t j) noexcept
   return segments_meet(at(i), at(i + 1), at(j), at(j + 1));
 }
 
-/// The first pair of edges, by index, that cross. Edges are swept in the order of their left ends,
-/// so that only those which overlap in x are compared.
+/// The first pair of crossing edges, by index. Edges are swept in the order of their left ends, so
+/// that only edges that overlap in x are compared.
 std::optional<EdgePair> find_crossing(std::span<const Vec2> v) {
   const std::size_t n = v.size();
   std::vector<std::size_t> order(n);
@@ -141,7 +141,7 @@ Result<SimplePolygon> check_simple(std::span<const Vec2> vertices, std::size_t m
 }
 
 SimplePolygon without_collinear(SimplePolygon polygon) {
-  // Removing a vertex changes the turn at its neighbours, so one is taken at a time.
+  // Removing a vertex changes the turn at its neighbours, so remove one at a time.
   for (std::size_t i = 0; i < polygon.vertices.size() && polygon.vertices.size() > 2;) {
     const std::size_t n = polygon.vertices.size();
     const Vec2 in = polygon.vertices[i] - polygon.vertices[(i + n - 1) % n];

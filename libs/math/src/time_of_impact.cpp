@@ -10,13 +10,13 @@
 namespace rave {
 namespace {
 
-/// What a motion may lose to rounding, metres: without it a body that lies on a wall could not
-/// slide along it. A million steps lose a micrometre, a hundredth of the usual skin.
+/// Tolerance of a motion for rounding errors, metres: without it a body on a wall could not slide
+/// along it. A million steps lose a micrometre, a hundredth of the usual skin.
 constexpr double kSlack_m = 1.0e-12;
 constexpr int kMaxSteps = 200;
 
-/// The first share s > 0 at which room - approach * s - bend * s^2 becomes negative, for room and
-/// bend >= 0; +inf if it never does.
+/// The first fraction s > 0 at which room - approach * s - bend * s^2 becomes negative, for room
+/// and bend >= 0; +inf if it never does.
 double share_until_used_up(double room, double approach, double bend) noexcept {
   const double root = std::sqrt(approach * approach + 4.0 * bend * room);
   if (approach > 0) return 2.0 * room / (approach + root);
@@ -24,10 +24,10 @@ double share_until_used_up(double room, double approach, double bend) noexcept {
   return std::numeric_limits<double>::infinity();
 }
 
-/// For how much of the motion every vertex of `a` keeps `target` from the line through b's nearest
-/// point across `axis`. Turning by theta moves a vertex with arm r along the axis by
-/// (r x axis) sin theta - (r . axis)(1 - cos theta); bounded from above for |theta| <= pi/2, where
-/// 2/pi |theta| <= |sin theta| <= |theta| and 0 <= 1 - cos theta <= theta^2 / 2.
+/// The fraction of the motion during which every vertex of `a` keeps the distance `target` from the
+/// line through b's nearest point perpendicular to `axis`. A turn by theta moves a vertex with arm
+/// r along the axis by (r x axis) sin theta - (r . axis)(1 - cos theta). The bound for |theta| <=
+/// pi/2 uses 2/pi |theta| <= |sin theta| <= |theta| and 0 <= 1 - cos theta <= theta^2 / 2.
 double free_share(const detail::PlacedPolygon& a, Vec2 origin, const Motion2& motion,
                   const Separation& now, double target) noexcept {
   const Vec2 axis = now.normal_W;
@@ -56,7 +56,7 @@ Pose2 advance(const Pose2& X_WA, const Motion2& motion_W, double fraction) noexc
 Impact time_of_impact(const ConvexPolygon& a, const Pose2& X_WA, const Motion2& motion_W,
                       const ConvexPolygon& b, const Pose2& X_WB,
                       const ImpactLimits& limits) noexcept {
-  // About the origin of B, as in distance().
+  // Relative to the origin of B, as in distance().
   const Pose2 start{X_WA.x - X_WB.x, X_WA.y - X_WB.y, X_WA.yaw};
   detail::PlacedPolygon placed_a;
   detail::PlacedPolygon placed_b;
@@ -77,7 +77,7 @@ Impact time_of_impact(const ConvexPolygon& a, const Pose2& X_WA, const Motion2& 
       now = separation_at(1.0);
       return {1.0, now.normal_W, now.distance_m, false};
     }
-    // The rest of the room is too small to matter, and so is what would be gained by more steps.
+    // The remaining room is negligible, and so is the gain of further steps.
     constexpr double kSmallShare = 1.0e-3;
     const bool close = now.distance_m - target <= limits.tolerance_m;
     if (close && share <= kSmallShare) return {fraction, now.normal_W, now.distance_m, true};

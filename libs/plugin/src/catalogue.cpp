@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 /// The files of one folder, in the order of their names; or those named one by one.
 struct Group {
   std::vector<PluginFile*> files;
-  /// Names that two usable files provide, and what to say about it.
+  /// Names that two usable files provide, with the error message.
   std::map<std::string, Error, std::less<>> conflicts;
 };
 
@@ -27,7 +27,7 @@ bool wanted(std::span<const DriverKind> kinds, DriverKind kind) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
-/// `sensor or virtual sensor`; `driver` if any will do.
+/// `sensor or virtual sensor`; `driver` if any kind is permitted.
 std::string kinds_text(std::span<const DriverKind> kinds) {
   std::string text;
   for (const DriverKind kind : kinds) {
@@ -55,7 +55,7 @@ Result<std::vector<fs::path>> plugin_files_of(const fs::path& folder) {
   return files;
 }
 
-/// Two files of one folder that provide one name: nothing says which one was meant.
+/// Finds names that two files of one folder provide, because nothing selects one of them.
 void find_conflicts(Group& group) {
   std::map<std::string_view, PluginFile*> owners;
   for (PluginFile* file : group.files) {
@@ -97,17 +97,17 @@ struct Catalogue::Impl {
   Stamp host;
   std::map<fs::path, std::unique_ptr<PluginFile>> files;  ///< By canonical path.
   std::vector<PluginFile*> load_order;
-  std::vector<Group> groups{1};  ///< First the files given to load(), then one per folder.
+  std::vector<Group> groups{1};  ///< First the files of load(), then one group per folder.
   std::vector<RejectedPlugin> rejected;
 };
 
-/// The file at `path` and whether it is a new one: one entry per file, however it was reached.
+/// The entry for the file at `path`, and whether it is new: one entry per file, whatever its path.
 std::pair<PluginFile*, bool> Catalogue::Impl::note(const fs::path& path) {
   std::error_code code;
   fs::path absolute = fs::absolute(path, code);
   if (code) absolute = path;
   fs::path key = fs::canonical(absolute, code);
-  if (code) key = absolute;  // A dangling link; reading its stamp says so.
+  if (code) key = absolute;  // A dangling link; reading its stamp reports that.
   auto& file = files[key];
   const bool is_new = file == nullptr;
   if (is_new) file = std::make_unique<PluginFile>(absolute, host);
@@ -145,7 +145,7 @@ Result<const Driver*> Catalogue::Impl::find_in(const Group& group,
   return nullptr;
 }
 
-/// Loads what can be loaded; the drivers that find() would give, by kind and name.
+/// Loads all usable files; returns the drivers that find() can return, by kind and name.
 std::vector<const Driver*> Catalogue::Impl::load_all() {
   std::map<std::pair<DriverKind, std::string_view>, const Driver*> found;
   for (Group& group : groups) {
@@ -214,7 +214,7 @@ Status Catalogue::load(const std::filesystem::path& path) {
   Group& named = impl_->groups.front();
   if (std::find(named.files.begin(), named.files.end(), file) == named.files.end()) {
     named.files.push_back(file);
-    // The caller learns of a second provider here; the first one stays in use.
+    // Reports a second provider to the caller; the first one stays in use.
     find_conflicts(named);
     named.conflicts.clear();
   }

@@ -18,7 +18,7 @@ bool is_snake_case(std::string_view name) noexcept {
          std::all_of(name.begin(), name.end(), inner);
 }
 
-/// What is wrong with the choices of `spec`; empty if nothing is.
+/// The problem with the choices of `spec`; empty if there is none.
 std::string choices_problem(const ParamSpec& spec) {
   if (spec.choices == nullptr || spec.choice_count == 0) return "it has no choices";
   const std::span choices(spec.choices, spec.choice_count);
@@ -31,9 +31,9 @@ std::string choices_problem(const ParamSpec& spec) {
   return {};
 }
 
-/// The same for the range and the default of a number, integer, bool or list.
+/// The problem with the range or default of a number, integer, bool or list.
 std::string range_problem(const ParamSpec& spec) {
-  // Written so that a NaN fails as well.
+  // NaN fails this condition.
   if (!(spec.min <= spec.max)) {
     return fmt::format("its range is reversed (min {}, max {})", spec.min, spec.max);
   }

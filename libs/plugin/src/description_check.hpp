@@ -6,9 +6,9 @@
 
 namespace rave::plugin {
 
-/// Refuses a description that a host could not rely on: names that are empty or not
-/// lower_snake_case, empty sentences, ranges upside down, defaults outside them, null pointers.
-/// Error: kPlugin, naming driver and parameter.
+/// Refuses invalid descriptions: names that are empty or not lower_snake_case, empty sentences,
+/// reversed ranges, defaults outside of them, null pointers. Error: kPlugin, naming driver and
+/// parameter.
 [[nodiscard]] Status check_description(const DriverInfo& info, const void* ops);
 
 }  // namespace rave::plugin

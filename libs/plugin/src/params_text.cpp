@@ -12,7 +12,7 @@
 namespace rave::plugin {
 namespace {
 
-/// Beyond this an author means "no limit": the largest double or integer.
+/// Larger limits mean "no limit": the largest double or integer.
 bool is_unlimited(const ParamSpec& spec, double limit) noexcept {
   const double far = spec.type == ParamType::kInteger ? 9007199254740992.0 : 1e300;
   return !(std::abs(limit) < far);
@@ -39,7 +39,7 @@ std::array<std::string, 6> cells_of(const ParamSpec& spec) {
 constexpr std::array<std::string_view, 6> kHeadings{"name",  "type",    "unit",
                                                     "range", "default", "meaning"};
 
-/// A cell of a Markdown table must not hold the signs that end it or start markup.
+/// Escapes the characters that end a Markdown table cell or begin markup.
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -49,7 +49,7 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-/// `text` as code if there is any. Inside code only the bar needs escaping.
+/// `text` as code unless empty. Inside code only the bar must be escaped.
 std::string as_code(std::string_view text) {
   if (text.empty()) return {};
   std::string out = "`";

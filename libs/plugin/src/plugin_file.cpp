@@ -29,8 +29,8 @@ class Collector final : public RegistrySink {
   std::filesystem::path file_;
 };
 
-/// The reason that dlerror gives, without the path that our own message has already, and with a
-/// mangled symbol in words.
+/// The text of dlerror() without the path, which our message already has, and with demangled
+/// symbols.
 std::string loader_reason(const std::filesystem::path& path) {
   const char* raw = ::dlerror();
   std::string reason = raw == nullptr ? "unknown reason" : raw;
@@ -57,7 +57,7 @@ Status call_entry(void* entry, RegistrySink& sink) {
   return {};
 }
 
-/// Refuses drivers that the host could not find or tell apart by what the stamp says.
+/// Checks that the registered drivers are those of the stamp's list.
 Status check_against_stamp(const std::vector<Driver>& drivers,
                            const std::vector<std::string>& provides) {
   for (auto driver = drivers.begin(); driver != drivers.end(); ++driver) {
@@ -122,12 +122,12 @@ Status PluginFile::load() {
 }
 
 Status PluginFile::open_library() {
-  // All symbols now: a missing one must show here and not in the middle of a run. Local: two
-  // plug-ins never see each other's symbols.
+  // RTLD_NOW: a missing symbol must show here and not during a run. RTLD_LOCAL: plug-ins must not
+  // see each other's symbols.
   int flags = RTLD_NOW | RTLD_LOCAL;
 #if defined(__SANITIZE_THREAD__)
-  // The thread sanitizer gives up when a library that its suppressions name is unloaded, as the bus
-  // is with the last plug-in that needs it.
+  // The thread sanitizer fails when a library named in its suppressions is unloaded, as the bus is
+  // with the last plug-in that uses it.
   flags |= RTLD_NODELETE;
 #endif
   handle_ = ::dlopen(path_.c_str(), flags);

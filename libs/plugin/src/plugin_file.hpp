@@ -13,8 +13,8 @@
 
 namespace rave::plugin {
 
-/// One file of a plug-in folder: noted by its stamp, then loaded or refused, for good.
-/// Owns the loaded library and unloads it at its end.
+/// One file of a plug-in folder: its stamp is read first, later it is loaded or permanently
+/// rejected. Owns the loaded library and unloads it on destruction.
 class PluginFile {
  public:
   /// Reads and checks the stamp; a file that fails is kept with its error.
@@ -24,24 +24,24 @@ class PluginFile {
   ~PluginFile();
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-  /// What the stamp lists; empty if it could not be read.
+  /// The names in the stamp; empty if it could not be read.
   [[nodiscard]] const std::vector<std::string>& provides() const noexcept { return provides_; }
-  /// Whether the file is, or seems to be, the home of driver `name`: its stamp lists it, or the
-  /// stamp cannot be read and the file is called so.
+  /// Whether the file provides or may provide driver `name`: its stamp lists it, or the stamp is
+  /// unreadable and the file has that name.
   [[nodiscard]] bool claims(std::string_view name) const;
 
-  /// Set once the file is refused; the message names the file.
+  /// Set if the file was rejected; the message names the file.
   [[nodiscard]] const std::optional<Error>& error() const noexcept { return error_; }
   [[nodiscard]] bool loaded() const noexcept { return handle_ != nullptr; }
   void refuse(Error reason);
 
-  /// Loads the library and takes its drivers, once; then and later the error that it gave.
+  /// Loads the library and its drivers once; later calls return the same result.
   Status load();
 
-  /// Drops the drivers and the library; nothing made from them may be left.
+  /// Unloads the library; everything made from its drivers must be destroyed before.
   void unload() noexcept;
 
-  /// Empty until loaded. The addresses stay for the life of this object.
+  /// Empty until loaded. Addresses are valid for the life of this object.
   [[nodiscard]] const std::vector<Driver>& drivers() const noexcept { return drivers_; }
 
  private:

@@ -13,7 +13,7 @@
 namespace rave::plugin {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the reader takes bytes as they lie");
+static_assert(std::endian::native == std::endian::little, "the stamp is read as little-endian");
 
 #if defined(__x86_64__)
 constexpr Elf64_Half kHostMachine = EM_X86_64;
@@ -27,14 +27,14 @@ constexpr Elf64_Half kHostMachine = EM_RISCV;
 
 constexpr std::string_view kSection = ".rave_stamp";
 
-/// The part [offset, offset + size) of `bytes`, nothing if it leaves them.
+/// The range [offset, offset + size) of `bytes`; empty if it exceeds them.
 std::optional<std::string_view> part(std::string_view bytes, std::uint64_t offset,
                                      std::uint64_t size) {
   if (offset > bytes.size() || size > bytes.size() - offset) return std::nullopt;
   return bytes.substr(offset, size);
 }
 
-/// A plain struct at an offset that need not be aligned.
+/// A plain struct at an offset without alignment.
 template <class T>
 std::optional<T> value_at(std::string_view bytes, std::uint64_t offset) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -82,18 +82,18 @@ Result<Elf64_Ehdr> read_header(std::string_view bytes) {
   return *header;
 }
 
-/// Whether the text at `offset` of the table of names is the stamp's section name. The end of the
-/// table ends a name too, so that a missing zero reads nothing else.
+/// Whether the name at `offset` of the table of names is that of the stamp's section. The end of
+/// the table also ends a name, so a missing zero cannot cause reads beyond it.
 bool is_stamp_name(std::string_view names, std::uint64_t offset) {
   if (offset >= names.size()) return false;
   const std::string_view rest = names.substr(offset);
   return rest.substr(0, rest.find('\0')) == kSection;
 }
 
-/// The header of the stamp's section, nothing if there is none.
+/// The header of the stamp's section; empty if there is none.
 Result<std::optional<Elf64_Shdr>> find_section(std::string_view bytes, const Elf64_Ehdr& header) {
   if (header.e_shoff == 0 || header.e_shnum == 0) return std::optional<Elf64_Shdr>{};
-  // 65535 headers of 64 bytes at most: the product does not overflow.
+  // At most 65535 headers of 64 bytes: the product cannot overflow.
   const auto table = part(bytes, header.e_shoff, header.e_shnum * sizeof(Elf64_Shdr));
   if (!table) return damaged(bytes, "its table of sections reaches");
   const auto section = [&](std::uint64_t index) {
@@ -105,7 +105,7 @@ Result<std::optional<Elf64_Shdr>> find_section(std::string_view bytes, const Elf
   if (!names) return damaged(bytes, "its section names reach");
   for (std::uint64_t i = 0; i < header.e_shnum; ++i) {
     const auto candidate = section(i);
-    // A file of split debug symbols keeps the section's header and not its bytes: SHT_NOBITS.
+    // A file with split debug symbols has the section's header without its bytes: SHT_NOBITS.
     if (candidate && candidate->sh_type == SHT_PROGBITS &&
         is_stamp_name(*names, candidate->sh_name)) {
       return candidate;

@@ -9,9 +9,9 @@ namespace {
 
 constexpr std::size_t kIndent = 2;
 constexpr std::size_t kGap = 2;
-/// Widest the columns before the sentence may get: with indent and gaps they fit a page.
+/// Largest widths of the columns before the sentence: with indent and gaps they fit a page.
 constexpr std::array<std::size_t, TextTable::kColumns - 1> kWidest{28, 8, 12, 20, 20};
-/// With less room than this beside the columns, the sentence goes below its row.
+/// With less room, the sentence goes below its row.
 constexpr std::size_t kNarrowSentence = 28;
 constexpr std::size_t kSentenceIndent = 6;
 
@@ -28,7 +28,7 @@ std::size_t bytes_of(std::string_view text, std::size_t count) noexcept {
 
 void trim_end(std::string& line) { line.erase(line.find_last_not_of(' ') + 1); }
 
-/// Cells side by side, each in as many lines as it needs.
+/// A row of cells, each with as many lines as it needs.
 std::string row_text(std::span<const std::string> cells, std::span<const std::size_t> widths) {
   std::vector<std::vector<std::string>> columns;
   std::size_t height = 0;

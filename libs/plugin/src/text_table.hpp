@@ -15,15 +15,15 @@ inline constexpr std::size_t kPageWidth = 100;
 /// The number of characters of a UTF-8 text.
 [[nodiscard]] std::size_t width_of(std::string_view text) noexcept;
 
-/// Breaks a text at its blanks into lines of at most `width` characters; a longer word is cut.
-/// At least one line.
+/// Breaks a text at blanks into lines of at most `width` characters; longer words are split. At
+/// least one line.
 [[nodiscard]] std::vector<std::string> wrap(std::string_view text, std::size_t width);
 
-/// The same as text: each line indented and ended, no wider than `width` in all.
+/// wrap() as text: lines are indented and end in a newline; not wider than `width` in total.
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t indent, std::size_t width);
 
-/// A table for a terminal: narrow columns in front and a sentence last. Cells that are too long
-/// go on in the next line of their column.
+/// A table for a terminal: narrow columns, then a sentence. Long cells continue in the next line of
+/// their column.
 class TextTable {
  public:
   static constexpr std::size_t kColumns = 6;

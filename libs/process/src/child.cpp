@@ -35,7 +35,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   return pointers;
 }
 
-/// What posix_spawn does in the child before the program runs.
+/// The actions of posix_spawn in the child before the program runs.
 class SpawnPlan {
  public:
   explicit SpawnPlan(const ChildOptions& options) {
@@ -66,17 +66,17 @@ class SpawnPlan {
     ::posix_spawnattr_destroy(&attributes_);
   }
 
-  /// Hands over the files, and closes the rest. Returns 0 or what keeps it from that.
+  /// Adds the descriptors to pass, and closes the rest. Returns 0 or errno.
   int add_files(const ChildOptions& options) {
     int above = STDERR_FILENO;
     for (const ChildOptions::File& file : options.files) above = std::max(above, file.theirs);
     for (const ChildOptions::File& file : options.files) {
-      // From above all numbers of the child, so that no dup2 overwrites the source of another.
+      // Copies above all numbers of the child, so that no dup2 overwrites the source of another.
       Descriptor& copy = copies_.emplace_back(::fcntl(file.ours, F_DUPFD_CLOEXEC, above + 1));
       if (!copy) return errno;
       ::posix_spawn_file_actions_adddup2(&files_, copy.get(), file.theirs);
     }
-    // Also those that some other library opened without O_CLOEXEC.
+    // Also those that libraries opened without O_CLOEXEC.
     if (options.close_from) {
       ::posix_spawn_file_actions_addclosefrom_np(&files_, *options.close_from);
     }
@@ -131,7 +131,7 @@ std::optional<ChildEnd> Child::wait(std::chrono::milliseconds longest) {
   const auto until = Clock::now() + longest;
   pollfd gone{handle_.get(), POLLIN, 0};
   int ready = 0;
-  // A signal of this process cuts the waiting short.
+  // A signal to this process interrupts the wait.
   do {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
     const auto most = std::max(left, std::chrono::milliseconds(0)).count();
@@ -153,7 +153,7 @@ ChildEnd Child::reap() {
   do {
     result = ::waitid(P_PIDFD, static_cast<id_t>(handle_.get()), &info, WEXITED);
   } while (result != 0 && errno == EINTR);
-  // It fails where the process reaps all its children itself.
+  // waitid() fails if this process reaps all its children itself.
   if (result == 0) (info.si_code == CLD_EXITED ? end_.exit_code : end_.signal) = info.si_status;
   id_ = 0;
   return end_;

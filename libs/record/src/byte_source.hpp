@@ -10,8 +10,8 @@
 
 namespace rave::record {
 
-/// The bytes of a record: an open file or memory. Read with pread, not mapped: a file that is cut
-/// while it is read gives an error and no signal.
+/// The bytes of a recording: an open file or memory. Read with pread instead of a mapping: a file
+/// that is truncated meanwhile causes an error instead of a signal.
 class ByteSource {
  public:
   [[nodiscard]] static Result<std::unique_ptr<ByteSource>> open(const std::filesystem::path& path);
@@ -22,8 +22,8 @@ class ByteSource {
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
-  /// Puts `size` bytes from `offset` into `out`. Errors name file and offset; a range that does not
-  /// lie inside the file is kParse.
+  /// Reads `size` bytes from `offset` into `out`. Errors name file and offset; a range beyond the
+  /// end is kParse.
   [[nodiscard]] Status read(std::uint64_t offset, std::uint64_t size, Bytes& out) const;
 
  private:

@@ -14,7 +14,7 @@
 
 namespace rave::record {
 
-static_assert(std::endian::native == std::endian::little, "MCAP and CDR are written as they lie");
+static_assert(std::endian::native == std::endian::little, "MCAP and CDR are written little-endian");
 
 using Bytes = std::vector<std::byte>;
 using ByteSpan = std::span<const std::byte>;
@@ -69,8 +69,8 @@ class ByteWriter {
   Bytes& out_;
 };
 
-/// Reads the same types. After the first read beyond the end ok() is false and everything is zero
-/// or empty, so a record can be read as a whole and checked once.
+/// Reads the same types. After a read beyond the end, ok() is false and all results are zero or
+/// empty, so a record can be read completely and checked once.
 class ByteReader {
  public:
   explicit ByteReader(ByteSpan bytes) noexcept : bytes_(bytes) {}

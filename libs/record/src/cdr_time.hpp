@@ -8,7 +8,7 @@ namespace rave::record {
 
 inline constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
-/// builtin_interfaces/Time: whole seconds, and nanoseconds that are never negative.
+/// builtin_interfaces/Time: whole seconds, and non-negative nanoseconds.
 inline void put_time(CdrWriter& writer, SimTime time) {
   std::int64_t sec = time.ns / kNsPerSecond;
   std::int64_t ns = time.ns % kNsPerSecond;

@@ -60,7 +60,7 @@ class FileCheck {
     if (crc32(summed) != crc) damage_at(what, info.offset, "does not match its checksum");
   }
 
-  /// Metadata have no checksum of their own, only that of all data.
+  /// Metadata records have no checksum of their own; the checksum of all data covers them.
   void check_metadata(const MetadataInfo& info) {
     Bytes bytes;
     if (const Status read = source_.read(info.offset, info.length, bytes); !read) {
@@ -92,7 +92,7 @@ class FileCheck {
     if (!ok || !complete) damage_at("chunk", info.offset, "has an incomplete record");
   }
 
-  /// The checksum of all data also covers what has none of its own.
+  /// The checksum of all data also covers records without their own.
   void check_data() {
     Bytes bytes;
     std::uint32_t sum = 0;

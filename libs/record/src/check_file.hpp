@@ -5,7 +5,7 @@
 
 namespace rave::record {
 
-/// Compares every checksum of a file and counts its messages. Memory: the largest chunk.
+/// Verifies every checksum of a file and counts its messages. Memory: the largest chunk.
 [[nodiscard]] CheckedFile check_file(const RecordFile& file);
 
 }  // namespace rave::record

@@ -8,8 +8,8 @@
 
 namespace rave::record {
 
-/// Messages on their way to the file: the records as they will be compressed, and where each
-/// message begins in them.
+/// Messages to be written: the uncompressed records of a chunk, and the offset of each message in
+/// them.
 struct Chunk {
   struct Entry {
     std::uint64_t log_time_ns;

@@ -11,7 +11,7 @@
 namespace rave::record {
 namespace {
 
-/// Opcode, length, two times, size, checksum, `zstd` or nothing, packed size.
+/// Size of opcode, length, two times, size, checksum, `zstd` or empty, compressed size.
 constexpr std::size_t kLongestHead = kRecordHead + 8 + 8 + 8 + 4 + 4 + 4 + 8;
 
 [[nodiscard]] Status read_at(int fd, std::uint64_t offset, std::size_t size,
@@ -41,7 +41,7 @@ Result<ChunkInfo> read_back(int fd, const ChunkPlace& place, const std::string& 
   ChunkInfo info;
   info.offset = place.offset;
   info.message_index_length = place.index_length;
-  // A chunk is never the last thing in the file: the end of the data follows.
+  // More than the head can be read: a chunk is always followed by the end of the data.
   RAVE_TRY(read_at(fd, place.offset, kLongestHead, path, buffer));
   ByteReader head(buffer);
   const auto code = head.get<std::uint8_t>();

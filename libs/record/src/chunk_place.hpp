@@ -10,15 +10,15 @@
 
 namespace rave::record {
 
-/// Where a chunk that was written lies. All that the summary says of it is read back from the file
-/// at the end: kept in memory, the index of a long run would be most of what the run takes.
+/// The place of a written chunk. Its index is read back from the file at the end: in memory, the
+/// index of a long run would be the largest part of the recorder.
 struct ChunkPlace {
   std::uint64_t offset = 0;
-  std::uint64_t index_length = 0;  ///< Of the message indexes behind it, bytes.
+  std::uint64_t index_length = 0;  ///< Size of the message indexes after it, bytes.
 };
 
-/// Reads head and message indexes of a chunk from an open file. `path` is for messages, `buffer` is
-/// used on the way. Errors: kIo.
+/// Reads the head and message indexes of a chunk from an open file. `path` is used in messages,
+/// `buffer` is scratch memory. Errors: kIo.
 [[nodiscard]] Result<ChunkInfo> read_back(int fd, const ChunkPlace& place, const std::string& path,
                                           Bytes& buffer);
 

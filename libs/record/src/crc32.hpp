@@ -7,7 +7,7 @@
 
 namespace rave::record {
 
-/// CRC-32 as in IEEE 802.3, zlib and MCAP. `crc32(b, crc32(a))` is the sum over a and b in a row.
+/// CRC-32 of IEEE 802.3, zlib and MCAP. `crc32(b, crc32(a))` is the CRC of a followed by b.
 [[nodiscard]] std::uint32_t crc32(std::span<const std::byte> bytes,
                                   std::uint32_t before = 0) noexcept;
 

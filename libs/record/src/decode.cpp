@@ -22,7 +22,7 @@ tl::unexpected<Error> other_version(const char* topic, std::uint32_t version) {
               topic, version, kLayoutVersion);
 }
 
-/// Reads the part that all messages with packed arrays begin with, and the first array.
+/// Reads the common beginning of messages with packed arrays, and the first array.
 template <class Packed, class Item>
 [[nodiscard]] std::vector<Packed> get_step(CdrReader& reader, StepOf<Item>& step,
                                            std::uint32_t& version) {
@@ -33,7 +33,7 @@ template <class Packed, class Item>
   return reader.get_packed<Packed>(reader.get<std::uint32_t>());
 }
 
-/// How many robots an element stands for.
+/// The number of robots that an element represents.
 template <class Packed>
 [[nodiscard]] std::uint32_t robots_of(const Packed& element) noexcept {
   if constexpr (requires { element.robots; }) {
@@ -43,8 +43,8 @@ template <class Packed>
   }
 }
 
-/// Gives each robot of each element its bytes of the common field; false if one reaches beyond it,
-/// or if a row has no equal parts.
+/// Assigns each robot of each element its part of the common bytes; false if a part exceeds them,
+/// or if a row cannot be divided equally.
 template <class Packed, class Item, class Make>
 [[nodiscard]] bool add_items(const std::vector<Packed>& packed, Message records, Make make,
                              std::vector<Item>& items) {
@@ -56,7 +56,7 @@ template <class Packed, class Item, class Make>
     const std::uint32_t robots = robots_of(element);
     if (robots == 0 || element.size % robots != 0) return false;
     const std::uint32_t size = element.size / robots;
-    // Bytes bound the number of robots that a damaged message can claim.
+    // The available bytes bound the number of robots that a damaged message can claim.
     if (robots > 1 && size == 0) return false;
     for (std::uint32_t i = 0; i < robots; ++i) {
       items.push_back(make(element, i, records.subspan(element.offset + i * size, size)));
@@ -183,7 +183,7 @@ Result<RunInput> decode_input(Message message) {
   input.robot = reader.get_string();
   input.key = reader.get_string();
   input.value = reader.get_string();
-  // Older records do not say who.
+  // Older recordings have no author.
   if (!reader.at_end()) input.by = reader.get_string();
   if (!reader.ok()) return malformed(topic::kInputs);
   return input;

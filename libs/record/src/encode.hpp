@@ -4,7 +4,7 @@
 #include "rave/record/cdr.hpp"
 #include "rave/record/run_messages.hpp"
 
-// The counterparts of decode.cpp. Each begins a new message in the writer.
+// The inverse of decode.cpp. Each function begins a new message in the writer.
 namespace rave::record {
 
 void encode_run(CdrWriter& writer, const RunInfo& info);

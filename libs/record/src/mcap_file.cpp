@@ -50,7 +50,8 @@ Status McapFile::append(ByteSpan bytes) {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) {
       const int code = errno;
-      // Cut off the half piece, so that what follows, if only the index, stands behind a whole one.
+      // Truncate the incomplete record, so that later ones, if only the index, follow a complete
+      // one.
       const auto good = static_cast<off_t>(offset_);
       const bool cut = ::ftruncate(fd_, good) == 0 && ::lseek(fd_, good, SEEK_SET) == good;
       return fail(ErrorCode::kIo, "cannot write `{}` at offset {}: {}{}", path_.string(), offset_,

@@ -18,8 +18,8 @@ struct ZSTD_CCtx_s;
 
 namespace rave::record {
 
-/// The file under an McapWriter and all that its index will say. Used by one thread at a time.
-/// Every function writes one piece that can be read on its own, or, on failure, nothing.
+/// The file of an McapWriter and the content of its index. Used by one thread at a time. Every
+/// function writes one self-contained record; after a failure, nothing.
 class McapFile {
  public:
   [[nodiscard]] static Result<std::unique_ptr<McapFile>> create(const std::filesystem::path& path,
@@ -29,11 +29,11 @@ class McapFile {
   McapFile& operator=(const McapFile&) = delete;
   ~McapFile();
 
-  /// `zstd_level`: none to write the chunk as it is.
+  /// `zstd_level`: empty to write the chunk uncompressed.
   [[nodiscard]] Status write_chunk(const Chunk& chunk, std::optional<int> zstd_level);
   [[nodiscard]] Status write_attachment(const AttachmentInfo& info, ByteSpan data);
   [[nodiscard]] Status write_metadata(std::string_view name, const StringMap& entries);
-  /// Data end, summary, summary offsets, footer; closes the file.
+  /// Writes data end, summary, summary offsets and footer; closes the file.
   [[nodiscard]] Status finish(const std::vector<SchemaInfo>& schemas,
                               const std::vector<ChannelInfo>& channels);
 

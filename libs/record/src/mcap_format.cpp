@@ -147,8 +147,8 @@ bool get_metadata_index(ByteSpan content, MetadataInfo& metadata) {
 bool get_statistics(ByteSpan content, Statistics& statistics) {
   ByteReader reader(content);
   statistics.message_count = reader.get<std::uint64_t>();
-  static_cast<void>(reader.get<std::uint16_t>());  // schemas and channels are counted by
-  static_cast<void>(reader.get<std::uint32_t>());  // whoever lists them
+  static_cast<void>(reader.get<std::uint16_t>());  // numbers of schemas and channels: counted
+  static_cast<void>(reader.get<std::uint32_t>());  // when they are listed
   statistics.attachment_count = reader.get<std::uint32_t>();
   statistics.metadata_count = reader.get<std::uint32_t>();
   statistics.chunk_count = reader.get<std::uint32_t>();

@@ -7,7 +7,7 @@
 #include "bytes.hpp"
 #include "rave/record/mcap_types.hpp"
 
-// The records of an MCAP file, after the public specification (https://mcap.dev/spec).
+// The records of an MCAP file, according to the public specification (https://mcap.dev/spec).
 namespace rave::record {
 
 inline constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
@@ -41,7 +41,8 @@ void put_metadata_index(Bytes& out, const MetadataInfo& metadata);
 void put_statistics(Bytes& out, const Statistics& statistics, std::size_t schemas,
                     std::size_t channels);
 
-// Each reads the content of one record (without opcode and length) and says whether it was whole.
+// Each decodes the content of one record (without opcode and length) and returns whether it was
+// complete.
 [[nodiscard]] bool get_schema(ByteSpan content, SchemaInfo& schema);
 [[nodiscard]] bool get_channel(ByteSpan content, ChannelInfo& channel);
 [[nodiscard]] bool get_chunk_index(ByteSpan content, ChunkInfo& chunk);

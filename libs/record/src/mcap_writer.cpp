@@ -5,7 +5,7 @@
 
 namespace rave::record {
 
-/// The producer's side: ids, and what goes into the chunk that is open.
+/// The producer's side: ids, and the open chunk.
 class McapWriter::Impl {
  public:
   Impl(std::unique_ptr<McapFile> file, const McapWriterOptions& options, LogSink* sink)

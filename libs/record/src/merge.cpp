@@ -37,17 +37,17 @@ StringMap metadata_of(const McapReader& reader, std::string_view name) {
   return {};
 }
 
-/// The record of one process, at a moment.
+/// The recording of one process, at one log time.
 struct Part {
   fs::path path;
-  std::string host;  ///< Empty: of the authority.
+  std::string host;  ///< Empty: the world authority.
   McapReader reader;
   RunInfo info;
   std::optional<RunEnd> end;
   MomentCursor cursor;
   bool more = true;
-  bool here = false;   ///< It has something of the moment that is merged.
-  std::string torn{};  ///< Why it is not whole; empty: it is.
+  bool here = false;   ///< It has messages at the merged time.
+  std::string torn{};  ///< Why it is incomplete; empty: it is complete.
 
   void advance() {
     auto next = cursor.next();
@@ -72,8 +72,8 @@ Result<std::unique_ptr<Part>> open_part(const fs::path& path) {
   return part;
 }
 
-/// Calls `take(part, item)` for each item of a topic at this moment; of what cannot be decoded
-/// there is none.
+/// Calls `take(part, item)` for each item of a topic at this time; messages that cannot be decoded
+/// are skipped.
 template <class Decode, class Take>
 void each_item(const std::vector<std::unique_ptr<Part>>& parts, const char* topic, Decode decode,
                Take take) {
@@ -86,7 +86,7 @@ void each_item(const std::vector<std::unique_ptr<Part>>& parts, const char* topi
   }
 }
 
-/// A part of which not even the beginning can be read.
+/// A part whose beginning cannot be read.
 struct Unreadable {
   fs::path path;
   std::string why;
@@ -113,17 +113,17 @@ class Merger {
   [[nodiscard]] bool was_told(const Part& part, const RunEvent& event);
   [[nodiscard]] std::vector<std::string> notes() const;
 
-  /// Lines of the chat that were written: number, from, to, name, text.
+  /// Chat messages already written: number, from, to, name, text.
   std::set<std::tuple<std::uint64_t, std::string, std::string, std::string, std::string>> chats_;
   std::vector<std::unique_ptr<Part>> parts_;
   std::vector<Unreadable> unreadable_;
-  std::vector<std::string> hosts_;               ///< All that the run has.
+  std::vector<std::string> hosts_;               ///< All hosts of the run.
   std::vector<const std::string*> owner_;        ///< By robot: its host's name, or null.
-  std::vector<std::optional<RobotPose>> poses_;  ///< By robot, of one moment.
-  /// Who told first of changes of obstacles in real time, and when.
+  std::vector<std::optional<RobotPose>> poses_;  ///< By robot, at the merged time.
+  /// By change of an obstacle in real time: the first part that has it, and when.
   std::map<std::vector<double>, std::pair<const Part*, std::uint64_t>> told_;
   std::uint64_t time_ns_ = 0;
-  bool hashed_ = true;  ///< Each step had the hashes of all.
+  bool hashed_ = true;  ///< Every step had all hashes.
 };
 
 Status Merger::check() const {
@@ -155,7 +155,7 @@ RunInfo Merger::joined_info() const {
     return std::pair(sensor.robot, sensor.sensor);
   };
   std::ranges::stable_sort(info.sensors, {}, place);
-  // A host that was started again describes its sensors again.
+  // A restarted host describes its sensors again.
   const auto again = std::ranges::unique(info.sensors, {}, place);
   info.sensors.erase(again.begin(), again.end());
   return info;
@@ -183,7 +183,7 @@ std::vector<std::string> Merger::notes() const {
   for (const Unreadable& part : unreadable_) notes.push_back(part.why);
   for (const auto& part : parts_) {
     if (part->torn.empty()) continue;
-    notes.push_back(fmt::format("`{}` is torn: {}", part->path.string(), part->torn));
+    notes.push_back(fmt::format("`{}` is incomplete: {}", part->path.string(), part->torn));
   }
   for (const std::string& host : hosts_) {
     const bool there =
@@ -239,7 +239,7 @@ void Merger::write_hash(RunRecorder& recorder) {
     sum.merge(RunHash::of_value(step.hash));
     ++known;
   });
-  // Of the hosts, and of the authority.
+  // The hashes of all hosts and of the authority are needed.
   hashed_ = hashed_ && known == hosts_.size() + 1;
   if (hashed_) static_cast<void>(recorder.hash(sum.value()));
 }
@@ -252,7 +252,7 @@ void Merger::write_inputs(RunRecorder& recorder, bool before_first) {
   for (const RunInput& input : once.items()) static_cast<void>(recorder.input(input));
 }
 
-/// Several hosts may have a line, each when it came to it: the first one tells of it.
+/// Several hosts may have a chat message at different times: the first one is used.
 void Merger::write_chat(RunRecorder& recorder) {
   each_item(parts_, topic::kChat, decode_chat, [&](const Part&, const auto& said) {
     const RunChat& chat = said.second;
@@ -261,8 +261,8 @@ void Merger::write_chat(RunRecorder& recorder) {
   });
 }
 
-/// In real time each host has a change of an obstacle when it comes: the first one tells of it. The
-/// event then says which obstacle it is, and which change.
+/// In real time each host records an obstacle change when it arrives: the first one is used. The
+/// event identifies the obstacle and the change.
 bool Merger::was_told(const Part& part, const RunEvent& event) {
   const bool counted =
       !event.robot.valid() && event.kind.starts_with("obstacle ") && event.values.size() == 2 &&
@@ -292,7 +292,7 @@ Status Merger::write_moment(RunRecorder& recorder) {
       std::ranges::any_of(parts_, [](const auto& part) { return part->host.empty(); });
   each_item(parts_, topic::kEvents, decode_event, [&](const Part& part, const auto& all) {
     for (const RunEvent& event : all.items) {
-      // What happens to the world the authority knows best.
+      // For events of the world the authority's recording takes precedence.
       const bool of_world = !event.robot.valid();
       if (of_world && authority && !part.host.empty()) continue;
       if (!was_told(part, event)) events.add(&part, event);
@@ -339,7 +339,7 @@ Result<std::vector<std::string>> Merger::write(const fs::path& output) {
     keep_size(part.path, fs::file_size(part.path, error));
   }
   RAVE_TRY(recorder.describe(kPartsMetadata, kept));
-  // Without an end it is seen that the run is not whole here.
+  // Without an end the merged recording shows that the run is incomplete.
   if (!found.empty()) return found;
   RunHash sum;
   bool hashed = hashed_;

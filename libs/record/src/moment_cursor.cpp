@@ -11,7 +11,7 @@ MomentCursor::MomentCursor(const McapReader& reader, const std::vector<std::stri
     topic_of_[channel->id] = topic;
     filter.channels.push_back(channel->id);
   }
-  // Without a channel a filter lets all messages through.
+  // A filter without channels would accept all messages.
   if (!filter.channels.empty()) cursor_.emplace(reader.messages(std::move(filter)));
 }
 

@@ -18,8 +18,8 @@ namespace rave::record {
   return a.level == b.level && a.source == b.source && a.text == b.text;
 }
 
-/// What several parts say of one moment: what they say alike is there once, what one part says
-/// twice is there twice.
+/// Removes duplicates between parts at one time: an item that several parts have is kept once, but
+/// an item that one part has twice is kept twice.
 template <class Item>
 class Once {
  public:
@@ -40,7 +40,7 @@ class Once {
  private:
   const void* part_ = nullptr;
   std::vector<Item> items_;
-  std::vector<bool> taken_;  ///< Of the items of parts before: this part says it, too.
+  std::vector<bool> taken_;  ///< By item of earlier parts: this part has it too.
 };
 
 }  // namespace rave::record

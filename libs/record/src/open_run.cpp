@@ -10,8 +10,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRecord = "run.mcap";
 
-/// The records of the processes of a run: of the authority, then of the hosts by name, each time
-/// that one was started in its order.
+/// The recordings of the processes of a run: the authority first, then hosts by name, each with its
+/// starts in order.
 std::vector<fs::path> parts_in(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> hosts;
@@ -29,7 +29,7 @@ std::vector<fs::path> parts_in(const fs::path& folder) {
   return hosts;
 }
 
-/// Whether a record was made of just these, as they are now.
+/// Whether a recording was merged from exactly these files in their present state.
 bool is_made_of(const fs::path& merged, const std::vector<fs::path>& parts) {
   const auto reader = McapReader::open(merged);
   if (!reader || !reader->whole()) return false;

@@ -3,11 +3,11 @@
 
 #include <cstdint>
 
-// Elements of the exact streams as they lie in memory and, by CDR, in the message. All arrays of
-// them begin at a multiple of 8, which the members before them in the messages see to.
+// Elements of the exact streams, with equal layout in memory and, by CDR, in the message. Their
+// arrays begin at a multiple of 8, because the preceding members are chosen so.
 namespace rave::record {
 
-/// Counts changes of these layouts. 2: rows of robots.
+/// Increased with changes of these layouts. 2: rows of robots.
 inline constexpr std::uint32_t kLayoutVersion = 2;
 
 /// rave_msgs/msg/RobotPose
@@ -29,11 +29,11 @@ static_assert(sizeof(PackedTruePose) == 32);
 
 inline constexpr std::uint32_t kHasReported = 1;
 inline constexpr std::uint32_t kHasTrue = 2;
-/// The true pose has the same bits as the reported one and is not written a second time.
+/// The true pose has the same bits as the reported one and is not repeated.
 inline constexpr std::uint32_t kTrueIsReported = 4;
 
-/// rave_msgs/msg/Percept. Of a row of robots (`robots` above 1) all have this header, and share
-/// the bytes in equal parts.
+/// rave_msgs/msg/Percept. In a row of robots (`robots` above 1) all have this header and equal
+/// parts of the bytes.
 struct PackedPercept {
   std::uint32_t robot;
   std::uint16_t sensor;
@@ -51,7 +51,7 @@ struct PackedPercept {
 };
 static_assert(sizeof(PackedPercept) == 48);
 
-/// rave_msgs/msg/Command. A row of robots shares the bytes in equal parts.
+/// rave_msgs/msg/Command. A row of robots divides the bytes equally.
 struct PackedCommand {
   std::uint32_t robot;
   std::uint32_t controller;

@@ -7,7 +7,7 @@
 namespace rave::record {
 namespace {
 
-/// Bits, not values: -0 is not 0, and a number that is none equals itself.
+/// Compares bits instead of values: -0 differs from 0, and a NaN equals itself.
 [[nodiscard]] bool same_bits(const Pose2& a, const Pose2& b) noexcept {
   using Words = std::array<std::uint64_t, 3>;
   return std::bit_cast<Words>(a) == std::bit_cast<Words>(b);
@@ -56,7 +56,7 @@ void PoseBatch::add(const PoseBlock& block) {
 Status PoseBatch::write(McapWriter& file, CdrWriter& cdr, SimTime time, std::uint64_t step) {
   if (poses_.empty()) return {};
   encode_step_head(cdr, time, step, poses_.size());
-  // A reserved word brings the array of true poses to a multiple of 8.
+  // A reserved word aligns the array of true poses to 8.
   const std::array<std::uint32_t, 2> between{0, static_cast<std::uint32_t>(truths_.size())};
   const std::array<std::span<const std::byte>, 4> parts{
       cdr.bytes(), std::as_bytes(std::span(poses_)), std::as_bytes(std::span(between)),

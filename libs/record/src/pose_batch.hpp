@@ -10,22 +10,22 @@
 
 namespace rave::record {
 
-/// The poses of one step, laid out as the message has them when they come in: the thread of the run
-/// touches each once more only to copy it into the file's buffer.
+/// The poses of one step, stored in the layout of the message, so that the thread of the run only
+/// copies them once more into the file's buffer.
 class PoseBatch {
  public:
   Stream stream;
 
   void add(const RobotPose& robot);
   void add(const PoseBlock& block);
-  /// Element `i` of a column whose elements lie `stride_bytes` apart.
+  /// Element `i` of a column with a stride of `stride_bytes`.
   template <class T>
   [[nodiscard]] static const T& at(const T* first, std::size_t stride_bytes,
                                    std::size_t i) noexcept {
     return *reinterpret_cast<const T*>(reinterpret_cast<const std::byte*>(first) +
                                        i * stride_bytes);
   }
-  /// One message; nothing if nothing was added.
+  /// Writes one message; nothing if there are no poses.
   Status write(McapWriter& file, CdrWriter& cdr, SimTime time, std::uint64_t step);
 
  private:

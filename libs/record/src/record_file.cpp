@@ -93,7 +93,7 @@ namespace {
                 "`{}`: the chunk at offset {} has the compression `{}`; expected zstd", name,
                 chunk.offset, compression);
   }
-  // Believe the size only as far as the frame agrees, before memory is taken for it.
+  // Trust the stated size only if the zstd frame agrees, before memory is allocated.
   const auto frame = ZSTD_getFrameContentSize(packed.data(), packed.size());
   std::size_t got = 0;
   if (frame == size || frame == ZSTD_CONTENTSIZE_UNKNOWN) {
@@ -131,7 +131,7 @@ Status read_summary(RecordFile& file) {
   const ByteSpan magic = footer.raw(kMagic.size());
   if (!is_footer || !std::ranges::equal(magic, as_bytes(kMagic))) return cut();
   file.ended = true;
-  if (start == 0) {  // allowed: a file without a summary
+  if (start == 0) {  // permitted: a file without a summary
     if (crc == 0 || crc32(ByteSpan(tail).first(kRecordHead + kFooterSize - 4)) == crc) {
       return fail(ErrorCode::kNotFound, "");
     }
@@ -160,7 +160,7 @@ Status read_summary(RecordFile& file) {
     return fail(ErrorCode::kParse, "`{}`: the summary at offset {} has an incomplete record",
                 source.name(), start);
   }
-  // Without counts, or with messages that no chunk index tells of, the data must be looked at.
+  // Without counts, or with messages outside of chunks, the data must be scanned.
   if (!counted || (file.chunks.empty() && file.statistics.message_count > 0)) {
     return fail(ErrorCode::kNotFound, "");
   }

@@ -18,7 +18,7 @@ bool has(const McapReader& reader, const char* topic) {
   return channel != nullptr && reader.statistics().channel_message_counts.contains(channel->id);
 }
 
-/// The records that one was made of, as far as they are there.
+/// The existing files that the recording was merged from.
 std::vector<fs::path> parts_of(const McapReader& reader, const fs::path& path) {
   std::vector<fs::path> parts;
   for (const auto& [name, bytes] : merged_files(reader)) {
@@ -42,7 +42,7 @@ CheckedFile check_all(const McapReader& reader, const fs::path& path) {
       continue;
     }
     const CheckedFile found = of_part->check();
-    // A part that had broken off before was merged as far as it goes, and missing_parts() says so.
+    // A truncated part was merged as far as possible, and missing_parts() reports it.
     if (missing_parts(reader).empty()) add(found.cuts, checked.damages);
     add(found.damages, checked.damages);
     add(found.unsummed, checked.unsummed);
@@ -58,7 +58,7 @@ void look_at_all(const McapReader& reader, const fs::path& path, RecordSummary& 
   summary.unsummed = checked.unsummed;
 }
 
-/// What is there and cannot be read is damage, not absence.
+/// Data that exists but cannot be read is damage, not absence.
 void read_ends(const McapReader& reader, RecordSummary& summary) {
   if (auto run = read_run_info(reader)) summary.run = *std::move(run);
   summary.end = read_run_end(reader);

@@ -8,7 +8,7 @@
 #define RAVE_HEADER \
   RAVE_DEPENDENCY("std_msgs/Header") "builtin_interfaces/Time stamp\nstring frame_id\n"
 #define RAVE_VECTOR3 RAVE_DEPENDENCY("geometry_msgs/Vector3") "float64 x\nfloat64 y\nfloat64 z\n"
-// `version` counts changes of the layout; it also brings the array behind it to a multiple of 8.
+// `version` is the layout version; it also aligns the array after it to 8.
 #define RAVE_STEP "builtin_interfaces/Time stamp\nuint64 step\nuint32 version\n"
 
 namespace rave::record {

@@ -3,9 +3,9 @@
 
 #include <string_view>
 
-// Definitions of message types in the text form that MCAP calls `ros2msg`: the type, then each type
-// it uses behind a line of 80 equals signs. Fields of the ROS 2 types after the interfaces of ROS 2
-// Humble (common_interfaces, geometry2, rcl_interfaces).
+// Definitions of message types in MCAP's encoding `ros2msg`: the type, then each type it uses after
+// a line of 80 equals signs. The fields of ROS 2 types are those of ROS 2 Humble
+// (common_interfaces, geometry2, rcl_interfaces).
 namespace rave::record {
 
 struct RosSchema {

@@ -16,7 +16,7 @@ bool same_row(const CommandRecord& a, const CommandRecord& b) {
 RowBytes bytes_of(const Percept& percept) { return percept.records; }
 RowBytes bytes_of(const CommandRecord& command) { return command.command; }
 
-/// How many items from `begin` on are one row.
+/// The number of items from `begin` on that form one row.
 template <class Item>
 std::uint32_t row_length(const std::vector<Item>& items, std::size_t begin) {
   const Item& first = items[begin];

@@ -8,8 +8,8 @@
 
 namespace rave::record {
 
-/// Gives decoded items to a recorder as the rows that they were: robots that follow each other,
-/// whose bytes do so, too. The bytes must stay until RunRecorder::end_step().
+/// Passes decoded items to a recorder as rows again: consecutive robots with consecutive bytes. The
+/// bytes must be valid until RunRecorder::end_step().
 void add_rows(const std::vector<Percept>& percepts, RunRecorder& recorder);
 void add_rows(const std::vector<CommandRecord>& commands, RunRecorder& recorder);
 

@@ -9,7 +9,7 @@
 namespace rave::record {
 namespace {
 
-/// The first message of a topic that can be decoded; what is missing or damaged is none.
+/// The first message of a topic, decoded; empty if it is missing or damaged.
 template <class Decode>
 auto first_of(const McapReader& reader, const char* topic, Decode decode) -> std::optional<
     typename std::invoke_result_t<Decode, std::span<const std::byte>>::value_type> {

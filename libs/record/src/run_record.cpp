@@ -12,16 +12,16 @@
 namespace rave::record {
 namespace {
 
-/// What one stream collects in a step: packed elements and the bytes they point into. First those
-/// that were copied, then the blocks, which stay where they are until the message is written.
+/// The data of one stream in a step: packed elements and the bytes that they refer to. The copied
+/// bytes come first, then blocks, which stay in place until the message is written.
 template <class Packed>
 struct Batch {
   Stream stream;
   std::vector<Packed> elements;
   std::vector<std::byte> records;
-  std::vector<std::size_t> block_elements;  ///< Which elements the blocks belong to.
+  std::vector<std::size_t> block_elements;  ///< Elements that blocks belong to.
   std::vector<std::span<const std::byte>> blocks;
-  std::vector<std::span<const std::byte>> parts;  ///< Of the message, while it is written.
+  std::vector<std::span<const std::byte>> parts;  ///< Parts of the message while it is written.
 
   void add(Packed element, std::span<const std::byte> bytes) {
     element.offset = static_cast<std::uint32_t>(records.size());
@@ -35,7 +35,7 @@ struct Batch {
     elements.push_back(element);
     blocks.push_back(bytes);
   }
-  /// One message, put together in the file's own buffer; nothing if nothing was added.
+  /// Writes one message directly into the file's buffer; nothing if there are no elements.
   Status write(McapWriter& file, CdrWriter& cdr, SimTime time, std::uint64_t step) {
     if (elements.empty()) return {};
     auto size = static_cast<std::uint32_t>(records.size());
@@ -80,7 +80,7 @@ class RunRecorder::Impl {
   std::optional<Stream> shadows_;
   std::optional<Stream> chat_;
   PoseBatch poses_;
-  std::vector<RobotPose> seen_;  ///< For the view, in steps in which it is due.
+  std::vector<RobotPose> seen_;  ///< For the pose view, in steps in which it is due.
   bool view_due_ = false;
   Batch<PackedPercept> percepts_;
   Batch<PackedCommand> commands_;
@@ -175,7 +175,7 @@ void RunRecorder::percept(const Percept& percept) {
                        percept.records);
   if (percept.kind == kRangesKind && percept.part == PerceptPart::kResult &&
       impl_->views_.sees(percept.robot)) {
-    // A failed write is told by end_step().
+    // end_step() reports a failed write.
     static_cast<void>(impl_->views_.percept(impl_->file_, impl_->time_, percept));
   }
 }
@@ -192,7 +192,7 @@ void RunRecorder::percepts(const PerceptBlock& block) {
   for (std::uint32_t i = 0; i < block.robots; ++i) {
     const RobotId robot(block.first.value() + i);
     if (!impl_->views_.sees(robot)) return;
-    // A failed write is told by end_step().
+    // end_step() reports a failed write.
     static_cast<void>(impl_->views_.percept(impl_->file_, impl_->time_,
                                             {robot, block.sensor, block.kind, PerceptPart::kResult,
                                              header, block.records.subspan(i * size, size)}));
@@ -280,7 +280,7 @@ void RunRecorder::poses(const PoseBlock& block) {
 
 Status RunRecorder::end_step() {
   Impl& impl = *impl_;
-  // All batches are emptied whatever happens to one of them.
+  // All batches must be emptied, even if one of them fails.
   const Status results[] = {impl.poses_.write(impl.file_, impl.cdr_, impl.time_, impl.step_),
                             impl.write_pose_view(),
                             impl.percepts_.write(impl.file_, impl.cdr_, impl.time_, impl.step_),

@@ -7,10 +7,10 @@
 namespace rave::record {
 namespace {
 
-/// Messages that stand outside of chunks are read in stretches of about this size.
+/// Messages outside of chunks are read in blocks of about this size.
 constexpr std::uint64_t kBareBytes = std::uint64_t{1} << 20;
 
-/// Goes through the data section of a record and lists what is there.
+/// Scans the data section of a recording and lists its records.
 class DataScan {
  public:
   explicit DataScan(RecordFile& file) noexcept : file_(file) {}
@@ -32,12 +32,12 @@ class DataScan {
       if (!take(code, at, size)) return cut(at);
       at += kRecordHead + size;
     }
-    // A file that ends between two records misses its end as well; open() says so.
+    // A file that ends between two records lacks its end too; open() reports that.
   }
 
  private:
   void cut(std::uint64_t at) {
-    // Of a file that ends as it should the rest is lost, of another one it was never written.
+    // With a footer the rest was lost; without one it was never written.
     (file_.ended ? file_.damages : file_.cuts)
         .push_back(fmt::format(
             "`{}`: the record at offset {} is incomplete; {} bytes from there on are not read",
@@ -85,7 +85,7 @@ class DataScan {
     ++all.channel_message_counts[message.channel];
   }
 
-  /// A chunk that cannot be read is noted and passed over: its frame says where the next one is.
+  /// An unreadable chunk is noted and skipped: its frame gives the place of the next.
   [[nodiscard]] bool take_chunk(std::uint64_t at, std::uint64_t size) {
     ChunkInfo chunk;
     chunk.offset = at;

@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::string_view kWorldFrame = "world";
 constexpr double kEvenSpacing_rad = 1e-6;
-/// Up to here `/tf` has the rate that was asked for; beyond it the rate falls.
+/// Up to this many robots `/tf` has the requested rate; beyond, the rate decreases.
 constexpr std::size_t kFullRateRobots = 100;
 
-/// A scan message has one angle between all rays; a sensor without one has no standard message.
+/// A LaserScan requires equal angles between rays; other sensors have no standard message.
 [[nodiscard]] bool evenly_spaced(const std::vector<double>& bearings_rad) {
   if (bearings_rad.size() < 2) return bearings_rad.size() == 1;
   const double step = bearings_rad[1] - bearings_rad[0];
@@ -33,7 +33,8 @@ Status StandardViews::open(McapWriter& file, const RunInfo& info, const ViewOpti
   if (!(options.rate_hz > 0)) return {};
   period_ns_ = std::max<std::int64_t>(1, from_seconds(1.0 / options.rate_hz).ns);
   robots_ = options.robots;
-  // A crowd gets fewer transforms, so that their number does not grow with it.
+  // The rate decreases with the number of robots, so that the number of transforms per second is
+  // bounded.
   const auto crowd =
       static_cast<std::int64_t>((info.robots.size() + kFullRateRobots - 1) / kFullRateRobots);
   tf_period_ns_ = period_ns_ * std::max<std::int64_t>(1, crowd);

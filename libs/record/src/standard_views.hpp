@@ -14,14 +14,14 @@ namespace rave::record {
 inline constexpr std::uint8_t kRangesKind = 1;
 inline constexpr std::uint32_t kVelocityKind = 1;
 
-/// Writes some of what is recorded a second time, as standard ROS 2 messages at a lower rate, so
-/// that any viewer shows a run. Nothing reads these back.
+/// Writes part of the recorded data a second time, as standard ROS 2 messages at a lower rate, for
+/// viewers. RAVE does not read them back.
 class StandardViews {
  public:
   [[nodiscard]] Status open(McapWriter& file, const RunInfo& info, const ViewOptions& options);
   [[nodiscard]] bool sees(RobotId robot) const noexcept { return robot.value() < robots_; }
 
-  /// Whether poses() is to be called in this step; counts as if it were.
+  /// Whether poses() must be called in this step; counts as a call.
   [[nodiscard]] bool poses_due(SimTime time) noexcept {
     return period_ns_ != 0 && due(tf_, time, tf_period_ns_);
   }

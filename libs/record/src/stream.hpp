@@ -27,7 +27,7 @@ struct Stream {
 
 [[nodiscard]] inline Result<Stream> add_stream(McapWriter& file, std::string_view topic,
                                                std::uint16_t schema) {
-  // The ROS 2 profile asks for the key; no profile was offered because nothing was published.
+  // The ROS 2 profile requires this key; it is empty because nothing was published.
   RAVE_TRY_ASSIGN(const std::uint16_t channel,
                   file.add_channel(topic, "cdr", schema, {{"offered_qos_profiles", ""}}));
   return Stream{channel, 0};

@@ -7,10 +7,10 @@
 namespace rave::record {
 namespace {
 
-/// What keeps about the pace of memory, for some size.
+/// Compresses at about the speed of memory.
 constexpr int kLightLevel = -5;
 
-/// A chunk that once held one huge message does not keep its memory for ever.
+/// A chunk does not keep the memory of one huge message.
 constexpr std::size_t kKeepFactor = 4;
 
 std::size_t waiting_bytes(const WriteJob& job) {
@@ -74,7 +74,8 @@ void WriteQueue::push(WriteJob job) {
 }
 
 void WriteQueue::take_open() {
-  if (gate_.test_and_set(std::memory_order_acquire)) return;  // the producer is at it: next time
+  // the producer has the gate: try again later
+  if (gate_.test_and_set(std::memory_order_acquire)) return;
   {
     std::unique_lock lock(mutex_);
     hand_over(lock);

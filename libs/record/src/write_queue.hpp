@@ -26,16 +26,16 @@ struct MetadataJob {
 };
 using WriteJob = std::variant<std::unique_ptr<Chunk>, AttachmentJob, MetadataJob>;
 
-/// How a chunk is compressed while so much waits, itself included; nothing: not at all.
+/// The compression level for this backlog, the chunk included; empty: no compression.
 [[nodiscard]] std::optional<int> level_for(const McapWriterOptions& options,
                                            std::size_t backlog_bytes) noexcept;
 
-/// Between the producer, who fills the open chunk, and the thread that writes.
+/// The queue between the producer, who fills the open chunk, and the writing thread.
 ///
-/// The open chunk is guarded by `gate_`, a flag that the producer finds free except in the moment
-/// in which the thread takes a chunk that has been open for the flush interval; the thread never
-/// waits for it. Everything else is guarded by `mutex_`, which the producer meets once per chunk.
-/// Order: gate before mutex.
+/// `gate_` guards the open chunk. It is a flag that the producer nearly always finds free: the
+/// thread takes it only to fetch a chunk that was open for the flush interval, and never waits for
+/// it. `mutex_` guards everything else; the producer locks it once per chunk. Order: gate before
+/// mutex.
 class WriteQueue {
  public:
   WriteQueue(std::unique_ptr<McapFile> file, const McapWriterOptions& options, LogSink* sink);
@@ -43,7 +43,7 @@ class WriteQueue {
   WriteQueue& operator=(const WriteQueue&) = delete;
   ~WriteQueue();
 
-  /// Lets `fill` append to the open chunk, and hands it over when it is full. Producer.
+  /// Calls `fill` to append to the open chunk, and queues the chunk when it is full. Producer.
   template <class Fill>
   void append(Fill&& fill) {
     enter();
@@ -51,15 +51,15 @@ class WriteQueue {
     if (open_->records.size() >= options_.chunk_bytes) hand_over_waiting();
     leave();
   }
-  /// Puts a job behind all chunks that were handed over. Producer.
+  /// Queues a job after all queued chunks. Producer.
   void push(WriteJob job);
-  /// Hands over what is open and waits until the queue is empty. Producer.
+  /// Queues the open chunk and waits until the queue is empty. Producer.
   void drain();
   /// drain(), then the index; ends the thread. Producer, once.
   [[nodiscard]] Status finish(const std::vector<SchemaInfo>& schemas,
                               const std::vector<ChannelInfo>& channels);
 
-  /// The first write that failed.
+  /// The first failed write.
   [[nodiscard]] Status failure();
   void count_dropped() noexcept { dropped_.fetch_add(1, std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_.load(); }
@@ -82,14 +82,14 @@ class WriteQueue {
 
   McapWriterOptions options_;
   LogSink* sink_;
-  std::unique_ptr<McapFile> file_;  ///< The thread's until it has ended.
+  std::unique_ptr<McapFile> file_;  ///< Used by the thread only, until it has ended.
   std::atomic_flag gate_;
   std::unique_ptr<Chunk> open_;
   std::atomic<bool> failed_ = false;
   std::atomic<std::uint64_t> dropped_ = 0;
   std::atomic<std::uint64_t> waits_ = 0;
   std::mutex mutex_;
-  std::condition_variable work_;  ///< For the thread: a job, or stop.
+  std::condition_variable work_;  ///< For the thread: a new job, or stop.
   std::condition_variable done_;  ///< For the producer: a job is done.
   std::deque<WriteJob> jobs_;
   std::vector<std::unique_ptr<Chunk>> spare_;

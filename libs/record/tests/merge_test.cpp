@@ -188,7 +188,8 @@ TEST_F(Merged, WhatIsMissingOrTornIsNamed) {
   fs::resize_file(torn, fs::file_size(torn) / 2);
   OpenedRun run = open();
   ASSERT_EQ(run.notes.size(), 1U);
-  EXPECT_NE(run.notes[0].find("hosts/b/run.mcap` is torn"), std::string::npos) << run.notes[0];
+  EXPECT_NE(run.notes[0].find("hosts/b/run.mcap` is incomplete"), std::string::npos)
+      << run.notes[0];
   std::ofstream(torn) << "nothing";
   run = open();
   ASSERT_EQ(run.notes.size(), 2U);
@@ -213,7 +214,8 @@ TEST_F(Merged, ARecordThatWasNotEndedIsTornThoughItIsReadable) {
   }
   const OpenedRun run = open();
   ASSERT_EQ(run.notes.size(), 1U);
-  EXPECT_NE(run.notes[0].find("hosts/b/run.mcap` is torn: its end is missing"), std::string::npos)
+  EXPECT_NE(run.notes[0].find("hosts/b/run.mcap` is incomplete: its end is missing"),
+            std::string::npos)
       << run.notes[0];
   const auto reader = McapReader::open(run.file);
   ASSERT_TRUE(reader);

@@ -7,7 +7,7 @@
 namespace rave::report {
 namespace {
 
-/// Smaller than this a body would vanish; it is then drawn as a dot of this radius.
+/// Smaller bodies are drawn as a dot of this radius, to stay visible.
 constexpr double kLeastRadius = 1.4;
 
 void hatch(Pen& pen, const std::vector<Vec2>& outline, Rgb colour) {
@@ -16,7 +16,7 @@ void hatch(Pen& pen, const std::vector<Vec2>& outline, Rgb colour) {
   pen.clip_to_path();
   constexpr double kSpacing = 4;
   const double reach = box.height();
-  // A body that fills the page at a huge zoom still gets a bounded number of lines.
+  // Bounds the number of lines for a body that fills the page at a high zoom.
   const double spacing = std::max(kSpacing, (box.width() + reach) / 200);
   std::vector<Vec2> ends;
   for (double x = box.x0 - reach; x < box.x1; x += spacing) {
@@ -99,7 +99,7 @@ void label_beside(Stage& stage, Vec2 anchor, double clearance, std::string_view 
 void label_bodies(Stage& stage) {
   std::size_t labelled = 0;
   for (const PictureBody& body : stage.picture.bodies) {
-    // A robot's parts have room for the names of the sensors on them.
+    // Parts of a robot do not block labels: names of sensors are placed on them.
     if (body.kind != Kind::kRobotPart) {
       stage.labels.block(bounds_of(to_page(stage.panel, body.outline_W)));
     }

@@ -8,7 +8,7 @@
 namespace rave::report {
 namespace {
 
-/// Beyond this a coordinate is a mistake, and the page's arithmetic would lose its precision.
+/// Larger coordinates are mistakes, and the page's arithmetic would lose precision.
 constexpr double kLargestCoordinate_m = 1e7;
 
 Status check_point(Vec2 p, std::string_view what, std::string_view label) {

@@ -5,7 +5,7 @@
 
 namespace rave::report {
 
-/// Refuses what cannot be drawn, naming the first such thing; see write_svg.
+/// Refuses a picture that cannot be drawn; the error names the first problem; see write_svg.
 [[nodiscard]] Status check_picture(const Picture& picture);
 
 }  // namespace rave::report

@@ -7,7 +7,7 @@
 namespace rave::report {
 namespace {
 
-/// One run of hits that share their start: the start, then the ends, on the page.
+/// Consecutive hits with a common start: the start, then the ends, on the page.
 struct Fan {
   Vec2 from_W;
   std::vector<Vec2> outline;
@@ -24,7 +24,7 @@ std::vector<Fan> fans_of(const Stage& stage) {
   return fans;
 }
 
-/// The robot that carries a laser: the one nearest to where its rays start; null without robots.
+/// The robot with the laser: the one nearest to the start of its rays; null without robots.
 const PictureRobot* owner_of(const PictureInstant& instant, Vec2 from_W) {
   const auto nearest = std::min_element(instant.robots.begin(), instant.robots.end(),
                                         [&](const PictureRobot& a, const PictureRobot& b) {
@@ -34,7 +34,7 @@ const PictureRobot* owner_of(const PictureInstant& instant, Vec2 from_W) {
   return nearest == instant.robots.end() ? nullptr : &*nearest;
 }
 
-/// Whose rays went how far: so faint that a dozen of them on top of each other stay light.
+/// The areas covered by rays; so faint that a dozen of them on top of each other stay light.
 void draw_fans(Stage& stage) {
   const auto fans = fans_of(stage);
   if (fans.size() > kMostFans) return;
@@ -51,7 +51,7 @@ void draw_fans(Stage& stage) {
   }
 }
 
-/// The hits on one kind of thing, thinned where neighbours of a scan would run into each other.
+/// The hits on one kind of body, thinned where neighbours of a scan would overlap.
 std::vector<Vec2> places_of_hits(const Stage& stage, Kind kind) {
   constexpr double kLeastSpacing = 2.6;
   std::vector<Vec2> places;
@@ -67,7 +67,7 @@ std::vector<Vec2> places_of_hits(const Stage& stage, Kind kind) {
   return places;
 }
 
-/// The outermost distance of the outline from the robot's own point: where the nose goes.
+/// The largest distance of the outline from the robot's origin, for the heading mark.
 double reach_of(const PictureRobot& robot) {
   double squared_reach = 0;
   for (const Vec2 corner : robot.outline_W) {

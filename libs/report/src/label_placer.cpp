@@ -9,11 +9,11 @@ namespace {
 
 constexpr double kCell = 3;
 constexpr double kDiagonal = 0.70710678118654752;
-/// In the order that readers of maps expect: right first, then left, above, below.
+/// In the usual order of maps: right first, then left, above, below.
 constexpr std::array<Vec2, 8> kDirections = {
     Vec2{1, 0},  Vec2{kDiagonal, -kDiagonal},  Vec2{-1, 0}, Vec2{kDiagonal, kDiagonal},
     Vec2{0, -1}, Vec2{-kDiagonal, -kDiagonal}, Vec2{0, 1},  Vec2{-kDiagonal, kDiagonal}};
-/// What it costs to stand nearer to another labelled thing.
+/// The cost of a place nearer to another labelled object.
 constexpr double kMisleading = 20;
 constexpr std::array<double, 4> kFarther = {0, 4, 9, 15};
 

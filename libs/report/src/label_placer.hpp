@@ -8,22 +8,22 @@
 
 namespace rave::report {
 
-/// Finds free places for labels beside the things they name. Greedy: what is placed first gets
-/// the best place, so ask in order of importance.
+/// Finds free places for labels beside their objects. Greedy: the first label gets the best place,
+/// so place labels in order of importance.
 class LabelPlacer {
  public:
   explicit LabelPlacer(const PageBox& area);
 
-  /// No label may cover this.
+  /// Labels never cover this box.
   void block(const PageBox& box) { blocked_.push_back(box); }
-  /// Something that has a label: a label rather is not nearer to this than to its own thing.
+  /// Adds a labelled object: labels avoid places nearer to it than to their own object.
   void add_anchor(Vec2 anchor) { anchors_.push_back(anchor); }
-  /// Labels rather do not cover this point (of a line, say), a heavier one still less.
+  /// Labels avoid covering this point (of a line, for example), a larger weight more.
   void weigh(Vec2 point, int weight);
 
-  /// A box of the given size beside the anchor, `clearance` away from it or somewhat farther, free
-  /// of what is blocked, inside the area, where least is covered; it is blocked from now on.
-  /// None if there is no room.
+  /// A box of the given size beside the anchor, at `clearance` or somewhat farther: not blocked,
+  /// inside the area, with the least weight covered. It is blocked from then on. Empty if there is
+  /// no room.
   [[nodiscard]] std::optional<PageBox> place(Vec2 anchor, double width, double height,
                                              double clearance);
 
@@ -39,7 +39,7 @@ class LabelPlacer {
   std::vector<Vec2> anchors_;
   std::size_t columns_;
   std::size_t rows_;
-  std::vector<int> weights_;  ///< The heaviest point of each cell, row by row.
+  std::vector<int> weights_;  ///< The largest weight of each cell, row by row.
 };
 
 }  // namespace rave::report

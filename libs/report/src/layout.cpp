@@ -18,10 +18,10 @@ constexpr double kRight = 18;
 constexpr double kBetween = 20;
 constexpr double kBelowPanel = 46;  ///< Axis numbers, axis title, scale bar.
 constexpr double kHeading = 22;     ///< Above a panel.
-constexpr double kThinnest = 0.16;  ///< Least height of a panel per width.
+constexpr double kThinnest = 0.16;  ///< Least height of a panel relative to its width.
 constexpr double kSideBySideFrom = 0.75;
 
-/// Height per width of the tallest panel that is alone or beside another.
+/// Height relative to width of the tallest panel, alone or beside another.
 constexpr double kTallestAlone = 1.25;
 constexpr double kTallestBeside = 2.3;
 
@@ -35,7 +35,7 @@ class Extent {
   void add(const std::vector<Vec2>& points_W) noexcept {
     for (const Vec2 p_W : points_W) add(p_W);
   }
-  /// With a margin; a metre around the origin if nothing was added.
+  /// Adds a margin; without content, a metre around the origin.
   void close() noexcept {
     if (low_.x > high_.x) low_ = high_ = {};
     const Vec2 size = high_ - low_;
@@ -52,7 +52,8 @@ class Extent {
   Vec2 high_ = {-kFar, -kFar};
 };
 
-/// Rays and sightings are left out: an outlier must not shrink the rest; it is cut at the frame.
+/// Rays and sightings are not included: an outlier must not shrink the rest; it is clipped at the
+/// frame.
 Extent extent_of(const Picture& picture) {
   Extent extent;
   for (const PictureBody& body : picture.bodies) extent.add(body.outline_W);
@@ -74,7 +75,7 @@ bool has_tracks(const Picture& picture) {
                      [](const PictureTrack& track) { return !track.points.empty(); });
 }
 
-/// Adds the panels and gives the page height below them.
+/// Adds the panels and returns the page height below them.
 double add_panels(const Picture& picture, double top, Layout& layout) {
   const Extent extent = extent_of(picture);
   const double aspect = extent.size().y / extent.size().x;
@@ -115,7 +116,7 @@ Result<Layout> lay_out(const Picture& picture) {
   y = layout.legend.y1 + (layout.legend.height() > 0 ? 10 : 0);
   const double caption = height_of_caption(measure.pen(), picture, text_width);
   layout.caption = {kLeft, y, kPageWidth - kRight, y + caption};
-  // Whole units, so that the pixels of the usual scales are whole too.
+  // An integer, so that the number of pixels is too at the usual scales.
   layout.height = std::ceil(layout.caption.y1 + 10);
   return layout;
 }

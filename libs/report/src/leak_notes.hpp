@@ -3,7 +3,7 @@
 
 namespace rave::report {
 
-/// Does nothing; calling it makes a program link the suppressions beside it.
+/// Does nothing; a call makes the linker include the leak suppressions in the same file.
 void link_leak_notes() noexcept;
 
 }  // namespace rave::report

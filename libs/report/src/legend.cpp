@@ -19,7 +19,7 @@ std::string counted(std::size_t count, Kind kind) {
   return count == 1 ? std::string(style.singular) : fmt::format("{} {}", count, style.plural);
 }
 
-/// A track of this look, for its symbol.
+/// A legend entry with the look of a track.
 LegendEntry line_entry(const PictureTrack& like, bool in_gap, std::string text) {
   PictureTrack look;
   look.kind = like.kind;
@@ -31,7 +31,7 @@ LegendEntry line_entry(const PictureTrack& like, bool in_gap, std::string text) 
           std::move(text)};
 }
 
-/// Strong tracks by name if they are few; otherwise one line per kind.
+/// Prominent tracks by name if they are few; otherwise one line per kind.
 void add_lines(const Picture& picture, std::vector<LegendEntry>& entries) {
   for (const Kind kind : {Kind::kRecordedRobot, Kind::kHunter, Kind::kSimulatedRobot, Kind::kOther,
                           Kind::kLandmark, Kind::kMappedWall, Kind::kVirtualObstacle}) {
@@ -203,8 +203,8 @@ struct PlacedGroup {
   std::vector<Slot> entries;
 };
 
-/// The groups in columns of so many rows, a short group below the one before it where it fits;
-/// empty if that takes more columns than there are.
+/// Arranges the groups in columns with this number of rows; a short group goes below the previous
+/// one if it fits. Empty if there are not enough columns.
 std::vector<PlacedGroup> placed_in(const std::vector<LegendGroup>& groups, std::size_t rows) {
   std::vector<PlacedGroup> placed;
   Slot next;
@@ -215,7 +215,8 @@ std::vector<PlacedGroup> placed_in(const std::vector<LegendGroup>& groups, std::
     if (fits_below) ++next.row;  // A blank row between them.
     std::size_t each = fits_below ? count : rows - 1;
     const std::size_t columns = (count + each - 1) / each;
-    if (&group == &groups.back()) each = (count + columns - 1) / columns;  // Of like height.
+    // Columns of equal height.
+    if (&group == &groups.back()) each = (count + columns - 1) / columns;
     placed.push_back({next, {}});
     for (std::size_t i = 0; i < count; ++i) {
       placed.back().entries.push_back({next.column + i / each, next.row + 1 + i % each});
@@ -227,7 +228,7 @@ std::vector<PlacedGroup> placed_in(const std::vector<LegendGroup>& groups, std::
   return placed;
 }
 
-/// The least rows, two or more, that hold the groups.
+/// The least number of rows, at least two, that holds the groups.
 std::size_t rows_of(const std::vector<LegendGroup>& groups) {
   if (groups.empty()) return 0;
   std::size_t rows = 2;

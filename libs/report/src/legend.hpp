@@ -22,9 +22,9 @@ struct LegendGroup {
 
 inline constexpr double kSymbolWidth = 26;
 
-/// A line for everything that occurs in the picture, and for nothing else.
+/// One line for each kind of object that occurs in the picture.
 [[nodiscard]] std::vector<LegendGroup> legend_of(const Picture& picture);
-/// The height that the groups need in columns.
+/// The height of the groups in columns.
 [[nodiscard]] double height_of(const std::vector<LegendGroup>& groups);
 void draw_legend(Pen& pen, const std::vector<LegendGroup>& groups, const PageBox& box);
 

@@ -5,7 +5,7 @@
 
 namespace rave::report {
 
-/// Title and subtitle, and the lines below the legend: how high they are and how they are drawn.
+/// Title and subtitle, and the lines below the legend: their heights and drawing.
 [[nodiscard]] double height_of_head(Pen& pen, const Picture& picture, double width);
 [[nodiscard]] double height_of_caption(Pen& pen, const Picture& picture, double width);
 

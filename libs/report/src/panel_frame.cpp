@@ -27,7 +27,7 @@ Window window_of(const Panel& panel) {
 }
 
 std::string number(double value_m) {
-  // Adding 0.0 turns a negative zero into zero; a typographic minus is as wide as a plus.
+  // Adding 0.0 turns -0 into 0; a typographic minus is as wide as a plus.
   std::string text = fmt::format("{:g}", value_m + 0.0);
   if (text.front() == '-') text.replace(0, 1, "−");
   return text;

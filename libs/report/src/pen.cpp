@@ -122,7 +122,7 @@ void Pen::set_font(const TextStyle& style) {
   cairo_select_font_face(cr_, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
                          style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cr_, style.size);
-  // Unhinted, so that text is as wide in an SVG as in a PNG of any scale.
+  // Without hinting, so that text has equal width in an SVG and in a PNG of any scale.
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
   cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);

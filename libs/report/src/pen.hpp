@@ -23,18 +23,18 @@ inline constexpr Rgb kInk = {0.13, 0.13, 0.15};        ///< Text and frames.
 inline constexpr Rgb kSoftInk = {0.38, 0.39, 0.42};    ///< Subordinate text.
 inline constexpr Rgb kGridInk = {0.90, 0.905, 0.915};  ///< Grid lines.
 
-/// `#rrggbb`, already checked; anything else is black.
+/// Parses `#rrggbb`, which must be checked before; anything else gives black.
 [[nodiscard]] Rgb rgb_of(std::string_view colour) noexcept;
-/// The colour a caller gave, or else the kind's own.
+/// The given colour, or the kind's colour if empty.
 [[nodiscard]] Rgb rgb_of(std::string_view colour, Kind kind) noexcept;
-/// Between the colour (0) and white (1).
+/// A mixture of the colour (0) and white (1).
 [[nodiscard]] Rgb lighter(Rgb colour, double amount) noexcept;
 
 struct TextStyle {
   double size = 9;
   Rgb colour = kInk;
   bool bold = false;
-  bool halo = false;  ///< A white rim, so that it reads on top of lines.
+  bool halo = false;  ///< A white outline, so that it is legible on top of lines.
   double align = 0;   ///< 0: starts at the point, 0.5: centred on it, 1: ends at it.
 };
 
@@ -49,12 +49,12 @@ class Pen {
     cairo_set_source_rgba(cr_, colour.r, colour.g, colour.b, alpha);
   }
   void path(const std::vector<Vec2>& points, bool closed);
-  /// The same polygon, `scale` times as large, at each place: one path.
+  /// The same polygon, scaled by `scale`, at each place, as one path.
   void polygons(const std::vector<Vec2>& corners, double scale, const std::vector<Vec2>& places);
   void disc(Vec2 centre, double radius);
   void box(const PageBox& box);
   void line(Vec2 a, Vec2 b);
-  /// A line between the first two points, the next two, and so on: one path.
+  /// A line between the first two points, the next two, and so on, as one path.
   void segments(const std::vector<Vec2>& ends);
   void fill(Rgb colour, double alpha = 1);
   void fill_keeping_path(Rgb colour, double alpha = 1);
@@ -62,7 +62,7 @@ class Pen {
   void stroke_keeping_path(Rgb colour, double width, double alpha = 1);
   /// Strokes with dashes of `on` and gaps of `off`.
   void stroke_dashed(Rgb colour, double width, double on, double off, double alpha = 1);
-  /// Everything up to `unclip` stays inside the box, or inside the current path.
+  /// Clips everything up to `unclip` to the box, or to the current path.
   void clip(const PageBox& box);
   void clip_to_path();
   void unclip() { cairo_restore(cr_); }
@@ -70,9 +70,9 @@ class Pen {
   [[nodiscard]] double text_width(std::string_view text, const TextStyle& style);
   /// `at` is on the baseline.
   void text(Vec2 at, std::string_view text, const TextStyle& style);
-  /// The text, shortened with an ellipsis to `width` if need be.
+  /// The text, shortened with an ellipsis to `width` if necessary.
   [[nodiscard]] std::string fit(std::string_view text, double width, const TextStyle& style);
-  /// Broken at spaces into lines no wider than `width`.
+  /// The text, wrapped at spaces into lines of at most `width`.
   [[nodiscard]] std::vector<std::string> wrap(std::string_view text, double width,
                                               const TextStyle& style);
 
@@ -82,7 +82,7 @@ class Pen {
   cairo_t* cr_;
 };
 
-/// A pen without paper, to measure text before the page has a size.
+/// A pen without a surface, to measure text before the page has a size.
 class MeasuringPen {
  public:
   MeasuringPen();

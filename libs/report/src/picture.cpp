@@ -16,7 +16,7 @@
 namespace rave::report {
 namespace {
 
-/// cairo's own limit for an image's side.
+/// cairo's limit of the side of an image.
 constexpr double kMostPixels = 32767;
 
 struct Release {

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kBarWidth = 16;
 constexpr std::string_view kBetween = "  ";
 
-/// Eighths of a column, so that a slow run is seen to move.
+/// Eighths of a column, so that slow progress is visible.
 std::string bar_of(double fraction) {
   static constexpr std::array<std::string_view, 8> kEighths = {"",  "▏", "▎", "▍",
                                                                "▌", "▋", "▊", "▉"};
@@ -38,7 +38,7 @@ std::string time_of(const Progress& progress) {
   return fmt::format("{:.1f} of {:.1f} s", progress.sim_s, *progress.end_s);
 }
 
-/// The parts in their order on the line; `priority` 0 stays longest.
+/// The parts in order of the line; those with `priority` 0 are dropped last.
 struct Part {
   std::string text;
   int priority;
@@ -74,7 +74,7 @@ std::string format_progress(const Progress& progress, std::size_t width) {
   std::string line = clip_to_columns(joined(parts, priority), width);
   const std::string text = without_controls(progress.text);
   const std::size_t used = columns_of(line);
-  // Fewer columns than this would show an ellipsis and no more.
+  // Fewer columns would show little more than the ellipsis.
   constexpr std::size_t kLeastText = 6;
   if (priority == 3 && !text.empty() && used + kBetween.size() + kLeastText <= width) {
     line += kBetween;

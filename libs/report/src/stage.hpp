@@ -10,17 +10,17 @@
 
 namespace rave::report {
 
-/// Beyond these counts the picture leaves out what could not be read anyway.
+/// With more tracks or labels the picture omits them, because they would be illegible.
 inline constexpr std::size_t kMostTracksWithTicks = 60;
 inline constexpr std::size_t kMostLabels = 60;
 inline constexpr std::size_t kMostFans = 60;
 inline constexpr std::size_t kMostNamedTracks = 8;
 
-/// How much a label avoids to cover: faint lines, the lines and marks that matter.
+/// How strongly labels avoid covering faint lines, and the lines and marks that matter.
 inline constexpr int kFaintWeight = 1;
 inline constexpr int kStrongWeight = 4;
 
-/// What the parts of one panel's drawing share.
+/// The common state of drawing one panel.
 struct Stage {
   const Picture& picture;
   const Panel& panel;
@@ -28,19 +28,19 @@ struct Stage {
   LabelPlacer& labels;
 };
 
-/// The panel's grid and background (before), and its frame, axes and heading (after the content).
+/// Grid and background (drawn first), and frame, axes and heading (drawn after the content).
 void draw_grid(Stage& stage);
 void draw_frame(Stage& stage, std::string_view heading, bool with_y_labels);
-/// The bodies that do not move, either the landmarks (thin: drawn above lines) or the others, and
-/// the labels of all.
+/// Static bodies, either the landmarks (small: drawn above lines) or the others, and the labels of
+/// all.
 void draw_bodies(Stage& stage, bool landmarks);
 void label_bodies(Stage& stage);
 /// Tracks with ticks, gaps and end marks, and their labels.
 void draw_tracks(Stage& stage);
 void label_tracks(Stage& stage);
-/// The last tick's length of each track before a time.
+/// The end of each track before a time, one tick interval long.
 void draw_trails(Stage& stage, double t_s);
-/// The frozen instant: fans, sightings, robots, hits, and the robots' labels.
+/// The time of the picture: fans, sightings, robots, hits, and the robots' labels.
 void draw_instant(Stage& stage);
 void label_instant(Stage& stage);
 
@@ -48,8 +48,8 @@ void label_instant(Stage& stage);
 [[nodiscard]] PageBox bounds_of(const std::vector<Vec2>& points);
 [[nodiscard]] Vec2 middle_of(const PageBox& box) noexcept;
 
-/// A label beside the anchor, with a thin leader where it had to go farther away; does nothing if
-/// there is no room.
+/// Draws a label beside the anchor, with a thin leader if it is farther away; nothing if there is
+/// no room.
 void label_beside(Stage& stage, Vec2 anchor, double clearance, std::string_view text,
                   const TextStyle& style);
 
@@ -57,7 +57,7 @@ void label_beside(Stage& stage, Vec2 anchor, double clearance, std::string_view 
 void draw_body(Pen& pen, const std::vector<Vec2>& outline, Kind kind, Rgb colour);
 void draw_robot(Pen& pen, const std::vector<Vec2>& outline, Vec2 centre, Vec2 nose, Kind kind,
                 Rgb colour);
-/// The marks of all hits on one kind of thing; each kind has a shape beside its colour.
+/// The marks of hits on one kind of body; each kind has a shape and a colour.
 void draw_hits(Pen& pen, const std::vector<Vec2>& places, Kind kind);
 void draw_sighting(Pen& pen, Vec2 from, Vec2 to, const std::optional<Vec2>& tube, Rgb colour);
 void draw_lost_mark(Pen& pen, Vec2 at, Rgb colour);
@@ -68,7 +68,7 @@ struct TrackLook {
   double width;
   double alpha;
   double tick;     ///< Half the length of a tick.
-  bool is_strong;  ///< With rim, time labels, start and end marks.
+  bool is_strong;  ///< With outline, time labels, start and end marks.
 };
 [[nodiscard]] TrackLook look_of(const PictureTrack& track) noexcept;
 void stroke_track(Pen& pen, const PictureTrack& track, const std::vector<Vec2>& points,

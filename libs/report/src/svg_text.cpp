@@ -35,7 +35,7 @@ void add_list(std::string& text, std::string_view heading, const std::vector<std
   text += fmt::format("{}: {}.\n", heading, fmt::join(items, ", "));
 }
 
-/// All that the picture says in words.
+/// The content of the picture in words.
 std::string description_of(const Picture& picture) {
   std::string text = picture.subtitle.empty() ? "" : picture.subtitle + "\n";
   for (const LegendGroup& group : legend_of(picture)) {

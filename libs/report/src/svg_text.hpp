@@ -7,12 +7,12 @@
 
 namespace rave::report {
 
-/// The text with what XML reserves escaped, and what XML forbids replaced by a space.
+/// The text with XML characters escaped, and characters that XML forbids replaced by spaces.
 [[nodiscard]] std::string xml_escaped(std::string_view text);
 
-/// What cairo wrote, made a good citizen: its surfaces renumbered from 0 (cairo counts them per
-/// process, which would make equal pictures differ), and `title` and `desc` with the picture's
-/// words put in for readers and searches, since the text itself is drawn as outlines.
+/// Post-processes cairo's output: renumbers its surfaces from 0, because cairo counts them per
+/// process and equal pictures would differ; and adds `title` and `desc` with the words of the
+/// picture, because its text is drawn as outlines.
 [[nodiscard]] std::string finished_svg(std::string svg, const Picture& picture);
 
 }  // namespace rave::report

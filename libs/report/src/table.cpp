@@ -18,7 +18,7 @@ constexpr std::string_view kPlain = "\033[0m";
 using Widths = std::vector<std::size_t>;
 using Cell = std::vector<std::string>;  ///< Its lines.
 
-/// Rules and a blank on each side of a cell: 3 columns each, and one more for the last rule.
+/// The total width: a rule and two blanks per cell, and the last rule.
 std::size_t total_of(const Widths& widths) {
   return std::accumulate(widths.begin(), widths.end(), 3 * widths.size() + 1);
 }
@@ -37,7 +37,7 @@ Widths natural_widths(const Table& table) {
   return widths;
 }
 
-/// Takes one column after the other from the widest of those that may shrink, down to `least`.
+/// Reduces the widest column that may shrink, one character at a time, down to `least`.
 void shrink(Widths& widths, const std::vector<bool>& may, std::size_t limit, std::size_t least) {
   while (total_of(widths) > limit) {
     std::size_t widest = widths.size();

@@ -21,7 +21,7 @@ struct Range {
   std::uint32_t last;
 };
 
-/// The code point at the start of `text`, which is not empty.
+/// The code point at the start of non-empty `text`.
 CodePoint decode(std::string_view text) noexcept {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const std::uint8_t lead = byte(0);
@@ -39,7 +39,7 @@ CodePoint decode(std::string_view text) noexcept {
   return valid ? CodePoint{value, bytes, true} : CodePoint{lead, 1, false};
 }
 
-/// The blocks that terminals draw over the preceding character, or not at all.
+/// The blocks without width on terminals.
 constexpr std::array kZeroWidth = {Range{0x0300, 0x036F}, Range{0x200B, 0x200F},
                                    Range{0x20D0, 0x20FF}, Range{0xFE00, 0xFE0F},
                                    Range{0xFE20, 0xFE2F}, Range{0xFEFF, 0xFEFF}};

@@ -8,9 +8,9 @@ namespace rave::report {
 namespace {
 
 constexpr double kTicksPerLabel = 6;
-/// Over this long before and after a tick its direction is taken: poses shake.
+/// The direction of a tick is averaged over this time before and after it, because poses are noisy.
 constexpr double kDirectionSpan_s = 1.5;
-/// A gap drawn shorter than this gets a ring, for its dashes cannot be seen.
+/// A shorter gap gets a ring, because its dashes would be invisible.
 constexpr double kShortGap = 7;
 
 double length_of(Vec2 v) { return std::sqrt(squared_norm(v)); }
@@ -20,7 +20,7 @@ bool is_in_gap(const PictureTrack& track, double t0_s, double t1_s) {
                      [&](const PoseGap& gap) { return gap.t0_s < t1_s && gap.t1_s > t0_s; });
 }
 
-/// Where the track is at a time within its own span, on the page.
+/// The track's position on the page at a time within its duration.
 Vec2 page_at(const PictureTrack& track, const Panel& panel, double t_s) {
   const auto& points = track.points;
   const auto after =
@@ -35,7 +35,7 @@ Vec2 page_at(const PictureTrack& track, const Panel& panel, double t_s) {
   return from + part * (panel.to_page(after->X_WB.position()) - from);
 }
 
-/// The unit vector of travel on the page around a time; {0, 0} for a robot that stands.
+/// The unit direction of travel on the page at a time; {0, 0} for a robot that stands.
 Vec2 direction_at(const PictureTrack& track, const Panel& panel, double t_s) {
   const Vec2 along =
       page_at(track, panel, t_s + kDirectionSpan_s) - page_at(track, panel, t_s - kDirectionSpan_s);
@@ -43,8 +43,8 @@ Vec2 direction_at(const PictureTrack& track, const Panel& panel, double t_s) {
   return length < 0.3 ? Vec2{} : (1 / length) * along;
 }
 
-/// The points that a line needs to stay within `tolerance` of all of them (Douglas and Peucker,
-/// 1973), without recursion.
+/// The points of a line that stays within `tolerance` of all points (Douglas and Peucker, 1973),
+/// without recursion.
 std::vector<Vec2> simplified(const std::vector<Vec2>& points, double tolerance) {
   if (points.size() < 3) return points;
   std::vector<bool> keep(points.size(), false);
@@ -76,7 +76,7 @@ std::vector<Vec2> simplified(const std::vector<Vec2>& points, double tolerance) 
   return kept;
 }
 
-/// The stretch of a track between two times as runs of one kind, thinned to what can be seen.
+/// A part of a track with or without known poses, thinned to the visible resolution.
 struct Run {
   bool in_gap = false;
   std::vector<Vec2> points;
@@ -141,7 +141,7 @@ void draw_ticks(Stage& stage, const PictureTrack& track) {
   const double tick_s = stage.picture.tick_s;
   const double first = std::ceil(track.points.front().t_s / tick_s);
   const double last = std::floor(track.points.back().t_s / tick_s);
-  // A tick for each of a million seconds would be a solid band, and slow.
+  // A million ticks would be a solid band, and slow.
   if (last - first > 2000) return;
   std::vector<Vec2> ends;
   for (double k = first; k <= last; k += 1) {
@@ -183,7 +183,7 @@ void draw_ends(Stage& stage, const PictureTrack& track) {
   stage.pen.stroke(kWhite, 0.5);
 }
 
-/// What is drawn first lies below: context, then dashed tracks, then what was captured.
+/// The order of drawing, from the bottom: context, dashed tracks, captured tracks.
 int depth_of(const PictureTrack& track) {
   if (track.odometry_only) return 1;
   if (track.kind == Kind::kHunter) return 3;

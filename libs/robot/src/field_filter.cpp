@@ -26,7 +26,7 @@ struct ExponentialState {
   std::uint32_t reserved = 0;
 };
 
-/// Numbers in order, then what is not a number: an order even for readings of a broken device.
+/// Orders numbers first, then NaN: a total order even for readings of a faulty device.
 bool before(double a, double b) noexcept {
   if (std::isnan(a)) return false;
   return std::isnan(b) || a < b;
@@ -74,7 +74,7 @@ double FieldFilter::median(double x, bool angle, std::byte* memory) const noexce
 
   std::array<double, kLargestWindow> sorted;
   for (std::uint32_t i = 0; i < own.filled; ++i) {
-    // Angles as differences to the last output, so that the jump from pi to -pi is none.
+    // Angles relative to the last output, so that the wrap from pi to -pi is not a jump.
     sorted[i] = angle ? wrap_angle(history[i] - own.output) : history[i];
   }
   auto* const middle = sorted.data() + (own.filled - 1) / 2;

@@ -8,19 +8,19 @@
 
 namespace rave::detail {
 
-/// The doubles in a record that filters work on: `count` of them from the start of the record. 0: a
-/// kind that cannot be filtered. Ranges have filters of their own (range_filter.hpp).
+/// The doubles of a record that filters process: `count` of them from its start. 0: a kind that
+/// cannot be filtered. Ranges have filters of their own (range_filter.hpp).
 struct FilterFields {
   std::uint32_t count = 0;
-  std::uint32_t angle = UINT32_MAX;  ///< Which of them is an angle.
+  std::uint32_t angle = UINT32_MAX;  ///< Index of the one that is an angle.
 };
 
 [[nodiscard]] FilterFields filter_fields(ReadingKind kind) noexcept;
 
-/// Bytes that a filter remembers of one field, a multiple of 8; all zero at the start.
+/// Size of a filter's state for one field in bytes, a multiple of 8; initially zero.
 [[nodiscard]] std::size_t filter_memory(const FilterSpec& filter) noexcept;
 
-/// The reading `x` of one field at `stamp_ns` through one filter.
+/// Filters one field of a sample.
 class FieldFilter {
  public:
   explicit FieldFilter(const FilterSpec& filter) noexcept : filter_(filter) {}
@@ -34,7 +34,7 @@ class FieldFilter {
                                    std::byte* memory) noexcept;
 
   const FilterSpec& filter_;
-  std::int64_t dt_ns_ = 0;  // for which gain_ was computed: the fields of a sample share it
+  std::int64_t dt_ns_ = 0;  // the dt of gain_: the fields of a sample share it
   double gain_ = 0;
 };
 

@@ -15,11 +15,11 @@ using detail::NoiseBatch;
 using detail::NoisePiece;
 using Items = std::span<const NoiseItem>;
 
-/// Blocks of a sample's stream: normal numbers from the first on, drop-out from the middle on.
+/// Blocks of a sample's stream: normal numbers from the start on, drop-out from the middle on.
 constexpr std::uint32_t kNormalBlock = 0;
 constexpr std::uint32_t kDropoutBlock = 0x8000'0000U;
 
-/// The normal error and the rounding of one kind of field.
+/// Gaussian noise and quantisation of one kind of field.
 class Term {
  public:
   Term(double sigma, double quantum) noexcept : sigma_(sigma), quantum_(quantum) {}
@@ -33,7 +33,7 @@ class Term {
   void plain(Real& x, float normal) const noexcept {
     x = static_cast<Real>(rounded(x + sigma_ * double{normal}));
   }
-  /// A distance: never negative. No return stays no return.
+  /// A distance: never negative. No return stays unchanged.
   void distance(float& x, float normal) const noexcept {
     const double wrong = double{x} + sigma_ * double{normal};
     if (std::isfinite(x)) x = static_cast<float>(rounded(wrong < 0 ? 0 : wrong));
@@ -66,7 +66,7 @@ struct Terms {
   }
 };
 
-/// How many normal numbers a record takes, one for each field that noise can touch.
+/// Normal numbers per record: one for each field that noise can change.
 template <class Record>
 constexpr std::uint32_t kNormals = 0;
 template <>
@@ -156,12 +156,12 @@ void disturb_ranges(Items items, const NoiseSpec& noise, const RangeLimits& limi
   }
 }
 
-/// Lost is what draws a number up to this.
+/// A record is lost if its random word is at most this.
 std::uint32_t dropout_limit(double probability) noexcept {
   return static_cast<std::uint32_t>(std::ceil(probability * 0x1p32) - 1);
 }
 
-/// `use(piece, words)` with one word for each of `count(item)` records.
+/// Calls `use(piece, words)` with one word for each of `count(item)` records.
 template <class Count, class Use>
 void drop_out(Items items, Count count, Use use) noexcept {
   NoiseBatch<std::uint32_t, 1, Use> batch(kDropoutBlock, use);
@@ -177,7 +177,7 @@ void silence(Items items, std::uint32_t limit) noexcept {
   });
 }
 
-/// Takes records out, keeping the order of the others.
+/// Removes records, keeping the order of the others.
 template <class Record>
 void thin_out(Items items, std::uint32_t limit) noexcept {
   drop_out(items, all_records, [limit](const NoisePiece& piece, const std::uint32_t* words) {

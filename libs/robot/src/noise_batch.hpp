@@ -16,7 +16,7 @@ struct NoisePiece {
   const NoiseItem* item;
   std::uint32_t first;
   std::uint32_t count;
-  std::uint32_t place;  ///< Of their first number in the batch.
+  std::uint32_t place;  ///< Index of their first number in the batch.
 
   template <class Record>
   [[nodiscard]] Record* records() const noexcept {
@@ -24,12 +24,11 @@ struct NoisePiece {
   }
 };
 
-/// Draws the numbers for the records of many samples together, so that short samples fill vectors
-/// too: gathers counters until there is a batch, draws it and calls `use(piece, numbers)` for each
-/// piece, in the order of the records. Number i of a sample is number i of its stream from the
-/// block `first_block` on; a record takes `kPerRecord` of them. `Number`: float for normal numbers,
-/// std::uint32_t for bits. Lives on the stack of whoever draws; what was added is served at the end
-/// of its life at the latest.
+/// Draws the random numbers for the records of many samples together, so that short samples fill
+/// vectors too. It collects counters until a batch is full, draws the batch and calls `use(piece,
+/// numbers)` for each piece, in the order of the records. Number i of a sample is number i of its
+/// stream from block `first_block` on; a record takes `kPerRecord` of them. `Number`: float for
+/// normal numbers, std::uint32_t for bits. Lives on the stack; the destructor serves the rest.
 template <class Number, std::uint32_t kPerRecord, class Use>
 class NoiseBatch {
  public:
@@ -38,7 +37,7 @@ class NoiseBatch {
   NoiseBatch& operator=(const NoiseBatch&) = delete;
   ~NoiseBatch() { flush(); }
 
-  /// Wants numbers for the first `count` records of a sample.
+  /// Requests numbers for the first `count` records of a sample.
   void add(const NoiseItem& item, std::uint32_t count) noexcept {
     const RandomKey& key = item.random.key();
     if (key[0] != key_[0] || key[1] != key_[1]) {
@@ -48,7 +47,7 @@ class NoiseBatch {
     for (std::uint32_t first = 0; first < count;) {
       const std::uint32_t room = (kBlocks - blocks_) * 4 / kPerRecord;
       std::uint32_t fitting = count - first;
-      // A next piece must start with a block.
+      // The next piece must begin with a block.
       if (fitting > room) fitting = room / 4 * 4;
       if (fitting == 0) {
         flush();
@@ -93,7 +92,8 @@ class NoiseBatch {
   RandomKey key_{};
   std::uint32_t blocks_ = 0;
   std::uint32_t pieces_used_ = 0;
-  // Written before they are read; clearing them would cost more than to draw a few numbers.
+  // Deliberately uninitialised: they are written before they are read, and clearing would cost more
+  // than drawing a few numbers.
   std::array<RandomCounter, kBlocks> counters_;
   std::array<NoisePiece, kBlocks> pieces_;
 };

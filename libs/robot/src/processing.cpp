@@ -12,12 +12,12 @@ namespace rave {
 namespace {
 
 constexpr std::uint64_t kIrregularDepth = 64;
-/// Closer samples than these would push one another out of the ring before they are due.
+/// Samples in shorter intervals would push each other out of the ring before they are due.
 constexpr Duration kIrregularPeriod{5'000'000};
 constexpr double kLongestLatency_s = 3600;
 constexpr std::size_t kLargestState = std::size_t{64} << 20;
 
-/// At the start of the state; the ring of slots and the filters' memory follow.
+/// At the start of the state, followed by the ring of slots and the filters' states.
 struct Ring {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
@@ -136,7 +136,7 @@ Result<Processing> Processing::make(const ProcessingSpec& spec, ReadingKind kind
   const std::size_t records_size = std::size_t{made.record_size_} * capacity;
   made.slot_size_ = sizeof(SampleHeader) + whole_words(records_size);
   const std::uint64_t depth = ring_depth(made.latency_, from_seconds(period_s));
-  // All factors are far below 2^48, and the sum is tested before a next one could overflow it.
+  // All factors are far below 2^48, and the sum is checked before the next one could overflow it.
   bool fits = depth <= kLargestState / made.slot_size_;
   std::size_t size = sizeof(Ring) + (fits ? depth * made.slot_size_ : 0);
   for (const FilterSpec& filter : spec.filters) {
@@ -169,7 +169,7 @@ std::byte* Processing::slot(std::byte* state, std::uint32_t index) const noexcep
   return state + sizeof(Ring) + slot_size_ * (index % depth_);
 }
 
-/// Copies a sample to the end of the ring and returns where its header is.
+/// Appends a sample to the ring and returns the place of its header.
 std::byte* Processing::enqueue(const SampleHeader& raw, const void* records,
                                std::byte* state) const noexcept {
   auto& ring = *reinterpret_cast<Ring*>(state);

@@ -29,7 +29,7 @@ constexpr std::array<std::uint32_t, 256> crc_table() {
   return table;
 }
 
-/// Little endian, whatever the machine.
+/// Little-endian on any machine.
 template <class T>
 void put(std::byte* at, T value) noexcept {
   auto bits = static_cast<std::make_unsigned_t<T>>(value);
@@ -46,7 +46,7 @@ T get(const std::byte* at) noexcept {
   return static_cast<T>(static_cast<std::make_unsigned_t<T>>(bits));
 }
 
-/// Whole millimetres, cut off at what T holds.
+/// Whole millimetres, clamped to the range of T.
 template <class T>
 T millimetres(double length_m) noexcept {
   const double mm = std::round(length_m * 1000);

@@ -14,15 +14,15 @@ namespace {
 
 std::size_t whole_words(std::size_t bytes) { return (bytes + 7) / 8 * 8; }
 
-/// Ranges as integers in the same order: what is no number comes after infinity, and behind it the
-/// places of the window that nothing has come to yet.
+/// Ranges as integers in the same order: NaN after infinity, and after that empty places of the
+/// window.
 using Rank = std::int32_t;
 constexpr Rank kEmpty = std::numeric_limits<Rank>::max();
 constexpr Rank kNoNumber = kEmpty - 1;
 
 Rank rank_of(float x) noexcept {
   const auto bits = std::bit_cast<Rank>(x);
-  // Below zero a float grows as its bits shrink.
+  // The bits of negative floats decrease as their values increase.
   return x != x ? kNoNumber : bits ^ ((bits >> 31) & kEmpty);
 }
 float range_of(Rank rank) noexcept {
@@ -30,7 +30,7 @@ float range_of(Rank rank) noexcept {
   return std::bit_cast<float>(rank ^ ((rank >> 31) & kEmpty));
 }
 
-/// Of each ray the last readings, in the order in which they came and sorted.
+/// The last readings of each ray, in order of arrival and sorted.
 struct MedianMemory {
   MedianMemory(std::byte* memory, std::uint32_t rays, std::uint32_t window) noexcept
       : filled(reinterpret_cast<std::uint32_t*>(memory)),
@@ -41,7 +41,7 @@ struct MedianMemory {
   std::uint32_t* filled;
   std::uint32_t* next;
   Rank* history;  ///< A ring of the window's length for each ray.
-  Rank* sorted;   ///< Smallest of all rays first, then the second smallest, ...
+  Rank* sorted;   ///< The smallest of all rays first, then the second smallest, ...
 };
 
 constexpr std::uint32_t kRow = 64;
@@ -74,7 +74,7 @@ void median(std::uint32_t window, std::uint32_t capacity, std::span<float> range
   }
 }
 
-/// Of each ray the last output, NaN if there is none, and the stamp of the last sample.
+/// The last output of each ray, NaN if none, and the stamp of its last sample.
 struct ExponentialMemory {
   ExponentialMemory(std::byte* memory, std::uint32_t rays) noexcept
       : output(reinterpret_cast<double*>(memory)),
@@ -91,7 +91,7 @@ double gain_of(std::int64_t dt_ns, double time_constant_s) noexcept {
 void exponential(double time_constant_s, std::uint32_t capacity, std::int64_t stamp_ns,
                  std::span<float> ranges_m, std::byte* memory) noexcept {
   const ExponentialMemory own(memory, capacity);
-  // Rays that have come with the same samples go together: nearly always all of them.
+  // Rays with equal earlier stamps are processed together: usually all of them.
   for (std::size_t first = 0; first < ranges_m.size();) {
     const std::int64_t before_ns = own.stamp_ns[first];
     std::size_t last = first;

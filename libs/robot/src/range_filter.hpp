@@ -9,19 +9,18 @@
 
 namespace rave::detail {
 
-/// The filters of range sensors: what FieldFilter does with each field, for all rays at once, in
-/// vector instructions. `capacity`: rays of a sample at most.
+/// The filters of range sensors: like FieldFilter for each ray, but for all rays at once with
+/// vector instructions. `capacity`: the largest number of rays.
 
-/// Bytes that a filter remembers, a multiple of 8.
+/// Size of a filter's state in bytes, a multiple of 8.
 [[nodiscard]] std::size_t range_filter_memory(const FilterSpec& filter,
                                               std::uint32_t capacity) noexcept;
 
-/// Forgets all rays.
+/// Clears the state of all rays.
 void reset_range_filter(const FilterSpec& filter, std::uint32_t capacity,
                         std::byte* memory) noexcept;
 
-/// Puts `ranges_m`, the first rays of a sample, through the filter. Rays beyond them stay as they
-/// are in its memory.
+/// Filters `ranges_m`, the first rays of a sample. The states of other rays do not change.
 void filter_ranges(const FilterSpec& filter, std::uint32_t capacity, std::int64_t stamp_ns,
                    std::span<float> ranges_m, std::byte* memory) noexcept;
 

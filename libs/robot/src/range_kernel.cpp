@@ -3,7 +3,7 @@
 
 #include <limits>
 
-// Compiled once for each set of instructions.
+// Highway compiles this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/range_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -17,8 +17,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr float kLargest = std::numeric_limits<float>::max();
 
-/// Calls `loop(tag, i)` for vectors of values from i on, the longest there are, and for what is
-/// left with shorter ones: nothing beyond `count` is read or written.
+/// Calls `loop(tag, i)` for vectors of values from i on, the longest possible first, then shorter
+/// ones for the rest: nothing beyond `count` is read or written.
 template <class Value, class Loop>
 HWY_INLINE void for_all(std::size_t count, const Loop& loop) {
   const hn::CappedTag<Value, 64 / sizeof(Value)> wide;
@@ -55,8 +55,8 @@ void limit(float* ranges, std::size_t count, float min, float max) {
   });
 }
 
-/// floor(x / quantum + 1/2) * quantum in double precision. Adding and taking away 1.5 * 2^52 rounds
-/// to an integer, as long as that is below 2^51; there single precision has no fractions any more.
+/// floor(x / quantum + 1/2) * quantum in double precision. Adding and subtracting 1.5 * 2^52 rounds
+/// to an integer below 2^51; larger numbers in single precision have no fraction.
 void round(float* ranges, std::size_t count, double quantum) {
   for_all<double>(count, [&](auto d, std::size_t i) HWY_ATTR {
     const hn::Rebind<float, decltype(d)> singles;
@@ -84,9 +84,8 @@ void silence(float* ranges, std::size_t count, const std::uint32_t* words, std::
   });
 }
 
-/// Where the new reading is the larger, what lies between the old one and it moves down by one
-/// rank, otherwise up. From the lowest rank to the highest; what stood one below is kept in
-/// `below`.
+/// If the new reading is larger, the values between the old and the new one move down by one rank,
+/// otherwise up. Goes from the lowest rank to the highest; `below` keeps the value one rank below.
 void exchange_all(std::int32_t* sorted, std::size_t stride, std::size_t window, std::size_t count,
                   const Exchange& exchange) {
   for (std::size_t k = 0; k < window; ++k) {

@@ -43,7 +43,7 @@ bool SampleQueue::wait_until(SimTime t) noexcept {
   while (!closed_ && live_->now() < t) {
     const auto due = live_->wall_time_of(t);
     const auto woken = to_producer_.wait_until(lock, due);
-    // The two views of the clock may differ by a rounding; the wall decides.
+    // The two conversions of the clock may differ by rounding; the wall time decides.
     if (woken == std::cv_status::timeout && live_->wall_time_of(t) <= due) break;
   }
   producer_waits_ = false;
@@ -115,8 +115,8 @@ void SampleQueue::fail(const char* text, std::uint64_t size) noexcept {
 
 void SampleQueue::recover() noexcept {
   const Lock lock(mutex_);
-  // A stepped driver runs ahead of the run, so its loss is final: when it came back would be
-  // chance.
+  // A stepped driver runs ahead of the run, so its failure is final: the time of its recovery would
+  // be indeterminate.
   if (live_ == nullptr) return;
   failed_ = false;
   failure_.clear();
@@ -130,14 +130,15 @@ SampleQueue::Wait SampleQueue::wait_complete(SimTime t, std::chrono::millisecond
   Lock lock(mutex_);
   if (live_ != nullptr) return failed_ || closed_ ? Wait::kFailed : Wait::kComplete;
   const auto state = [&] {
-    // Stamps do not step back, so one after t proves that all up to t have come.
+    // Stamps do not decrease, so a stamp after t proves completeness up to t.
     if (complete_ns_ >= t.ns || newest_ns_ > t.ns) return Wait::kComplete;
     if (failed_ || closed_) return Wait::kFailed;
     return count_ == depth_ ? Wait::kFull : Wait::kTimeout;
   };
   if (const Wait now = state(); now != Wait::kTimeout) return now;
   consumer_waits_ = true;
-  if (producer_waits_) to_producer_.notify_one();  // there is room that next() kept quiet about
+  // the consumer must wait, so announce the room that next() did not
+  if (producer_waits_) to_producer_.notify_one();
   to_consumer_.wait_for(lock, limit, [&] { return state() != Wait::kTimeout; });
   consumer_waits_ = false;
   return state();
@@ -154,8 +155,8 @@ bool SampleQueue::next(SimTime up_to, SampleHeader* header, void* records) {
   }
   first_ = (first_ + 1) % depth_;
   --count_;
-  // Waking the producer for each sample would switch threads for each sample. It sleeps until half
-  // of the room is free, or until the consumer has to wait for it.
+  // Waking the producer for each sample would cause a thread switch per sample. It sleeps until
+  // half of the queue is free, or until the consumer must wait for it.
   if (live_ == nullptr && producer_waits_ && count_ <= depth_ / 2) to_producer_.notify_one();
   return true;
 }
@@ -163,7 +164,7 @@ bool SampleQueue::next(SimTime up_to, SampleHeader* header, void* records) {
 bool SampleQueue::newest(SampleHeader* header, void* record) const {
   const Lock lock(mutex_);
   if (newest_ns_ == INT64_MIN) return false;
-  // A sample stays where it is after next() has given it out, until the next but depth_ comes.
+  // next() leaves a sample in its slot until the slot is reused, depth_ samples later.
   const std::size_t slot = (first_ + count_ + depth_ - 1) % depth_;
   *header = headers_[slot];
   if (header->count > 0) {

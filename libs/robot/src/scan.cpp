@@ -56,7 +56,7 @@ void Scan::update(const Percepts& percepts) {
 void Scan::add(const Ray& ray, float range_m, double limit_m) {
   if (std::isnan(range_m)) return;
   const bool hit = range_m < std::numeric_limits<float>::infinity();
-  // Minus infinity says "too near to measure" (REP-117).
+  // Minus infinity means "too near to measure" (REP-117).
   const double free_m = hit ? std::max(static_cast<double>(range_m), 0.0) : limit_m;
   beams_.push_back({ray.origin_R, ray.directions_R[0], free_m, ray.spread_rad});
   if (!hit) return;

@@ -20,8 +20,8 @@ Result<std::uint32_t> Setup::find_sensor(ReadingKind kind, std::string_view name
     fitting.emplace_back(raw_->sensors[i].name);
   }
   return fail(ErrorCode::kNotFound,
-              "the program wants a sensor of kind `{}`{}, which robot `{}` "
-              "does not have; sensors of that kind: {}",
+              "robot `{2}` has no sensor of kind `{0}`{1}, which its program requires; "
+              "sensors of that kind: {3}",
               to_string(kind), wanted(name), raw_->robot.name, join_names(fitting));
 }
 
@@ -33,8 +33,8 @@ Result<ControllerHandle> Setup::controller(CommandKind kind, std::string_view na
     fitting.emplace_back(raw_->controllers[i].name);
   }
   return fail(ErrorCode::kNotFound,
-              "the program wants a controller that takes `{}`{}, which robot "
-              "`{}` does not have; controllers that do: {}",
+              "robot `{2}` has no controller that accepts `{0}`{1}, which its program "
+              "requires; controllers that do: {3}",
               to_string(kind), wanted(name), raw_->robot.name, join_names(fitting));
 }
 
@@ -46,7 +46,7 @@ Result<CommunicatorHandle> Setup::communicator(std::string_view name) const {
     all.emplace_back(info.name);
   }
   return fail(ErrorCode::kNotFound,
-              "the program wants a communicator{}, which robot `{}` does not have; it has: {}",
+              "robot `{1}` has no communicator{0}, which its program requires; it has: {2}",
               wanted(name), raw_->robot.name, join_names(all));
 }
 

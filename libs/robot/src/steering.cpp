@@ -37,7 +37,7 @@ FreeHeading Steering::best(std::span<const Vec2> points_R, double wanted_rad,
   double best_cost = 1e9;
   FreeHeading farthest{wrap_angle(wanted_rad), -1};
   for (int k = 0; k < kDirections; ++k) {
-    // 0, 1, -1, 2, -2, ... sectors from the wanted direction.
+    // Sectors 0, 1, -1, 2, -2, ... from the wanted direction.
     const int sectors = k % 2 == 1 ? (k + 1) / 2 : -(k / 2);
     const double heading_rad = wrap_angle(wanted_rad + sectors * kSector_rad);
     const double cost = std::abs(sectors) * kSector_rad + kInertia * std::abs(heading_rad);

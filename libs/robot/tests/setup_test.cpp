@@ -59,23 +59,23 @@ TEST_F(SetupTest, NamesTheSensorsThereAre) {
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().code, ErrorCode::kNotFound);
   EXPECT_EQ(missing.error().text(),
-            "the program wants a sensor of kind `ranges` named `laser`, which robot `rover` does "
-            "not have; sensors of that kind: front_laser and rear_laser");
+            "robot `rover` has no sensor of kind `ranges` named `laser`, which its program "
+            "requires; sensors of that kind: front_laser and rear_laser");
 }
 
 TEST_F(SetupTest, ASensorOfAnotherKindIsNotFound) {
   const auto missing = setup_.sensor<Sighting>("front_laser");
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().text(),
-            "the program wants a sensor of kind `sightings` named `front_laser`, which robot "
-            "`rover` does not have; sensors of that kind: camera");
+            "robot `rover` has no sensor of kind `sightings` named `front_laser`, which its "
+            "program requires; sensors of that kind: camera");
 }
 
 TEST_F(SetupTest, SaysThatThereIsNoSensorOfAKind) {
   const auto missing = setup_.sensor<ContactReading>();
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().text(),
-            "the program wants a sensor of kind `contact`, which robot `rover` does not have; "
+            "robot `rover` has no sensor of kind `contact`, which its program requires; "
             "sensors of that kind: none");
 }
 
@@ -90,12 +90,12 @@ TEST_F(SetupTest, NamesTheControllersThereAre) {
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().code, ErrorCode::kNotFound);
   EXPECT_EQ(missing.error().text(),
-            "the program wants a controller that takes `velocity` named `go_to`, which robot "
-            "`rover` does not have; controllers that do: drive and slow_drive");
+            "robot `rover` has no controller that accepts `velocity` named `go_to`, which its "
+            "program requires; controllers that do: drive and slow_drive");
   const auto none = setup_.controller(CommandKind::kJoint);
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().text(),
-            "the program wants a controller that takes `joint`, which robot `rover` does not have; "
+            "robot `rover` has no controller that accepts `joint`, which its program requires; "
             "controllers that do: none");
 }
 

@@ -40,7 +40,7 @@ Quaternion quaternion_of(double yaw_rad) noexcept {
 }
 
 Attitude attitude_of(const Quaternion& q) noexcept {
-  // Entries of the rotation matrix; a common factor of the quaternion's length cancels out.
+  // Entries of the rotation matrix; the length of the quaternion cancels out.
   const double x_x = q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z;
   const double y_x = 2 * (q.w * q.z + q.x * q.y);
   const double z_z = q.w * q.w - q.x * q.x - q.y * q.y + q.z * q.z;

@@ -10,7 +10,7 @@ Result<dds_entity_t> make_end(dds_entity_t participant, const dds_topic_descript
                               const std::string& wire_topic, const bus::QosProfile& profile,
                               bool reads) {
   const bus::Qos qos = bus::make_qos(profile);
-  // Iron and later look for it and log who has none; Humble looks at nothing of the kind.
+  // Iron and later log an error for participants without it; Humble ignores it.
   const std::string data = fmt::format("typehash={};", type_hash_of(type.m_typename));
   if (!type_hash_of(type.m_typename).empty())
     dds_qset_userdata(qos.get(), data.data(), data.size());
@@ -22,7 +22,7 @@ Result<dds_entity_t> make_end(dds_entity_t participant, const dds_topic_descript
   }
   const dds_entity_t entity = reads ? dds_create_reader(participant, topic, qos.get(), nullptr)
                                     : dds_create_writer(participant, topic, qos.get(), nullptr);
-  // The reader or writer keeps the topic alive.
+  // The reader or writer keeps a reference to the topic.
   dds_delete(topic);
   if (entity < 0) {
     return fail(ErrorCode::kIo, "cannot {} `{}`: {}", reads ? "read" : "write",

@@ -10,8 +10,8 @@
 
 namespace rave::ros2 {
 
-/// A reader or writer of a topic by its name on the wire, with the hash of its type for who asks.
-/// Errors: those of Participant::add_end().
+/// Creates a reader or writer of a topic by its wire name, with the type hash. Errors: those of
+/// Participant::add_end().
 [[nodiscard]] Result<dds_entity_t> make_end(dds_entity_t participant,
                                             const dds_topic_descriptor_t& type,
                                             const std::string& wire_topic,

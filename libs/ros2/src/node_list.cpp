@@ -40,7 +40,7 @@ dds_guid_t guid_of(dds_entity_t entity) {
   return guid;
 }
 
-/// What is shorter than the field is followed by zeros.
+/// Shorter ids are padded with zeros.
 template <class Gid>
 Gid gid_of(const dds_guid_t& guid) {
   Gid gid{};
@@ -99,7 +99,7 @@ void NodeList::write() {
   typename Form::Info info{};
   info.gid = gid_of<Gid>(guid_of(participant_));
   bus::borrow(info.node_entities_info_seq, nodes);
-  // What fails shows to nobody but to those who list nodes.
+  // A failure only affects the listing of nodes.
   (void)dds_write(writer_, &info);
 }
 

@@ -14,15 +14,15 @@
 namespace rave::ros2 {
 namespace {
 
-/// Domains of Cyclone DDS within this process that are ours; those of the bus are 0 to 230.
+/// Domain numbers of these participants within this process; those of the bus are 0 to 230.
 constexpr std::uint32_t kFirstDomain = 1000;
 constexpr std::uint32_t kMostDomains = 1000;
-/// As nodes of ROS 2 on Cyclone DDS have it: a network may pause for a while. Who is silent shows
-/// by its topics.
+/// As for ROS 2 nodes on Cyclone DDS: a network may be interrupted for a while. Silent topics
+/// reveal a lost participant earlier.
 constexpr Duration kLease{10'000'000'000};
-/// As of a participant of ROS 2 without security.
+/// As for a ROS 2 participant without security.
 constexpr std::string_view kEnclave = "enclave=/;";
-/// What is named to a user at most.
+/// Limit of names in a message.
 constexpr std::size_t kMostNamed = 5;
 
 /// Addresses and names of the interfaces of this machine.
@@ -45,7 +45,7 @@ std::vector<std::string> interfaces_here() {
 
 Status check_interface(const Network& network) {
   const std::vector<std::string> here = interfaces_here();
-  // Any address of the loopback network is one of this machine.
+  // Any address of the loopback network belongs to this machine.
   if (here.empty() || network.interface.empty() || network.interface.starts_with("127.")) return {};
   if (std::ranges::find(here, network.interface) != here.end()) return {};
   const std::vector<std::string_view> names(here.begin(), here.end());
@@ -56,13 +56,14 @@ Status check_interface(const Network& network) {
 bus::BusConfig config_of(const Network& network) {
   bus::BusConfig config;
   config.participant = network.name;
-  config.run = bus::RunId::random();  // none of ROS 2's business, but its check wants one
+  // irrelevant to ROS 2, but the configuration check requires one
+  config.run = bus::RunId::random();
   config.domain = network.domain;
   config.interface = network.interface;
   config.peers = network.peers;
   config.multicast = network.multicast;
   config.lease = kLease;
-  // The number of the domain in this process says nothing to others; this one does.
+  // This is the domain number on the network; the number in this process is another one.
   config.cyclone_settings = fmt::format(
       "<CycloneDDS><Domain Id=\"any\"><Discovery><ExternalDomainId>{}</ExternalDomainId>"
       "<SPDPInterval>2s</SPDPInterval></Discovery></Domain></CycloneDDS>",
@@ -70,10 +71,10 @@ bus::BusConfig config_of(const Network& network) {
   return config;
 }
 
-/// Whether a domain of Cyclone DDS exists in this process: whose owner has its log, too.
+/// Whether this process has a Cyclone DDS domain; its owner receives the log.
 bool has_domains() { return dds_get_children(DDS_CYCLONEDDS_HANDLE, nullptr, 0) > 0; }
 
-/// Calls `visit(const Sample&)` for all samples of a built-in topic that are alive.
+/// Calls `visit(const Sample&)` for all live samples of a built-in topic.
 template <class Sample, class Visit>
 void look_at(dds_entity_t reader, Visit&& visit) {
   constexpr std::size_t kMost = 1000;
@@ -124,7 +125,7 @@ Status Participant::join() {
   if (domain_ < 0) return refused(domain_);
   const bus::Qos qos(dds_create_qos());
   dds_qset_entity_name(qos.get(), network_.name.c_str());
-  // By this ROS 2 knows one of its own from any other participant of DDS.
+  // ROS 2 distinguishes its nodes from other DDS participants by this.
   dds_qset_userdata(qos.get(), kEnclave.data(), kEnclave.size());
   participant_ = dds_create_participant(number, qos.get(), nullptr);
   if (participant_ < 0) return refused(participant_);
@@ -147,7 +148,7 @@ Status Participant::join() {
 
 Participant::~Participant() {
   nodes_.reset();
-  // Deleting a domain deletes all that is in it.
+  // Deletes everything in the domain too.
   if (domain_ > 0) dds_delete(domain_);
 }
 
@@ -185,7 +186,7 @@ std::size_t Participant::others_here() const {
   std::size_t count = 0;
   look_at<dds_builtintopic_participant_t>(seen_participants_,
                                           [&](const dds_builtintopic_participant_t&) { ++count; });
-  return count > 0 ? count - 1 : 0;  // we see ourselves
+  return count > 0 ? count - 1 : 0;  // minus this participant
 }
 
 std::string Participant::explain_silence(std::string_view topic, std::string_view type,

@@ -12,14 +12,14 @@ namespace rave::ros2 {
 namespace {
 
 constexpr ErrorCode kBad = ErrorCode::kInvalidArgument;
-/// A quaternion is a rotation if it has about this length.
+/// A quaternion with a length outside of these is not a rotation.
 constexpr double kLeastNorm = 0.9;
 constexpr double kMostNorm = 1.1;
 constexpr double kMostAngle_rad = 100;
 constexpr double kMostVariance = 1e14;
 
 Status check_number(std::string_view field, double value, double limit) {
-  // Written so that NaN fails.
+  // NaN fails this condition.
   if (std::fabs(value) <= limit) return {};
   return fail(kBad, "{} is {}, not within +-{}", field, value, limit);
 }
@@ -32,7 +32,7 @@ Status check_text(std::string_view field, const char* text, std::size_t longest)
   return {};
 }
 
-/// Names end up in logs and on terminals.
+/// Names appear in logs and on terminals.
 Status check_frame(std::string_view field, const char* frame) {
   RAVE_TRY(check_text(field, frame, kLongestFrame));
   if (!has_control_characters(frame == nullptr ? "" : frame)) return {};
@@ -64,7 +64,7 @@ Status check_rotation(std::string_view field, const Quaternion& q) {
   return fail(kBad, "{} has the length {}; a rotation has 1", field, norm);
 }
 
-/// Unknown entries are said in many ways, so no more is asked of them than to be numbers.
+/// Unknown entries are marked in many ways, so only NaN is refused.
 Status check_covariance(std::string_view field, std::span<const double> covariance) {
   for (const double value : covariance) RAVE_TRY(check_number(field, value, kMostVariance));
   return {};
@@ -96,7 +96,7 @@ Status check_beams(const LaserScan& scan) {
   if (lit != 0 && lit != beams) {
     return fail(kBad, "intensities has {} entries for {} ranges", lit, beams);
   }
-  // Drivers disagree on whether the last ray is at angle_max, and angles are single precision.
+  // Drivers disagree on whether the last ray is at angle_max, and angles have single precision.
   const double expected =
       std::fabs((double{scan.angle_max} - scan.angle_min) / scan.angle_increment) + 1;
   const double off = std::fabs(expected - beams);
@@ -106,7 +106,7 @@ Status check_beams(const LaserScan& scan) {
   return {};
 }
 
-/// A single range may be infinite either way, but it is a number.
+/// A range may be infinite, but not NaN.
 template <class Sonar>
 Status check_sonar(const Sonar& message) {
   RAVE_TRY(check(message.header));
@@ -154,7 +154,7 @@ Status validate(const Imu& message) {
   RAVE_TRY(check_covariance("angular_velocity_covariance", message.angular_velocity_covariance));
   RAVE_TRY(
       check_covariance("linear_acceleration_covariance", message.linear_acceleration_covariance));
-  // What a sensor does not measure is marked, and may then hold anything.
+  // An unmeasured quantity is marked and may contain anything.
   if (message.orientation_covariance[0] != -1) {
     RAVE_TRY(check_rotation("orientation", message.orientation));
   }
@@ -167,7 +167,7 @@ Status validate(const Imu& message) {
 
 Status validate(const NavSatFix& message) {
   RAVE_TRY(check(message.header));
-  if (message.status.status < 0) return {};  // no fix, so the rest says nothing
+  if (message.status.status < 0) return {};  // no fix, so the other fields are meaningless
   RAVE_TRY(check_number("latitude", message.latitude, 90));
   RAVE_TRY(check_number("longitude", message.longitude, 180));
   if (!std::isnan(message.altitude)) {
@@ -184,7 +184,7 @@ Status validate(const BatteryState& message) {
        {message.cell_voltage._length, message.cell_temperature._length}) {
     if (cells > kMostCells) return fail(kBad, "{} cells, more than {}", cells, kMostCells);
   }
-  // NaN stands for what is not measured.
+  // NaN means not measured.
   for (const float value : {message.voltage, message.temperature, message.current, message.charge,
                             message.capacity, message.percentage}) {
     if (std::isinf(value)) return fail(kBad, "an infinite value of a battery");

@@ -48,7 +48,7 @@ void Waiter::ring() const noexcept { dds_set_guardcondition(bell_, true); }
 void Waiter::wait(Duration limit) const {
   std::array<dds_attach_t, 1> woken{};
   (void)dds_waitset_wait(set_, woken.data(), woken.size(), limit.ns);
-  // Whoever rings after this has done what it rings for after the caller's next look.
+  // A caller that rings later has finished its work before the next look of wait()'s caller.
   bool rung = false;
   (void)dds_take_guardcondition(bell_, &rung);
 }

@@ -41,8 +41,8 @@ const void* LoneSensor::records() const noexcept { return parts_->records.data()
 
 Result<std::unique_ptr<LoneSensor>> LoneSensor::make(SensorSpec spec, double step_s) {
   if (spec.virtual_ops == nullptr) {
-    return fail(ErrorCode::kInvalidArgument, "the driver `{}` is of hardware, which is there once",
-                spec.driver);
+    return fail(ErrorCode::kInvalidArgument,
+                "the driver `{}` is not virtual; expected a virtual sensor", spec.driver);
   }
   auto parts = std::make_unique<Parts>();
   parts->spec = std::move(spec);
@@ -73,8 +73,8 @@ Result<std::unique_ptr<LoneSensor>> LoneSensor::make(SensorSpec spec, double ste
   }
   if (info.capacity > kMostRecords || (parts->uses_fan && declaration.fan.ray_count > kMostRays)) {
     return fail(ErrorCode::kInvalidArgument,
-                "{} readings of {} rays at once are too many to be tried: {} of {} at most",
-                info.capacity, declaration.fan.ray_count, kMostRecords, kMostRays);
+                "the sensor has {} readings of {} rays; expected at most {} of {}", info.capacity,
+                declaration.fan.ray_count, kMostRecords, kMostRays);
   }
   if (parts->uses_fan) {
     parts->fan = FanTable::make(declaration.fan, its.layers);

@@ -108,7 +108,7 @@ Event obstacle_event(std::uint64_t step, const ObstacleChange& change, std::stri
 
 Status check_obstacle_change(const ObstacleChange& change) {
   if (change.kind > Kind::kRemove) {
-    return fail(ErrorCode::kInvalidArgument, "an unknown change of an obstacle");
+    return fail(ErrorCode::kInvalidArgument, "the kind of the obstacle change is unknown");
   }
   RAVE_TRY(check_name(change));
   if (change.asked.size() > ObstacleChange::kMostAskedBytes) {

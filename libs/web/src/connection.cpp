@@ -28,20 +28,20 @@ const std::string& policy() {
   return kPolicy;
 }
 
-/// Where pages find their WebSocket; others are for upgrade().
+/// The WebSocket path of pages; upgrade() handles others.
 constexpr std::string_view kUsualSocket = "/ws";
 
-/// Of a file that is sent at a time.
+/// Size of the pieces of a file.
 constexpr std::size_t kPiece = std::size_t{256} << 10U;
 
-/// A file on its way to a browser.
+/// A file that is being sent.
 struct Outgoing {
   std::ifstream file;
-  std::uint64_t left = 0;  ///< Bytes that are not read yet.
+  std::uint64_t left = 0;  ///< Bytes not read yet.
   std::vector<char> piece;
 };
 
-/// Null: it is no file that can be read.
+/// Null: the file cannot be read.
 std::shared_ptr<Outgoing> open_outgoing(const std::filesystem::path& path) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
@@ -52,7 +52,7 @@ std::shared_ptr<Outgoing> open_outgoing(const std::filesystem::path& path) {
   return outgoing->file ? outgoing : nullptr;
 }
 
-/// One connection before it becomes a WebSocket: one request after the other.
+/// One connection before it becomes a WebSocket: a sequence of requests.
 class Connection final : public Link, public std::enable_shared_from_this<Connection> {
  public:
   Connection(Core& core, Tcp::socket socket, const std::string& peer)
@@ -82,13 +82,13 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   void send_file(const std::shared_ptr<Answer>& reply, const std::shared_ptr<Outgoing>& outgoing);
   void send_piece(const std::shared_ptr<Answer>& reply, const std::shared_ptr<Outgoing>& outgoing);
   void sent(const Answer& reply);
-  /// Why a request is refused before anybody looks at it.
+  /// The refusal of a request before the handler sees it.
   [[nodiscard]] std::optional<Response> refusal(Request& request);
   void upgrade(Request request);
 
   Core& core_;
   Stream stream_;
-  std::shared_ptr<Seat> seat_;  ///< Handed over to the WebSocket that this becomes.
+  std::shared_ptr<Seat> seat_;  ///< Passed on if the connection becomes a WebSocket.
   std::string peer_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
@@ -146,8 +146,8 @@ void Connection::take() {
   dispatch(request);
 }
 
-/// Lets go of a connection in the thread of the server, wherever the last copy of a reply is
-/// dropped.
+/// Releases a connection in the thread of the server, wherever the last copy of a reply is
+/// destroyed.
 class Held {
  public:
   Held(Core& core, std::shared_ptr<Connection> connection)
@@ -163,13 +163,13 @@ class Held {
 
  private:
   Core& core_;
-  std::shared_ptr<Connection> connection_;  ///< Shared with the operations under way.
+  std::shared_ptr<Connection> connection_;  ///< Shared with pending operations.
 };
 
 void Connection::dispatch(const Request& request) {
   const auto held = std::make_shared<Held>(core_, shared_from_this());
   const Reply reply = [held](const Response& response) { held->answer(response); };
-  // What takes time has a limit of its own; meanwhile nothing is read.
+  // A later response has its own timeout; nothing is read meanwhile.
   stream_.expires_after(core_.options().idle);
   if (core_.handler().serve_later(request, reply)) return;
   answer(core_.handler().serve(request));
@@ -188,7 +188,8 @@ std::optional<Response> Connection::refusal(Request& request) {
   if (request.method != "GET" && request.method != "HEAD" && request.method != "POST") {
     return text_response(405, "method not allowed\n");
   }
-  // A name of somebody else that leads here is how foreign pages reach servers on loopback.
+  // A foreign name that resolves to this address would give foreign pages access to a server on
+  // loopback (DNS rebinding).
   if (!core_.is_own_host(request.header("host"))) {
     return text_response(421, "this server does not have that name\n");
   }
@@ -234,9 +235,9 @@ void Connection::answer(const Response& response) {
   reply->set("X-Content-Type-Options", "nosniff");
   reply->set("Referrer-Policy", "no-referrer");
   reply->set("Cross-Origin-Opener-Policy", "same-origin");
-  // Thirty days: who goes back to plain HTTP on that machine can wait that out.
+  // Thirty days, after which the machine may use plain HTTP again.
   if (core_.tls) reply->set("Strict-Transport-Security", "max-age=2592000");
-  // A header of the handler takes the place of the usual one; cookies may be several.
+  // A handler's header replaces the default; cookies may be repeated.
   for (const auto& [name, value] : response.headers) {
     if (name == "Set-Cookie") {
       reply->insert(name, value);
@@ -266,7 +267,7 @@ void Connection::send_file(const std::shared_ptr<Answer>& reply,
       });
 }
 
-/// Each piece has its own time: a slow line takes as long as it takes, one that stands is cut.
+/// The timeout applies to each piece: a slow connection may take long, a stalled one is closed.
 void Connection::send_piece(const std::shared_ptr<Answer>& reply,
                             const std::shared_ptr<Outgoing>& outgoing) {
   if (outgoing->left == 0) return sent(*reply);

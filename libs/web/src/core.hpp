@@ -12,22 +12,22 @@
 
 namespace rave::web {
 
-/// Something that a server has open, and closes when it ends.
+/// An open resource that the server closes when it ends.
 class Link {
  public:
   virtual ~Link() = default;
-  /// Without ceremony.
+  /// Closes it at once, without a handshake.
   virtual void cut() = 0;
 };
 
-/// A WebSocket as its server sees it.
+/// A WebSocket as seen by its server.
 class SocketLink : public Socket {
  public:
-  /// Without ceremony.
+  /// Closes it at once, without a handshake.
   virtual void cut() = 0;
 };
 
-/// What the connections of a server share. The thread of the server.
+/// The state common to the connections of a server. Thread: that of the server.
 class Core {
  public:
   Core(const ServerOptions& options, Handler& handler);
@@ -39,18 +39,19 @@ class Core {
   [[nodiscard]] bool is_own_host(std::string_view host) const;
   /// `http://` or `https://`.
   [[nodiscard]] const char* scheme() const noexcept { return tls ? "https://" : "http://"; }
-  /// Whether a network may have one connection more.
+  /// Whether a network may open another connection.
   [[nodiscard]] bool has_room(const std::string& network) const;
 
-  std::unique_ptr<Tls> tls;  ///< Null: none.
-  RateLimit accepts;         ///< As many as requests: a handshake of TLS costs more than they do.
+  std::unique_ptr<Tls> tls;  ///< Null: no TLS.
+  RateLimit accepts;  ///< The limit of requests also applies to connections: a TLS handshake costs
+                      ///< more than a request.
   RateLimit requests;
   ServerCounts counts;
   std::uint16_t port = 0;
   bool stopping = false;
   std::set<SocketLink*> sockets;
   std::set<Link*> connections;
-  std::map<std::string, std::size_t> seats;  ///< Connections and sockets by network.
+  std::map<std::string, std::size_t> seats;  ///< Number of connections and sockets by network.
 
  private:
   ServerOptions options_;
@@ -59,7 +60,7 @@ class Core {
   std::uint64_t last_id_ = 0;
 };
 
-/// Counts a connection as one of its network as long as it lives.
+/// Counts a connection for its network during its lifetime.
 class Seat {
  public:
   Seat(Core& core, std::string network) : core_(core), network_(std::move(network)) {
@@ -77,7 +78,7 @@ class Seat {
   std::string network_;
 };
 
-/// Begins with a connection that was accepted: one request after the other.
+/// Serves an accepted connection.
 void serve_connection(Core& core, Tcp::socket socket, const std::string& peer);
 
 }  // namespace rave::web

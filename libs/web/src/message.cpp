@@ -29,7 +29,7 @@ bool parse_query(std::string_view text, std::map<std::string, std::string>& quer
     if (equals != std::string_view::npos && !decode_percent(part.substr(equals + 1), true, value)) {
       return false;
     }
-    // The first one counts, so that nothing appended changes what was there.
+    // The first value counts, so that appended parameters change nothing.
     query.emplace(std::move(name), std::move(value));
   }
   return true;
@@ -55,8 +55,8 @@ std::string Request::cookie(std::string_view name) const {
   return {};
 }
 
-// `connect-src 'self'` keeps the page from telling anybody else; images of the page itself may be
-// data. Styles are set by the docking library on elements, which needs 'unsafe-inline' for styles.
+// `connect-src 'self'` prevents the page from contacting other servers; its images may be data
+// URLs. The docking library sets styles on elements, which requires 'unsafe-inline' for styles.
 std::string content_policy(std::span<const std::string> others) {
   std::string connect = "'self'";
   for (const std::string& other : others) connect += " " + other;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostNames = 10'000;
 
-/// An address of IPv4 within IPv6, as a listener on `::` gets it.
+/// The prefix of an IPv4 address in IPv6, as seen by a listener on `::`.
 constexpr std::string_view kMapped = "::ffff:";
 
 }  // namespace
@@ -45,7 +45,7 @@ void RateLimit::make_room(Clock::time_point now) {
   if (buckets_.size() < kMostNames) return;
   std::erase_if(buckets_,
                 [&](const auto& entry) { return tokens_of(entry.second, now) >= burst_; });
-  // So many at once are an attack; that one of them is forgotten helps it little.
+  // This many names at once are an attack; forgetting one of them does not help it.
   if (buckets_.size() >= kMostNames) buckets_.erase(buckets_.begin());
 }
 

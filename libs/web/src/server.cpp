@@ -61,7 +61,7 @@ class ServerImpl final : public Server {
 
   Core core_;
   Tcp::acceptor acceptor_;
-  std::vector<std::shared_ptr<Timer>> timers_;  ///< Shared with the operation under way.
+  std::vector<std::shared_ptr<Timer>> timers_;  ///< Shared with the pending operation.
   std::thread thread_;
 };
 
@@ -141,7 +141,7 @@ void ServerImpl::arm(const std::shared_ptr<Timer>& timer) {
   timer->timer.async_wait([this, timer](Error error) {
     if (error || core_.stopping) return;
     timer->call();
-    // On a grid, unless it fell behind: what was missed is not made up for.
+    // At regular times, unless it is behind: missed calls are skipped.
     const auto next = timer->timer.expiry() + timer->period;
     timer->timer.expires_at(std::max(next, std::chrono::steady_clock::now()));
     arm(timer);

@@ -38,7 +38,7 @@ std::string type_of(const fs::path& path) {
   return "application/octet-stream";
 }
 
-/// Empty if it cannot be done.
+/// Empty after an error.
 std::string gzipped(const std::string& plain) {
   z_stream stream{};
   constexpr int kGzip = 15 + 16;
@@ -46,7 +46,7 @@ std::string gzipped(const std::string& plain) {
     return {};
   }
   std::string packed(deflateBound(&stream, plain.size()), '\0');
-  // zlib takes no pointer to const, and writes nothing there.
+  // zlib's interface is not const-correct; it does not write here.
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(plain.data()));
   stream.avail_in = static_cast<uInt>(plain.size());
   stream.next_out = reinterpret_cast<Bytef*>(packed.data());

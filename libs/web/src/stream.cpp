@@ -9,7 +9,7 @@
 namespace rave::web {
 
 struct Stream::Impl {
-  // Beast's stream puts the head of a frame and its body into one record of TLS.
+  // Beast's stream sends the header and body of a frame in one TLS record.
   using Tls = beast::ssl_stream<Tcp::socket>;
 
   Impl(Tcp::socket from, asio::ssl::context* context) : timer(from.get_executor()) {

@@ -23,7 +23,7 @@ namespace beast = boost::beast;
 using Tcp = asio::ip::tcp;
 using Error = beast::error_code;
 
-/// A few buffers of a sequence; what is left over is for the next call.
+/// The first few buffers of a sequence; the rest is for the next call.
 template <class Buffer>
 class Buffers {
  public:
@@ -47,30 +47,30 @@ class Buffers {
   std::size_t size_ = 0;
 };
 
-/// A connection with or without TLS behind one type, so that HTTP and WebSockets are compiled once.
-/// One thread, that of its io_context.
+/// A connection with or without TLS as one type, so that HTTP and WebSockets are compiled once.
+/// Used in the thread of its io_context.
 class Stream {
  public:
-  // Asio looks for this name.
+  // Asio requires this name.
   using executor_type = Tcp::socket::executor_type;  // NOLINT(readability-identifier-naming)
   using Done = std::function<void(Error, std::size_t)>;
 
-  /// `tls`: null for a connection without it; otherwise it outlives the stream.
+  /// `tls`: null for a connection without TLS; otherwise it must outlive the stream.
   Stream(Tcp::socket socket, asio::ssl::context* tls);
   Stream(Stream&&) noexcept = default;
   Stream& operator=(Stream&&) noexcept = default;
   ~Stream() = default;
 
   [[nodiscard]] executor_type get_executor();
-  /// The first thing to do; without TLS it is done at once.
+  /// Must be called first; completes at once without TLS.
   void handshake(std::function<void(Error)> done);
-  /// Cuts the connection then, unless this is called again or never() is.
+  /// Closes the connection after `time`, unless this or expires_never() is called again.
   void expires_after(std::chrono::steady_clock::duration time);
   void expires_never();
-  /// Says that nothing more will be sent, within two seconds.
+  /// Ends the outgoing direction, within two seconds.
   void finish(std::function<void()> done);
   void close() noexcept;
-  /// Makes the kernel keep little, so that a slow line shows at once.
+  /// Limits the kernel's buffer, so that a slow connection is detected at once.
   void set_send_buffer(int bytes);
 
   template <class Sequence, class Token>
@@ -92,7 +92,7 @@ class Stream {
 
  private:
   struct Impl;
-  /// Handlers can only be moved; the one place that holds this one calls it once.
+  /// A std::function from a move-only handler; it is called exactly once.
   template <class Handler>
   static Done erased(Handler handler) {
     auto shared = std::make_shared<Handler>(std::move(handler));
@@ -101,10 +101,11 @@ class Stream {
   void read_some(const Buffers<asio::mutable_buffer>& buffers, Done done);
   void write_some(const Buffers<asio::const_buffer>& buffers, Done done);
 
-  std::shared_ptr<Impl> impl_;  ///< Shared with the operations under way.
+  std::shared_ptr<Impl> impl_;  ///< Shared with pending operations.
 };
 
-// What Beast asks of a stream under a WebSocket, found by the type of the argument.
+// The functions that Beast requires of a stream under a WebSocket, found by argument-dependent
+// lookup.
 inline void teardown(beast::role_type /*role*/, Stream& stream, Error& error) {
   stream.close();
   error = {};

@@ -73,9 +73,9 @@ Result<std::unique_ptr<Tls>> Tls::load(const std::filesystem::path& certificate,
   SSL_CTX_set_min_proto_version(raw, TLS1_2_VERSION);
   SSL_CTX_set_options(raw, SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_COMPRESSION |
                                SSL_OP_CIPHER_SERVER_PREFERENCE | SSL_OP_IGNORE_UNEXPECTED_EOF);
-  // Those with forward secrecy and authenticated encryption; all of TLS 1.3 are so.
+  // Ciphers with forward secrecy and authenticated encryption, as all of TLS 1.3 are.
   SSL_CTX_set_cipher_list(raw, "ECDHE+AESGCM:ECDHE+CHACHA20");
-  // Without this libssl would ask at the terminal.
+  // Otherwise libssl would ask for a password on the terminal.
   SSL_CTX_set_default_passwd_cb(raw, [](char*, int, int, void*) { return -1; });
   boost::system::error_code error;
   tls->context_->use_certificate_chain(boost::asio::buffer(chain), error);

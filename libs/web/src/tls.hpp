@@ -15,11 +15,11 @@ class context;
 
 namespace rave::web {
 
-/// The settings of TLS and the certificate that a server shows. One thread.
+/// The TLS settings and the certificate of a server. One thread.
 class Tls {
  public:
-  /// TLS 1.2 at least. Errors: kNotFound, kIo and kParse (a file), kState (the two do not belong
-  /// together, or the certificate is not valid now or is for no name).
+  /// Requires at least TLS 1.2. Errors: kNotFound, kIo and kParse (a file), kState (certificate and
+  /// key do not match, or the certificate is not valid now or has no name).
   [[nodiscard]] static Result<std::unique_ptr<Tls>> load(const std::filesystem::path& certificate,
                                                          const std::filesystem::path& key);
   ~Tls();
@@ -27,7 +27,7 @@ class Tls {
   Tls& operator=(const Tls&) = delete;
 
   [[nodiscard]] boost::asio::ssl::context& context() noexcept { return *context_; }
-  /// Whether the certificate is for that name or address.
+  /// Whether the certificate is valid for that name or address.
   [[nodiscard]] bool fits(const std::string& host) const;
   /// The names and addresses of the certificate; at least one.
   [[nodiscard]] const std::vector<std::string>& names() const noexcept { return names_; }

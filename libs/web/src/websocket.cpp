@@ -17,7 +17,7 @@ namespace websocket = beast::websocket;
 
 constexpr std::uint16_t kTooMany = 4429;
 
-/// A WebSocket with a queue of its own. Lives as long as an operation of it is under way.
+/// A WebSocket with its own queue. Lives as long as one of its operations is pending.
 class WebSocket final : public SocketLink, public std::enable_shared_from_this<WebSocket> {
  public:
   WebSocket(Core& core, Stream stream, std::shared_ptr<Seat> seat, Request request,
@@ -54,7 +54,7 @@ class WebSocket final : public SocketLink, public std::enable_shared_from_this<W
 
   Core& core_;
   websocket::stream<Stream> stream_;
-  std::shared_ptr<Seat> seat_;  ///< Handed over by the connection that this was.
+  std::shared_ptr<Seat> seat_;  ///< Passed on by the connection.
   Request request_;
   std::string subprotocol_;
   RateLimit rate_;
@@ -101,7 +101,7 @@ void WebSocket::queue(Out out) {
   waiting_ += out.payload->size();
   out_.push_back(std::move(out));
   if (waiting_ > core_.options().waiting_bytes) {
-    // Who does not read for so long is gone, or worse; others must not pay for it.
+    // A client that has not read for this long is cut off, because its queue costs memory.
     cut();
     return;
   }
@@ -149,7 +149,7 @@ void WebSocket::take(std::string_view message) {
     return close(kTooMany, "too many messages");
   }
   if (text) return core_.handler().received(id_, message);
-  // Pages send text alone; anything else is nobody we know.
+  // Pages send text only.
   if (!core_.handler().received_binary(id_, message)) close(1003, "text messages only");
 }
 

@@ -8,8 +8,8 @@
 
 namespace rave::web {
 
-/// Makes a WebSocket of a connection whose request asked for one. `seat` is shared with nobody else
-/// from then on. `subprotocol`: the one that is agreed upon; empty: none.
+/// Converts a connection to a WebSocket after its upgrade request. `seat` must have no other owner.
+/// `subprotocol`: the negotiated one; empty: none.
 void serve_websocket(Core& core, Stream stream, std::shared_ptr<Seat> seat, Request request,
                      std::string subprotocol,
                      const beast::http::request<beast::http::string_body>& upgrade);

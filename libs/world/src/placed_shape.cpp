@@ -37,7 +37,7 @@ double cast_disc(Vec2 origin, Vec2 direction, Vec2 centre, double radius_m) noex
   const double apart = squared_norm(m) - radius_m * radius_m;
   if (apart <= 0) return 0;
   if (along <= 0) return kNoHit;
-  // The distance of the centre from the line, by the cross product: no cancellation far away.
+  // The distance of the centre from the line by the cross product: no cancellation far away.
   const double aside = cross(m, direction);
   const double root = radius_m * radius_m - aside * aside;
   if (root < 0) return kNoHit;

@@ -103,7 +103,7 @@ bool ShapeGrid::lay_cells(std::span<const ShapePiece> pieces, double cell_m) {
   pieces_per_m2_ = 0;
   if (!(low.x <= high.x)) return false;
   mean_radius_m_ = radii_m / static_cast<double>(count);
-  // One metre more, or pieces in a row would have no room at all.
+  // One metre is added to each extent, because pieces in a row would have no area.
   pieces_per_m2_ = static_cast<double>(count) / ((high.x - low.x + 1) * (high.y - low.y + 1));
   size_ = high - low;
   const double cell =
@@ -145,7 +145,7 @@ void ShapeGrid::build(std::span<const ShapePiece> pieces, double cell_m) {
     sum += count;
     count = first;
   }
-  // Pieces of one cell stay in their order.
+  // The sort is stable within a cell.
   sorted_.resize(sum);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (pieces[i].pieces == 0) continue;
@@ -155,7 +155,7 @@ void ShapeGrid::build(std::span<const ShapePiece> pieces, double cell_m) {
 }
 
 void ShapeGrid::fill_columns() {
-  // Up to about 2 km from the origin, floats round the place of piece and sensor together by less.
+  // Up to about 2 km from the origin, rounding to float moves piece and sensor together by less.
   constexpr float kRounding_m = 1e-3F;
   const std::size_t size = sorted_.size() + kPiecePadding;
   x_m_.resize(size);

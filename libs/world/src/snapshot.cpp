@@ -12,17 +12,17 @@ namespace rave::world {
 namespace {
 
 constexpr double kCellSize_m = 2.0;
-/// Shapes of a larger bounding disc are cut into pieces for the index.
+/// Shapes with a larger bounding disc are divided into pieces for the index.
 constexpr double kLargestPiece_m = 1.0;
-/// Who goes farther than this at once has jumped.
+/// A larger movement in one step counts as a jump.
 constexpr double kJump_m = 1.0;
-/// So much beside a ray, pieces are looked at all the same: the radii of discs up to a kilometre
-/// were rounded by less.
+/// Pieces this far beside a ray are included too: it covers the rounding of radii up to a
+/// kilometre.
 constexpr double kRounding_m = 1e-4;
-/// Robots that are not in the world are parked where no query reaches.
+/// Absent robots are placed where no query reaches.
 constexpr Vec2 kNowhere{1e12, 1e12};
 
-/// Scratch space of queries. One for each thread, so that queries neither allocate nor lock.
+/// Scratch memory of queries, one per thread, so that queries neither allocate nor lock.
 std::vector<std::uint32_t>& scratch() {
   thread_local std::vector<std::uint32_t> found;
   return found;
@@ -104,7 +104,7 @@ void Snapshot::make_pieces() {
       piece.first_vertex = placed.first_vertex;
       piece.vertex_count = static_cast<std::uint8_t>(placed.vertex_count);
       piece.layer = static_cast<std::uint8_t>(placed.layer);
-      // A radius rounded down would leave something out.
+      // Rounded up, because a radius that is too small would miss pieces.
       piece.radius_m = placed.kind == ShapeKind::kDisc
                            ? static_cast<float>(cover_[d].radius_m)
                            : static_cast<float>(cover_[d].radius_m * (1 + 1e-6));
@@ -240,13 +240,13 @@ void Snapshot::body_changed(RobotId robot) {
   make_pieces();
   ++generation_;
   if (!model_->added.empty()) {
-    // What comes behind the robots has other numbers now.
+    // Obstacles after the robots have other indices now.
     for (std::size_t i = model_->obstacles.size(); i < standing_.size(); ++i) {
       place_obstacle(model_->obstacle_id(i));
     }
     index_obstacles();
   }
-  // Never smaller: it only says how far a query has to look.
+  // Never decreases: it is only an upper bound of a search distance.
   largest_robot_m_ = std::max(largest_robot_m_, body.radius_m());
 }
 
@@ -311,7 +311,7 @@ RayHit Snapshot::nearest(Vec2 p_W, Vec2 direction, double z_m, double range_max_
       const double range = candidate.kind == ShapeKind::kDisc
                                ? cast_disc(p_W, direction, candidate.centre_W, candidate.radius_m)
                                : cast_polygon(p_W, direction, vertices_W(candidate));
-      // Of what is equally near the first, in whichever part it was found.
+      // Of equally near shapes the first by index, in whichever grid it was found.
       const bool nearer = range < hit.range_m || (range == hit.range_m && index < nearest);
       if (!(range <= range_max_m && nearer)) continue;
       hit = {range, BodyId(candidate.body)};
@@ -323,10 +323,11 @@ RayHit Snapshot::nearest(Vec2 p_W, Vec2 direction, double z_m, double range_max_
 }
 
 double Snapshot::first_part_m() const noexcept {
-  // A ray meets the discs that lie beside it.
+  // The expected number of discs per metre of a ray: those with centres within their radius beside
+  // it.
   const double met_per_m = 2 * (fixed_.pieces_per_m2() * fixed_.mean_radius_m() +
                                 moving_.pieces_per_m2() * moving_.mean_radius_m());
-  // Beside a part as far as the largest piece reaches is looked in any case.
+  // A search beside a part extends by the largest piece anyway.
   return std::max({1 / std::max(met_per_m, 1e-9), fixed_.cell_m(), moving_.cell_m(),
                    fixed_.largest_radius_m(), moving_.largest_radius_m()});
 }

@@ -26,7 +26,7 @@ Separation reversed(const Separation& s) noexcept {
   return {s.distance_m, -s.normal_W, s.p_WB, s.p_WA};
 }
 
-/// Most discs lie about the origin of their body, where its yaw does not matter.
+/// Most discs are centred on the origin of their body, so that its yaw does not matter.
 Vec2 centre_in_world(const Shape& disc, const Pose2& X_WB) noexcept {
   return disc.centre == Vec2{} ? X_WB.position() : transform(X_WB, disc.centre);
 }
@@ -35,19 +35,21 @@ bool heights_overlap(const Shape& a, const Shape& b) noexcept {
   return a.z0_m < b.z1_m && b.z0_m < a.z1_m;
 }
 
-/// The farthest that any point of a shape is from its body's origin: what a turn can move.
+/// The largest distance of a point of the shape from its body's origin, an upper bound of the lever
+/// arm of a turn.
 double reach(const Shape& shape) noexcept {
   if (shape.kind == ShapeKind::kDisc) return std::sqrt(squared_norm(shape.centre));
   return shape.polygon->bounding_radius();
 }
 
-/// Conservative advancement for pairs with a disc. B is convex, so all of it lies behind the plane
-/// through its witness point; A is free until it reaches that plane, which it approaches no faster
-/// than the translation along the normal plus the turn times its reach.
+/// Conservative advancement for pairs with a disc. B is convex, so it lies behind the plane through
+/// its witness point. A is free until it reaches that plane, which it approaches no faster than by
+/// the translation along the normal plus the turn times its reach.
 Impact advance_to_impact(const Shape& a, const Pose2& X_WA, const Motion2& motion, const Shape& b,
                          const Pose2& X_WB, const ImpactLimits& limits) noexcept {
   constexpr int kMaxAdvances = 200;
-  // A motion along the surface approaches by rounding alone; without this it would stick.
+  // A motion along the surface approaches it by rounding errors only; without this tolerance it
+  // would stick.
   constexpr double kAlong_m = 1e-12;
   const double turn_bound = std::abs(motion.dyaw) * reach(a);
   double fraction = 0;

@@ -78,7 +78,8 @@ Result<RunView> LoneRun::look(bool with_robots) {
   const auto answer = control::ask(name_, {});
   if (!answer) {
     if (answer.error().code != ErrorCode::kNotFound) return tl::unexpected(answer.error());
-    if (!seen_) return fail(ErrorCode::kState, "the run `{}` has just ended", name_);
+    if (!seen_)
+      return fail(ErrorCode::kState, "the run `{}` ended before it could be queried", name_);
     last_.phase = Phase::kEnded;
     last_.speed.reset();
     for (HostView& host : last_.hosts) host.standing = Standing::kGone;

@@ -74,7 +74,7 @@ Result<world::Body> make_body(const config::RobotGroup& group) {
   return body;
 }
 
-/// Says what is odd and obeys: sensors inside the body, for example, are allowed (#30).
+/// Notes unusual settings that are nevertheless permitted, such as sensors inside the body (#30).
 void note_oddities(const config::RobotGroup& group, const world::Body& body, BuiltScenario& built) {
   for (const config::SensorFile& sensor : group.robot.sensors) {
     const config::MountFile& mount = sensor.mount.value;
@@ -90,7 +90,7 @@ void note_oddities(const config::RobotGroup& group, const world::Body& body, Bui
   }
 }
 
-/// By group, whether this process runs a robot of it.
+/// By group: whether this process runs a robot of it.
 std::vector<std::uint8_t> groups_here(const config::ExpandedScenario& scenario,
                                       const BuildOptions& options) {
   std::vector<std::uint8_t> here(scenario.groups.size(), options.local ? 0 : 1);
@@ -99,7 +99,7 @@ std::vector<std::uint8_t> groups_here(const config::ExpandedScenario& scenario,
   return here;
 }
 
-/// Forgets everything that lies in the memory of plug-ins.
+/// Clears all pointers into the memory of plug-ins.
 void let_go_of_plugins(sim::RobotType& type) {
   for (sim::DeviceSpec& device : type.devices) device.ops = nullptr;
   for (sim::SensorSpec& sensor : type.sensors) {

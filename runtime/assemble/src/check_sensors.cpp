@@ -11,7 +11,7 @@ const sim::SensorSpec* find_sensor(const sim::RobotType& type, const std::string
   return found == type.sensors.end() ? nullptr : &*found;
 }
 
-/// The reading of contact alone can be counted.
+/// Checks that the sensor of a touches check gives contacts.
 Status check_touches(const config::ExpandedScenario& scenario, const sim::EngineSpec& spec,
                      const config::TouchesCheckFile& check) {
   if (!check.sensor) return {};
@@ -29,7 +29,7 @@ Status check_touches(const config::ExpandedScenario& scenario, const sim::Engine
   return {};
 }
 
-/// A real camera beside a virtual one: a virtual one would confirm itself.
+/// Requires a real and a virtual camera: a virtual one would only confirm itself.
 Status check_sightings(const config::SightingsCheckFile& check, const sim::EngineSpec& spec) {
   const auto gives_sightings = [](const sim::SensorSpec* sensor) {
     return sensor != nullptr && sensor->kind == ReadingKind::kSightings;

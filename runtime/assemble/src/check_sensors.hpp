@@ -7,9 +7,9 @@
 
 namespace rave::runtime {
 
-/// Whether the sensors that the scenario's checks name give what the checks look at: otherwise a
-/// check could hold because there is nothing to see. `spec`: with the drivers of all robots.
-/// Errors: kInvalidArgument, at the line of the check.
+/// Checks that the sensors of the scenario's checks give the right readings: otherwise a check
+/// could hold because there is nothing to evaluate. `spec`: with the drivers of all robots. Errors:
+/// kInvalidArgument, at the line of the check.
 [[nodiscard]] Status check_sensors_of_checks(const config::ExpandedScenario& scenario,
                                              const sim::EngineSpec& spec);
 

@@ -8,32 +8,30 @@
 
 #include "rave/assemble/devices.hpp"
 
-// What the makers of devices share.
+// Functions used by several makers of devices.
 namespace rave::runtime {
 
 /// The values of a driver's parameters, defaults filled in. Errors: with file, line and column.
 [[nodiscard]] Result<plugin::ParamSet> read_params(const plugin::Driver& driver,
                                                    const config::RawNode& params);
-/// The same of a sensor. The parameter `geo_origin` of a driver that has one is the scenario's
-/// where the file does not give it.
+/// Like read_params(), for a sensor. A missing parameter `geo_origin` is set from the scenario.
 [[nodiscard]] Result<plugin::ParamSet> read_sensor_params(const DeviceContext& context,
                                                           const plugin::Driver& driver,
                                                           const config::RawNode& params);
-/// Errors: kNotFound at `name`, with the nearest name there is.
+/// The driver with this name. Errors: kNotFound at `name`, with the nearest existing name.
 [[nodiscard]] Result<const plugin::Driver*> find_driver(const DeviceContext& context,
                                                         std::span<const DriverKind> kinds,
                                                         const config::Located<std::string>& name);
 [[nodiscard]] LayerMask layer_mask(const std::vector<config::SensedLayer>& layers);
 [[nodiscard]] NoiseSpec noise_of(const config::NoiseFile& noise);
-/// Notes the first driver that runs by the clock on the wall.
+/// Records the first driver that follows the wall clock.
 void note_clock(const DeviceContext& context, const config::RobotGroup& group,
                 const std::string& device, const DriverInfo& info, const plugin::ParamSet& params);
-/// A time of the scenario in its steps; 1 where there is none.
+/// A time of the scenario in steps; 1 if unset.
 [[nodiscard]] std::uint32_t in_steps(const DeviceContext& context,
                                      const std::optional<config::Located<double>>& time_s);
 
-/// Begins what is served by a driver of one kind: its name, its driver and the functions of that.
-/// Errors: those of find_driver().
+/// Sets name, driver and function table of a device. Errors: those of find_driver().
 template <class File, class Spec>
 [[nodiscard]] Result<const plugin::Driver*> begin_device(const DeviceContext& context,
                                                          DriverKind kind, const File& file,
@@ -46,7 +44,7 @@ template <class File, class Spec>
   return driver;
 }
 
-/// When what does something every so often does it.
+/// Sets period and phase.
 template <class File, class Spec>
 void set_rhythm(const DeviceContext& context, const File& file, Spec& spec) {
   spec.period_steps = in_steps(context, file.period_s);

@@ -224,7 +224,7 @@ Status add_controllers(const DeviceContext& context, const config::RobotGroup& g
   return {};
 }
 
-/// Who drives by ranges must know when they are old, and only the driver or the file can say it.
+/// A robot that drives by ranges must know their age limit, which the driver or the file must give.
 Status check_ages(const DeviceContext& context, const config::RobotGroup& group,
                   const sim::RobotType& type) {
   constexpr std::array kKinds = {DriverKind::kSensor};
@@ -238,7 +238,7 @@ Status check_ages(const DeviceContext& context, const config::RobotGroup& group,
     if (sensor.timing != SampleTiming::kUnknown || sensor.max_age_s) continue;
     RAVE_TRY_ASSIGN(const Driver* const driver,
                     context.catalogue.find(kKinds, sensor.hardware_driver()));
-    // A recording cannot fall silent, and what plays it does not obey.
+    // A recording cannot fall silent, and a recorded robot does not drive.
     if (driver->info.clock != DriverClock::kLive) continue;
     return fail_at(file.name.where, ErrorCode::kInvalidArgument,
                    "robot `{}` is real, and the driver `{}` of its range sensor `{}` does not know "
@@ -309,7 +309,7 @@ Status add_devices(const DeviceContext& context, const config::RobotGroup& group
   }
   type.simulated = !real;
   for (const sim::ActuatorSpec& actuator : type.actuators) {
-    // A simulated body may carry a recorded or real sensor; what moves it decides.
+    // A simulated body may have recorded or real sensors; its actuator decides.
     if (actuator.virtual_ops != nullptr) type.simulated = true;
   }
   RAVE_TRY(check_ages(context, group, type));

@@ -41,7 +41,7 @@ Result<std::optional<sim::GuardSpec>> guard_spec(const config::RobotGroup& group
   spec.watchdog_s = file.watchdog_s;
   if (!file.fence_m) return spec;
   for (const auto& [x_m, y_m] : file.fence_m->value) spec.fence_W.push_back({x_m, y_m});
-  // The pieces are not needed; that there are some says that the fence encloses something.
+  // The pieces are not used; their existence shows that the fence encloses an area.
   const auto pieces = decompose(spec.fence_W);
   if (!pieces) {
     return fail_at(file.fence_m->where, ErrorCode::kInvalidArgument, "`fence_m` of `{}`: {}",

@@ -9,10 +9,12 @@
 
 namespace rave::runtime {
 
-/// The `guard:` section of a robot file; none if it has none. Errors: a fence that crosses itself.
+/// The `guard:` section of a robot file; empty if there is none. Errors: a fence that crosses
+/// itself.
 [[nodiscard]] Result<std::optional<sim::GuardSpec>> guard_spec(const config::RobotGroup& group);
 
-/// Adds the `changes:` of a scenario to what its engine is made from. Errors point at the value.
+/// Adds the parameter changes of `changes:` to the spec of an engine. Errors give the place of the
+/// value.
 Status add_changes(const config::ExpandedScenario& scenario, sim::EngineSpec& spec);
 
 }  // namespace rave::runtime

@@ -11,7 +11,7 @@ namespace {
 
 using plugin::Driver;
 
-/// What the real half cannot see.
+/// The layers that the real half cannot sense.
 constexpr LayerMask kUnseenByReal = static_cast<LayerMask>(Layer::kVirtualObstacles) |
                                     static_cast<LayerMask>(Layer::kSimulatedRobots);
 

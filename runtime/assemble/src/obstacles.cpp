@@ -25,7 +25,7 @@ std::vector<Vec2> corners_of(const config::Outline& outline) {
   return corners;
 }
 
-/// Of one entry of `changes:` that is of an obstacle.
+/// Converts an entry of `changes:` about an obstacle.
 Result<sim::ObstacleChange> change_of(const config::ChangeFile& file) {
   if (file.add_obstacle) {
     RAVE_TRY_ASSIGN(auto obstacle, make_obstacle(*file.add_obstacle));

@@ -13,7 +13,7 @@ namespace {
 
 using Part = sim::ParameterChange::Part;
 
-/// One parameter that can be changed.
+/// One changeable parameter.
 struct Known {
   std::string key;
   Part part = Part::kProgram;
@@ -66,7 +66,7 @@ std::string text_of(const ParamSpec& spec, const ParamValue& value) {
   }
 }
 
-/// What the files give to the part that a parameter is of.
+/// The initial values of the part that a parameter belongs to.
 std::span<const ParamValue> values_of(const sim::RobotType& type, const Known& known) {
   switch (known.part) {
     case Part::kProgram:

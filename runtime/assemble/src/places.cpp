@@ -15,11 +15,11 @@
 namespace rave::runtime {
 namespace {
 
-/// The device number under which places are drawn.
+/// The device number for drawing places.
 constexpr std::uint32_t kPlaceDevice = 0xfffe'0000U;
 constexpr std::uint32_t kMaxTries = 10'000;
 
-/// Robots that stand already, found by place: a hash of square cells as wide as the widest pair.
+/// The robots already placed: a spatial hash of square cells as wide as the largest pair of robots.
 class Standing {
  public:
   Standing(const sim::EngineSpec& spec) : spec_(&spec) {
@@ -49,7 +49,7 @@ class Standing {
     cells_[key(spec_->robots[robot].X_WR.position())].push_back(robot);
   }
 
-  /// The name and depth of what comes nearer than `clearance_m` to robot `id` at `X_WR`.
+  /// A body that is nearer than `clearance_m` to robot `id` at `X_WR`, and the depth.
   struct Conflict {
     std::string name;
     double separation_m = 0;
@@ -129,7 +129,7 @@ Status scatter(const config::RobotGroup& group, std::uint32_t robot, const Stand
 
 Status put_down_robots(const config::ExpandedScenario& scenario, sim::EngineSpec& spec) {
   Standing standing(spec);
-  // Given places first, so that scattered robots keep clear of all of them.
+  // Given poses first, so that scattered robots avoid all of them.
   for (const bool scattered : {false, true}) {
     for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
       const config::RobotGroup& group = scenario.group_of(scenario.robots[r]);
@@ -146,7 +146,7 @@ Status put_down_robots(const config::ExpandedScenario& scenario, sim::EngineSpec
             "robot `{}` is simulated and has no start pose: expected `pose`, `poses` or `scatter`",
             spec.robots[r].name);
       }
-      // Where a real robot is said to begin is kept free; where it is, its pose source will tell.
+      // The stated start of a real robot is kept free; its pose source reports its actual pose.
       if (!simulated && pose) standing.add(r);
       if (!simulated) continue;
       const auto conflict = standing.conflict(r, spec.robots[r].X_WR, 0);

@@ -6,9 +6,9 @@
 
 namespace rave::runtime {
 
-/// Gives every simulated robot its start: the pose of the file, or a free place of its rectangle
-/// drawn by the seed. Errors: a robot without a pose, one that starts inside something, a rectangle
-/// that is too full.
+/// Sets the start pose of every simulated robot: from the file, or a random free place in its
+/// rectangle. Errors: a robot without a pose, one that starts inside something, a rectangle without
+/// room.
 Status put_down_robots(const config::ExpandedScenario& scenario, sim::EngineSpec& spec);
 
 }  // namespace rave::runtime

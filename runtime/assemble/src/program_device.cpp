@@ -8,7 +8,7 @@
 namespace rave::runtime {
 namespace {
 
-/// Adapts a program in a process of its own to what the engine asks for.
+/// Adapts a program in a process of its own to the interface of the engine.
 class Isolated final : public sim::ProgramProcess {
  public:
   explicit Isolated(std::unique_ptr<isolation::IsolatedProgram> program)

@@ -28,7 +28,7 @@ Status add_communicator(const DeviceContext& context, const config::Communicator
   RAVE_TRY_ASSIGN(const Driver* const driver,
                   begin_device(context, DriverKind::kCommunicator, file, communicator));
   RAVE_TRY_ASSIGN(communicator.params, read_params(*driver, file.params));
-  // The reader of the file has checked that there is one of this name.
+  // The reader of the file has checked that the name exists.
   for (std::uint32_t t = 0; t < type.transmitters.size(); ++t) {
     if (type.transmitters[t].name == file.transmitter.value) communicator.transmitter = t;
   }

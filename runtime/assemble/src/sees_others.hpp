@@ -7,7 +7,7 @@
 
 namespace rave::runtime {
 
-/// Whether it matters to robots of a type where others are.
+/// Whether robots of a type need the poses of others.
 [[nodiscard]] inline bool sees_others(const sim::RobotType& type) {
   const auto looks = [](const sim::SensorSpec& sensor) {
     return sensor.virtual_ops != nullptr || sensor.hybrid.has_value();

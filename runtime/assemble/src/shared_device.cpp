@@ -13,7 +13,7 @@ namespace {
 
 using plugin::Driver;
 
-/// Names of the robot's devices that are of a driver; all of them if it is empty.
+/// Names of the robot's devices with this driver; all devices if it is empty.
 std::vector<std::string_view> devices_of(const sim::RobotType& type, std::string_view driver) {
   std::vector<std::string_view> names;
   for (const sim::DeviceSpec& device : type.devices) {
@@ -22,7 +22,7 @@ std::vector<std::string_view> devices_of(const sim::RobotType& type, std::string
   return names;
 }
 
-/// A sensor takes the device for an object of its own plug-in's class.
+/// A sensor casts the device to a class of its own plug-in.
 Status check_same_plugin(const DeviceContext& context, const Driver& user,
                          const sim::DeviceSpec& device, const SourceLocation& where) {
   constexpr std::array kKinds = {DriverKind::kDevice};

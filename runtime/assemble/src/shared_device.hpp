@@ -9,9 +9,9 @@
 
 namespace rave::runtime {
 
-/// The device of `type` that `device:` names, checked against what the driver asks for; nothing if
-/// it asks for none. Errors, with file, line and column: kNotFound, kInvalidArgument (of another
-/// driver, missing, or not wanted), kPlugin (the two come from different plug-ins).
+/// The device of `type` that `device:` names, checked against the needs of the driver; empty if it
+/// needs none. Errors, with file, line and column: kNotFound, kInvalidArgument (another driver,
+/// missing, or not needed), kPlugin (the two come from different plug-ins).
 Result<std::optional<std::uint32_t>> shared_device(
     const DeviceContext& context, const plugin::Driver& user,
     const config::Located<std::string>& driver,

@@ -97,7 +97,8 @@ bool is_local(const DeviceContext& context, std::size_t robot) {
                              RobotId(static_cast<std::uint32_t>(robot))) != local->end();
 }
 
-/// In lock-step the authority would have to learn of a hand-over in the step in which it happens.
+/// In lock-step the authority would have to learn of a hand-over during the step in which it
+/// happens.
 Status check_in_real_time(const DeviceContext& context) {
   const config::ScenarioFile& file = context.scenario.scenario;
   const bool shared = context.options.local || file.processes || !file.hosts.empty();
@@ -152,7 +153,7 @@ Status add_twins(const DeviceContext& context) {
     }
     spec.robots[r].twin = static_cast<std::uint32_t>(spec.types.size());
     spec.robots[r].hand_over = {group.hand_over.within_m, deg_to_rad(group.hand_over.within_deg)};
-    // With either set of drivers it may have to know where others are.
+    // With either set of drivers the twin may need the poses of other robots.
     const std::uint32_t type = spec.robots[r].type;
     if (sees_others(twin)) context.built.sees[type] = 1;
     context.built.sees.push_back(std::uint8_t{context.built.sees[type]});

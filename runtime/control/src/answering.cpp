@@ -6,7 +6,7 @@ namespace {
 
 using What = Request::What;
 
-/// Pause, resume and step: what a live run cannot do.
+/// Pause, resume and step, which a live run refuses.
 Answer hold(runtime::RunControl& control, const Request& request) {
   const runtime::RunStatus status = control.status();
   if (status.scenario.empty()) return {false, "no run is in progress", {}};

@@ -7,15 +7,15 @@
 #include "rave/control/protocol.hpp"
 #include "rave/control/run_control.hpp"
 
-// What is answered is the same over the socket and over the bus.
+// The answers are the same over the socket and over the bus.
 namespace rave::control {
 
-/// The answer to what needs no step of the run: status, pause, resume, single steps. Nothing: it
-/// is for the run, as run_request() says. Any thread.
+/// The answer to requests that need no step of the run: status, pause, resume, single steps. Empty
+/// for requests to the run; see run_request(). May be called from any thread.
 [[nodiscard]] std::optional<Answer> answer_at_once(runtime::RunControl& control,
                                                    const Request& request);
 
-/// What the run says to a request.
+/// The answer made from the run's result of a request.
 [[nodiscard]] Answer answer_of(const Result<std::string>& result);
 
 }  // namespace rave::control

@@ -6,7 +6,8 @@
 namespace rave::runtime {
 
 Result<sim::ObstacleChange> asked_change(const RunRequest& request) {
-  // Where within the word of a command line something is wrong tells nobody anything.
+  // The place of an error within a word of the command line does not help the user, so it is
+  // omitted.
   const auto without_place = [](const Error& error) {
     return fail(error.code, "{}", error.message);
   };

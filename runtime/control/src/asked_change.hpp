@@ -6,7 +6,7 @@
 
 namespace rave::runtime {
 
-/// What a kAdd, kMove or kRemove asks for. Errors: kParse, kInvalidArgument.
+/// The change that a kAdd, kMove or kRemove requests. Errors: kParse, kInvalidArgument.
 [[nodiscard]] Result<sim::ObstacleChange> asked_change(const RunRequest& request);
 
 }  // namespace rave::runtime

@@ -19,16 +19,18 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-/// When nobody new has come for this long, all that are near have been heard of.
+/// When no new process has appeared for this long, the search for processes is complete.
 constexpr milliseconds kMoment{400};
-/// What may have gone before the other end was known is sent again, then after twice as long.
+/// A request may be lost before its receiver has been discovered, so it is sent again: first after
+/// this time, then after doubled times up to kLongestAgain.
 constexpr milliseconds kFirstAgain{50};
 constexpr milliseconds kLongestAgain{500};
 
-/// Messages about one wish that are looked at together.
+/// The limit of messages about one request that are handled together.
 constexpr std::size_t kMostAtOnce = 16;
 
-/// What comes from elsewhere and is shown on a terminal; a list has lines.
+/// Text from other processes made safe for a terminal: control characters are removed, except the
+/// line ends of a list.
 std::string plain(std::string_view text) {
   std::string result;
   while (true) {
@@ -82,7 +84,7 @@ tl::unexpected<Error> silent(const BusPeer& peer, Duration patience) {
       peer.name, patience.seconds());
 }
 
-/// One of several that are asked at a time.
+/// One of several processes that are asked at the same time.
 struct Asked {
   BusPeer peer;
   std::uint64_t number = 0;
@@ -91,9 +93,9 @@ struct Asked {
   std::optional<Result<Answer>> answer{};
 };
 
-/// The line stays the caller's and must live as long as the wish is used.
+/// The wire type refers to `line`, which must live as long as the request is used.
 void put_line(bus::Wish& wish, std::string& line) {
-  // The wire type has octets that can be written to.
+  // The wire type has a pointer to mutable octets.
   wish.text._buffer = reinterpret_cast<std::uint8_t*>(line.data());
   wish.text._length = static_cast<std::uint32_t>(line.size());
   wish.text._maximum = wish.text._length;
@@ -110,14 +112,14 @@ struct BusRun::Impl {
   bus::WaitSet waits;
   std::string from;
   std::vector<BusPeer> peers{};
-  std::string scenario{};    ///< Of the run, as its manager says.
-  std::uint64_t number = 0;  ///< Of the last wish.
+  std::string scenario{};    ///< The scenario of the run, as its manager reports it.
+  std::uint64_t number = 0;  ///< The number of the last request.
 
   void look();
   [[nodiscard]] bool knows(std::uint64_t writer) const {
     return std::ranges::find(peers, writer, &BusPeer::writer) != peers.end();
   }
-  /// A message about a wish.
+  /// A message about a request.
   struct Said {
     bool taken = false;
     std::string text;
@@ -128,7 +130,7 @@ struct BusRun::Impl {
   std::optional<Clock::time_point> send_due(std::vector<Asked>& asked, std::string& line);
 };
 
-/// Learns who is there.
+/// Reads which processes are present.
 void BusRun::Impl::look() {
   infos.take([this](const bus::HostInfo& info) {
     if (knows(info.writer) || peers.size() >= rave_wire_kMaxHosts) return;
@@ -144,13 +146,13 @@ void BusRun::Impl::look() {
   }
 }
 
-/// What has come of the last wish.
+/// The answers to the last request.
 std::vector<BusRun::Impl::Said> BusRun::Impl::take(const BusPeer& peer) {
   std::vector<Said> said;
   answers.take([&](const bus::WishAnswer& answer) {
     const bool ours =
         answer.writer == peer.writer && answer.target == bus->writer() && answer.number == number;
-    // Beyond the answer to the wish and to its repetitions it is somebody who does not stop.
+    // More answers than the request and its repetitions can cause: the sender is faulty.
     if (!ours || said.size() >= kMostAtOnce) return;
     said.push_back({answer.taken, std::string(bus::text_of(answer.text))});
   });
@@ -166,7 +168,7 @@ Status BusRun::Impl::send(const BusPeer& peer, std::uint64_t wish_number, std::s
   return wishes.write(wish);
 }
 
-/// The answers of those who have not given one.
+/// Reads the answers of the processes that have not answered yet.
 void BusRun::Impl::take(std::vector<Asked>& asked) {
   answers.take([&](const bus::WishAnswer& answer) {
     if (answer.target != bus->writer()) return;
@@ -190,7 +192,8 @@ void BusRun::Impl::take(std::vector<Asked>& asked) {
   });
 }
 
-/// Asks those who have not answered, again if it is time for it; when to do so next.
+/// Sends the request to the processes that have not answered, repeating it when due; returns when
+/// to send next.
 std::optional<Clock::time_point> BusRun::Impl::send_due(std::vector<Asked>& asked,
                                                         std::string& line) {
   std::optional<Clock::time_point> next;
@@ -217,7 +220,7 @@ BusRun::BusRun(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 BusRun::~BusRun() = default;
 
 Result<std::unique_ptr<BusRun>> BusRun::open(bus::BusConfig config, std::string_view from) {
-  // Nobody in the run shall take it for a part of it.
+  // Other processes must not count this one as a participant of the run.
   config.anonymous = true;
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
@@ -248,7 +251,7 @@ Result<BusPeer> BusRun::find(std::string_view host, Duration patience) {
     static_cast<void>(run.waits.wait(bus::left_until(end)));
   }
   if (run.peers.empty()) {
-    // That a process exists is seen without certificates, and nothing that it says.
+    // Without certificates one can see that a process exists, but read none of its messages.
     return fail(ErrorCode::kNotFound,
                 "a run was found, but its messages cannot be read: processes with certificates "
                 "talk only to members of their set; {}",
@@ -312,7 +315,7 @@ Result<Answer> BusRun::ask(const BusPeer& peer, const Request& request, Duration
       line = bus::wish_for_rest(parts.text().size());
       send_at = Clock::now();
       again = kFirstAgain;
-      // For each of the parts, of which there are not many.
+      // Repeated for each part; there are few.
       end = send_at + std::chrono::nanoseconds(patience.ns);
     }
     run.look();
@@ -327,7 +330,7 @@ std::vector<BusReply> BusRun::ask_each(const Request& request, const Meant& mean
   auto line = wish_line(request);
   if (!line) return {};
   const auto latest = Clock::now() + std::chrono::nanoseconds(patience.ns);
-  auto end = latest;  // of the search
+  auto end = latest;  // The end of the search.
   std::size_t known = 0;
   std::vector<Asked> asked;
   for (;;) {

@@ -21,7 +21,7 @@ bool is_one_of(std::string_view word, const std::array<std::string_view, kWords>
   return std::ranges::find(words, word) != words.end();
 }
 
-/// The word up to the next space; that and the space go.
+/// Removes the word up to the next space, and that space, from `text` and returns the word.
 std::string_view take_word(std::string_view& text) {
   const std::size_t end = std::min(text.find(' '), text.size());
   const std::string_view word = text.substr(0, end);
@@ -30,7 +30,7 @@ std::string_view take_word(std::string_view& text) {
 }
 
 tl::unexpected<Error> no_line(std::string_view what) {
-  return fail(ErrorCode::kInvalidArgument, "this is no line of a chat: {}", what);
+  return fail(ErrorCode::kInvalidArgument, "not a chat message: {}", what);
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ Result<ChatLine> chat_line(const RunRequest& request) {
   const char* const end = number.data() + number.size();
   const auto [read, error] = std::from_chars(number.data(), end, line.number);
   if (error != std::errc() || read != end || line.number == 0) {
-    return no_line("expected its number, from 1 on");
+    return no_line("expected a number of at least 1");
   }
   line.role = take_word(key);
   if (!is_one_of(line.role, kRoles)) {
@@ -60,15 +60,15 @@ Result<ChatLine> chat_line(const RunRequest& request) {
   }
   line.to = take_word(key);
   if (!is_one_of(line.to, kAddressees)) {
-    return no_line("expected that it is to all, role, user, team or robot");
+    return no_line("expected the kind of receiver: all, role, user, team or robot");
   }
   line.name = key;
   if (line.name.empty() != (line.to == "all") || line.name.size() > kMostChatName) {
-    return no_line("expected whom it is for, or that it is for all");
+    return no_line("expected the name of the receiver, except for all");
   }
   line.from = request.by;
   if (line.from.empty() || line.from.size() > kMostOrderAuthor)
-    return no_line("expected its author");
+    return no_line("expected the name of the author");
   line.text = request.value;
   if (line.text.empty() || line.text.size() > kMostOrderText) {
     return no_line(fmt::format("expected 1 to {} bytes of text", kMostOrderText));

@@ -19,11 +19,12 @@ using runtime::RunControl;
 using runtime::RunRequest;
 using Clock = std::chrono::steady_clock;
 
-/// Drives that one process takes in a second, whoever sends them; as many may come at once.
+/// Drive commands that one process accepts per second, from all senders together; also the largest
+/// burst.
 constexpr double kMostInSecond = 5000;
 
-/// What a process takes in: no more than its run can look at, and nothing that was sent before
-/// something that is here already.
+/// Limits the commands that a process accepts: no more than its run can handle, and none that is
+/// older than one already received.
 class Intake {
  public:
   bool takes(const bus::Command& command, Clock::time_point now) {
@@ -33,7 +34,7 @@ class Intake {
     if (left_ < 1) return false;
     std::uint64_t& newest = newest_[{command.writer, command.robot}];
     if (command.number <= newest && newest != 0) return false;
-    // Whoever makes up writers gets no further than that.
+    // Limits the memory that a sender with invented writer ids can use.
     constexpr std::size_t kMostKnown = 100'000;
     if (newest_.size() > kMostKnown) newest_.clear();
     newest_[{command.writer, command.robot}] = command.number;
@@ -52,7 +53,7 @@ class Intake {
 bus::OnCommand commands_of(RunControl& control, const config::ExpandedScenario& scenario) {
   std::vector<std::string> robots;
   for (const config::ExpandedRobot& robot : scenario.robots) robots.push_back(robot.name);
-  // Shared with nobody: a std::function wants to be copied.
+  // shared_ptr because a std::function must be copyable, and it is shared with nothing else.
   const auto intake = std::make_shared<Intake>();
   return [&control, intake, robots = std::move(robots)](const bus::Command& command) {
     if (command.kind != rave_wire_COMMAND_VELOCITY || command.robot >= robots.size()) return;
@@ -61,7 +62,8 @@ bus::OnCommand commands_of(RunControl& control, const config::ExpandedScenario& 
     drive.kind = RunRequest::Kind::kDrive;
     drive.robot = robots[command.robot];
     drive.by = command.author;
-    // The terminal is of the machine; nobody on the bus is that.
+    // This name stands for the terminal on the run's own machine, so commands from the bus may not
+    // use it.
     if (drive.by == runtime::HostLeases::kTerminal) return;
     drive.v_mps = command.vx_mps;
     drive.w_radps = command.wz_radps;

@@ -16,20 +16,20 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kEnding = ".sock";
-/// The whole path of a socket has room for 107 bytes.
+/// Because sockaddr_un holds a path of at most 107 bytes (unix(7)).
 constexpr std::size_t kMaxScenarioBytes = 40;
 
 fs::path wanted_folder() {
   const char* const runtime = std::getenv("XDG_RUNTIME_DIR");
   if (runtime != nullptr && runtime[0] == '/') return fs::path(runtime) / "rave";
-  // Not what TMPDIR says: all terminals must agree.
+  // Not TMPDIR: all terminals must use the same folder.
   return fmt::format("{}/rave-{}", P_tmpdir, ::geteuid());
 }
 
-/// Between a scenario and the host that does a part of it.
+/// Separates the scenario from the host that runs a part of it.
 constexpr char kOfHost = '@';
 
-/// What stands before the process id.
+/// The part of the name before the process id.
 std::string_view scenario_of(std::string_view run) { return run.substr(0, run.rfind('-')); }
 std::string_view process_of(std::string_view run) { return run.substr(run.rfind('-') + 1); }
 
@@ -46,7 +46,7 @@ Result<fs::path> socket_folder() {
     return fail(ErrorCode::kIo, "cannot read the state of `{}`: {}", folder.string(),
                 std::strerror(errno));
   }
-  // In /tmp anybody may have been first.
+  // Any user can create a folder in /tmp, so check that this one is ours and private.
   if (!S_ISDIR(info.st_mode) || info.st_uid != ::geteuid() || (info.st_mode & 077U) != 0) {
     return fail(ErrorCode::kState,
                 "`{}` must be a folder of this user with mode 0700, and not a link",

@@ -70,7 +70,7 @@ Status HostLeases::use(const std::string& robot, const Person& person, Use how, 
   const Lease* const lease = find(robot);
   const bool own = lease != nullptr && owns(*lease, person);
   if (lease != nullptr && !own) return refusal(robot, *lease, person);
-  // What a terminal says once shall not keep people from the robot for minutes.
+  // A single order from the terminal must not keep other people from the robot for minutes.
   const bool takes = how == Use::kDrive || (how == Use::kOrder && (own || !person.name.empty()));
   if (takes) set(robot, person, how == Use::kDrive, now);
   return {};
@@ -101,11 +101,11 @@ Result<std::string> HostLeases::give(const std::string& robot, const Person& per
   if (lease != nullptr && !owns(*lease, person) && !rights) return refusal(robot, *lease, person);
   if (lease != nullptr && to == lease->holder && to == name_of(person)) {
     leases_.at(robot).page = 0;
-    return fmt::format("{} is any page's of yours", robot);
+    return fmt::format("any of your pages can drive {} now", robot);
   }
   if (!to.empty()) {
     set(robot, Person{to}, false, now);
-    return fmt::format("{} is now `{}`'s", robot, to);
+    return fmt::format("{} is given to `{}`", robot, to);
   }
   changes_.push_back({robot, lease->holder, "", lease->driven, false});
   leases_.erase(robot);

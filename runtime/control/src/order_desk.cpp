@@ -15,7 +15,7 @@ RunRequest ended_by(RunRequest::Kind kind, const std::string& robot, const std::
   RunRequest request;
   request.kind = kind;
   request.robot = robot;
-  // The terminal has a name for people alone.
+  // The name of the terminal is used in messages only.
   if (by != HostLeases::kTerminal) request.by = by;
   return request;
 }
@@ -69,7 +69,7 @@ Result<std::string> OrderDesk::serve(const RunRequest& request, const Give& give
     RAVE_TRY(check_release(request, now));
     return give(request);
   }
-  // Who drives a robot must not find another one in its place.
+  // The driver of a robot must not find a different robot in its place.
   if (request.kind == RunRequest::Kind::kHandOver && !request.robot.empty()) {
     RAVE_TRY(check_release(request, now));
     return give(request);
@@ -125,7 +125,7 @@ Result<std::string> OrderDesk::order(const RunRequest& request, const Give& give
 Result<std::string> OrderDesk::drive(const RunRequest& request, const Give& give,
                                      const IsDriven& is_driven, Time now) {
   RAVE_TRY(leases_.use(request.robot, person_of(request), HostLeases::Use::kLook, now));
-  // What is renewed as it was is no new input of the run.
+  // A drive that is renewed unchanged is no new input of the run.
   const bool known = watch_.drives(request.robot) && is_driven(request.robot);
   const bool changed =
       watch_.driven(request.robot, request.by, request.v_mps, request.w_radps, now) || !known;
@@ -143,7 +143,7 @@ Result<std::string> OrderDesk::drive(const RunRequest& request, const Give& give
 void OrderDesk::tick(const Give& give, Time now) {
   if (!waits()) return;
   for (const DriveWatch::Silent& silent : watch_.take_silent(now)) {
-    // Refused if the robot has been stopped or is gone: then it stands anyway.
+    // Refused if the robot has been stopped or removed; then it stands anyway.
     static_cast<void>(give(ended_by(RunRequest::Kind::kDrive, silent.robot, silent.by)));
   }
   leases_.expire(now);
@@ -156,11 +156,11 @@ void OrderDesk::follow_leases(const Give& give) {
     const auto ordered = ordered_.find(change.robot);
     const bool gone = !change.before.empty() && ordered != ordered_.end();
     if (gone && change.after.empty()) {
-      // Nobody has it now: its program goes on.
+      // No person holds the robot now, so its program continues.
       static_cast<void>(give(ended_by(RunRequest::Kind::kCancel, change.robot, change.before)));
       ordered_.erase(ordered);
     } else if (gone && drove) {
-      // It stands until its new driver says something.
+      // The robot stands until its new driver sends a command.
       static_cast<void>(give(ended_by(RunRequest::Kind::kDrive, change.robot, change.before)));
     }
     if (gone) watch_.ended(change.robot);

@@ -22,7 +22,7 @@ constexpr std::pair<RunRequest::Kind, InputKind> kKinds[] = {
     {RunRequest::Kind::kPath, InputKind::kPath},   {RunRequest::Kind::kCancel, InputKind::kCancel},
     {RunRequest::Kind::kText, InputKind::kText},   {RunRequest::Kind::kPlace, InputKind::kPlace}};
 
-/// Takes the words of a line one by one.
+/// Reads the words of a line one after the other.
 class Words {
  public:
   explicit Words(std::string_view text) : left_(text) {}
@@ -33,7 +33,7 @@ class Words {
     left_.remove_prefix(std::min(end + 1, left_.size()));
     return word;
   }
-  /// A number, if one comes next.
+  /// The next word as a number, if it is one.
   std::optional<double> number() {
     const std::string_view before = left_;
     const std::string_view word = next();
@@ -150,9 +150,9 @@ std::string order_answer(const RunRequest& request) {
     case RunRequest::Kind::kCancel:
       return fmt::format("{}: the orders of people are cancelled", whom);
     case RunRequest::Kind::kText:
-      return fmt::format("{} was told", whom);
+      return fmt::format("the text was sent to {}", whom);
     case RunRequest::Kind::kPlace:
-      return fmt::format("{} is put at {}", whom, last());
+      return fmt::format("{} is placed at {}", whom, last());
     default:
       return whom;
   }
@@ -183,7 +183,7 @@ Status read_order_words(std::string_view text, RunRequest& request) {
   Words words(text);
   while (!words.empty()) {
     if (read_word(words, request)) continue;
-    return fail(ErrorCode::kParse, "`{}` are not the details of a `{}`", text,
+    return fail(ErrorCode::kParse, "the details `{}` do not fit an order of kind `{}`", text,
                 to_string(request.kind));
   }
   return {};

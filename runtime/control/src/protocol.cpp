@@ -57,7 +57,7 @@ struct RunWord {
   Request::What what;
   RunKind kind;
 };
-/// What a run is asked, in both forms.
+/// The requests to a run, in both forms.
 constexpr std::array kRunWords = {RunWord{Request::What::kStop, RunKind::kStop},
                                   RunWord{Request::What::kRelease, RunKind::kRelease},
                                   RunWord{Request::What::kArm, RunKind::kArm},
@@ -95,7 +95,7 @@ Json parse_object(std::string_view line) {
   return json;
 }
 
-/// Takes a text out of an object; false: it is there and no proper text.
+/// Moves a text out of an object; false if the member exists but is not a valid text.
 bool take_text(Json& json, const char* key, std::string& text) {
   if (!json.contains(key)) return true;
   const Json& value = json.at(key);
@@ -139,13 +139,13 @@ bool take_page(Json& json, std::uint64_t& page) {
   return page > 0;
 }
 
-/// Who asks: what changes something may say it.
+/// The author of a request; only requests that change something may name one.
 bool take_author(Json& json, Request& request) {
   return take_text(json, "by", request.by) && request.by.size() <= kMostOrderAuthor &&
          take_flag(json, "overrides", request.overrides) && take_page(json, request.page);
 }
 
-/// A number, which must be finite; `needed`: it must be there.
+/// Reads a finite number; with `needed` it must exist.
 bool take_number(Json& json, const char* key, bool needed, double& value) {
   if (!json.contains(key)) return !needed;
   if (!json.at(key).is_number()) return false;
@@ -176,7 +176,7 @@ bool take_points(Json& json, std::size_t least, std::size_t most, Request& reque
   return true;
 }
 
-/// Of a path, before its points are read: what is wrong with their number is worth a sentence.
+/// Checks the number of points before the points are read, to give a specific error message.
 Status check_points(Request::What what, const Json& json) {
   if (what != Request::What::kPath || !json.contains("points")) return {};
   const Json& points = json.at("points");
@@ -187,7 +187,7 @@ bool take_robot(Json& json, Request& request) {
   return take_text(json, "robot", request.robot) && !request.robot.empty();
 }
 
-/// Of orders and leases.
+/// The members of orders and leases.
 bool take_order(Json& json, Request& request) {
   if (!take_author(json, request)) return false;
   switch (request.what) {
@@ -217,7 +217,7 @@ bool take_order(Json& json, Request& request) {
   }
 }
 
-/// The keys that belong to a request; false: one of them is wrong.
+/// The members of each kind of request; false if one of them is invalid.
 bool take_details(Json& json, Request& request) {
   if (request.what >= Request::What::kDrive) return take_order(json, request);
   const bool changes =
@@ -362,7 +362,7 @@ bool read_shadow(const Json& json, runtime::RunStatus::Shadow& shadow) {
   return good;
 }
 
-/// What a robot takes and does of orders; older processes say nothing of that.
+/// Which orders a robot accepts and executes; older processes do not report that.
 bool read_orders(const Json& item, runtime::RunStatus::Robot& robot) {
   if (item.contains("lease") && !read_text(item, "lease", robot.lease)) return false;
   if (item.contains("lease_page") && !read_count(item, "lease_page", robot.lease_page))

@@ -20,7 +20,7 @@ std::uint32_t robot_count(const sim::Engine& engine) {
   return static_cast<std::uint32_t>(engine.spec().robots.size());
 }
 
-/// Names of those for which `holds`, of one robot or all.
+/// The names of the robots for which `holds` is true, of one robot or of all.
 template <class Holds>
 std::string names_of(const sim::Engine& engine, RobotId robot, Holds&& holds) {
   std::vector<std::string_view> names;
@@ -58,7 +58,8 @@ Result<std::string> set(sim::Engine& engine, RobotId robot, const RunRequest& re
   const sim::RobotSpec& its = spec.robots[robot.value()];
   auto change = parse_change(spec.types[its.type], request.key, *value);
   if (!change) {
-    // The place within the word on the command line tells nobody anything.
+    // The place of an error within a word of the command line does not help the user, so it is
+    // omitted.
     return fail(change.error().code, "{}", change.error().message);
   }
   const std::string before = engine.parameter(robot, change->part, change->index, change->name);
@@ -76,7 +77,7 @@ Result<std::string> edit(sim::Engine& engine, const RunRequest& request) {
                      made.step, from_s);
 }
 
-/// A robot that does not know where it is cannot be sent anywhere.
+/// A robot without a pose cannot be sent to a place.
 Status check_pose(const sim::Engine& engine, const sim::WorldInput& input) {
   using Kind = sim::WorldInput::Kind;
   if (input.kind != Kind::kGoal && input.kind != Kind::kPath) return {};
@@ -159,7 +160,7 @@ Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request
 
 void refresh_status(const sim::Engine& engine, RunStatus& status) {
   const sim::EngineSpec& spec = engine.spec();
-  // In place: with many robots most of it stays as it is.
+  // Updates in place: with many robots most entries do not change.
   std::size_t count = 0;
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
     if (!engine.is_local(RobotId(r))) continue;

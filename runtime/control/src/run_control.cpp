@@ -146,7 +146,7 @@ void RunControl::begin(RunStatus status) {
 void RunControl::serve(const Serve& serve, const std::function<void(RunStatus&)>& refresh) {
   std::vector<Asked> asked = take();
   if (asked.empty()) return;
-  // Told when the status says it too.
+  // The answers are sent after the status has been updated, so that both agree.
   std::vector<Result<std::string>> answers;
   for (const Asked& one : asked) answers.push_back(serve(one.request()));
   this->refresh(refresh);
@@ -223,7 +223,7 @@ void RunControl::end() {
 
 bool RunControl::wait_for_turn(const std::function<void()>& serve,
                                const std::function<void()>& held) {
-  // A signal handler cannot notify, so a held run looks up by itself now and then.
+  // A signal handler cannot notify a condition variable, so a paused run polls.
   constexpr auto kLook = std::chrono::milliseconds(50);
   std::unique_lock lock(mutex_);
   while (!stopping()) {

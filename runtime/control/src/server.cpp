@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxConnections = 32;
 
-/// Whether the other end is this user's, or the administrator's.
+/// Whether the peer runs as this user or as root.
 bool is_own(int file) {
   ucred peer{};
   socklen_t size = sizeof peer;
@@ -46,7 +46,7 @@ struct Server::Impl {
 
   void run();
   void accept_one();
-  /// False: the connection is to be closed.
+  /// False if the connection must be closed.
   bool read_some(Connection& connection);
   bool send(const Connection& connection, std::string_view text) const;
 
@@ -61,13 +61,13 @@ struct Server::Impl {
 void Server::Impl::accept_one() {
   Descriptor file(::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC));
   if (file.get() < 0 || !is_own(file.get())) return;
-  // The oldest has had the most time.
+  // The oldest connection has had the most time to send its request.
   if (connections.size() >= kMaxConnections) connections.erase(connections.begin());
   connections.push_back({std::move(file), {}});
 }
 
 bool Server::Impl::send(const Connection& connection, std::string_view text) const {
-  // Somebody who does not read must not hold up the others for long.
+  // A peer that does not read must not delay the others for long.
   const timeval patience{1, 0};
   ::setsockopt(connection.file.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
   while (!text.empty()) {
@@ -92,7 +92,8 @@ bool Server::Impl::read_some(Connection& connection) {
     if (!send(connection, write_answer(answer))) return false;
   }
   if (connection.received.size() <= kMaxLineBytes) return true;
-  // Where the line ends is not known, so the connection does, after a reason.
+  // The end of this line is unknown, so no later line can be read: close the connection after
+  // giving the reason.
   static_cast<void>(send(connection, write_answer({false, too_long_text(), {}})));
   return false;
 }
@@ -116,12 +117,13 @@ void Server::Impl::run() {
 
 Result<std::unique_ptr<Server>> Server::start(const std::string& run,
                                               runtime::RunControl& control) {
-  static_cast<void>(running_runs());  // sweeps away what the dead left
+  static_cast<void>(running_runs());  // Removes the sockets of runs that have died.
   RAVE_TRY_ASSIGN(const fs::path folder, socket_folder());
   auto impl = std::make_unique<Impl>();
   impl->control = &control;
   impl->path = folder / (run + ".sock");
-  // Under its name only when somebody listens, or it would pass for a dead one's.
+  // Renamed to its final name only once it listens, else it would be taken for the socket of a dead
+  // run.
   const fs::path made = folder / (run + ".new");
   RAVE_TRY_ASSIGN(const sockaddr_un address, address_of(made));
   RAVE_TRY(address_of(impl->path));

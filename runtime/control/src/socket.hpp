@@ -26,7 +26,7 @@ using process::Descriptor;
   return address;
 }
 
-/// A connection to the socket at `path`. Error: kNotFound if nobody listens there, kIo.
+/// Connects to the socket at `path`. Errors: kNotFound if no process listens there, kIo.
 [[nodiscard]] inline Result<Descriptor> connect_to(const std::filesystem::path& path) {
   RAVE_TRY_ASSIGN(const sockaddr_un address, address_of(path));
   Descriptor file(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));

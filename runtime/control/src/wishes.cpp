@@ -15,7 +15,7 @@ namespace {
 using bus::BegunWish;
 using runtime::RunControl;
 
-/// Without what the bus does not carry.
+/// Omits what the bus does not carry.
 std::string line_of(const Answer& answer) {
   std::string line = write_answer(answer);
   if (line.ends_with('\n')) line.pop_back();
@@ -26,7 +26,7 @@ BegunWish answered(const Answer& answer, std::string told, bool understood = tru
   return {[line = line_of(answer)] { return std::optional(line); }, std::move(told), understood};
 }
 
-/// For the log; empty for what only looks.
+/// The log line for a request; empty for requests that only read.
 std::string told_of(const Request& request) {
   if (request.what == Request::What::kStatus || request.what == Request::What::kList) return {};
   std::string text = write_request(request);
@@ -48,7 +48,7 @@ bus::BeginWish wishes_of(RunControl& control) {
     }
     auto posted = control.post(run_request(*request));
     if (!posted) return answered({false, posted.error().message, {}}, told_of(*request));
-    // Shared with nobody: a std::function wants to be copied.
+    // shared_ptr because a std::function must be copyable, and it is shared with nothing else.
     const auto awaited = std::make_shared<std::future<Result<std::string>>>(*std::move(posted));
     return {[awaited]() -> std::optional<std::string> {
               if (awaited->wait_for(std::chrono::seconds(0)) != std::future_status::ready) {

@@ -33,7 +33,8 @@ Result<sim::ParameterChange> body_change(const sim::EngineSpec& spec, RobotId ro
     return fail(ErrorCode::kInvalidArgument, "`{}` is not a value of a parameter", request.value);
   }
   auto change = parse_change(spec.types[spec.robots[robot.value()].type], request.key, *value);
-  // The place within the word on the command line tells nobody anything.
+  // The place of an error within a word of the command line does not help the user, so it is
+  // omitted.
   if (!change) return fail(change.error().code, "{}", change.error().message);
   return change;
 }

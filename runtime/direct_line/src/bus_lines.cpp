@@ -15,7 +15,7 @@ using LineInfoReader = bus::Reader<bus::LineInfo>;
 using WithdrawalWriter = bus::Writer<bus::LineWithdrawal>;
 using RobotsOf = std::function<std::vector<std::string>(const std::string&)>;
 
-/// The ends are used by the thread alone once it goes.
+/// Used only by the thread once that has started.
 struct BusEnds {
   std::unique_ptr<bus::Bus> bus;
   LineInfoReader infos;
@@ -73,7 +73,7 @@ class BusLines final : public Lines {
           const std::lock_guard lock(mutex_);
           const auto writer = writers_.find(info.writer);
           if (writer == writers_.end()) return;
-          // Started again, it may have told its new place before the old one was taken back.
+          // After a restart its new address may have arrived before the old one was withdrawn.
           const std::string host = writer->second;
           writers_.erase(writer);
           for (const auto& [other, name] : writers_) {
@@ -93,7 +93,7 @@ class BusLines final : public Lines {
       user.copy(withdrawal.user, sizeof withdrawal.user - 1);
       text.copy(withdrawal.text, sizeof withdrawal.text - 1);
       if (ends_.withdrawals.write(withdrawal)) continue;
-      // A reader does not keep up; the next round says it again.
+      // A reader is too slow; the next round repeats the text.
       const std::lock_guard lock(mutex_);
       untold_.emplace(user, text);
     }
@@ -104,9 +104,10 @@ class BusLines final : public Lines {
   RobotsOf robots_of_;
   mutable std::mutex mutex_;
   std::map<std::string, HostLine> hosts_;         ///< Guarded by the mutex.
-  std::map<std::uint64_t, std::string> writers_;  ///< The same.
-  std::map<std::string, std::string> untold_;     ///< By person; the same.
-  std::jthread thread_;                           ///< The last.
+  std::map<std::uint64_t, std::string> writers_;  ///< Guarded by the mutex.
+  std::map<std::string, std::string> untold_;     ///< By person; guarded by the mutex.
+  /// Declared last so that it stops before the members that it uses are destroyed.
+  std::jthread thread_;
 };
 
 }  // namespace

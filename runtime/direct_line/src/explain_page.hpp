@@ -7,8 +7,8 @@
 
 namespace rave::direct_line {
 
-/// What a browser shows that was led to the address of a line: who comes this far trusts its
-/// certificate. `host`: the name of the host in the scenario.
+/// The page for a person who opens the address of a line in a browser; reaching it means that the
+/// browser trusts the certificate. `host` is the name of the host in the scenario.
 [[nodiscard]] web::Response explain_page(const std::string& host);
 
 }  // namespace rave::direct_line

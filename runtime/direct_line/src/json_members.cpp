@@ -7,7 +7,7 @@ namespace rave::direct_line {
 namespace {
 
 constexpr std::uint64_t kMostWhole = std::uint64_t{1} << 53U;
-/// Deeper than anything here; the parser would take any depth.
+/// No valid message is nested deeper; the JSON parser itself has no limit.
 constexpr int kDeepest = 6;
 
 tl::unexpected<Error> wrong_member(const char* name, const char* expected) {

@@ -9,25 +9,25 @@
 
 namespace rave::direct_line {
 
-/// Takes members out of an object, so that what nobody knows is left over and refused. `object`
-/// outlives it. Errors of all: kParse.
+/// Takes known members out of an object, so that finish() can refuse unknown ones. `object` must
+/// outlive it. Errors of all functions: kParse.
 class JsonMembers {
  public:
   explicit JsonMembers(const nlohmann::json& object) : object_(object) {}
 
   [[nodiscard]] bool has(const char* name) const { return object_.contains(name); }
-  /// Finite.
+  /// A finite number.
   [[nodiscard]] Result<double> number(const char* name);
-  /// From 0 to 2^53.
+  /// An integer from 0 to 2^53, up to which a double holds each integer.
   [[nodiscard]] Result<std::uint64_t> whole(const char* name);
   [[nodiscard]] Result<bool> flag(const char* name);
-  /// At most so many bytes.
+  /// A text of at most `most` bytes.
   [[nodiscard]] Result<std::string> text(const char* name, std::size_t most);
   [[nodiscard]] Result<const nlohmann::json*> any(const char* name);
-  /// Whether all were taken.
+  /// Succeeds if all members were taken.
   [[nodiscard]] Status finish() const;
 
-  /// An object, or error kParse that says `what` was expected.
+  /// Parses an object; error kParse says that `what` was expected.
   [[nodiscard]] static Result<nlohmann::json> parse_object(std::string_view text, const char* what);
 
  private:

@@ -29,7 +29,7 @@ std::string hex_of(std::span<const unsigned char> bytes) {
   return text;
 }
 
-/// Reads `WORD HEX`.
+/// Reads a file of the form `WORD HEX`.
 Status read_line(const fs::path& file, std::string_view word, std::span<unsigned char> bytes) {
   RAVE_TRY_ASSIGN(std::string text, read_file(file, kLargestKeyFile));
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();

@@ -11,14 +11,14 @@
 
 namespace rave::direct_line {
 
-/// One page at the other end. Until it has shown a ticket it may say nothing else.
+/// The connection to one page. Until the page has shown a ticket, other messages are refused.
 struct Line {
   using Clock = std::chrono::steady_clock;
 
   web::Socket* socket = nullptr;
   std::string peer;
-  std::string address;  ///< That the page has dialled.
-  std::string origin;   ///< Of the page, as the browser says.
+  std::string address;  ///< The address that the page connected to.
+  std::string origin;   ///< The origin of the page, as reported by the browser.
   std::string challenge;
   Clock::time_point since{};
   std::optional<Ticket> ticket{};
@@ -26,7 +26,7 @@ struct Line {
   unsigned nonsense = 0;
   std::string told_state{};
 
-  /// For the log: `anna (192.168.1.7)`.
+  /// The name for the log: `anna (192.168.1.7)`.
   [[nodiscard]] std::string who() const {
     return ticket ? ticket->user + " (" + peer + ")" : "somebody (" + peer + ")";
   }

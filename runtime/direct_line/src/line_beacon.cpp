@@ -13,12 +13,12 @@ namespace {
 
 constexpr auto kLookForRun = std::chrono::milliseconds(50);
 
-/// In lock-step the manager has the say, in real time each host of its robots.
+/// In lock-step the manager accepts orders, in real time each host does so for its robots.
 bool has_the_say(const runtime::RunStatus& status, const std::string& host) {
   return host == kManagerHost ? !status.live : !status.follows;
 }
 
-/// The thread of the beacon alone.
+/// Used only by the thread of the beacon.
 struct BeaconEnds {
   std::unique_ptr<bus::Bus> bus;
   bus::Writer<bus::LineInfo> infos;
@@ -49,7 +49,7 @@ struct LineBeacon::Impl {
 
   void work(const std::stop_token& stop) {
     if (!wait_for_run(stop)) return;
-    // A process that must not announce its line needs no end on the bus for it.
+    // A process that must not announce its line needs no bus connection for it.
     if (!has_the_say(control.status(), host)) {
       log.info("line", "`{}` offers no direct line: another process takes the orders of this run",
                host);
@@ -67,7 +67,7 @@ struct LineBeacon::Impl {
           [this](const bus::LineWithdrawal& withdrawal) { server.withdraw(withdrawal.text); });
       static_cast<void>(ends->waits.wait(Duration{-1}, stop));
     }
-    // Nobody is left to whom it matters if this does not get through.
+    // The process is ending, so a failure here has no consequence.
     bus::LineInfo info{};
     static_cast<void>(ends->infos.dispose(info));
   }

@@ -14,12 +14,12 @@ namespace {
 using Kind = runtime::RunRequest::Kind;
 using LineJson = nlohmann::ordered_json;
 
-/// Who has shown no ticket by then has none.
+/// A page that has not shown a ticket within this time is disconnected.
 constexpr auto kHelloPatience = std::chrono::seconds(5);
 constexpr std::size_t kMostStrangers = 32;
 constexpr unsigned kMostNonsense = 20;
 constexpr std::size_t kChallengeBytes = 32;
-// Thirty refusals of a network at once, then one in five seconds: a flood must not fill the disk.
+// Thirty refusals at once per network, then one in five seconds: a flood must not fill the disk.
 constexpr double kRefusals = 30;
 constexpr double kRefusalsPerSecond = 0.2;
 
@@ -33,7 +33,7 @@ std::int64_t day_clock_ms() {
       .count();
 }
 
-/// What of a ticket is about a kind of order.
+/// The robots for which a ticket permits a kind of order.
 const RobotSet& reach_of(const Ticket& ticket, Kind kind) {
   if (kind == Kind::kStop) return ticket.stops;
   if (kind == Kind::kRelease) return ticket.releases;
@@ -92,16 +92,17 @@ void LineBook::received(std::uint64_t id, std::string_view text) {
 void LineBook::closed(std::uint64_t id) {
   const auto found = lines_.find(id);
   if (found == lines_.end()) return;
-  // Who drives stops driving with the line, whatever ended it.
+  // The end of the line ends driving, for whatever reason it ended.
   post_.forget(id);
   if (found->second.ticket) leave_leases(*found->second.ticket);
   if (found->second.ticket && options_.log != nullptr) {
-    options_.log->info("line", "{} is gone", found->second.who());
+    options_.log->info("line", "{} has disconnected", found->second.who());
   }
   lines_.erase(found);
 }
 
-/// A page that is loaded anew, or dials again, need not take anything from itself.
+/// Gives up the leases of a page, so that the page can take the robots again after a reload or a
+/// new connection.
 void LineBook::leave_leases(const Ticket& ticket) {
   const std::uint64_t page = page_number(ticket.page_key);
   for (const runtime::RunStatus::Robot& robot : control_.status().robots) {
@@ -111,7 +112,7 @@ void LineBook::leave_leases(const Ticket& ticket) {
     leave.robot = robot.name;
     leave.value = leave.by = ticket.user;
     leave.page = page;
-    // Nobody is there to be told.
+    // The page is gone, so the answer is not needed.
     static_cast<void>(control_.post(std::move(leave)));
   }
 }
@@ -161,7 +162,7 @@ void LineBook::welcome(std::uint64_t id, Line& line, Ticket ticket) {
   follows_ = control_.status().follows;
   ++counts_.welcomed;
   if (options_.log != nullptr) {
-    options_.log->info("line", "{} is here, as {}", line.who(), line.ticket->role);
+    options_.log->info("line", "{} has connected as {}", line.who(), line.ticket->role);
   }
   line.send(dumped({{"type", "welcome"},
                     {"host", options_.host},
@@ -172,7 +173,7 @@ void LineBook::welcome(std::uint64_t id, Line& line, Ticket ticket) {
 void LineBook::take(std::uint64_t /*id*/, Line& line, const RenewMessage& renew) {
   auto ticket = check_ticket(renew.ticket, line);
   if (!ticket) return refuse_line(line, ticket.error().message);
-  // The key was shown for this page and this person.
+  // The challenge was answered for this page and this person only.
   if (ticket->page_key != line.ticket->page_key || ticket->user != line.ticket->user) {
     return refuse_line(line, "showed the ticket of another page");
   }

@@ -13,14 +13,14 @@
 
 namespace rave::direct_line {
 
-/// The lines of a host: who is at the other end, and what they may. The thread of the server.
+/// The lines of a host: who is connected, with which rights. Used by the thread of the server.
 class LineBook {
  public:
-  /// Why a line is closed.
+  /// The reason for closing a line.
   enum Code : std::uint16_t {
     kNonsense = 4400,
-    kBadTicket = 4401,  ///< None, or it has expired.
-    kWithdrawn = 4403,  ///< The rights have changed: the page asks for another ticket.
+    kBadTicket = 4401,  ///< No ticket, or an expired one.
+    kWithdrawn = 4403,  ///< The rights have changed: the page requests a new ticket.
     kReplaced = 4408,   ///< The same page has opened another line.
     kTooManyLines = 4429,
   };
@@ -31,11 +31,12 @@ class LineBook {
   void received(std::uint64_t id, std::string_view text);
   void closed(std::uint64_t id);
   void withdraw(const std::string& signed_text);
-  /// Answers that have come; some 200 times a second.
+  /// Passes on the answers that have arrived; called about 200 times a second.
   void poll() { post_.poll(); }
-  /// Ends lines whose time is over, and tells who drives and who is stopped; a few times a second.
+  /// Ends expired lines, and tells the pages who drives and who is stopped; called a few times a
+  /// second.
   void look_around();
-  /// All that is driven stands.
+  /// Stops all robots that are driven.
   void end();
   [[nodiscard]] LineCounts counts() const;
 
@@ -47,7 +48,7 @@ class LineBook {
   void take(std::uint64_t id, Line& line, const PingMessage& ping);
   void take(std::uint64_t id, Line& line, const OrderMessage& order);
   [[nodiscard]] Result<Ticket> check_ticket(std::string_view text, const Line& line) const;
-  /// The same order for each robot that the ticket covers. Error kState: it covers none.
+  /// The same order for each robot that the ticket covers. Error kState if it covers none.
   [[nodiscard]] static Result<std::vector<Request>> covered(const Ticket& ticket,
                                                             const Request& request);
   void welcome(std::uint64_t id, Line& line, Ticket ticket);
@@ -65,8 +66,8 @@ class LineBook {
   std::map<std::uint64_t, Line> lines_;
   std::map<std::string, std::uint64_t, std::less<>> epochs_;  ///< By person.
   web::RateLimit refusals_;
-  bool follows_ = false;      ///< The run of this process takes no orders: its manager does.
-  std::uint64_t untold_ = 0;  ///< Refusals that were too many for the log.
+  bool follows_ = false;      ///< The run of this process accepts no orders; its manager does.
+  std::uint64_t untold_ = 0;  ///< Refusals omitted from the log because there were too many.
   LineCounts counts_;
 };
 

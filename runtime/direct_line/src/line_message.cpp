@@ -59,7 +59,7 @@ Status read_place(JsonMembers& members, RunRequest& request) {
   return {};
 }
 
-/// What belongs to the kind.
+/// Reads the members that belong to the kind of request.
 Status read_kind(JsonMembers& members, RunRequest& request) {
   switch (request.kind) {
     case Kind::kDrive: {
@@ -110,7 +110,7 @@ bool is_for_lines(Kind kind) {
   }
 }
 
-/// Of these, those that may be for all robots.
+/// Whether an order of this kind may address all robots.
 bool takes_all(Kind kind) {
   return kind == Kind::kStop || kind == Kind::kRelease || kind == Kind::kCancel;
 }

@@ -9,15 +9,15 @@
 #include "rave/base/result.hpp"
 #include "rave/control/run_control.hpp"
 
-// What a page says on a direct line. Nothing of it is trusted.
+// The messages of a page on a direct line. None of their content is trusted.
 namespace rave::direct_line {
 
-/// The first message, the answer to the challenge.
+/// The first message of a page: its answer to the challenge.
 struct HelloMessage {
   std::string ticket;
-  std::string proof;  ///< Bytes; see page_key.hpp.
+  std::string proof;  ///< The signature as bytes; see page_key.hpp.
 };
-/// The next ticket, before the first one ends.
+/// Replaces the ticket by the next one before it expires.
 struct RenewMessage {
   std::string ticket;
 };
@@ -28,17 +28,17 @@ struct PingMessage {
 struct OrderMessage {
   std::uint64_t id = 0;
   runtime::RunRequest request;
-  bool echo = false;  ///< A drive that was accepted is answered, too.
+  bool echo = false;  ///< Whether accepted drive commands are answered, too.
 };
 using LineMessage = std::variant<HelloMessage, RenewMessage, PingMessage, OrderMessage>;
 
-/// No faster than any robot; what is beyond is a mistake.
+/// Faster than any robot; larger values are mistakes.
 inline constexpr double kMostSpeed_mps = 100;
 inline constexpr double kMostTurn_radps = 100;
 inline constexpr double kFarthest_m = 1e6;
 inline constexpr std::size_t kLongestText = 1000;
 
-/// Errors: kParse with what was expected.
+/// Errors: kParse, with what was expected.
 [[nodiscard]] Result<LineMessage> parse_line_message(std::string_view text);
 
 }  // namespace rave::direct_line

@@ -13,7 +13,7 @@
 namespace rave::direct_line {
 namespace {
 
-/// How soon an answer of the run is passed on.
+/// How often answers of the run are passed on, and lines are checked.
 constexpr auto kPoll = std::chrono::milliseconds(5);
 constexpr auto kLook = std::chrono::milliseconds(250);
 constexpr std::size_t kMostLines = 256;
@@ -35,7 +35,8 @@ class LineServer::Impl final : public web::Handler {
       : host_(options.host), book_(options, control) {}
   ~Impl() override {
     if (!server_) return;
-    // Before the sockets: what is driven must not wait for a page that does not answer.
+    // Before the sockets are closed: stopping the robots must not wait for a page that does not
+    // answer.
     std::promise<void> done;
     server_->post([this, &done] {
       book_.end();
@@ -55,7 +56,7 @@ class LineServer::Impl final : public web::Handler {
     web_options.key = options.key;
     web_options.subprotocol = "rave.line.1";
     web_options.connections = kMostLines;
-    // A ticket names robots, and says itself of which origin its page is.
+    // The origin is checked by the ticket, which names that of its page.
     web_options.message_bytes = kLongestTicket + (std::size_t{16} << 10U);
     web_options.own_origin_only = false;
     RAVE_TRY_ASSIGN(server_, web::Server::start(web_options, *this));

@@ -42,7 +42,8 @@ void OrderPost::give(Line line, std::vector<runtime::RunRequest> requests, Answe
 
 void OrderPost::drive(Line line, runtime::RunRequest request, bool echo, Answer answer) {
   Drive& drive = drives_[{line, request.robot}];
-  // Whoever asked for an answer gets one, though the run never sees that drive.
+  // The sender of a replaced drive command still gets its answer, though the run never receives the
+  // command.
   if (auto replaced = std::exchange(drive.next, std::nullopt); replaced && replaced->first) {
     replaced->second(true, "replaced by a newer drive");
   }
@@ -71,7 +72,7 @@ void OrderPost::poll(Drive& drive) {
   drive.under_way.reset();
   const Answer answer = std::exchange(drive.answer, nullptr);
   if (!text) {
-    // Somebody else drives it, so nothing has to be stopped when this line goes.
+    // Another person drives the robot, so the end of this line need not stop it.
     drive.moves = false;
     answer(false, text.error().message);
   } else if (drive.echo) {
@@ -92,7 +93,7 @@ void OrderPost::forget(Line line) {
     if (drive->second.moves) {
       runtime::RunRequest stand = std::move(drive->second.newest);
       stand.v_mps = stand.w_radps = 0;
-      // Nobody is there to be told.
+      // The line is gone, so the answer is not needed.
       if (control_.post(std::move(stand))) ++given_;
     }
     drive = drives_.erase(drive);

@@ -14,27 +14,28 @@
 
 namespace rave::direct_line {
 
-/// Gives orders of lines to a run and fetches its answers, without ever waiting for it. Of drives
-/// that the run has not come to, the newest of each robot counts. One thread.
+/// Passes orders from lines to a run and fetches the answers, without waiting for the run. Of the
+/// drive commands that the run has not taken yet, only the newest of each robot counts. Used by one
+/// thread.
 class OrderPost {
  public:
   using Line = std::uint64_t;
   using Answer = std::function<void(bool good, const std::string& text)>;
 
-  /// Of one line, and not answered; more are refused. Stops are never refused.
+  /// Unanswered orders per line; further ones are refused, except stops.
   static constexpr std::size_t kMostWaiting = 256;
 
-  /// `control` outlives it.
+  /// `control` must outlive this object.
   explicit OrderPost(runtime::RunControl& control) : control_(control) {}
 
-  /// One order to one or several robots, with one answer.
+  /// Passes on one order to one or several robots, with one common answer.
   void give(Line line, std::vector<runtime::RunRequest> requests, Answer answer);
-  /// The newest drive of a robot. Refusals are answered; with `echo` each drive is, one that a
-  /// newer drive replaced before the run took it as accepted.
+  /// Passes on the newest drive command of a robot. Refusals are answered; with `echo` each command
+  /// is, and one that a newer command replaced before the run took it counts as accepted.
   void drive(Line line, runtime::RunRequest request, bool echo, Answer answer);
-  /// A line is gone: what it drives stands, and its answers are for nobody.
+  /// Called when a line has closed: stops the robots that it drives and drops its answers.
   void forget(Line line);
-  /// Hands out the answers that have come.
+  /// Passes on the answers that have arrived.
   void poll();
   [[nodiscard]] std::uint64_t given() const noexcept { return given_; }
 
@@ -49,11 +50,11 @@ class OrderPost {
   };
   struct Drive {
     std::optional<Future> under_way{};
-    bool echo = false;  ///< Of the one under way.
-    Answer answer{};    ///< The same.
+    bool echo = false;  ///< The `echo` of the command that the run is handling.
+    Answer answer{};    ///< The answer function of that command.
     bool moves = false;
     runtime::RunRequest newest{};
-    std::optional<std::pair<bool, Answer>> next{};  ///< `newest` is not given yet.
+    std::optional<std::pair<bool, Answer>> next{};  ///< Of `newest`, until that is passed on.
   };
   void begin(Drive& drive, bool echo, Answer answer);
   void poll(Drive& drive);

@@ -47,7 +47,7 @@ Pkey key_of(std::string_view point) {
   return Pkey(key);
 }
 
-/// OpenSSL takes signatures as DER.
+/// Converts a signature to DER, the form that OpenSSL reads.
 std::string der_of(std::string_view signature) {
   const Ecdsa parts(ECDSA_SIG_new());
   BIGNUM* const r = BN_bin2bn(raw(signature), kHalf, nullptr);

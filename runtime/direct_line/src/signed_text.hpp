@@ -10,18 +10,19 @@
 
 namespace rave::direct_line {
 
-/// Base64 for addresses (RFC 4648, section 5), without padding.
+/// Base64 for addresses (base64url, RFC 4648, section 5), without padding.
 [[nodiscard]] std::string base64_of(std::string_view bytes);
-/// Nothing: it is none.
+/// Empty if `text` is not valid base64url.
 [[nodiscard]] std::optional<std::string> from_base64(std::string_view text);
 
-/// So many random bytes.
+/// `count` random bytes from the system.
 [[nodiscard]] std::string random_bytes(std::size_t count);
 
-/// `what`: stands before what is signed, so that no text can be taken for one of another kind.
+/// `what` is signed together with the content, so that a text of one kind cannot be used as one of
+/// another kind.
 [[nodiscard]] std::string sign_text(std::string_view what, std::string_view content,
                                     const SigningKey& key);
-/// The content. Errors: kParse, kState (the signature does not fit).
+/// The content of a signed text. Errors: kParse; kState if the signature is invalid.
 [[nodiscard]] Result<std::string> verify_text(std::string_view what, std::string_view text,
                                               const PublicKey& key);
 

@@ -65,7 +65,7 @@ Result<Ticket> ticket_of(const nlohmann::json& object) {
   ticket.expires_s = static_cast<std::int64_t>(expires_s);
   RAVE_TRY_ASSIGN(ticket.nonce, members.text("nonce", kLongestWord));
   RAVE_TRY(members.finish());
-  // A name is what leases and logs know a person by; without one it would be the terminal's.
+  // Leases and logs identify a person by the name; an empty one would stand for the terminal.
   if (ticket.user.empty()) return fail(ErrorCode::kParse, "`user`: expected a name");
   if (ticket.role != "commander" && ticket.role != "super_user") {
     return fail(ErrorCode::kParse, "`role`: expected commander or super_user");

@@ -121,7 +121,7 @@ Result<std::string> ObserverList::serve(sim::Engine& engine, const RunRequest& r
   }
   if (request.kind == RunRequest::Kind::kChat) {
     if (record_) record_->say(request, engine.steps_done());
-    return std::string(record_ ? "it is in the record" : "there is no record");
+    return std::string(record_ ? "added to the recording" : "there is no recording");
   }
   if (!OrderDesk::is_for(request.kind)) return make_input(engine, request);
   if (follows_ && request.kind != RunRequest::Kind::kRelease) {

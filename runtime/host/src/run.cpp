@@ -175,7 +175,7 @@ std::vector<sim::Event> unfinished_hand_overs(const sim::Engine& engine) {
     const sim::RobotSpec& robot = spec.robots[r];
     events.push_back(
         {engine.steps_done(), RobotId(r), sim::EventKind::kHandOverRefused, BodyId(),
-         fmt::format("{} -> {}: the run ended before that was done{}", word(robot.type),
+         fmt::format("{} -> {}: the run ended before the hand-over{}", word(robot.type),
                      word(robot.twin.value_or(robot.type)), state->by_hand ? " (by hand)" : "")});
   }
   return events;

@@ -135,7 +135,8 @@ TEST(HostLeases, WhatAPageLeavesTheNextPageOfThePersonHas) {
   HostLeases leases;
   ASSERT_TRUE(leases.use("r1", first, Use::kDrive, kStart));
   static_cast<void>(leases.take_changes());
-  EXPECT_EQ(leases.give("r1", first, "anna", kStart + 1s).value(), "r1 is any page's of yours");
+  EXPECT_EQ(leases.give("r1", first, "anna", kStart + 1s).value(),
+            "any of your pages can drive r1 now");
   EXPECT_TRUE(leases.take_changes().empty()) << "anna drives it as before";
   EXPECT_EQ(why(leases.use("r1", kBert, Use::kOrder, kStart + 1s)), "`anna` drives r1");
   EXPECT_TRUE(leases.use("r1", second, Use::kOrder, kStart + 2s));

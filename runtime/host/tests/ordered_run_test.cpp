@@ -106,11 +106,11 @@ TEST(OrderedRun, IsRecordedAndVerified) {
   ASSERT_TRUE(outcome) << outcome.error().text();
 
   const std::vector<std::string> expected = {
-      "anna is put at 2.00, 1.00",
+      "anna is placed at 2.00, 1.00",
       "anna is driven",
       "bert is sent to 0.50, 3.00",
       "carl is sent along 2 points to 0.40, -2.90",
-      "carl was told",
+      "the text was sent to carl",
       "refused: `lisa` drives anna",
       "refused: robot `bert`, path: its program takes no paths",
       "anna: the orders of people are cancelled",

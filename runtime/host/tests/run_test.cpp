@@ -50,7 +50,7 @@ TEST(Run, AHandOverThatTheEndCutsOffIsAProblem) {
   EXPECT_FALSE(outcome.whole);
   ASSERT_EQ(outcome.problems.size(), 1U);
   EXPECT_NE(outcome.problems[0].find("robot `anna` at 1.00 s was not handed over: simulated -> "
-                                     "simulated: the run ended before that was done"),
+                                     "simulated: the run ended before the hand-over"),
             std::string::npos)
       << outcome.problems[0];
   ASSERT_EQ(result.at("hand_overs").size(), 1U);

@@ -42,7 +42,7 @@ void drain(const Seats& seats, LogSink* log, Owes&& owes_findings, Turn&& turn,
       for (const auto& seat : seats) {
         if (owes(seat)) names.emplace_back(seat.name);
       }
-      log->warn(kSource, "waits up to {:.0f} s for what {} know of the run", seconds(limits.owing),
+      log->warn(kSource, "waits up to {:.0f} s for the results of {}", seconds(limits.owing),
                 join_names(names));
     }
     if (!turn()) break;

@@ -119,7 +119,7 @@ void Wishes::take(runtime::RunControl::Asked asked, sim::WorldAuthority& authori
   }
   if (asked.request().kind == RunRequest::Kind::kChat) {
     control_->keep_said(asked.request());
-    return asked.answer(std::string("it is for the record"));
+    return asked.answer(std::string("added to the recording"));
   }
   if (runtime::OrderDesk::is_for(asked.request().kind)) {
     return take_order(std::move(asked), authority);

@@ -73,7 +73,7 @@ TEST_F(DrainTest, WaitsLongerForFindingsAndSaysSoOnce) {
   });
   EXPECT_EQ(turns_, 3);
   ASSERT_EQ(log_.lines.size(), 1U);
-  EXPECT_EQ(log_.lines[0], "waits up to 3600 s for what two know of the run");
+  EXPECT_EQ(log_.lines[0], "waits up to 3600 s for the results of two");
 }
 
 TEST_F(DrainTest, EndsWhenTheBusIsOfNoUse) {

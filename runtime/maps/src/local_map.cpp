@@ -13,7 +13,7 @@ namespace {
 constexpr double kNear_m = 8;
 constexpr double kFine_m = 0.05;
 constexpr double kCoarse_m = 0.1;
-/// Readings come later than the poses that belong to them; so many poses are kept.
+/// The number of poses kept: readings arrive later than the poses that belong to them.
 constexpr std::size_t kPoses = 128;
 constexpr std::uint32_t kTiles = LocalMap::kCells / kTileCells;
 
@@ -37,7 +37,8 @@ double longest_m(const sim::Engine& engine, RobotId robot) {
   return longest;
 }
 
-/// Around the robot, at whole tiles, so that maps of several robots fit each other.
+/// A frame around the robot, aligned to whole tiles so that the maps of several robots fit
+/// together.
 MapFrame frame_of(const sim::Engine& engine, RobotId robot) {
   MapFrame frame;
   frame.resolution_m = longest_m(engine, robot) <= kNear_m ? kFine_m : kCoarse_m;
@@ -89,7 +90,7 @@ void LocalMap::follow(const sim::Engine& engine) {
     poses_.push_back(
         {reported.stamp.ns, {reported.pose.x_m, reported.pose.y_m, reported.pose.yaw_rad}});
   }
-  // A pose that is old says nothing of where the beams end.
+  // With an old pose the ends of the beams are unknown.
   if (poses_.empty() || reported.stale) return;
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
     const sim::SensorSample sample = engine.sensor(robot_, sensors_[i]);

@@ -11,7 +11,7 @@ void LocalMaps::ask(const sim::Engine& engine, std::span<const std::uint32_t> ro
         maps_, [robot](const auto& map) { return map->robot().value() == robot; });
     if (begun || !LocalMap::possible(engine, RobotId(robot))) continue;
     if (maps_.size() >= kMost) {
-      // One that nobody looks at any more makes room.
+      // A map that no monitor requests any more is replaced.
       const auto idle = std::ranges::find_if(maps_, [robots](const auto& map) {
         return std::ranges::find(robots, map->robot().value()) == robots.end();
       });
@@ -19,7 +19,7 @@ void LocalMaps::ask(const sim::Engine& engine, std::span<const std::uint32_t> ro
       maps_.erase(idle);
     }
     maps_.push_back(std::make_unique<LocalMap>(engine, RobotId(robot)));
-    // The first picture of it comes at once.
+    // The first tiles of a new map are sent at once.
     maps_.back()->follow(engine);
     next_ = {};
   }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kNoVelocity = std::numeric_limits<float>::quiet_NaN();
 
-/// The newest velocity that a controller was given.
+/// The newest velocity command to a controller.
 std::optional<Command> asked_of(const sim::Engine& engine, RobotId robot,
                                 const sim::RobotType& type) {
   std::optional<Command> newest;

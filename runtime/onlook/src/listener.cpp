@@ -13,17 +13,18 @@
 namespace rave::onlook {
 namespace {
 
-/// Several times while a look holds, since one may get lost.
+/// A request is repeated several times within its lifetime, since a message may be lost.
 constexpr std::chrono::milliseconds kSayAgain{500};
-/// Hosts in real time hear of a change of the world one after the other.
+/// Hosts in real time receive a change of the world at different times; events within this time
+/// count as the same.
 constexpr double kSameEvent_s = 2;
-/// Somebody who makes things up gets no further.
+/// Limits the memory that a sender of invented messages can use.
 constexpr std::size_t kMostTold = 4096;
 constexpr std::size_t kMostEvents = 100'000;
 constexpr std::size_t kMostTiles = 16'384;
 constexpr std::size_t kMostReadings = 3 * rave_wire_kMaxLookedAt;
 
-/// Asks no writer to send again what got lost; room for what several hosts say between two looks.
+/// Lost messages are not requested again; room for messages of several hosts between two reads.
 constexpr bus::QosProfile kHeard{.reliable = false, .depth = 4};
 
 }  // namespace
@@ -55,7 +56,7 @@ void Listener::look(const Asked& asked) {
     }
   }
   next_look_ = now + kSayAgain;
-  // Who looks at nothing says so once, and is forgotten then.
+  // A monitor that requests nothing says so once and is then forgotten.
   const bool nothing = !asked_.robots && sensors_.empty() && asked_.maps.empty();
   if (!changed && nothing && asked_.probes.empty()) return;
   bus::Look message{};
@@ -113,7 +114,7 @@ void Listener::hear(const bus::Readings& sample) {
   }
 }
 
-/// What concerns the world each host tells.
+/// Events of the world are reported by each host.
 bool Listener::is_told(const rave_wire_RunEvent& event, double t_s, std::uint64_t writer) {
   const std::string said = event.detail != 0
                                ? fmt::format("{} {} #{}", event.kind, event.other, event.detail)

@@ -9,7 +9,7 @@
 namespace rave::onlook {
 namespace {
 
-/// Changes of one step have numbers of their own below this.
+/// The numbers of changes within one step are below this.
 constexpr std::uint64_t kOfStep = rave_wire_kMaxObstacleChanges;
 
 bool same_place(const Pose2& a, const Pose2& b) noexcept {
@@ -30,7 +30,7 @@ void ObstacleTeller::begin(const sim::EngineSpec& spec) {
 
 void ObstacleTeller::after_step(const sim::Engine& engine, std::span<const sim::Event> beside) {
   const std::uint64_t step = engine.steps_done() == 0 ? 0 : engine.steps_done() - 1;
-  // Who was away has seen no events of what changed meanwhile.
+  // An absent host has seen no events of the changes in between.
   if (step > next_step_) compare(engine);
   next_step_ = step + 1;
   std::uint64_t revision = (step + 1) * kOfStep;
@@ -64,7 +64,7 @@ void ObstacleTeller::tell(const sim::Engine& engine, std::uint32_t id, std::uint
   stands.X_WB = obstacle->X_WB;
   stands.body = obstacle->body;
   lock_step::ObstacleParts parts;
-  // A body of the scenario that the bus cannot carry stays as it is for those who look on.
+  // A body of the scenario that cannot be sent on the bus stays unchanged for monitors.
   if (!parts.fill(std::span(&stands, 1))) return;
   bus::LastObstacle message{};
   message.id = id;

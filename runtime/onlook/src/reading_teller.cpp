@@ -95,7 +95,7 @@ void ReadingTeller::tell(const sim::Engine& engine, const Asked& asked, probe::P
   message.left_out = left_out_;
   bus::borrow(message.entries, readings_);
   bus::borrow(message.values, values_);
-  // Who looks on and does not keep up misses some.
+  // A monitor that is too slow misses some messages.
   static_cast<void>(writer_.write(message));
 }
 

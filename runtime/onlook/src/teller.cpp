@@ -11,12 +11,13 @@ namespace rave::onlook {
 namespace {
 
 constexpr std::chrono::milliseconds kHearing{50};
-/// Nobody needs more, and somebody who makes up names gets no further.
+/// More than real use needs; limits the memory that a sender with invented names can use.
 constexpr std::size_t kMostLooking = 64;
-/// So many times rarer while steps come late: pages get thinner before anything else does.
+/// While steps are late, messages are this many times rarer: monitors get fewer updates before
+/// anything else is slowed.
 constexpr int kLateFactor = 10;
 
-/// Too frequent to be kept for those who may come.
+/// Too frequent to be kept for monitors that connect later.
 bool is_frequent(sim::EventKind kind) noexcept {
   return kind == sim::EventKind::kContact || kind == sim::EventKind::kGuardSlowed ||
          kind == sim::EventKind::kGuardStopped;
@@ -112,12 +113,12 @@ void Teller::tell_events(const sim::Engine& engine, std::span<const sim::Event> 
   static_cast<void>(events_.write(message));
 }
 
-/// Also once nobody asks any more: who comes later finds the map whole.
+/// Also runs after the last monitor has left: a later one finds the map complete.
 void Teller::tell_maps(const sim::Engine& engine, Clock::time_point now, int slower) {
   if (!asked_.maps.empty()) maps_.ask(engine, asked_.maps);
   for (maps::MapTile& tile : maps_.changed(now, slower)) {
     bus::MapTile message = maps::message_of(tile);
-    // Who looks on and does not keep up gets the next one of this place.
+    // A monitor that is too slow gets the next tile of this place.
     static_cast<void>(tiles_.write(message));
   }
 }

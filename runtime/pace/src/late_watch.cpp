@@ -6,9 +6,9 @@
 namespace rave::runtime {
 namespace {
 
-/// From here on the log says that steps come late; a busy moment is no news.
+/// From this delay on the log reports late steps; shorter delays are common.
 constexpr auto kNews = std::chrono::milliseconds(500);
-/// How old what others see of it may be.
+/// The largest age of the status that others see.
 constexpr auto kStatusInterval = std::chrono::milliseconds(100);
 
 double seconds(Lateness::Clock::duration duration) {

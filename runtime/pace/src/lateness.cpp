@@ -58,14 +58,14 @@ std::string lateness_text(const LatenessFacts& facts) {
 }
 
 void Lateness::woke(Clock::time_point due, Clock::time_point now) noexcept {
-  // What went by while there was nothing to do is nobody's.
+  // Idle time is not attributed to any part.
   since_ = std::max(since_, due);
   due_ = due;
   did(Part::kMachine, now);
 }
 
 void Lateness::did(Part part, Clock::time_point now) noexcept {
-  // What was before the first step is part of no step.
+  // Time before the first step belongs to no step.
   if (due_ == Clock::time_point{}) since_ = now;
   spent_ns_[sim::kPhases + static_cast<std::size_t>(part)] +=
       std::max<std::int64_t>(0, ns_of(now - since_));
@@ -79,7 +79,8 @@ void Lateness::worked(const sim::PhaseTimes& total, Clock::time_point now) noexc
     spent_ns_[p] += took_ns;
     sum_ns += took_ns;
   }
-  // Who looks at a step from inside the engine was told apart, and is in its next ingest as well.
+  // An observer inside the engine has been counted separately; its time is also contained in the
+  // next ingest and is subtracted there.
   const std::int64_t twice_ns = sum_ns - std::max<std::int64_t>(0, ns_of(now - since_));
   if (twice_ns > 0) spent_ns_[static_cast<std::size_t>(sim::Phase::kIngest)] -= twice_ns;
   worked_ = total;
@@ -103,7 +104,7 @@ void Lateness::end(Clock::time_point last, Clock::time_point now) {
   if (period_ <= Clock::duration::zero() || due_ == Clock::time_point{}) return;
   const auto until = std::min(now, last + period_);
   if (until <= due_ + period_) return;
-  // The first of them is the longest overdue.
+  // The first of the missed deadlines is the longest overdue.
   const auto count = static_cast<std::uint64_t>((until - due_ - Clock::duration(1)) / period_);
   facts_.deadlines += count;
   if (count > 0) miss(count, until - (due_ + period_));

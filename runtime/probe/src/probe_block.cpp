@@ -14,7 +14,7 @@ namespace {
 
 using config::RawNode;
 
-/// No robot is as large.
+/// Larger than any robot.
 constexpr double kFarthest_m = 100;
 constexpr double kWholeTurn_deg = 360;
 
@@ -34,7 +34,7 @@ Status check_keys(const RawNode& node, std::span<const std::string_view> known,
   }
   for (const std::string_view key : node.keys()) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    return fail(ErrorCode::kParse, "{}: there is no `{}` here; expected {}", where, key,
+    return fail(ErrorCode::kParse, "{}: unknown key `{}`; expected {}", where, key,
                 join_names(std::vector<std::string_view>(known.begin(), known.end())));
   }
   return {};
@@ -127,7 +127,7 @@ Result<sim::SensorSpec> read_block(std::string_view block, plugin::Catalogue& ca
   config::Diagnostics diagnostics;
   const auto node = config::parse_yaml(block, "sensor", diagnostics);
   if (!node || !diagnostics.ok()) {
-    return fail(ErrorCode::kParse, "the sensor is no YAML: expected an entry of `sensors:`");
+    return fail(ErrorCode::kParse, "the sensor is not valid YAML; expected an entry of `sensors:`");
   }
   static constexpr std::array<std::string_view, 5> kKeys = {"name", "driver", "mount", "senses",
                                                             "params"};

@@ -22,7 +22,7 @@ void Probes::ask(const sim::Engine& engine, plugin::Catalogue& catalogue,
     if (!here || probes_.size() >= kMost) continue;
     const auto [probe, fresh] = probes_.try_emplace({one.robot, one.number});
     if (!fresh) continue;
-    // Whoever asks has made the sensor as well, and told what is wrong with it.
+    // The requester has created the sensor as well and reported its errors.
     auto spec = read_block(one.block, catalogue);
     if (!spec) continue;
     auto sensor = sim::LoneSensor::make(*std::move(spec), engine.spec().step.seconds());
@@ -35,7 +35,7 @@ void Probes::sample(const sim::Engine& engine) {
   for (const auto& [key, sensor] : probes_) {
     if (!sensor || (sensor->header().sequence != 0 && sensor->header().stamp_ns == world.time().ns))
       continue;
-    // A driver that fails gives no more readings, and whoever looks sees their age.
+    // After a failure of the driver there are no new readings, and the viewer sees their age.
     static_cast<void>(sensor->sample(world, RobotId(key.first), engine.spec().seed));
   }
 }

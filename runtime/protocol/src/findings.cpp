@@ -47,14 +47,15 @@ Status FindingsSender::send(std::uint32_t host, std::span<const std::byte> bytes
   part.hash = content_hash(bytes);
   std::vector<std::uint8_t> piece;
   for (std::size_t at = 0; at < bytes.size(); at += kPart, ++part.part) {
-    // Each part may have to wait a little for the one before.
+    // Each part may have to wait until the part before has been sent.
     if (at > 0 && Clock::now() >= end) return too_late(patience);
     const auto cut = bytes.subspan(at, std::min(kPart, bytes.size() - at));
     const auto* const first = reinterpret_cast<const std::uint8_t*>(cut.data());
     piece.assign(first, first + cut.size());
     bus::borrow(part.bytes, piece);
     auto written = writer_.write(part);
-    // A writer waits for readers as long as it has much that is not confirmed, and then fails.
+    // A writer waits for slow readers while much of its data is unconfirmed, and then fails with a
+    // timeout.
     while (!written && written.error().code == ErrorCode::kTimeout && Clock::now() < end) {
       written = writer_.write(part);
     }
@@ -67,7 +68,7 @@ Status FindingsSender::send(std::uint32_t host, std::span<const std::byte> bytes
       dds_wait_for_acks(writer_.handle(), std::max<std::int64_t>(0, left.count()));
   if (confirmed == DDS_RETCODE_TIMEOUT) return too_late(patience);
   if (confirmed == DDS_RETCODE_OK) {
-    // Who is gone is not waited for either.
+    // If the readers have gone, stop waiting.
     return readers() > 0 ? Status{} : nobody(true);
   }
   return fail(ErrorCode::kIo, "their arrival was not confirmed: {}", dds_strretcode(confirmed));
@@ -90,7 +91,7 @@ Status FindingsParts::add(const bus::FindingsPart& part) {
   }
   const auto bytes = std::as_bytes(bus::elements(part.bytes));
   partial.parts.try_emplace(part.part, bytes.begin(), bytes.end());
-  // Each part but the last is full, so their number says whether all are there.
+  // All parts but the last are full, so their number tells whether all have arrived.
   if (partial.parts.size() < (partial.size + kPart - 1) / kPart) return {};
   Partial all = std::move(partial);
   partial_.erase(place);
@@ -129,7 +130,7 @@ void FindingsCollector::take(const std::function<bool(std::uint64_t, std::uint32
       reader_.refuse(part, added.error().message);
     }
   };
-  // Whoever never stops sending does not keep the caller here.
+  // Limits the time here, for a sender that never stops.
   constexpr int kMostRounds = 32;
   for (int round = 0; round < kMostRounds; ++round) {
     if (reader_.take(hear) < bus::ReaderCore::kMostAtOnce) break;

@@ -14,7 +14,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kLook{100};
-/// So many readings of the manager's clock are made in a hurry before the start.
+/// This many clock readings are taken in quick succession before the start.
 constexpr std::uint64_t kFirstReadings = 8;
 constexpr milliseconds kHurry{10};
 constexpr milliseconds kLeisure{1000};
@@ -25,14 +25,14 @@ void HostLink::Impl::tell(LogLevel level, const std::string& text) const {
   if (options.log != nullptr) options.log->write(level, "host " + options.self.name, text);
 }
 
-/// Each thing once, until something else is said.
+/// Logs a text once, until a different text follows.
 void HostLink::Impl::tell_once(LogLevel level, const std::string& text) {
   if (text == told) return;
   told = text;
   if (!text.empty()) tell(level, text);
 }
 
-/// The same for what others say.
+/// The same for texts caused by other processes.
 void HostLink::Impl::tell_foreign(LogLevel level, const std::string& text) {
   if (text == told) return;
   told = text;
@@ -78,7 +78,7 @@ Status HostLink::Impl::open_endpoints() {
 
 void HostLink::Impl::ping() {
   if (!pings || manager == 0 || Clock::now() < ping_at) return;
-  // Before the manager knows this process it does not answer.
+  // The manager does not answer until it knows this process.
   const std::uint64_t done = pongs_heard > 0 ? pongs_heard : pings_sent;
   const bool knows_it = pongs_heard > 0 && time.known();
   const auto wait = done < kFirstReadings ? kHurry : (knows_it ? kLeisure : kLook);
@@ -234,7 +234,7 @@ void HostLink::send(const sim::SentPackets& sent) {
     bus::Packet message =
         packet_of(packet, sent.bytes_of(packet), ++link.packets_sent, link.shift());
     if (link.packets_out->write(message)) continue;
-    // Nobody waits for a reader that is stuck; the others miss the number.
+    // Do not wait for a slow reader; the gap in the numbers tells the others of the loss.
     if (link.packets_unsent++ > 0) continue;
     link.tell(LogLevel::kWarning,
               "another process is too slow for the messages of robots here: messages are dropped "

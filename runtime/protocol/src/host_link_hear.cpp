@@ -10,9 +10,9 @@
 namespace rave::real_time {
 namespace {
 
-/// Of so many processes the packets are counted.
+/// Packets of at most this many processes are counted.
 constexpr std::size_t kMostProcesses = 4096;
-/// Better readings of one clock move it by less.
+/// Better readings of the same clock change the estimate by less.
 constexpr std::int64_t kJump_ns = 1'000'000;
 
 }  // namespace
@@ -34,7 +34,7 @@ void HostLink::Impl::meet(const bus::HostInfo& info) {
     if (managers.size() == 1) listen_to_first();
     return;
   }
-  // Who is in the run already stays.
+  // A process that is part of the run already stays.
   if (info.host != options.self.host || started || !lock_step::gives_way(introduced, info)) return;
   unfit = Error{ErrorCode::kState,
                 fmt::format("host `{}` of this run is served already, by a process on {}; end that "
@@ -64,7 +64,7 @@ void HostLink::Impl::take_pongs() {
     }
     ++pongs_heard;
     obstacle_revision = pong.obstacle_revision;
-    // A manager that took over may be a little off, and stamps must not seem to stand still.
+    // The clock of a new manager may differ slightly, and stamps must not seem to stand still.
     if (was_known && std::abs(before - time.zero_ns()) > kJump_ns) live.clock_changed();
   });
 }
@@ -89,7 +89,7 @@ void HostLink::Impl::take_worlds() {
   });
 }
 
-/// Each process numbers what it sends, so a gap is what was lost on the way.
+/// Each process numbers its packets, so a gap in the numbers means lost packets.
 void HostLink::Impl::note_number(const bus::Packet& packet) {
   if (packets_heard.size() >= kMostProcesses) packets_heard.clear();
   std::uint64_t& newest = packets_heard[packet.writer];
@@ -98,7 +98,7 @@ void HostLink::Impl::note_number(const bus::Packet& packet) {
 }
 
 void HostLink::Impl::take_obstacles() {
-  // Before a step all that has come is looked at: of two the later one may stand first.
+  // Read everything that has arrived before a step: of two changes, the later one may come first.
   while (obstacles->take([this](const bus::Obstacle& sample) { hear(sample); }) > 0) continue;
 }
 
@@ -110,14 +110,14 @@ void HostLink::Impl::hear(const bus::Obstacle& sample) {
     return;
   }
   if (const Status possible = live.check(*sight); !possible) {
-    // Once of each manager: what does not fit comes in numbers.
+    // Logged once per manager, because many invalid changes may follow.
     if (!std::exchange(wrong_obstacles, true)) {
       tell(LogLevel::kWarning, "refused from the environment manager: " + possible.error().message);
     }
     return;
   }
   if (!live.see(*std::move(sight))) return;
-  // For a manager that takes the place of this one.
+  // Kept for a manager that replaces this one.
   bus::LastObstacle kept{};
   static_cast<bus::Obstacle&>(kept) = sample;
   if (auto written = last_obstacles->write(kept); !written) {
@@ -130,7 +130,7 @@ void HostLink::Impl::take_packets() {
   packets_in->take([this](const bus::Packet& packet) {
     note_number(packet);
     sim::SentPacket sent = read_packet(packet, Duration{-shift().ns});
-    // Clocks that are not related: it counts as sent when it is heard.
+    // The clocks are unrelated, so the time of reception counts as the time of sending.
     if (!options.managed) sent.stamp_ns = INT64_MAX;
     live.hear(packet.writer, sent, payload_of(packet));
   });
@@ -159,7 +159,7 @@ void HostLink::Impl::listen_to_first() {
   last_world_number = 0;
   wrong_obstacles = false;
   ping_at = {};
-  // A new reader is told of all obstacles, also of those that came before anybody listened to this
+  // A new reader receives all obstacles, also those published before this process listened to this
   // manager.
   obstacles.reset();
   if (auto made = make(obstacles, *bus); !made) unfit = std::move(made).error();
@@ -179,11 +179,11 @@ void HostLink::Impl::lose(std::uint64_t writer) {
                                           "without the others until one is back"
                                         : "the environment manager is lost");
   }
-  // The next one may have come before this one was missed.
+  // The next manager may have appeared before the loss of this one was detected.
   if (!managers.empty()) listen_to_first();
 }
 
-/// Who was started for a run that is no more does not wait for ever for its beginning.
+/// A process started for a run that no longer exists must not wait forever for its beginning.
 void HostLink::Impl::look_at_patience() {
   const Duration longest = options.manager_patience;
   if (!options.managed || ending || longest.ns <= 0 || manager != 0) return;
@@ -194,7 +194,7 @@ void HostLink::Impl::look_at_patience() {
   tell(LogLevel::kError, "gives up: " + ending->text);
 }
 
-/// What can wait until nothing else is to be done.
+/// Work that can wait until nothing else is due.
 void HostLink::Impl::look() {
   take_infos();
   if (runs) {
@@ -214,7 +214,7 @@ void HostLink::Impl::look() {
   }
 }
 
-/// For those who look on.
+/// For monitors.
 void HostLink::Impl::tell_word() {
   lock_step::HostWord::Facts said{rave_wire_RUN_GOES, facts.step, ""};
   said.managed = options.managed;

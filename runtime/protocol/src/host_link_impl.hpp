@@ -22,14 +22,14 @@
 
 namespace rave::real_time {
 
-/// By the clock of this process.
+/// The clock of this process.
 [[nodiscard]] inline std::int64_t local_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
              std::chrono::steady_clock::now().time_since_epoch())
       .count();
 }
 
-/// A writer or reader that is not always there.
+/// Creates a writer or reader that only some runs need.
 template <class End, class... More>
 Status make(std::optional<End>& place, bus::Bus& bus, const More&... more) {
   RAVE_TRY_ASSIGN(End end, End::create(bus, more...));
@@ -37,7 +37,7 @@ Status make(std::optional<End>& place, bus::Bus& bus, const More&... more) {
   return {};
 }
 
-/// All of a link; host_link_hear.cpp is what it takes from the bus, host_link.cpp the rest.
+/// The state of a link; host_link_hear.cpp handles what arrives on the bus, host_link.cpp the rest.
 struct HostLink::Impl {
   using Clock = std::chrono::steady_clock;
 
@@ -48,44 +48,45 @@ struct HostLink::Impl {
   bus::Reader<bus::HostInfo> infos;
   bus::Writer<bus::HostState> states;
   lock_step::Roster roster;
-  bus::EventLog foreign{options.log};  ///< What others have caused.
-  bus::HostInfo introduced{};          ///< What the others were told of this process.
-  // Of a managed run.
+  bus::EventLog foreign{options.log};  ///< For messages caused by other processes.
+  bus::HostInfo introduced{};          ///< What this process published about itself.
+  // For a managed run.
   std::optional<bus::Writer<bus::ClockPing>> pings{};
   std::optional<bus::Reader<bus::ClockPong>> pongs{};
   std::optional<bus::Reader<bus::RunState>> runs{};
-  std::optional<bus::Reader<bus::Obstacle>> obstacles{};  ///< Made anew for each manager.
+  std::optional<bus::Reader<bus::Obstacle>> obstacles{};  ///< Created anew for each manager.
   std::optional<bus::Writer<bus::LastObstacle>> last_obstacles{};
   std::optional<lock_step::FindingsSender> findings{};
-  std::optional<bus::Reader<bus::World>> worlds{};        // if it sees
-  std::optional<bus::Writer<bus::Packet>> packets_out{};  // if it talks
+  std::optional<bus::Reader<bus::World>> worlds{};        // If a robot here sees others.
+  std::optional<bus::Writer<bus::Packet>> packets_out{};  // If a robot here communicates.
   std::optional<bus::Reader<bus::Packet>> packets_in{};
-  std::optional<Realities> realities{};    // if drivers may change
-  std::unique_ptr<bus::WishBox> wishes{};  // if others may ask
+  std::optional<Realities> realities{};    // If drivers may change.
+  std::unique_ptr<bus::WishBox> wishes{};  // If other processes may send requests.
   std::unique_ptr<bus::CommandBox> commands{};
-  std::optional<bus::WaitSet> waits{};  // behind all that it waits for
+  std::optional<bus::WaitSet> waits{};  // Declared after everything that it waits for.
   std::optional<lock_step::Pulse> pulse{};
-  // For those who look on.
+  // For monitors.
   lock_step::Pulse::Facts facts{};
   std::optional<lock_step::HostWord> host_word{};
-  std::uint64_t last_world_number = 0;  ///< Of this manager; 0: none yet.
+  std::uint64_t last_world_number = 0;  ///< From this manager; 0: none yet.
 
   SharedTime time{};
-  std::vector<bus::HostInfo> managers{};         ///< That are there; the first is listened to.
-  std::uint64_t manager = 0;                     ///< Its process; 0: nobody.
-  lock_step::RunWords words{};                   ///< What is said of the run, and by whom.
-  Clock::time_point alone_since = Clock::now();  ///< While there is no manager.
+  std::vector<bus::HostInfo> managers{};         ///< The managers present; the first one is obeyed.
+  std::uint64_t manager = 0;                     ///< The process of the manager; 0: none.
+  lock_step::RunWords words{};                   ///< The announced states of the run, by process.
+  Clock::time_point alone_since = Clock::now();  ///< Valid while there is no manager.
   std::optional<Error> unfit{};
   std::optional<Ending> ending{};
   std::string told{};
   bool started = false;
-  std::int64_t zero_ns = 0;             ///< Of this process; stands once it has started.
+  /// The start of the run by the clock of this process; fixed once the run has started.
+  std::int64_t zero_ns = 0;
   std::uint64_t pings_sent = 0;         ///< To this manager.
-  std::uint64_t pongs_heard = 0;        ///< From it.
-  std::uint64_t obstacle_revision = 0;  ///< That it says there is.
-  bool wrong_obstacles = false;         ///< It has told of some that cannot be.
-  std::uint64_t shown_revision = 0;     ///< That the robots here have around them,
-  SimTime shown_since{};                ///< by the time of the run.
+  std::uint64_t pongs_heard = 0;        ///< From this manager.
+  std::uint64_t obstacle_revision = 0;  ///< The revision that the manager announces.
+  bool wrong_obstacles = false;         ///< The manager has sent invalid obstacles.
+  std::uint64_t shown_revision = 0;     ///< The revision of the obstacles that the robots here see,
+  SimTime shown_since{};                ///< and the run time since which they see it.
   Clock::time_point ping_at{};
   std::vector<RobotSight> starts{};
   std::uint64_t world_count = 0;
@@ -95,18 +96,18 @@ struct HostLink::Impl {
   RobotColumns columns{};
   lock_step::ReportColumns reports{};
   std::uint64_t packets_sent = 0;
-  std::map<RobotId, TalkLimit> talk{};  ///< Of robots here that have said something.
+  std::map<RobotId, TalkLimit> talk{};  ///< For the robots here that have sent packets.
   std::vector<RobotId> flooders{};
   std::uint64_t packets_withheld = 0;
   std::uint64_t packets_unsent = 0;
-  std::map<std::uint64_t, std::uint64_t> packets_heard{};  ///< By process: the newest number.
+  std::map<std::uint64_t, std::uint64_t> packets_heard{};  ///< The newest number by process.
   std::uint64_t packets_lost = 0;
 
   Status open_endpoints();
   void tell(LogLevel level, const std::string& text) const;
   void tell_once(LogLevel level, const std::string& text);
   void tell_foreign(LogLevel level, const std::string& text);
-  /// What is put on a stamp of this process to make it one of the run.
+  /// Added to a stamp of this process to convert it to run time.
   [[nodiscard]] Duration shift() const noexcept { return {started ? zero_ns - time.zero_ns() : 0}; }
   void take();
   void take_infos();

@@ -27,14 +27,16 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kLook{100};
 constexpr milliseconds kShowInterval{33};
-/// A report that is not answered is sent again after this, then after twice as long.
+/// A report without an answer is sent again after this time, then after doubled times up to
+/// kLongestPatience.
 constexpr milliseconds kFirstPatience{20};
 constexpr milliseconds kLongestPatience{1000};
-/// How soon somebody is missed who was not found again after this process stood still.
+/// After this process was suspended, a process that is not rediscovered within this time counts as
+/// lost.
 constexpr std::chrono::seconds kMissedAtOnce{1};
-/// The epoch in worlds that hosts hand back: of no authority, but not 0.
+/// The epoch of worlds that hosts hand back: belongs to no authority, but is not 0.
 constexpr std::uint64_t kHandedOver = 1;
-/// More processes that have gone are not remembered.
+/// At most this many lost processes are remembered.
 constexpr std::size_t kMostGone = 4096;
 
 }  // namespace
@@ -42,7 +44,7 @@ constexpr std::size_t kMostGone = 4096;
 struct HostPort::Impl {
   Identity self;
   LogSink* log;
-  bus::EventLog foreign;  ///< What others have caused, in `log`.
+  bus::EventLog foreign;  ///< For messages caused by other processes; writes to `log`.
   std::unique_ptr<bus::Bus> bus;
   bus::Writer<bus::HostReport> reports;
   bus::Writer<bus::HostInfo> own_info;
@@ -50,35 +52,36 @@ struct HostPort::Impl {
   bus::Reader<bus::WorldStep> worlds;
   bus::Reader<bus::RunState> states;
   bus::Reader<bus::HostInfo> infos;
-  std::unique_ptr<bus::WishBox> wishes;  ///< May be null.
+  std::unique_ptr<bus::WishBox> wishes;  ///< Null if other processes may not send requests.
   bus::WaitSet waits;
   Pulse pulse;
   Roster roster;
   FindingsSender findings;
-  bus::HostInfo introduced;  ///< What the others were told of this process.
+  bus::HostInfo introduced;  ///< What this process published about itself.
   Patience patience;
   ReportMessage message{};
   WorldMessage last_message{};
   /// Of the last world; with obstacles only if it brought them.
-  sim::WorldStep coming{};  ///< Before it is known whether it can be used; keeps its memory.
+  sim::WorldStep coming{};  ///< The world being read, before its validity is known; a member to
+                            ///< reuse its memory.
   sim::AuthorityState authority{};
-  sim::ObstacleHistory obstacles{};                   ///< Before the last world.
-  std::vector<sim::ObstacleChange> last_obstacles{};  ///< Of that world.
+  sim::ObstacleHistory obstacles{};                   ///< The obstacles before the last world.
+  std::vector<sim::ObstacleChange> last_obstacles{};  ///< The changes of that world.
   bool has_world = false;
-  std::uint64_t last_step = 0;  ///< Of the last world.
-  std::uint64_t epoch = 0;      ///< Of the authority that answered last; 0: it is gone.
+  std::uint64_t last_step = 0;  ///< The step of the last world.
+  std::uint64_t epoch = 0;      ///< The epoch of the authority that answered last; 0: it is gone.
   std::uint64_t first_epoch = 0;
   bool changed_hands = false;      ///< Another authority than the first has answered.
-  std::uint64_t manager = 0;       ///< Its process; 0: nobody has been heard of.
-  std::set<std::uint64_t> gone{};  ///< Processes that have been missed, and not come back.
-  RunWords words{};                ///< What is said of the run, and by whom.
-  Clock::time_point alone_since = Clock::now();  ///< While there is none.
-  bool overslept = false;                        ///< It was missed after this process stood still.
-  std::string told{};                            ///< What the log was told last.
+  std::uint64_t manager = 0;       ///< The process of the manager; 0: none known.
+  std::set<std::uint64_t> gone{};  ///< Processes that were lost and have not come back.
+  RunWords words{};                ///< The announced states of the run, by process.
+  Clock::time_point alone_since = Clock::now();  ///< Valid while there is no manager.
+  bool overslept = false;  ///< The manager was lost after this process had been suspended.
+  std::string told{};      ///< The last text in the log.
   Ending ending{};
   std::optional<Error> unfit{};
-  std::optional<bus::Writer<bus::HostState>> states_out{};  ///< For those who look on,
-  std::optional<HostWord> host_word{};                      ///< as this.
+  std::optional<bus::Writer<bus::HostState>> states_out{};  ///< For monitors, together with
+  std::optional<HostWord> host_word{};                      ///< this.
   RobotColumns columns{};
   ReportColumns reports_out{};
   Clock::time_point next_show{};
@@ -98,14 +101,14 @@ struct HostPort::Impl {
   bool over = false;
 };
 
-/// Each thing once, until something else is said.
+/// Logs a text once, until a different text follows.
 void HostPort::Impl::tell(LogLevel level, const std::string& text) {
   if (text == told) return;
   told = text;
   if (log != nullptr && !text.empty()) log->write(level, "host " + self.name, text);
 }
 
-/// The same for what others say.
+/// The same for texts caused by other processes.
 void HostPort::Impl::tell_foreign(LogLevel level, const std::string& text) {
   if (text == told) return;
   told = text;
@@ -123,14 +126,14 @@ void HostPort::Impl::meet(const bus::HostInfo& info) {
       return;
     }
     words.welcome(info.writer);
-    // Another one counts when the one before has been missed, and not before.
+    // A further manager is accepted only after the loss of the current one.
     if (manager != 0 || gone.contains(info.writer)) return;
     manager = info.writer;
     tell(LogLevel::kInfo, fmt::format("the environment manager is `{}` on {}", info.name,
                                       *info.machine != '\0' ? info.machine : "this machine"));
     return;
   }
-  // Who is in the run already stays.
+  // A process that is part of the run already stays.
   if (info.host != self.host || epoch != 0 || !gives_way(introduced, info)) return;
   unfit = Error{ErrorCode::kState,
                 fmt::format("host `{}` of this run is served already, by a process on {}; end that "
@@ -140,7 +143,8 @@ void HostPort::Impl::meet(const bus::HostInfo& info) {
 }
 
 void HostPort::Impl::hear(const RunWord& word) {
-  // What the last one said before it went counts, and does not bring it back.
+  // The last state that a manager announced before its loss still counts, but does not make it
+  // present again.
   if (manager == 0 && !gone.contains(word.writer)) manager = word.writer;
   if (manager != 0 && word.writer != manager) return;
   if (word.without_us) {
@@ -171,8 +175,8 @@ void HostPort::Impl::lose(std::uint64_t writer) {
   manager = 0;
   epoch = 0;
   alone_since = Clock::now();
-  // Whoever was not found again is missed as soon as silence counts. The lease of this process
-  // began when it was heard of last, which was some time before it stood.
+  // A manager that is not rediscovered counts as lost as soon as its lease has expired. Its lease
+  // began when it was last heard, some time before this process was suspended.
   const bus::Standstill& still = bus->standstill();
   overslept = 2 * still.stood().ns > bus->config().lease.ns &&
               alone_since - still.silence_counts_from() < kMissedAtOnce;
@@ -182,7 +186,8 @@ void HostPort::Impl::lose(std::uint64_t writer) {
 
 void HostPort::Impl::look_at_processes() {
   using enum bus::EventKind;
-  // Before what processes say: who comes back is heard, and who goes has been.
+  // Events come before messages: a process that returned must count as present when its messages
+  // are read, and one that left was read before.
   const std::vector<bus::BusEvent> events = bus->take_events();
   for (const bus::BusEvent& event : events) {
     if (event.kind == kParticipantAppeared) gone.erase(event.writer);
@@ -197,7 +202,7 @@ void HostPort::Impl::look_at_processes() {
   }
 }
 
-/// Who was started for a run that is no more does not wait for ever.
+/// A process started for a run that no longer exists must not wait forever.
 void HostPort::Impl::look_at_patience() {
   const bool short_of_it = overslept && patience.after_standstill.ns > 0;
   const Duration longest = short_of_it ? patience.after_standstill : patience.usual;
@@ -212,7 +217,7 @@ void HostPort::Impl::look_at_patience() {
   tell(LogLevel::kError, fmt::format("gives up: {}", ending.text));
 }
 
-/// For those who look on.
+/// For monitors.
 void HostPort::Impl::tell_word(std::uint64_t step) {
   const bool stands = manager == 0 || !told.empty();
   const auto phase = stands ? rave_wire_RUN_WAITS : rave_wire_RUN_GOES;
@@ -222,7 +227,7 @@ void HostPort::Impl::tell_word(std::uint64_t step) {
 Status HostPort::Impl::send(const sim::HostReport& report, std::uint64_t hash,
                             const sim::WorldStep& last) {
   if (has_world && epoch == 0) {
-    // Whoever takes the place of the manager that is gone goes on from here.
+    // A manager that replaces a lost one continues from this state.
     sim::AuthorityState whole = authority;
     whole.obstacles = obstacles.changes();
     RAVE_TRY_ASSIGN(bus::LastWorld* const handed, last_message.fill(last, whole, kHandedOver));
@@ -231,8 +236,8 @@ Status HostPort::Impl::send(const sim::HostReport& report, std::uint64_t hash,
   return reports.write(message.fill(report, epoch, hash));
 }
 
-/// What stood before the world that has come now: told by it to whoever was not there, and else
-/// what stood before the last one, with that one's changes.
+/// The obstacles before the world that has just arrived. A world for a process that was absent
+/// contains them; otherwise they are those before the last world, with its changes applied.
 Status HostPort::Impl::follow_obstacles(const sim::WorldStep& world, sim::AuthorityState& state) {
   const std::uint64_t known = obstacles.count() + last_obstacles.size();
   if (!state.obstacles.empty()) {
@@ -251,17 +256,18 @@ Status HostPort::Impl::follow_obstacles(const sim::WorldStep& world, sim::Author
 bool HostPort::Impl::take_world(const sim::HostReport& report, sim::WorldStep& world) {
   bool found = false;
   worlds.take([&](const bus::WorldStep& sample) {
-    // It came late, and nobody would answer the next report. Who takes over, or comes back, sends
-    // it again.
+    // This world came late: its manager is lost and would not answer the next report. A new
+    // manager, or the same one after its return, sends it again.
     if (gone.contains(sample.writer)) return;
     if (epoch != 0 && sample.epoch != epoch) {
       worlds.refuse(sample, "it comes from another authority than that of this run");
       return;
     }
-    if (sample.step < report.step) return;           // sent again for somebody else
-    if (found && sample.step <= world.step) return;  // the same one twice
+    if (sample.step < report.step) return;           // Sent again for another host.
+    if (found && sample.step <= world.step) return;  // A duplicate.
     const auto hosts = bus::elements(sample.hosts);
-    if (self.host >= hosts.size() || hosts[self.host] != bus->writer()) return;  // not for us
+    // Addressed to another process.
+    if (self.host >= hosts.size() || hosts[self.host] != bus->writer()) return;
     sim::AuthorityState state;
     auto status = read(sample, coming, state);
     if (status) status = follow_obstacles(coming, state);
@@ -325,7 +331,7 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
   Impl& port = *impl_;
   auto patience = kFirstPatience;
   auto send_at = Clock::now();
-  // By the clock: what wakes it without end must not keep it from being stopped.
+  // Checked by time, so that constant wake-ups cannot prevent a stop.
   auto next_stop = Clock::now() + kLook;
   for (;;) {
     port.pulse.beat({report.step});
@@ -345,7 +351,7 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
     port.look_at_patience();
     if (port.unfit) return tl::unexpected(*port.unfit);
     if (port.over) return Answer::kEnded;
-    // Asked seldom: a step is answered long before.
+    // Checked rarely: usually the answer to a step arrives earlier.
     if (Clock::now() < next_stop) continue;
     if (stopping()) return Answer::kStopped;
     next_stop = Clock::now() + kLook;
@@ -371,7 +377,7 @@ void HostPort::show(const sim::Engine& engine, std::span<const RobotId> robots) 
   message.step = engine.steps_done();
   port.columns.lend(message.resolved);
   port.reports_out.lend(message.reports);
-  // Who looks on and does not keep up misses some.
+  // A monitor that is too slow misses some messages.
   static_cast<void>(port.states_out->write(message));
 }
 

@@ -66,7 +66,7 @@ void HostWord::write(const Facts& facts) {
   seen[1].bound_s = -1;
   bus::borrow(message.hosts, seen);
   if (!facts.managed) message.hosts._length = 1;
-  // Who looks on and does not keep up misses some.
+  // A monitor that is too slow misses some messages.
   static_cast<void>(writer_.write(message));
 }
 

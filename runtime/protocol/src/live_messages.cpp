@@ -44,7 +44,7 @@ bus::Packet packet_of(const sim::SentPacket& sent, std::span<const std::byte> by
   packet.antenna_z_m = sent.antenna_z_m;
   packet.located = sent.located != 0;
   packet.line_of_sight = sent.line_of_sight != 0;
-  // Cyclone DDS writes through no pointer of a sample that it sends.
+  // Cyclone DDS does not write to samples that it sends.
   packet.payload._buffer =
       const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(bytes.data()));
   packet.payload._length = static_cast<std::uint32_t>(bytes.size());

@@ -30,7 +30,7 @@ std::vector<std::uint8_t> local_robots(const sim::EngineSpec& spec) {
   return local;
 }
 
-/// What an authority looks at of a type.
+/// The parts of a type that an authority uses.
 sim::RobotType outline_of(const sim::RobotType& type) {
   sim::RobotType outline;
   outline.name = type.name;
@@ -41,8 +41,8 @@ sim::RobotType outline_of(const sim::RobotType& type) {
   return outline;
 }
 
-/// The same world, in which the simulated robots of others are of types that are only placed. Their
-/// bodies keep their layer, so sensors tell them from real ones.
+/// A copy of the world in which the simulated robots of other hosts have types that are only
+/// placed. Their bodies keep their layer, so sensors distinguish them from real robots.
 sim::EngineSpec world_of(const sim::EngineSpec& spec, const std::vector<std::uint8_t>& local,
                          bool alone) {
   sim::EngineSpec world;
@@ -65,9 +65,9 @@ sim::EngineSpec world_of(const sim::EngineSpec& spec, const std::vector<std::uin
     }
     type = placed[type];
   }
-  // Otherwise the manager makes them.
+  // Otherwise the manager changes the obstacles.
   if (alone) world.obstacle_changes = spec.obstacle_changes;
-  // Others are changed by their own hosts.
+  // The robots of other hosts are changed by those hosts.
   for (const sim::ScheduledChange& change : spec.changes) {
     if (local[change.robot.value()] != 0) world.changes.push_back(change);
   }
@@ -89,9 +89,8 @@ Status check_sight(const ObstacleSight& sight, const world::WorldModel& start) {
   }
   if (sight.revision == 0 || sight.revision > ObstacleSight::kMostRevision) {
     return fail(ErrorCode::kInvalidArgument,
-                "obstacle {} as it stands since change {}; expected 1 "
-                "to {}",
-                id, sight.revision, ObstacleSight::kMostRevision);
+                "obstacle {} has the change number {}; expected 1 to {}", id, sight.revision,
+                ObstacleSight::kMostRevision);
   }
   return sim::check_obstacle_change(sight.stands);
 }
@@ -141,7 +140,7 @@ bool LiveWorld::see(const RobotSight& sight) {
   other.last = sight;
   other.known = true;
   other.any_stamp = false;
-  // A clock that is far ahead must not fill the memory here.
+  // Limits the memory that a sender with a fast clock can use.
   if (other.real && samples_.size() < kMostPackets)
     samples_.push_back({sight.robot, sight.stamp, sight.X_WR});
   return true;
@@ -162,7 +161,8 @@ bool LiveWorld::see(ObstacleSight sight) {
   return true;
 }
 
-/// Those that came are numbered in a row; one whose forerunner is not there yet waits for it.
+/// Adopts received obstacles in the order of their numbers; one whose predecessor is missing waits
+/// for it.
 void LiveWorld::adopt_obstacles(std::uint64_t step) {
   if (news_.empty()) return;
   std::uint32_t next = authority_->world().body_count();
@@ -217,7 +217,7 @@ bool LiveWorld::hear(std::uint64_t writer, const sim::SentPacket& packet,
                     std::isfinite(packet.y_m) && std::isfinite(packet.antenna_z_m) &&
                     packet.range_m >= 0 && std::isfinite(packet.range_m);
   if (!sane) return false;
-  // A restarted process counts anew.
+  // A restarted process counts from the beginning.
   Counted& newest = newest_[{r, packet.communicator}];
   if (newest.writer == writer && packet.sequence <= newest.sequence) return false;
   newest = {writer, packet.sequence};
@@ -308,7 +308,7 @@ void LiveWorld::report_place(Other& other, std::uint64_t step) {
   sim::PoseReport& report = others_report_.poses.emplace_back();
   report.robot = last.robot;
   if (!other.known) return;
-  // Clocks agree but roughly, so a sight may be of a moment that has not come here yet.
+  // Clocks agree only approximately, so a pose may have a stamp that is still in the future here.
   const std::int64_t carried_ns = std::clamp<std::int64_t>(age.ns, 0, other.staleness.ns);
   const Pose2 X_WR = integrate(last.X_WR, last.velocity, Duration{carried_ns}.seconds());
   sim::ReportedPose& reported = report.reported;
@@ -319,7 +319,7 @@ void LiveWorld::report_place(Other& other, std::uint64_t step) {
   reported.stale = stale;
 }
 
-/// Where real robots were said to be at which time, for who looks back.
+/// The poses that real robots reported with their times, for checks that look back.
 void LiveWorld::report_samples(SimTime now) {
   const auto key = [](const sim::PoseSample& sample) {
     return std::tie(sample.robot, sample.stamp);
@@ -339,7 +339,7 @@ void LiveWorld::report_samples(SimTime now) {
   samples_.resize(kept);
 }
 
-/// As if all that was heard had left its robots in the step that is over.
+/// Treats all received packets as if their robots had sent them in the step that has just ended.
 void LiveWorld::report_packets(std::uint64_t step) {
   const std::int64_t begin_ns = time_of(step).ns - authority_->spec().step.ns;
   order_.resize(heard_.packets.size());
@@ -348,7 +348,7 @@ void LiveWorld::report_packets(std::uint64_t step) {
     const sim::SentPacket& packet = heard_.packets[i];
     return std::tie(packet.robot, packet.communicator, packet.sequence);
   };
-  // Of two with one number, from two starts of a host, the later one is left out.
+  // Of two packets with the same number, from two starts of a host, the later one is omitted.
   std::stable_sort(order_.begin(), order_.end(), [&](auto a, auto b) { return key(a) < key(b); });
   const auto end =
       std::unique(order_.begin(), order_.end(), [&](auto a, auto b) { return key(a) == key(b); });
@@ -381,7 +381,7 @@ Status LiveWorld::step(const sim::HostReport& own, sim::WorldStep& world) {
   return {};
 }
 
-/// Each host is told of a change when it comes; the number says that it is the same.
+/// Each host receives a change at its own time; the number identifies it.
 void LiveWorld::take_events(std::uint64_t step) {
   for (const sim::Event& event : authority_->events()) {
     if (event.robot.valid() && local_[event.robot.value()] == 0) continue;

@@ -19,7 +19,7 @@ tl::unexpected<Error> too_long(std::string_view what, const sim::ObstacleChange&
               "{} of obstacle `{}` is too long to be sent to another process", what, change.name);
 }
 
-/// Shows a part of a vector that does not grow any more.
+/// Refers to the last `count` values of a vector, which must not grow afterwards.
 template <class Sequence>
 void lend_last(Sequence& sequence, std::vector<double>& values, std::size_t count) {
   sequence._buffer = values.data() + (values.size() - count);
@@ -32,8 +32,8 @@ bool same_bits(double a, double b) noexcept {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
-/// A polygon counts only if it is what was sent: a corner more or less, or another first one, would
-/// be another world.
+/// The polygon must be exactly what was sent: an additional or missing corner, or another first
+/// corner, would be another world.
 Result<ConvexPolygon> read_polygon(const rave_wire_BodyShape& wire) {
   const auto x = elements(wire.x_m);
   const auto y = elements(wire.y_m);
@@ -146,7 +146,7 @@ Status ObstacleParts::fill(std::span<const sim::ObstacleChange> changes) {
     wire.id = change.id.value();
     if (!bus::put_text(wire.name, change.name)) return too_long("the name", change);
     if (!bus::put_text(wire.asked, change.asked)) return too_long("the wish", change);
-    if (!bus::put_text(wire.author, change.by)) return too_long("the name of who asks", change);
+    if (!bus::put_text(wire.author, change.by)) return too_long("the name of the author", change);
     if (change.kind == Kind::kRemove) continue;
     wire.x_m = change.X_WB.x;
     wire.y_m = change.X_WB.y;

@@ -12,7 +12,7 @@
 namespace rave::lock_step {
 namespace {
 
-/// Time of cores that this process has used.
+/// The CPU time that this process has used.
 std::int64_t cpu_ns() {
   std::timespec used{};
   if (::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used) != 0) return 0;

@@ -9,7 +9,7 @@
 namespace rave::real_time {
 namespace {
 
-/// Whoever makes up processes gets no further.
+/// Limits the memory that a sender with invented processes can use.
 constexpr std::size_t kMostBooks = 1024;
 
 }  // namespace
@@ -30,8 +30,8 @@ void Realities::hear(const bus::RosterEntry& entry) {
                     entry.kind != rave_wire_ROBOT_SHADOW;
   if (!fits) {
     if (std::exchange(refused_, true)) return;
-    reader_.refuse(entry, fmt::format("robot {} does not run on host {} in this way", entry.robot,
-                                      entry.host));
+    reader_.refuse(entry, fmt::format("robot {} does not run on host {}, or is a shadow",
+                                      entry.robot, entry.host));
     return;
   }
   auto book = std::ranges::find(books_, entry.writer, &Book::writer);

@@ -12,12 +12,12 @@
 namespace rave::lock_step {
 namespace {
 
-/// The bounds of the sequences in roster.idl and of the corners in common.idl.
+/// The limits of the sequences in roster.idl and of the corners in common.idl.
 constexpr std::size_t kMostShapes = 64;
 constexpr std::size_t kMostSensors = 64;
 constexpr std::size_t kMostParameters = 256;
 constexpr std::size_t kMostCorners = 64;
-/// Corners of the polygon about a disc.
+/// The number of corners of the polygon that replaces a disc.
 constexpr int kDiscCorners = 16;
 
 double height(double z_m) { return std::clamp(z_m, -bus::kMaxPosition_m, bus::kMaxPosition_m); }
@@ -31,7 +31,7 @@ void RobotDescription::put_shape(const world::Shape& shape) {
     y_m_.push_back(corner.y);
   };
   if (shape.kind == world::ShapeKind::kDisc) {
-    // Its sides touch the disc.
+    // At this distance of the corners, r / cos(pi / n), the sides touch the disc from outside.
     const double out_m = shape.radius_m / rave::cos(kPi / kDiscCorners);
     for (int i = 0; i < kDiscCorners; ++i) {
       const SinCos at = rave::sincos(2 * kPi * i / kDiscCorners);
@@ -43,7 +43,7 @@ void RobotDescription::put_shape(const world::Shape& shape) {
   rave_wire_Prism& prism = prisms_.emplace_back();
   prism.z_min_m = height(shape.z0_m);
   prism.z_max_m = height(shape.z1_m);
-  // The vectors do not grow any more.
+  // The pointers stay valid because the vectors do not grow afterwards.
   prism.x_m._buffer = x_m_.data() + first;
   prism.y_m._buffer = y_m_.data() + first;
   for (auto* const corners : {&prism.x_m._length, &prism.y_m._length}) {

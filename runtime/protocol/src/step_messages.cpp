@@ -13,10 +13,11 @@ using bus::borrow;
 using bus::elements;
 using bus::put_text;
 
-/// In the kind of a noted event: it is of the step before that of its world, which is done.
+/// A flag in the kind of an event: it happened in the completed step before that of its world.
 constexpr std::uint32_t kOfStepBefore = 0x8000'0000;
 
-/// Columns go on the wire as they lie in memory; a message only reads what it borrows.
+/// Columns are sent as they are in memory; the message refers to them without copying and only
+/// reads them.
 template <class Sequence, class T>
 void lend(Sequence& sequence, const std::vector<T>& values) {
   borrow(sequence, const_cast<std::vector<T>&>(values));
@@ -110,7 +111,7 @@ sim::SentPacket from_wire(const rave_wire_SentPacket& wire) {
   return packet;
 }
 
-/// Many of one kind, there and back.
+/// Converts all elements of a vector, in either direction.
 template <class From, class To>
 void all_to_wire(const std::vector<From>& from, std::vector<To>& to) {
   to.clear();
@@ -123,7 +124,7 @@ void all_from_wire(const Sequence& sequence, std::vector<To>& to) {
   for (const auto& one : elements(sequence)) to.push_back(from_wire(one));
 }
 
-/// What reports and worlds have in common: poses, samples and messages.
+/// Fills the parts common to reports and worlds: poses, samples and messages.
 template <class Message, class Plain>
 void fill_parts(const Plain& plain, WireParts& parts, Message& message) {
   all_to_wire(plain.poses, parts.poses);
@@ -169,7 +170,7 @@ Status does_not_fit(std::string_view what, std::string_view name) {
               "{} of parameter `{}` is too long to be sent to another process", what, name);
 }
 
-/// Puts the value of a change into its place on the wire.
+/// Stores the value of a change in its wire member.
 struct PutValue {
   rave_wire_ParameterChange& wire;
   const std::string& name;
@@ -199,7 +200,7 @@ Status to_wire(const sim::ParameterChange& change, rave_wire_ParameterChange& wi
   return std::visit(PutValue{wire, change.name}, change.value);
 }
 
-/// Who asks, and the details of an order.
+/// Converts the author and the details of an order.
 Status to_wire(const sim::WorldInput& input, rave_wire_WorldInput& wire,
                std::vector<rave_wire_OrderPoint>& points) {
   const sim::OrderDetails& order = input.order;
@@ -288,7 +289,8 @@ bus::HostReport& ReportMessage::fill(const sim::HostReport& report, std::uint64_
   fill_parts(report, parts_, message_);
   refusals_.clear();
   for (const sim::InputRefusal& refusal : report.refusals) {
-    // What does not fit any more is known to be refused by then; the texts are for people.
+    // Further texts are omitted: the requests are refused anyway, and the texts are only for
+    // people.
     if (refusals_.size() == rave_wire_kMaxRefusals) break;
     refusals_.emplace_back();
     refusals_.back().number = refusal.sequence;
@@ -344,7 +346,7 @@ Status WorldMessage::fill_authority(const sim::AuthorityState& authority) {
         {event.robot.value(), static_cast<std::uint32_t>(event.kind), event.other.value()});
   }
   for (const sim::Event& event : authority.done) {
-    // What does not fit is missed by who tells of the run, and by nobody else.
+    // Events that do not fit are missing only in the report about the run.
     if (events_.size() >= rave_wire_kMaxRobots) break;
     events_.push_back({event.robot.value(), static_cast<std::uint32_t>(event.kind) | kOfStepBefore,
                        event.other.value()});
@@ -421,7 +423,7 @@ void read(const bus::HostReport& message, sim::HostReport& report) {
 
 namespace {
 
-/// Whether an event may be of no robot.
+/// Whether an event may concern no robot.
 bool concerns_world(sim::EventKind kind) noexcept {
   return sim::is_of_obstacle(kind) || kind == sim::EventKind::kChangeRefused;
 }
@@ -435,7 +437,7 @@ Status read_obstacles(const Sequence& sequence, std::vector<sim::ObstacleChange>
   return {};
 }
 
-/// An event of the step before that of the world.
+/// Reads an event of the step before that of the world.
 Status read_done(const rave_wire_NotedEvent& event, std::uint64_t step,
                  std::vector<sim::Event>& done) {
   const auto kind = static_cast<sim::EventKind>(event.kind & ~kOfStepBefore);
@@ -443,7 +445,7 @@ Status read_done(const rave_wire_NotedEvent& event, std::uint64_t step,
   const bool told = pinned || kind == sim::EventKind::kContact;
   if (!told || event.robot == rave_wire_kNone || step == 0) {
     return fail(ErrorCode::kInvalidArgument,
-                "an event of kind {} of the step before {}, which nobody needs",
+                "an event of kind {} of the step before {}; expected a contact or pin of a robot",
                 event.kind & ~kOfStepBefore, step);
   }
   done.push_back({step - 1, RobotId(event.robot), kind, BodyId(event.other),
@@ -464,8 +466,8 @@ Status read_authority(const rave_wire_AuthorityState& message, std::uint64_t ste
     const auto kind = static_cast<sim::EventKind>(event.kind);
     const bool of_obstacle = sim::is_of_obstacle(kind);
     if (event.robot == rave_wire_kNone ? !concerns_world(kind) : of_obstacle) {
-      return fail(ErrorCode::kInvalidArgument, "an event of kind {} that is of {} robot",
-                  event.kind, of_obstacle ? "a" : "no");
+      return fail(ErrorCode::kInvalidArgument, "an event of kind {} with {} robot", event.kind,
+                  of_obstacle ? "a" : "no");
     }
     authority.events.push_back({step, RobotId(event.robot), static_cast<sim::EventKind>(event.kind),
                                 BodyId(event.other), "", 0});

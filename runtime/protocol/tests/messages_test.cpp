@@ -283,14 +283,14 @@ TEST(Messages, AWorldThatNobodyCouldUseIsRefusedWithItsField) {
             "authority.events[0] is of robot 3, but there are 3");
   EXPECT_EQ(
       refusal_of([](bus::WorldStep& w) { w.authority.events._buffer[0].robot = rave_wire_kNone; }),
-      "an event of kind 1 that is of no robot");
+      "an event of kind 1 with no robot");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.authority.events._buffer[1].robot = 0; }),
-            "an event of kind 29 that is of a robot");
+            "an event of kind 29 with a robot");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.authority.events._buffer[2].kind ^= 0x10; }),
-            "an event of kind 17 of the step before 41, which nobody needs");
+            "an event of kind 17 of the step before 41; expected a contact or pin of a robot");
   EXPECT_EQ(
       refusal_of([](bus::WorldStep& w) { w.authority.events._buffer[3].robot = rave_wire_kNone; }),
-      "an event of kind 2 of the step before 41, which nobody needs");
+      "an event of kind 2 of the step before 41; expected a contact or pin of a robot");
 }
 
 TEST(Introduction, ProcessesThatDifferAreTold) {

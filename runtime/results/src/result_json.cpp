@@ -30,7 +30,7 @@ Json sightings_json(const config::SightingsCheckFile& limits, const SightingFact
                     bool whole) {
   const SightingTally all = facts.all();
   Json json = tally_json(all);
-  // Robots may misread a code now and then; for that, only all together are judged.
+  // Robots may misread a code occasionally; so the limit is applied to all readings together.
   json["counted"] = counted(limits, all);
   json["within_pct"] = rounded(within_pct(limits, all), 0.01);
   json["limits"] = {{"range_m", limits.range_m},
@@ -60,8 +60,8 @@ Json encounters_json(const Findings& findings) {
   return json;
 }
 
-/// A driver's text is not ours: what is no JSON object is kept as text. What its data calls its
-/// robot need not be what the scenario calls it.
+/// The report comes from a driver: text that is not a JSON object is kept as text. The data set may
+/// use another name for the robot than the scenario.
 void add_report(const std::string& text, Json& entry) {
   const Json report = Json::parse(text, nullptr, false);
   if (!report.is_object()) {
@@ -73,7 +73,7 @@ void add_report(const std::string& text, Json& entry) {
   }
 }
 
-/// What the drivers of one sort of part say of themselves; `part`: what the sort is called.
+/// The reports of the drivers of one kind of part; `part` is the key of its name in the JSON.
 Json instruments_json(const Findings& findings, const std::vector<InstrumentFacts>& instruments,
                       const char* part) {
   Json json = Json::array();
@@ -87,7 +87,7 @@ Json instruments_json(const Findings& findings, const std::vector<InstrumentFact
   return json;
 }
 
-/// A driver's text is not ours: of a transmitter, what is no JSON is left out.
+/// A transmitter's report comes from its driver: text that is not JSON is omitted.
 Json robot_json(const Findings& findings, const RobotFacts& robot) {
   const sim::RobotSpec& spec = findings.spec.robots[robot.robot];
   const bool simulated = findings.spec.types[spec.type].simulated;
@@ -110,7 +110,7 @@ Json robots_json(const Findings& findings) {
   return json;
 }
 
-/// Where what is known of each host's robots comes from.
+/// For each host, the source of the facts about its robots.
 Json hosts_json(const Findings& findings) {
   const auto value = [](const auto& optional) { return optional ? Json(*optional) : Json(); };
   Json json = Json::array();
@@ -182,7 +182,7 @@ Json capture_json(const Findings& findings) {
   return json;
 }
 
-/// Changes while the run went, with their times.
+/// The changes made during the run, with their times.
 Json changes_json(const Findings& findings) {
   Json json = Json::array();
   const sim::EngineSpec& spec = findings.spec;
@@ -199,7 +199,7 @@ Json changes_json(const Findings& findings) {
   return json;
 }
 
-/// What became of each hand-over, and of shadows; nothing for a scenario without twins.
+/// The outcome of each hand-over, and the shadows; nothing is added for a scenario without twins.
 void add_hand_overs(const Findings& findings, Json& json) {
   const sim::EngineSpec& spec = findings.spec;
   const bool twins = std::any_of(spec.robots.begin(), spec.robots.end(),
@@ -238,7 +238,7 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   json["seed"] = scenario.seed;
   json["step_s"] = scenario.step_s.value;
   json["steps"] = findings.facts.steps;
-  // Contacts, changes of the world and captures before it are not known here.
+  // Contacts, changes of the world and captures before this step are unknown.
   if (findings.facts.world_from > 0) json["world_from_step"] = findings.facts.world_from;
   json["simulated_s"] = findings.done_s();
   json["wall_s"] = rounded(findings.wall_s, 1e-3);
@@ -277,7 +277,7 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   if (findings.states) json["states"] = *findings.states;
   if (findings.edits) add_edits(*findings.edits, json);
   if (!findings.hosts.empty()) json["hosts"] = hosts_json(findings);
-  // What came from other processes may be no text.
+  // Text from other processes may be invalid UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

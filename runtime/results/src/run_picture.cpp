@@ -54,7 +54,8 @@ report::Picture make_picture(const Findings& findings, const RunOutcome& outcome
       report::PictureBody shown;
       shown.outline_W = outline_of(obstacle.body.shapes[i], obstacle.X_WB);
       shown.kind = findings.kinds.kind(body);
-      // Tubes are known by their number, walls of a map are too many to be named.
+      // Landmarks are labelled with their number; the walls of a map are too numerous to be
+      // labelled.
       if (i == 0 && shown.kind == report::Kind::kLandmark) {
         const std::size_t dash = obstacle.body.name.rfind('-');
         shown.label =

@@ -63,7 +63,7 @@ void add_sighting_row(const Findings& findings, report::Table& table) {
            blind.empty() ? std::string() : fmt::format("; none of {}", join_names(blind)))});
 }
 
-/// Real robots whose commands went nowhere, as `a, b and c`.
+/// The real robots whose commands had no effect, as `a, b and c`.
 std::string disobedient(const Findings& findings) {
   std::vector<std::string_view> names;
   for (const RobotFacts& robot : findings.facts.robots) {

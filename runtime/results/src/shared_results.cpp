@@ -14,7 +14,7 @@
 namespace rave::runtime {
 namespace {
 
-/// What results say of a spec, without what cannot be copied: its drivers.
+/// The parts of a spec that results use, without the drivers, which cannot be copied.
 sim::EngineSpec outline_of(const sim::EngineSpec& spec) {
   sim::EngineSpec outline;
   outline.step = spec.step;
@@ -31,7 +31,7 @@ sim::EngineSpec outline_of(const sim::EngineSpec& spec) {
   return outline;
 }
 
-/// Changes of the world that somebody asked for.
+/// The number of changes of the world that were requested by hand.
 std::uint64_t count_by_hand(std::span<const sim::Event> events) {
   return static_cast<std::uint64_t>(std::ranges::count_if(events, [](const sim::Event& event) {
     return (sim::is_of_obstacle(event.kind) || event.kind == sim::EventKind::kChanged) &&
@@ -67,14 +67,15 @@ struct SharedResults::Impl {
   std::optional<CaptureWatch> capture;
   std::unique_ptr<WorldRecord> record;
   RunFacts facts;
-  std::vector<sim::Event> seen;  ///< Captures of the step that is not done yet.
+  std::vector<sim::Event> seen;  ///< The captures of the step in progress.
   bool begun = false;
-  bool taken_over = false;    ///< From another manager.
-  bool missed_steps = false;  ///< A host was not there in some, perhaps before this manager.
-  std::uint64_t noted = 0;    ///< Steps whose events have been taken.
+  bool taken_over = false;  ///< From an earlier manager.
+  /// A host was absent in some steps, possibly before this manager started.
+  bool missed_steps = false;
+  std::uint64_t noted = 0;  ///< The number of steps whose events have been taken.
 };
 
-/// What a manager before knew and is a problem of the run.
+/// Records what an earlier manager knew, as a problem of the run.
 void SharedResults::Impl::note_take_over(const sim::WorldAuthority& authority, std::uint64_t from) {
   taken_over = true;
   facts.world_from = from;
@@ -88,14 +89,14 @@ void SharedResults::Impl::note_take_over(const sim::WorldAuthority& authority, s
                   authority.refused_count(), from + 1, told.size()));
 }
 
-/// The step that is done now.
+/// Called with the step that is complete now.
 void SharedResults::Impl::note_step(const sim::WorldAuthority& authority) {
   const std::uint64_t done = authority.steps_done();
   kinds.learn(authority.world());
   const bool first = !std::exchange(begun, true);
-  // The step that a manager before left unfinished has been finished here.
+  // The step that an earlier manager left incomplete was completed here.
   if (first && done > 0) note_take_over(authority, done - 1);
-  // With the first world of a run no step is done.
+  // At the first world of a run no step is complete yet.
   if (first ? done == 0 : done == noted) return;
   noted = done;
   std::vector<sim::Event> events(authority.events().begin(), authority.events().end());
@@ -106,7 +107,8 @@ void SharedResults::Impl::note_step(const sim::WorldAuthority& authority) {
   facts.inputs_by_hand += count_by_hand(authority.events());
 }
 
-/// What one process of a host knows; each once, whichever way it came.
+/// Adds the findings of one process of a host; a repeated copy, by whichever way it came, is
+/// ignored.
 Status SharedResults::Impl::add(const SharedHost& host, std::string bytes,
                                 std::vector<std::string>& added) {
   if (std::ranges::find(added, bytes) != added.end()) return {};
@@ -157,7 +159,7 @@ void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::si
   if (!share.found) {
     findings.lost.resize(spec.robots.size());
     for (const std::size_t robot : robots) findings.lost[robot] = 1;
-    // What a host elsewhere knows lies there if nobody could ask it for that.
+    // The findings of a remote host stay in its own folder if it could not be asked for them.
     if (!host.folders.empty() || host.awaited) {
       facts.problems.push_back(
           fmt::format("host `{}` {}: nothing is known about its robots here", host.name,
@@ -167,19 +169,20 @@ void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::si
   findings.hosts.push_back(std::move(share));
 }
 
-/// Where a host saw the whole run, what was before this manager is known as well. `steps`: that
-/// were done.
+/// If a host saw the whole run, the time before this manager is known as well. `steps` is the
+/// number of completed steps.
 void SharedResults::Impl::fill_in_before(std::uint64_t steps) {
   if (!taken_over) return;
   const auto from = facts.world_from;
-  // Also of one that took over in the first step; nobody may have seen the whole run.
+  // At least 1, also for a manager that took over in the first step: perhaps no host saw the whole
+  // run.
   facts.world_from = std::max<std::uint64_t>(from, 1);
   if (!facts.world) return;
   WorldFacts told = *std::exchange(facts.world, std::nullopt);
   if (told.first_step > 0 || told.next_step < steps) return;
   using Kind = sim::EventKind;
-  // Of the step in which it took over this manager knows no texts, and of captures it does not know
-  // which came before.
+  // For the step in which it took over, this manager has no texts; for captures, it does not know
+  // which ones came before.
   std::erase_if(facts.events, [from](const sim::Event& event) {
     if (event.kind == Kind::kCaptured) return true;
     const bool textless = event.kind == Kind::kChanged && event.text.empty();
@@ -233,7 +236,7 @@ void SharedResults::at_end(const sim::WorldAuthority& authority) {
   impl_->spec.world = authority.world();
   impl_->facts.has_world = true;
   if (impl_->capture) {
-    // Nobody was in the step that the last world began.
+    // The step that the last world began was not completed by any host.
     if (impl_->begun) impl_->capture->forget_last_look();
     impl_->facts.capture = impl_->capture->facts();
   }

@@ -18,7 +18,8 @@ std::uint32_t sensor_named(const sim::RobotType& type, const std::string& name) 
   return kNoSensor;
 }
 
-/// Until when it is known where all real robots were. One whose poses have stopped does not count.
+/// The time until which the positions of all real robots are known. A robot whose poses have
+/// stopped is ignored.
 SimTime poses_known_until(const sim::Engine& engine) {
   const sim::EngineSpec& spec = engine.spec();
   SimTime until = engine.snapshot().time();
@@ -78,13 +79,13 @@ void SightingCheck::learn(const sim::Engine& engine) {
 
 void SightingCheck::gather(const sim::Engine& engine, std::size_t p) {
   Pair& pair = pairs_[p];
-  // Who sees nothing stands in the result as well.
+  // A robot that sees nothing has an entry in the result, too.
   if (pair.seen_stamp_ns < 0) facts_.by_robot[engine.spec().robots[pair.robot.value()].name];
   const sim::SensorSample sample = engine.sensor(pair.robot, pair.real);
   if (sample.header->sequence == pair.seen_sequence) return;
   pair.seen_sequence = sample.header->sequence;
   const auto* sightings = static_cast<const Sighting*>(sample.records);
-  // Records gather until the program has taken them, so old ones may still be there.
+  // Records accumulate until the program takes them, so old ones may still be present.
   std::int64_t newest_ns = pair.seen_stamp_ns;
   for (std::uint32_t i = 0; i < sample.header->count; ++i) {
     if (sightings[i].stamp_ns <= pair.seen_stamp_ns) continue;

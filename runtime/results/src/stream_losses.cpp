@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kMostLost = 0.05;
 
-/// A driver's text is not ours: what is no count is none.
+/// The report comes from a driver: a value that is not a count yields none.
 std::uint64_t count_of(const Json& object, const char* key) {
   const auto found = object.find(key);
   const bool is_count = found != object.end() && found->is_number_unsigned();

@@ -8,9 +8,9 @@
 
 namespace rave::runtime {
 
-/// Sensors of which more than 5 % of the readings were not played or used by their driver, one
-/// sentence each. From `dropped` in the report of the driver: {"count", "of", "because"}; a report
-/// without it says nothing.
+/// One sentence for each sensor of which more than 5 % of the readings were not played or not used
+/// by the driver. Computed from `dropped` in the driver's report: {"count", "of", "because"};
+/// sensors without it are skipped.
 [[nodiscard]] std::vector<std::string> stream_losses(const Findings& findings);
 
 }  // namespace rave::runtime

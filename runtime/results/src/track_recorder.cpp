@@ -10,12 +10,13 @@ namespace rave::runtime {
 namespace {
 
 constexpr double kLeastInterval_s = 0.1;
-/// So many times fewer points are kept while steps come late.
+/// While steps are late, this many times fewer points are kept.
 constexpr std::uint64_t kLateFactor = 10;
-/// More than a picture can show. What a long run takes more and more of is mostly its tracks.
+/// More points than a picture can show. The tracks are the main part of the memory that grows
+/// during a long run.
 constexpr double kMostPoints = 2000;
-/// A pose source that is silent for longer than this share of what its robot allows has a gap worth
-/// showing: sources differ in their rates.
+/// A pose source that is silent for longer than this share of the robot's staleness limit has a gap
+/// to show. The limit accounts for the different rates of sources.
 constexpr double kGapShare = 0.3;
 
 }  // namespace
@@ -43,7 +44,7 @@ TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec
     poses_[r].label = spec.robots[r].name;
     poses_[r].kind = kinds.kind(body);
     poses_[r].colour = kinds.colour(body);
-    // Room at once: a vector that grows leaves a hole of half its size behind.
+    // Reserve all memory at once: a growing vector leaves an unused block of half its size.
     const double points = std::min(kMostPoints, wish.duration_s / interval_s);
     if (wanted_ && here_[r] != 0) poses_[r].points.reserve(static_cast<std::size_t>(points) + 2);
     odometry_tracks_[r] = poses_[r];

@@ -57,10 +57,10 @@ std::optional<GeoFrame> earth_of(const std::optional<config::GeoOriginFile>& fil
                   deg_to_rad(file->yaw_deg));
 }
 
-/// Texts and transforms of one message.
+/// The texts and transforms of one message.
 class Transforms {
  public:
-  /// The texts must live as long as this.
+  /// The texts must outlive this object.
   void add(std::string& parent, std::string& child, const Pose2& X_PC, double z_m, SimTime stamp) {
     ros2::TransformStamped& made = all_.emplace_back();
     made.header.stamp = ros2::time_of(stamp.ns);
@@ -163,13 +163,13 @@ Status Ros2Face::add_sensors(const sim::Engine& engine, Robot& robot) {
     if (kind == Ros2Kind::kNone) continue;
     const bool first_odometry = kind == Ros2Kind::kOdometry && !robot.odometry;
     if (first_odometry) robot.odometry = s;
-    // The usual name; where several share it, the sensor's behind it.
+    // The usual topic name; if several sensors share it, the sensor's name is appended.
     std::string topic = fmt::format("/{}{}", robot.prefix, ros2_topic(kind));
     if (count[kind] > 1 && !first_odometry) topic += "/" + sensor;
     RAVE_TRY_ASSIGN(auto writer, writer_for(kind, topic));
     std::string frame = robot.prefix + sensor;
     if (kind == Ros2Kind::kOdometry) frame = robot.odom_frame;
-    if (kind == Ros2Kind::kFix) frame = robot.base_frame;  // a pose is that of the body
+    if (kind == Ros2Kind::kFix) frame = robot.base_frame;  // A pose describes the body.
     const Pose2 X_WM = type.pose_from == s ? type.X_WM.value_or(Pose2{}) : Pose2{};
     robot.sensors.push_back(
         {s, 0, Ros2Reading(std::move(frame), robot.base_frame), std::move(writer), X_WM});
@@ -203,7 +203,7 @@ Result<Ros2Face::AnyWriter> Ros2Face::writer_for(Ros2Kind kind, const std::strin
 
 void Ros2Face::write_static(const sim::Engine& engine) {
   Transforms all;
-  std::deque<std::string> names;  // whose elements stay where they are
+  std::deque<std::string> names;  // A deque, so that its elements keep their addresses.
   for (Robot& robot : robots_) {
     const sim::EngineSpec& spec = engine.spec();
     for (const sim::SensorSpec& sensor : spec.types[spec.robots[robot.id.value()].type].sensors) {
@@ -214,7 +214,7 @@ void Ros2Face::write_static(const sim::Engine& engine) {
   (void)tf_static_->write(all.message());
 }
 
-// A message that could not be written is no reason to end a run: the next one follows.
+// A failed write does not end the run: the next message follows.
 void Ros2Face::after_step(const StepView& step) {
   const sim::Engine& engine = step.engine;
   if (clock_) {
@@ -232,7 +232,7 @@ void Ros2Face::write_new(const sim::Engine& engine, Robot& robot) {
   for (Sensor& sensor : robot.sensors) {
     const sim::SensorSample sample = engine.sensor(robot.id, sensor.index);
     if (sample.header->sequence == sensor.written) continue;
-    // A receiver that has no fix says so; others have nothing to say.
+    // A receiver reports that it has no fix; other sensors without readings publish nothing.
     const bool fix = std::holds_alternative<ros2::Writer<ros2::NavSatFix>>(sensor.writer);
     if (sample.header->count == 0 && !fix) continue;
     sensor.written = sample.header->sequence;
@@ -283,7 +283,7 @@ void Ros2Face::write_transforms(const sim::Engine& engine) {
                                 reported.pose.variance_yaw_rad2};
       (void)robot.own_writer->write(robot.own.odometry(own, reported.stamp));
     }
-    // Such that the chain ends where the robot is told to be.
+    // The chain of frames must end at the reported pose of the robot.
     const Pose2 X_WO = robot.odometry ? compose(X_WB, inverse(X_OB)) : Pose2{};
     all.add(map_frame_, robot.odom_frame, X_WO, 0, engine.time());
     all.add(robot.odom_frame, robot.base_frame, X_OB, 0, engine.time());

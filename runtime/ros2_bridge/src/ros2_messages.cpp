@@ -13,7 +13,8 @@
 namespace rave::runtime {
 namespace {
 
-/// What the drivers of batteries and inertial sensors give; drivers/*/README.md say the order.
+/// The values of the drivers of batteries and inertial sensors; their order is in
+/// drivers/*/README.md.
 constexpr std::uint32_t kBatteryValues = 6;
 constexpr std::uint32_t kImuValues = 10;
 /// Places of x, y and the heading in a covariance of six by six.
@@ -38,7 +39,7 @@ void append_shape(const world::Shape& shape, std::string& urdf) {
   std::string geometry =
       fmt::format("<cylinder radius=\"{}\" length=\"{}\"/>", shape.radius_m, height_m);
   if (shape.polygon) {
-    // URDF has no prisms: the box around it.
+    // URDF has no prisms, so use the bounding box.
     Vec2 low = shape.vertices().front();
     Vec2 high = low;
     for (const Vec2& vertex : shape.vertices()) {
@@ -72,7 +73,7 @@ Ros2Kind ros2_kind(const SensorInfo& info, std::string_view driver) noexcept {
       }
       return Ros2Kind::kNone;
     case ReadingKind::kPose:
-      // A goal is where the robot is not.
+      // A goal is not the position of the robot, so it has no fix.
       return driver == "ros2_goal" ? Ros2Kind::kNone : Ros2Kind::kFix;
     default:
       return Ros2Kind::kNone;
@@ -169,7 +170,8 @@ ros2::Imu Ros2Reading::imu(const sim::SensorSample& sample) {
   message.orientation = {values[0], values[1], values[2], values[3]};
   message.angular_velocity = {values[4], values[5], values[6]};
   message.linear_acceleration = {values[7], values[8], values[9]};
-  // What is not measured is marked in front of its covariance.
+  // By convention of sensor_msgs/Imu, -1 in the first element of a covariance marks a value that is
+  // not measured.
   if (std::isnan(values[0])) message.orientation_covariance[0] = -1;
   if (std::isnan(values[4])) message.angular_velocity_covariance[0] = -1;
   if (std::isnan(values[7])) message.linear_acceleration_covariance[0] = -1;
@@ -209,7 +211,7 @@ ros2::NavSatFix Ros2Reading::fix(const sim::SensorSample& sample, const GeoFrame
   message.latitude = place.latitude_deg;
   message.longitude = place.longitude_deg;
   message.altitude = place.altitude_m;
-  // Robots stay on the plane, so of the height no more is known than of the rest.
+  // Robots stay on the plane, so the height gets the variance of the plane.
   for (const std::size_t axis : kEastNorthUp) {
     message.position_covariance[axis] = reading.variance_xy_m2;
   }

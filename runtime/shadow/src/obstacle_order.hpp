@@ -11,10 +11,10 @@
 
 namespace rave::runtime {
 
-/// What became of obstacles in one step, in an order in which it can be done again. The events of a
-/// step are sorted by kind, so one that was replaced by another of its name seems to come before
-/// the first has gone. What stood before and went is first, then one obstacle after the other: it
-/// comes, moves, goes. What moved and went in the same step went.
+/// The changes of obstacles in one step, in an order in which they can be repeated. The events of a
+/// step are sorted by kind, so an obstacle that replaces another of its name seems to appear before
+/// the first is removed. Here the removals of earlier obstacles come first; then each obstacle in
+/// turn: added, moved, removed. An obstacle that was moved and removed in one step is only removed.
 [[nodiscard]] inline std::vector<sim::Event> obstacle_events_in_order(
     std::span<const sim::Event> events) {
   const auto is_there = [events](sim::EventKind kind, BodyId obstacle) {

@@ -9,7 +9,7 @@
 
 namespace rave::runtime {
 
-/// What the actuators of the robot were told last, in their order.
+/// The last commands to the actuators of the robot, in their order.
 struct ShadowWorld::Orders {
   std::vector<Command> commands;
 };
@@ -18,14 +18,14 @@ namespace {
 
 constexpr std::uint32_t kOwn = 0;
 constexpr std::uint32_t kOthers = 1;
-/// Readings of a real robot are a little old.
+/// The readings of a real robot arrive slightly late.
 constexpr Duration kHistory{1'000'000'000};
 
 Command standing(CommandKind kind) {
   return kind == CommandKind::kVelocity ? velocity_command(0, 0) : Command{};
 }
 
-/// Hands on what has been through controllers and guard of the robot already.
+/// A controller that passes on commands that have already passed the robot's controllers and guard.
 template <CommandKind kKind>
 class Pass final : public Controller {
  public:
@@ -50,7 +50,7 @@ const ControllerOps* pass_ops(CommandKind kind) {
   return &kOps.front();
 }
 
-/// Does what the orders say; the type is that of what drives it.
+/// A program that executes the given orders; `Orders` differs for actuators and for poses.
 template <class Orders>
 class Obedient final : public sim::ProgramProcess {
  public:
@@ -65,7 +65,7 @@ class Obedient final : public sim::ProgramProcess {
   std::shared_ptr<const Orders> orders_;
 };
 
-/// What the first controller of an actuator gives it.
+/// The kind of command that the first controller of an actuator produces.
 CommandKind kind_for(const sim::RobotType& type, std::uint32_t actuator) {
   for (const sim::ControllerSpec& controller : type.controllers) {
     if (controller.actuator == actuator) return controller.ops->gives;
@@ -73,7 +73,7 @@ CommandKind kind_for(const sim::RobotType& type, std::uint32_t actuator) {
   return CommandKind::kVelocity;
 }
 
-/// The twin without what decides: what it is told has been decided.
+/// Removes everything that decides from the twin: its commands are decided already.
 template <class Orders>
 void obey(std::shared_ptr<const Orders> orders, sim::RobotType& type) {
   std::vector<sim::ControllerSpec> controllers;
@@ -97,7 +97,7 @@ void obey(std::shared_ptr<const Orders> orders, sim::RobotType& type) {
   type.program = std::move(program);
 }
 
-/// A robot that is where it is said to be.
+/// The type of a robot that is placed at a given pose.
 sim::RobotType placed_type() {
   sim::RobotType type;
   type.name = "placed";
@@ -106,7 +106,7 @@ sim::RobotType placed_type() {
   return type;
 }
 
-/// What an authority looks at of a type.
+/// The parts of a type that an authority uses.
 sim::RobotType outline_of(const sim::RobotType& type) {
   sim::RobotType outline;
   outline.name = type.name;
@@ -194,7 +194,8 @@ Status ShadowWorld::step(const sim::Engine& engine, std::span<const sim::Event> 
   return {};
 }
 
-/// As if all had stood at their starts until then: the host of the robot came later.
+/// Acts as if all robots had stood at their starting poses until `step`: the host of the robot
+/// joined later.
 Status ShadowWorld::begin_at(std::uint64_t step) {
   const sim::EngineSpec& spec = authority_->spec();
   sim::WorldStep before;
@@ -256,7 +257,7 @@ void ShadowWorld::report_others(const sim::Engine& engine) {
   }
 }
 
-/// In the world of this step the twin is there, as if it had come there by itself.
+/// Places the twin in the world of this step, as if it had moved there by itself.
 void ShadowWorld::put(const Pose2& X_WR) {
   const std::uint32_t r = robot_.value();
   world_.x_m[r] = X_WR.x;

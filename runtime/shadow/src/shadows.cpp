@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// With more than so many moments every second one goes.
+/// When there are more moments than this, every second one is deleted.
 constexpr std::size_t kMostMoments = 600;
 
 double distance_m(const Pose2& a, const Pose2& b) {
@@ -26,7 +26,7 @@ double distance_m(const Pose2& a, const Pose2& b) {
 
 double rounded(double value) { return std::round(value * 1e6) / 1e6; }
 
-/// A difference that nobody measured is none, and not 0.
+/// A difference that was not measured is null and not 0.
 Json number_of(std::uint64_t compared, double value) {
   return compared > 0 ? Json(rounded(value)) : Json();
 }
@@ -151,7 +151,7 @@ void Shadows::begin(const sim::Engine& engine, Shadow& shadow) {
 void Shadows::compare(const sim::Engine& engine, Shadow& shadow) {
   compare_readings(engine, shadow);
   const sim::ReportedPose& pose = engine.reported(shadow.robot);
-  // What was true before the shadow was put down says nothing of it.
+  // Poses from before the shadow was placed cannot be compared with it.
   if (pose.stale || pose.stamp <= shadow.compared_at) return;
   const auto X_WS = shadow.world->pose_at(pose.stamp);
   if (!X_WS) return;
@@ -208,7 +208,7 @@ void Shadows::compare_readings(const sim::Engine& engine, Shadow& shadow) {
   }
 }
 
-/// The scan that the shadow would have got at the stamp of the real one, without noise.
+/// The scan that the shadow would have received at the stamp of the real scan, without noise.
 void Shadows::compare_ranges(const sim::SensorSample& real, std::uint32_t sensor, Shadow& shadow) {
   sim::Engine& engine = shadow.world->engine();
   const sim::SensorSample theirs = engine.sensor(shadow.robot, sensor);
@@ -258,7 +258,7 @@ void Shadows::record(record::RunRecorder& recorder) const {
       recorded.readings.push_back(reading.compared > 0 ? reading.last
                                                        : std::numeric_limits<double>::quiet_NaN());
     }
-    // A failure was told to the log when it happened.
+    // A failure is already in the log.
     static_cast<void>(recorder.shadow(recorded));
   }
 }

@@ -68,7 +68,7 @@ Result<std::future<Result<std::string>>> BusPort::drive(const runtime::RunReques
   auto& asked = asked_[request.robot];
   if (now - asked < kAskDriver) {
     std::promise<Answer> said;
-    said.set_value(fmt::format("{} is told", request.robot));
+    said.set_value(fmt::format("sent to {}", request.robot));
     return said.get_future();
   }
   asked = now;

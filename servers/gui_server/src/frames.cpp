@@ -11,8 +11,7 @@
 namespace rave::gui_server {
 namespace {
 
-static_assert(std::endian::native == std::endian::little,
-              "frames are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "frames are written little-endian");
 
 constexpr std::size_t kPoseHeader = 48;
 constexpr std::size_t kReadingHeader = 32;

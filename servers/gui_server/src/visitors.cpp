@@ -46,7 +46,7 @@ std::string command_text(const CommandMessage& command, const PageAnswer& answer
 std::string halt_text(const HaltMessage& halt, bool good) {
   const std::string robots =
       halt.slots.empty() ? "all robots" : fmt::format("{} robots", halt.slots.size());
-  return fmt::format("{}{}", robots, good ? "" : ", in vain");
+  return fmt::format("{}{}", robots, good ? "" : ", failed");
 }
 
 }  // namespace

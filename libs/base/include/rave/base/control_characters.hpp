@@ -7,19 +7,20 @@
 
 namespace rave {
 
-// Characters that steer a terminal instead of being shown: those below U+0020, and U+007F to
-// U+009F; in UTF-8, in more bytes than it needs, or as a single byte that is no UTF-8, which is
-// what an old terminal sees. Pure; any thread.
+// Control characters: U+0000 to U+001F and U+007F to U+009F. They steer a terminal instead of being
+// shown. Overlong UTF-8 encodings of them count too, and so do single bytes in that range that are
+// not valid UTF-8, because old terminals obey them. Pure functions; any thread.
 
-/// Whether a text contains such a character.
+/// Whether `text` contains a control character.
 [[nodiscard]] bool has_control_characters(std::string_view text) noexcept;
 
-/// The text with `instead` in the place of each of them; what else is there stays, bit by bit.
+/// A copy of `text` with each control character replaced by `instead`. All other bytes are
+/// unchanged.
 [[nodiscard]] std::string without_control_characters(std::string_view text,
                                                      std::string_view instead);
 
-/// Of the character of `text` that begins at byte `at`, which is less than its size: how many bytes
-/// it has, one if it is no UTF-8, and whether it is such a character.
+/// One character of a text: its length in bytes (1 if it is not valid UTF-8), and whether it is a
+/// control character.
 struct TextCharacter {
   std::size_t bytes = 1;
   bool control = false;

@@ -3,21 +3,23 @@
 
 namespace rave {
 
-/// What a thread calls in a plug-in just now. All texts outlive the call.
+/// The plug-in code that a thread is executing. All texts must outlive the call.
 struct CrashNote {
   const char* part = "";  ///< `program`, `sensor`, ...
   const char* driver = "";
   const char* robot = "";  ///< Its name.
-  const char* last = "";   ///< The last of several robots that are called together, or `robot`.
+  /// The last robot of a block that is called together, or the same as `robot`.
+  const char* last = "";
 };
 
 namespace detail {
-/// Of this thread; null outside of plug-ins. Read by the signal handler of the same thread.
+/// The note of this thread; null outside of plug-ins. Read by the signal handler of the same
+/// thread.
 extern constinit thread_local const CrashNote* crash_note;
 }  // namespace detail
 
-/// Keeps the note of this thread for as long as it lives. Costs two stores, so it may stand around
-/// each call of a block of robots.
+/// Sets the crash note of this thread for the lifetime of the scope, then restores the previous
+/// one. It costs two stores, so it may enclose each call of a block of robots.
 class CrashScope {
  public:
   explicit CrashScope(const CrashNote& note) noexcept : before_(detail::crash_note) {
@@ -31,9 +33,10 @@ class CrashScope {
   const CrashNote* before_;
 };
 
-/// From now on a crash (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) within a CrashScope writes to the
-/// standard error output whose code it was, and then ends the process as it would have. Signals
-/// that somebody else handles already, as sanitizers do, are left alone. Once per process.
+/// Installs handlers of SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT. On a crash inside a CrashScope
+/// they write the driver and robot of the scope to the standard error stream; the process then ends
+/// as it would have without them. Signals that already have a handler, such as that of a sanitizer,
+/// keep it. Call it once per process.
 void install_crash_note() noexcept;
 
 }  // namespace rave

@@ -8,8 +8,8 @@
 
 namespace rave {
 
-/// What kind of failure an Error reports. Kept short on purpose: a caller that must tell two
-/// failures apart compares this, everybody else shows the message.
+/// The kind of failure that an Error reports. The list is short on purpose: callers compare it only
+/// to treat two failures differently; everything else is in the message.
 enum class ErrorCode : std::uint8_t {
   kInvalidArgument,  ///< A caller's value is outside what the function accepts.
   kParse,            ///< Text or bytes do not follow their format.
@@ -37,7 +37,7 @@ struct SourceLocation {
 /// One failure, complete enough to be shown to a user as it is.
 struct Error {
   ErrorCode code = ErrorCode::kInvalidArgument;
-  /// What went wrong, what was expected, and how to mend it; no trailing full stop or newline.
+  /// What went wrong, what was expected, and how to correct it; no trailing full stop or newline.
   std::string message;
   /// Where in the user's files, if anywhere.
   SourceLocation where;

@@ -8,14 +8,14 @@
 
 namespace rave {
 
-/// What a hashed value was: the channel argument of a RunHash.
+/// The kind of a hashed value: the `channel` argument of an ItemHash.
 enum class HashChannel : std::uint32_t {
   kPercept = 1,
   kCommand = 2,
   kRadio = 3,
   kPose = 4,
   kEvent = 5,
-  kInput = 6,  ///< What somebody asked of a run.
+  kInput = 6,  ///< A request that changed the run.
 };
 
 /// A strong 64-bit mixing step (the finaliser of MurmurHash3, variant 13 by D. Stafford).
@@ -27,12 +27,12 @@ enum class HashChannel : std::uint32_t {
   return x ^ (x >> 31);
 }
 
-/// 64 bits of the bytes and their number: XXH3 (Y. Collet, https://xxhash.com, since 0.8.0 the same
-/// on every processor).
+/// XXH3 hash of the bytes and their number (Y. Collet, https://xxhash.com; equal on all processors
+/// since version 0.8.0).
 [[nodiscard]] std::uint64_t content_hash(std::span<const std::byte> bytes) noexcept;
 
-/// The hash of one item of one step: its place (step, robot, channel, device) and what is added, in
-/// its order.
+/// The hash of one item of one step. It depends on the item's place (step, robot, channel, device)
+/// and on the added values in their order.
 class ItemHash {
  public:
   constexpr ItemHash(std::uint64_t step, std::uint32_t robot, HashChannel channel,
@@ -43,7 +43,7 @@ class ItemHash {
 
   constexpr void add(std::uint64_t word) noexcept { state_ = mix64(state_ ^ word) + kOdd; }
   constexpr void add(double value) noexcept { add(std::bit_cast<std::uint64_t>(value)); }
-  /// The length counts too.
+  /// Also hashes the number of bytes.
   void add_bytes(std::span<const std::byte> bytes) noexcept { add(content_hash(bytes)); }
 
   [[nodiscard]] constexpr std::uint64_t value() const noexcept { return state_; }
@@ -53,14 +53,14 @@ class ItemHash {
   std::uint64_t state_;
 };
 
-/// The hash of a run: the sum mod 2^64 of the hashes of its items, so that items may be added in
-/// any order, by any thread or process, and partial sums may be added up.
+/// The hash of a run: the sum modulo 2^64 of the hashes of its items. Addition commutes, so threads
+/// and processes may add items in any order and merge partial sums.
 class RunHash {
  public:
   constexpr void add(const ItemHash& item) noexcept { sum_ += item.value(); }
   constexpr void merge(RunHash other) noexcept { sum_ += other.sum_; }
   [[nodiscard]] constexpr std::uint64_t value() const noexcept { return sum_; }
-  /// The sum that another process has come to.
+  /// The hash with a sum that another process computed.
   [[nodiscard]] static constexpr RunHash of_value(std::uint64_t value) noexcept {
     RunHash hash;
     hash.sum_ = value;

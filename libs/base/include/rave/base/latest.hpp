@@ -6,26 +6,28 @@
 
 namespace rave {
 
-/// Hands values from one thread to another, the newest only: neither waits, and what nobody took in
-/// time is replaced. Three buffers, so that the memory of values is used again (triple buffering).
+/// Passes the newest value from one thread to another by triple buffering. Neither thread waits. A
+/// value that was not taken in time is replaced by the next. The three buffers are reused, so
+/// values keep their allocated memory. One writer thread, one reader thread.
 template <class T>
 class Latest {
  public:
-  // The thread that writes.
-  /// What publish() hands over; holds some earlier value before.
+  // Writer thread only.
+  /// The buffer that publish() passes on; until written, it holds an earlier value.
   [[nodiscard]] T& draft() noexcept { return values_[writer_]; }
   void publish() noexcept {
     writer_ = middle_.exchange(writer_ | kFresh, std::memory_order_acq_rel) & kIndex;
   }
 
-  // The thread that reads.
-  /// False: nothing has been published since the last call, and value() stays what it is.
+  // Reader thread only.
+  /// Makes the newest published value current. Returns false if nothing was published since the
+  /// last call; value() is then unchanged.
   bool take() noexcept {
     if ((middle_.load(std::memory_order_relaxed) & kFresh) == 0) return false;
     reader_ = middle_.exchange(reader_, std::memory_order_acq_rel) & kIndex;
     return true;
   }
-  /// What the last take() got; a default value before.
+  /// The value of the last successful take(); default-constructed before the first.
   [[nodiscard]] const T& value() const noexcept { return values_[reader_]; }
 
  private:

@@ -9,18 +9,18 @@
 
 namespace rave {
 
-/// How important a line of the log is, in ascending order.
+/// Severity of a log line, in ascending order.
 enum class LogLevel : std::uint8_t { kDebug, kInfo, kWarning, kError };
 
 /// `debug`, `info`, `warning` or `error`.
 [[nodiscard]] std::string_view to_string(LogLevel level) noexcept;
 
-/// Where a library's messages go. Libraries never print: they are given a sink by their owner.
-/// Implementations must accept calls from any thread.
+/// Receives log messages. A library never prints; its owner gives it a sink. Implementations must
+/// accept calls from any thread.
 class LogSink {
  public:
   virtual ~LogSink() = default;
-  /// `source` names who speaks (`robot anna`, `driver utias_camera`); `message` has no newline.
+  /// `source` names the origin (`robot anna`, `driver utias_camera`); `message` has no newline.
   virtual void write(LogLevel level, std::string_view source, std::string_view message) = 0;
 
   template <class... Args>
@@ -37,7 +37,7 @@ class LogSink {
   }
 };
 
-/// Drops everything; for tests and tools that do not care.
+/// A sink that discards all messages.
 class NullLogSink final : public LogSink {
  public:
   void write(LogLevel, std::string_view, std::string_view) override {}

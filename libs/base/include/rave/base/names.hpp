@@ -12,8 +12,8 @@ namespace rave {
 /// turn `a` into `b` (Damerau-Levenshtein, restricted form). Case counts.
 [[nodiscard]] int edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate nearest to `name`, or an empty view if none is near enough to be a likely slip
-/// of the pen. Ties go to the earlier candidate.
+/// The candidate with the least edit distance to `name`, or an empty view if none is near enough to
+/// be a likely typing error. Ties go to the earlier candidate.
 [[nodiscard]] std::string_view nearest_name(std::string_view name,
                                             std::span<const std::string_view> candidates);
 

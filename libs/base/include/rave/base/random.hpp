@@ -23,9 +23,9 @@ namespace rave {
   return counter;
 }
 
-/// The random numbers of one sample of one device: a function of (seed, robot, device, sample,
-/// draw) and of nothing else, so they do not depend on threads, order or process split.
-/// A value; cheap to make; belongs to the stack of whoever draws.
+/// The random numbers of one sample of one device. They depend on (seed, robot, device, sample,
+/// draw) only, so threads, order and the split into processes do not matter. A value that is cheap
+/// to construct; use it from one thread.
 class RandomStream {
  public:
   constexpr RandomStream(std::uint64_t seed, std::uint32_t robot, std::uint32_t device,
@@ -55,8 +55,8 @@ class RandomStream {
     return low + (high - low) * uniform();
   }
 
-  /// The same stream at the start of its block `block`, as after 4 * block calls of bits(). There
-  /// are 2^32 blocks; after the last comes the first.
+  /// The stream positioned at block `block`, that is after 4 * block calls of bits(). The 2^32
+  /// blocks repeat cyclically.
   [[nodiscard]] constexpr RandomStream at_block(std::uint32_t block) const noexcept {
     RandomStream moved = *this;
     moved.counter_[0] = block;
@@ -64,7 +64,7 @@ class RandomStream {
     return moved;
   }
 
-  /// Key and counter of the next whole block, for those who compute many blocks at once.
+  /// Key and counter of the next whole block, for code that computes many blocks at once.
   [[nodiscard]] constexpr const std::array<std::uint32_t, 2>& key() const noexcept { return key_; }
   [[nodiscard]] constexpr const std::array<std::uint32_t, 4>& counter() const noexcept {
     return counter_;

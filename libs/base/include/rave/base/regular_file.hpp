@@ -7,9 +7,9 @@
 
 namespace rave {
 
-/// Opens a file for reading and gives its descriptor, which the caller closes. Does not wait: a
-/// named pipe that nobody writes to is refused like all that is not a regular file. Errors:
-/// kNotFound, kIo (a folder, a pipe, a device, no permission).
+/// Opens a file for reading. The caller closes the returned descriptor. Only regular files are
+/// accepted; a named pipe is refused without waiting for a writer. Errors: kNotFound, kIo (a
+/// folder, a pipe, a device, no permission).
 [[nodiscard]] Result<int> open_regular_file(const std::filesystem::path& path);
 
 }  // namespace rave

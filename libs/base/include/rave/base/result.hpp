@@ -11,10 +11,9 @@
 
 namespace rave {
 
-/// The value of a fallible call, or the Error that kept it from having one.
-/// Every public function that can fail returns this; nothing in RAVE throws across a library edge.
-/// A type of its own, so that the compiler refuses a call whose result is dropped, whatever the
-/// declaration of the function says. Who means to drop one writes `static_cast<void>(...)` and why.
+/// The value of a fallible call, or an Error. Every public function that can fail returns a Result
+/// or Status; no exception crosses a library boundary. The compiler refuses a call that drops the
+/// result; who means to drop it writes `static_cast<void>(...)` and why.
 template <class T>
 class [[nodiscard]] Result : public tl::expected<T, Error> {
  public:
@@ -24,7 +23,7 @@ class [[nodiscard]] Result : public tl::expected<T, Error> {
 /// A fallible call without a value.
 using Status = Result<void>;
 
-/// Makes the failing alternative of any Result: `return fail(ErrorCode::kIo, "cannot open {}", p);`
+/// Makes a failed Result: `return fail(ErrorCode::kIo, "cannot open {}", p);`
 template <class... Args>
 [[nodiscard]] tl::unexpected<Error> fail(ErrorCode code, fmt::format_string<Args...> format,
                                          Args&&... args) {
@@ -32,7 +31,7 @@ template <class... Args>
       Error{code, fmt::format(format, std::forward<Args>(args)...), SourceLocation{}});
 }
 
-/// The same with a place in the user's file.
+/// Like fail(), with a place in the user's file.
 template <class... Args>
 [[nodiscard]] tl::unexpected<Error> fail_at(SourceLocation where, ErrorCode code,
                                             fmt::format_string<Args...> format, Args&&... args) {
@@ -42,7 +41,7 @@ template <class... Args>
 
 }  // namespace rave
 
-/// Leaves the calling function with the error of `expr` if it failed.
+/// Returns the error of `expr` from the calling function if `expr` failed.
 #define RAVE_TRY(expr)                                                             \
   do {                                                                             \
     if (auto rave_try_status_ = (expr); !rave_try_status_) {                       \
@@ -60,6 +59,6 @@ template <class... Args>
   target = *std::move(temporary)
 
 /// `RAVE_TRY_ASSIGN(const auto file, open(path));` declares the target with the value of `expr`, or
-/// leaves the calling function with its error.
+/// returns its error from the calling function.
 #define RAVE_TRY_ASSIGN(target, expr) \
   RAVE_TRY_ASSIGN_IMPL_(RAVE_TRY_CONCAT_(rave_try_result_, __LINE__), target, expr)

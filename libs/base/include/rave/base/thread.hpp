@@ -10,8 +10,8 @@
 
 namespace rave {
 
-/// Lets `thread`, which runs nothing yet, run `body`; that is given a std::stop_token if it takes
-/// one. `what` names it for people: "the robot". Error (kIo): the system has no thread to give.
+/// Starts `body` on `thread`, which must not be running. `body` may take a std::stop_token. `what`
+/// names its owner in messages, such as "the robot". Error kIo: the system cannot create a thread.
 template <class Body>
 [[nodiscard]] Status start_thread(std::jthread& thread, std::string_view what, Body&& body) {
   try {

@@ -24,8 +24,8 @@ struct Duration {
   return {static_cast<std::int64_t>(ns < 0 ? ns - 0.5 : ns + 0.5)};
 }
 
-/// A moment of the run: nanoseconds since its start. The only clock that anything on the stepped
-/// path may read; wall time exists in `rave/base/wall_clock.hpp` alone.
+/// A time of the run: nanoseconds since its start. Code on the stepped path reads no other clock;
+/// wall time is in `rave/base/wall_clock.hpp`.
 struct SimTime {
   std::int64_t ns = 0;
 

@@ -23,45 +23,46 @@ class ShortSender;
 class ShortSocket;
 class Standstill;
 
-/// Another process in the domain, as it introduces itself. A value.
+/// Another participant of the domain, with the properties that it announced. A value.
 struct BusProcess {
   std::string name;
-  RunId run;                 ///< None: it belongs to no run, or is not of RAVE.
-  std::uint64_t writer = 0;  ///< 0 if it has no run.
+  RunId run;                 ///< None if it belongs to no run or is not a process of RAVE.
+  std::uint64_t writer = 0;  ///< Its writer id; 0 if it has no run.
 };
 
-/// This process on the bus: one participant in one run. Writers and readers are made on it and must
-/// be gone before it. At most one per process and domain, besides those that are
-/// `beside` it.
+/// This process on the bus: one participant in one run. Its writers and readers must be destroyed
+/// before it. A process has at most one bus per domain, except for those with BusConfig::beside.
 ///
-/// Thread: one owner, also for its writers, readers and wait sets; only a stop token may come from
-/// another. Cyclone DDS has threads of its own that call nothing of ours.
+/// Thread: one owner, which also uses its writers, readers and wait sets; only a stop token may be
+/// used from another. The threads of Cyclone DDS call no code of RAVE.
 class Bus {
  public:
-  /// Errors: kInvalidArgument (the configuration), kState (this process has a bus in that domain),
-  /// kIo (no such interface, no free port, certificates that do not fit).
+  /// Joins the domain. Errors: kInvalidArgument (the configuration), kState (this process already
+  /// has a bus in that domain), kIo (no such interface, no free port, invalid certificates).
   [[nodiscard]] static Result<std::unique_ptr<Bus>> open(const BusConfig& config);
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
   ~Bus();
 
   [[nodiscard]] const BusConfig& config() const noexcept { return config_; }
-  /// The name of this start of this process; the `writer` of all its samples.
+  /// A random id of this execution of this process; all of its samples carry it as `writer`.
   [[nodiscard]] std::uint64_t writer() const noexcept { return writer_; }
 
-  /// What has changed since the last call, oldest first. Call it now and then: at most kMaxEvents
-  /// are kept, after which refusals and foreign samples are only counted.
+  /// The events since the last call, oldest first. Call it regularly: at most kMaxEvents are kept.
+  /// Beyond that, refused and foreign samples are only counted.
   [[nodiscard]] std::vector<BusEvent> take_events();
 
   /// The other processes in the domain, of this and of other runs, as of the last take_events().
   [[nodiscard]] std::vector<BusProcess> processes() const;
 
-  /// When this process stood still the last time: who has not been heard of may be there.
+  /// When this process was last unable to run. Silence of others during that time does not mean
+  /// that they are lost.
   [[nodiscard]] const Standstill& standstill() const noexcept;
 
-  /// How many samples of other runs came by, and by the short way also of strangers.
+  /// The number of ignored samples: those of other runs, and datagrams of unknown senders on the
+  /// local transport.
   [[nodiscard]] std::uint64_t foreign_samples() const noexcept { return foreign_samples_; }
-  /// How many samples were refused by validation.
+  /// The number of samples that validate() refused.
   [[nodiscard]] std::uint64_t refused_samples() const noexcept { return refused_samples_; }
 
   static constexpr std::size_t kMaxEvents = 1000;
@@ -71,7 +72,7 @@ class Bus {
   friend class ReaderCore;
   friend class WaitSet;
 
-  /// A writer or reader of ours and who is at its other end.
+  /// A writer or reader of this process and the entities that match it.
   struct Endpoint {
     dds_entity_t entity = 0;
     bool reads = false;
@@ -81,7 +82,7 @@ class Bus {
       dds_guid_t participant{};
     };
     std::vector<Peer> peers;
-    std::vector<Peer> heard;  ///< Whose samples have come, with `reads`.
+    std::vector<Peer> heard;  ///< Readers only: the writers whose samples have been received.
     std::unique_ptr<ShortSender> sender;
     std::unique_ptr<ShortReceiver> receiver;
   };
@@ -90,20 +91,21 @@ class Bus {
   [[nodiscard]] Status open_domain();
   [[nodiscard]] Status open_hub();
   [[nodiscard]] Status open_participant();
-  /// Says who this process is with a writer that writes nothing: what is told of it is encrypted.
+  /// Announces this process through a writer without samples: with security on, such announcements
+  /// are encrypted.
   [[nodiscard]] Status introduce();
   [[nodiscard]] tl::unexpected<Error> refused(dds_return_t code);
   [[nodiscard]] Result<dds_entity_t> make_topic(const TopicSpec& spec);
-  /// Makes a reader or writer of a topic.
+  /// Creates a reader or writer of a topic.
   [[nodiscard]] Result<dds_entity_t> add_endpoint(const TopicSpec& topic, bool reads);
   void remove_endpoint(dds_entity_t entity);
-  /// That of an entity, until the next one is made; null: there is none.
+  /// The record of an entity, valid until the next one is created; null if there is none.
   [[nodiscard]] Endpoint* endpoint(dds_entity_t entity);
   void open_short_way(Endpoint& endpoint, const TopicSpec& topic);
-  /// Tells the short way of an endpoint who is at the other end. Takes no event from anybody.
+  /// Tells the local transport of an endpoint which entities match it. Takes no events.
   void meet(Endpoint& endpoint);
-  /// Whether the writer `from`, of which `reader` has a sample, is of the process that has the name
-  /// `writer`, as far as that is known.
+  /// Whether DDS writer `from`, the source of a sample of `reader`, belongs to the process with id
+  /// `writer`. True if that is not known.
   [[nodiscard]] bool speaks_for(dds_entity_t reader, dds_instance_handle_t from,
                                 std::uint64_t writer);
   void note_foreign(const std::string& topic);
@@ -114,18 +116,19 @@ class Bus {
 
   BusConfig config_;
   std::uint64_t writer_;
-  std::uint32_t number_;             ///< Of the domain within this process.
-  std::unique_ptr<CycloneLog> log_;  ///< None if another bus of this process has it.
+  std::uint32_t number_;             ///< The number of the domain within this process.
+  std::unique_ptr<CycloneLog> log_;  ///< Null if another bus of this process owns the sink.
   dds_entity_t domain_ = 0;
   dds_entity_t participant_ = 0;
   dds_entity_t publisher_ = 0;
   dds_entity_t subscriber_ = 0;
   std::unique_ptr<Participants> participants_;
-  std::unique_ptr<ShortSocket> short_way_;  ///< To send from; null: all goes by DDS.
+  std::unique_ptr<ShortSocket> short_way_;  ///< The socket to send from; null: all samples use DDS.
   std::vector<Endpoint> endpoints_;
   std::vector<BusEvent> events_;
   std::uint64_t foreign_samples_ = 0;
-  std::uint64_t foreign_told_ = 0;  ///< Of these, those that are no strangers of the short way.
+  /// The foreign samples already reported, without those of the local transport.
+  std::uint64_t foreign_told_ = 0;
   std::uint64_t refused_samples_ = 0;
 };
 

@@ -10,41 +10,41 @@
 
 namespace rave::bus {
 
-/// The four times of one question and answer, each in nanoseconds of the clock that it was read
-/// from. No clock may be set while a run lasts, so they are monotonic ones.
+/// The four times of a request and its reply, in nanoseconds, each of the clock that it was read
+/// from. Both clocks must be monotonic: a clock that is set during a run makes the result wrong.
 struct ClockExchange {
-  std::int64_t asked_ns = 0;     ///< Ours, when the question left.
-  std::int64_t received_ns = 0;  ///< Theirs.
-  std::int64_t answered_ns = 0;  ///< Theirs.
-  std::int64_t heard_ns = 0;     ///< Ours, when the answer was there.
+  std::int64_t asked_ns = 0;     ///< Local clock: the request was sent.
+  std::int64_t received_ns = 0;  ///< Remote clock: the request was received.
+  std::int64_t answered_ns = 0;  ///< Remote clock: the reply was sent.
+  std::int64_t heard_ns = 0;     ///< Local clock: the reply was received.
 };
 
-/// Where another clock stands: theirs = ours + offset, give or take the bound.
+/// The offset of a remote clock: remote = local + offset, with an error of at most `bound`.
 struct ClockReading {
   Duration offset;
   Duration bound;
 };
 
-/// What one exchange says, by the method of NTP (RFC 5905, section 8): the offset if both ways took
-/// equally long, and half of the time on the way as its bound. Error kInvalidArgument if an answer
-/// comes before its question.
+/// The offset from one exchange, by the method of NTP (RFC 5905, section 8). The offset assumes
+/// equal delays in both directions; the bound is half of the round-trip time without processing.
+/// Error kInvalidArgument: a reply is earlier than its request.
 [[nodiscard]] Result<ClockReading> read_clock(const ClockExchange& exchange);
 
-/// Follows another clock by repeated exchanges: of those in a window it uses the one whose bound,
-/// grown by what the clocks may have drifted since, is least. One owner thread.
+/// Tracks a remote clock by repeated exchanges. Of those within the window it uses the one with the
+/// least bound, where each bound grows with age by the possible drift. One owner thread.
 class ClockOffset {
  public:
   struct Options {
     Duration window{10'000'000'000};
-    double max_drift = 100e-6;  ///< Seconds per second by which two clocks may part.
+    double max_drift = 100e-6;  ///< Largest relative drift of the two clocks (s/s).
   };
 
   explicit ClockOffset(Options options) : options_(options) {}
   ClockOffset() : ClockOffset(Options()) {}
 
-  /// Error as of read_clock(); the exchange is then dropped.
+  /// Adds an exchange. Error: that of read_clock(); the exchange is then dropped.
   [[nodiscard]] Status add(const ClockExchange& exchange);
-  /// At `now_ns` of our clock; nothing while there is no exchange in the window.
+  /// The offset at local time `now_ns`; empty if the window has no exchange.
   [[nodiscard]] std::optional<ClockReading> at(std::int64_t now_ns) const;
 
  private:

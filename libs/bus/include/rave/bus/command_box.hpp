@@ -9,20 +9,21 @@
 
 namespace rave::bus {
 
-/// What is done with a command of a person, in the thread of the bus; the sample has passed
-/// bus::validate() and holds during the call alone.
+/// Handles a command of a user interface, in the thread of the bus. The sample has passed
+/// bus::validate() and is valid during the call only.
 using OnCommand = std::function<void(const Command&)>;
 
-/// Hears what people ask of robots many times a second (topic rave/command), and answers nothing:
-/// who wants an answer makes a wish. Must be gone before its bus; thread: that of the bus.
+/// Receives commands that users send to robots many times a second (topic rave/command). It sends
+/// no replies; requests that need a reply go through WishBox. Destroy it before its bus; thread:
+/// that of the bus.
 class CommandBox {
  public:
-  /// Null if nobody is told. Errors: those of Reader::create().
+  /// Returns null if `tell` is empty. Errors: those of Reader::create().
   [[nodiscard]] static Result<std::unique_ptr<CommandBox>> create(Bus& bus, OnCommand tell);
 
-  /// Wakes whoever waits when a command comes.
+  /// Makes `waits` wake up when a command arrives.
   [[nodiscard]] Status wake(WaitSet& waits) const { return waits.add(commands_); }
-  /// Passes on what has come.
+  /// Passes the received commands to the handler.
   void serve();
 
  private:

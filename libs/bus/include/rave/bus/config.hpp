@@ -12,81 +12,82 @@
 
 namespace rave::bus {
 
-/// What multicast is used for.
+/// How multicast is used.
 enum class Multicast : std::uint8_t {
-  kOff,        ///< Nothing: processes are found at the addresses of `peers`.
-  kDiscovery,  ///< To find processes; data goes to each by itself.
-  kOn,         ///< For data to several receivers too.
+  kOff,        ///< Not at all: processes are found at the addresses of `peers`.
+  kDiscovery,  ///< For discovery only; data is unicast.
+  kOn,         ///< For discovery and for data with several receivers.
 };
 
-/// Whom a process looks for. Where all look for all, the effort grows with the square of their
-/// number.
+/// Which processes a process tries to discover. If all look for all, the traffic grows with the
+/// square of their number.
 enum class Reach : std::uint8_t {
-  kAll,   ///< Every process.
-  kHub,   ///< The same; it is also found by those that look for hubs.
-  kHubs,  ///< Hubs. Others find this process if they look for it.
+  kAll,   ///< All processes.
+  kHub,   ///< All processes; those with kHubs look for this one too.
+  kHubs,  ///< Hubs only. Other processes find this one if they look for it.
 };
 
-/// Whom a process of a run exchanges messages with. Hosts are in both partitions of the run, so
-/// that its manager and those who look on neither hear nor hold up each other.
+/// With which processes of a run this one exchanges samples. Hosts are in both DDS partitions of
+/// the run. Its manager and its monitors are in one each, so they neither receive from nor delay
+/// each other.
 enum class Side : std::uint8_t {
-  kAll,      ///< Everybody; as hosts do.
-  kManager,  ///< Hosts, in the partition `rave/RUN` alone.
-  kMonitor,  ///< Hosts, in the partition `rave/RUN/hosts` alone.
+  kAll,      ///< All; used by hosts.
+  kManager,  ///< Hosts only, in the partition `rave/RUN`; used by the manager.
+  kMonitor,  ///< Hosts only, in the partition `rave/RUN/hosts`; used by monitors.
 };
 
-/// How a process takes part in a run. A plain value; the defaults stay on this machine.
+/// How a process joins the bus. A plain value; the defaults stay on this machine.
 struct BusConfig {
-  /// Shown to others, in events and tables: 1 to 64 bytes.
+  /// The name shown to others in events and tables: 1 to 64 bytes.
   std::string participant;
-  /// Must not be none, unless `anonymous`.
+  /// The run; must be set unless `anonymous`.
   RunId run;
-  /// For those who take no part and only look, or ask: others are told the name alone, so no
-  /// process takes this one for a part of a run, or of another run. Without a run it sees who is
-  /// there and no samples.
+  /// For a process that is not part of a run and only observes or sends requests. It announces its
+  /// name alone, so others never count it as a member of a run. Without a run it discovers
+  /// processes but receives no samples.
   bool anonymous = false;
   Side side = Side::kAll;
-  /// 0 to 230: chooses the UDP ports, 7400 + 250 * domain and up.
+  /// The DDS domain, 0 to 230. It determines the UDP ports: 7400 + 250 * domain and up.
   std::uint32_t domain = 0;
   /// The network interface, by address (`192.168.1.7`) or by name (`eth0`).
   std::string interface = "127.0.0.1";
-  /// Addresses or names of machines to look for others at, this one included. On loopback an empty
-  /// list means this machine.
+  /// Addresses or names of the machines to look for processes on, including this one. On the
+  /// loopback interface an empty list means this machine.
   std::vector<std::string> peers;
   Multicast multicast = Multicast::kOff;
-  /// Most processes of one machine in a domain, of this and other runs: 1 to 119. Without multicast
-  /// each of them is looked for, so a larger number costs messages.
+  /// Largest number of processes per machine in a domain, over all runs: 1 to 119. Without
+  /// multicast, discovery sends messages to each of these ports, so a larger number costs traffic.
   int max_processes = 64;
-  /// Counts without multicast only. Hubs have places of their own, behind those of `kMostPlain`
-  /// other processes; a machine has room for six in a domain.
+  /// Has an effect without multicast only. Hubs use reserved ports, after those of `kMostPlain`
+  /// other processes; a machine has kMostHubs of them per domain.
   Reach reach = Reach::kAll;
   static constexpr int kMostPlain = 114;
   static constexpr int kMostHubs = 6;
-  /// A process that has been silent for this long is lost.
+  /// A process that was silent for longer than this counts as lost.
   Duration lease{1'000'000'000};
-  /// Processes with another tag do not exist for this one, whatever their run. Usually empty.
+  /// Processes with different tags do not discover each other, whatever their run. Usually empty.
   std::string tag;
-  /// Another bus of this process may be in the domain already; this one is then beside it as that
-  /// of another process would be. For drivers, whose host may have a bus of its own.
+  /// Permits other buses of this process in the domain; this one then counts as another process.
+  /// For drivers, whose host may have a bus of its own.
   bool beside = false;
-  /// A folder with certificates switches DDS Security on; see docs/explanation/security.md.
+  /// A folder with certificates; if set, DDS Security is on. See docs/explanation/security.md.
   std::filesystem::path security;
-  /// Small samples of lock-step may go from process to process of this machine beside DDS. Never
-  /// with `security`, nor for those who are `anonymous`.
+  /// Whether small samples of lock-step use the local transport, beside DDS, between processes of
+  /// this machine. Ignored with `security` and if `anonymous`.
   bool short_way = true;
-  /// Settings of Cyclone DDS in its own XML, or `file://...`, which win over those made from the
-  /// rest. The variable CYCLONEDDS_URI counts only if somebody puts its value here.
+  /// Settings of Cyclone DDS: its own XML, or `file://...`. They override those made from the other
+  /// members. The environment variable CYCLONEDDS_URI is not read; a caller may copy it here.
   std::string cyclone_settings;
 
-  /// Whether `interface` is this machine's loopback.
+  /// Whether `interface` is the loopback interface.
   [[nodiscard]] bool loopback() const;
 };
 
-/// Whether a bus can be made of it. Error kInvalidArgument names the field.
+/// Checks the configuration. Error kInvalidArgument names the field.
 [[nodiscard]] Status validate(const BusConfig& config);
 
-/// The settings of Cyclone DDS that follow from a valid configuration. `hub`: which of the places
-/// of hubs a hub takes, below BusConfig::kMostHubs.
+/// The Cyclone DDS settings of a valid configuration. `hub`: the reserved port that a hub uses,
+/// below BusConfig::kMostHubs.
 [[nodiscard]] std::string cyclone_xml(const BusConfig& config, int hub = 0);
 
 }  // namespace rave::bus

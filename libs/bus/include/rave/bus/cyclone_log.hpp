@@ -9,9 +9,9 @@
 
 namespace rave::bus {
 
-/// Catches what Cyclone DDS would print: a library does not print. There is one such sink in a
-/// process, so with several buses the one opened last has it. Owner: a bus; lines may come from any
-/// thread.
+/// Collects the log lines of Cyclone DDS instead of printing them. Cyclone DDS has one sink per
+/// process, so with several buses the one opened last receives them. Owner: a bus; lines may arrive
+/// from any thread.
 class CycloneLog {
  public:
   CycloneLog();
@@ -19,7 +19,7 @@ class CycloneLog {
   CycloneLog& operator=(const CycloneLog&) = delete;
   ~CycloneLog();
 
-  /// The lines since the last call; of a flood the first kMost.
+  /// The lines since the last call, at most kMost; later ones are dropped.
   [[nodiscard]] std::vector<std::string> take();
 
   static constexpr std::size_t kMost = 100;

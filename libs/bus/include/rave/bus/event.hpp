@@ -10,32 +10,34 @@ namespace rave::bus {
 enum class EventKind : std::uint8_t {
   kParticipantAppeared,
   kParticipantLost,  ///< It left, or was silent for longer than its lease.
-  kWriterAppeared,   ///< Of a topic that this process reads.
+  kWriterAppeared,   ///< On a topic that this process reads.
   kWriterLost,
-  kReaderAppeared,  ///< Of a topic that this process writes.
+  kReaderAppeared,  ///< On a topic that this process writes.
   kReaderLost,
-  kIncompatible,  ///< Somebody is at the same topic and gets nothing; the text says how to mend it.
-  kForeignRun,    ///< A process or sample of another run came by and was ignored.
-  kRefused,       ///< A sample did not pass validation; the text says why.
-  kNotice,        ///< Cyclone DDS has something to say, mostly a warning.
-  kStoodStill,    ///< This process did, for so long that others may be missed; see Standstill.
+  kIncompatible,  ///< An entity on the same topic has incompatible QoS and receives nothing; the
+                  ///< text says how to correct it.
+  kForeignRun,    ///< A process or sample of another run was seen and ignored.
+  kRefused,       ///< A sample failed validation; the text gives the reason.
+  kNotice,        ///< A log line of Cyclone DDS, usually a warning.
+  kStoodStill,    ///< This process was unable to run for so long that lost processes may be missed;
+                  ///< see Standstill.
 };
 
 /// The lower-case name of a kind, for logs.
 [[nodiscard]] std::string_view to_string(EventKind kind) noexcept;
 
-/// Something that changed on the bus. A value.
+/// A change on the bus. A value.
 struct BusEvent {
   EventKind kind{};
-  /// The topic it is about; empty for participants.
+  /// The topic concerned; empty for participants.
   std::string topic;
-  /// The other side's participant name; empty if it has none.
+  /// The participant name of the other process; empty if it has none.
   std::string participant;
-  /// The other side's writer id; 0 if it is no process of RAVE.
+  /// The writer id of the other process; 0 if it is not a process of RAVE.
   std::uint64_t writer = 0;
   std::string text;
 
-  /// One line for a log.
+  /// The event as one log line.
   [[nodiscard]] std::string line() const;
 };
 

@@ -13,22 +13,23 @@
 
 namespace rave::bus {
 
-/// Writes what other processes have caused to a log, which they cannot fill with it: kAtOnce lines,
-/// then one a second; of each process not the same event twice in a row; printable text of at most
-/// kMostBytes. The next line after those that were left out says how many. One owner thread.
+/// Logs events that other processes cause, at a limited rate so that they cannot fill the log:
+/// kAtOnce lines, then one per second. Repeated equal events of a process are dropped. Text is made
+/// printable and cut at kMostBytes. The next line after dropped ones gives their number. One owner
+/// thread.
 class EventLog {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::size_t kAtOnce = 20;
   static constexpr std::size_t kMostBytes = 500;
 
-  /// `log` is not owned; null: nothing is written.
+  /// `log` is not owned; if null, nothing is written.
   explicit EventLog(LogSink* log) noexcept : log_(log) {}
 
-  /// What is wrong: refusals, ends that do not match, other runs, warnings of Cyclone DDS. Other
-  /// events are nothing to write about.
+  /// Logs problems: refused samples, incompatible QoS, other runs, warnings of Cyclone DDS. Other
+  /// kinds of events are ignored.
   void note(const BusEvent& event, Clock::time_point now = Clock::now());
-  /// Anything else that another process has caused, or that has its words.
+  /// Logs any other text that another process caused or wrote.
   void write(LogLevel level, std::string_view source, std::string_view text,
              Clock::time_point now = Clock::now());
 
@@ -39,7 +40,7 @@ class EventLog {
   std::size_t budget_ = kAtOnce;
   Clock::time_point refilled_{};
   std::uint64_t left_out_ = 0;
-  std::map<std::uint64_t, std::string> told_;  ///< By writer: the last event.
+  std::map<std::uint64_t, std::string> told_;  ///< By writer: the last event logged.
 };
 
 }  // namespace rave::bus

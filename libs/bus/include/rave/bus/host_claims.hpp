@@ -8,20 +8,20 @@
 
 namespace rave::bus {
 
-/// Which process speaks for which host of the scenario: the first that came. A second one that
-/// claims the same host is refused until the first is lost, so that two programs started with the
-/// same name do not overwrite each other. One owner thread.
+/// Which process speaks for which host of the scenario: the first that claimed it. A second process
+/// with the same host is refused until the first is lost, so two programs started with the same
+/// name do not overwrite each other. One owner thread.
 class HostClaims {
  public:
-  /// The scenario has the hosts 0 to `hosts` - 1.
+  /// `hosts`: the number of hosts in the scenario.
   explicit HostClaims(std::uint32_t hosts) : writers_(hosts, 0) {}
 
-  /// Takes the host for the writer, or confirms it. Errors: kState names both writers, kNotFound if
-  /// the scenario has no such host.
+  /// Assigns the host to the writer, or confirms it. Errors: kState (another writer has it; names
+  /// both), kNotFound (no such host in the scenario).
   [[nodiscard]] Status claim(std::uint32_t host, std::uint64_t writer);
-  /// A writer is lost: its hosts are free.
+  /// Frees the hosts of a writer that was lost.
   void release(std::uint64_t writer);
-  /// Who has the host; 0: nobody.
+  /// The writer of the host; 0: none.
   [[nodiscard]] std::uint64_t writer_of(std::uint32_t host) const;
 
  private:

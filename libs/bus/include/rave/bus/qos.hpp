@@ -9,38 +9,41 @@
 
 namespace rave::bus {
 
-/// How a topic is delivered. Writers and readers of a topic use the same profile.
+/// The quality of service of a topic. Its writers and readers use the same profile.
 struct QosProfile {
   bool reliable = true;
-  /// A late reader is given what its writers have kept, and objects outlive a writer that ends.
+  /// Whether a late reader receives the samples that writers keep, and objects outlive their
+  /// writer.
   bool durable = false;
-  /// How many samples are kept per instance, at both ends; 0: all, up to `max_samples`.
+  /// How many samples each end keeps per instance; 0: all, up to `max_samples`.
   std::int32_t depth = 1;
-  /// 0: no limit but `depth`.
+  /// The total limit of kept samples; 0: only `depth` limits.
   std::int32_t max_samples = 0;
-  /// Where readers have not confirmed `max_samples`, or 16 MB, a writer waits for them up to half a
-  /// second; otherwise not at all. What has no room then is dropped, and the writer is told.
+  /// Whether a write blocks, for up to half a second, while `max_samples` or 16 MB are not
+  /// acknowledged. If there is still no room, the sample is dropped and the write fails.
   bool waits = false;
 };
 
-/// The newest of each instance, resent until it is there.
+/// Reliable; keeps the newest sample of each instance.
 inline constexpr QosProfile kNewest{};
-/// The newest of each instance, also for those who come later.
+/// Reliable and durable; keeps the newest sample of each instance. Writers may block.
 inline constexpr QosProfile kDurable{.durable = true, .waits = true};
-/// The same from those who have no time to wait, and say again what did not get through.
+/// Like kDurable, for writers that must not block. They repeat what was not delivered.
 inline constexpr QosProfile kDescription{.durable = true};
-/// The last of what happened at each, also for those who come later. Waits for nobody.
+/// Reliable and durable; keeps the last 256 samples of each instance. Writers do not block.
 inline constexpr QosProfile kPast{.durable = true, .depth = 256};
-/// The last few of each instance: what is left out of one is in another one.
+/// Reliable; keeps the last 8 samples of each instance. What one instance lost is in another.
 inline constexpr QosProfile kLately{.depth = 8};
-/// Everything, in order. A writer waits when 4096 samples are not confirmed, and then fails.
+/// Reliable, in order, nothing dropped. A writer blocks when 4096 samples are not acknowledged,
+/// then fails.
 inline constexpr QosProfile kEverything{.depth = 0, .max_samples = 4096, .waits = true};
-/// The last few of each instance: bursts get through, a stuck reader holds nobody up.
+/// Reliable; keeps the last 256 samples of each instance. Bursts are delivered; a stuck reader
+/// blocks nobody.
 inline constexpr QosProfile kRecent{.depth = 256};
-/// The same where the robots of a whole host send through one writer at once: of what a stuck
-/// reader has not confirmed, the oldest beyond this are lost.
+/// Like kRecent, for one writer that serves all robots of a host. If a reader is stuck, the oldest
+/// samples beyond this depth are lost.
 inline constexpr QosProfile kCrowd{.depth = 16'384};
-/// Sent once; late or lost means useless.
+/// Best effort: sent once, because a late sample is useless.
 inline constexpr QosProfile kOnce{.reliable = false};
 
 struct QosDeleter {
@@ -48,10 +51,10 @@ struct QosDeleter {
 };
 using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
 
-/// The profile in the terms of DDS, for a topic, writer or reader.
+/// The DDS QoS object of a profile, for a topic, writer or reader.
 [[nodiscard]] Qos make_qos(const QosProfile& profile);
 
-/// The name of a policy of DDS by its number, and what a user can do if two ends disagree on it.
+/// The name of a DDS policy, and what a user can do if two ends disagree on it.
 struct PolicyAdvice {
   std::string_view name;
   std::string_view remedy;

@@ -13,10 +13,10 @@
 
 namespace rave::bus {
 
-/// What readers of all types share. Owner: a Reader.
+/// The part of Reader that does not depend on the message type. Owner: a Reader.
 class ReaderCore {
  public:
-  /// A sender that never stops must not keep the receiver from everything else.
+  /// The limit per call, so that a sender that never stops cannot occupy the receiver's thread.
   static constexpr std::size_t kMostAtOnce = 4096;
 
   [[nodiscard]] static Result<ReaderCore> create(Bus& bus, const TopicSpec& topic);
@@ -24,15 +24,16 @@ class ReaderCore {
   ReaderCore& operator=(ReaderCore&&) = delete;
   ~ReaderCore();
 
-  /// How many datagrams a take may look at; 0: all comes by DDS.
+  /// Begins a take. Returns how many datagrams it may read; 0: all samples come through DDS.
   [[nodiscard]] std::size_t begin_take();
-  /// The next sample that came by the short way, until the next call, and null if there is none;
-  /// `budget` is how many datagrams may be looked at, above 0, and becomes less.
+  /// The next sample of the local transport, valid until the next call; null if there is none.
+  /// `budget` is the number of datagrams that may still be read; must be above 0; decreased.
   [[nodiscard]] const void* take_short(std::size_t& budget);
-  /// Whether a take that has `got` samples by the short way leaves DDS for the next one.
+  /// Whether a take that has (`got`) received a sample by the local transport may skip DDS this
+  /// time.
   [[nodiscard]] bool leaves_dds(bool got);
   void note_foreign() { bus_->note_foreign(topic_); }
-  /// Whether a sample with this info is of the process whose name it has; if not it is refused.
+  /// Whether the sample comes from the process whose id it carries; if not, it is refused.
   [[nodiscard]] bool is_of(std::uint64_t writer, const dds_sample_info_t& info);
   void refuse(std::uint64_t writer, std::string why);
   [[nodiscard]] std::size_t writers() const;
@@ -45,21 +46,21 @@ class ReaderCore {
   Bus* bus_;
   const char* topic_;
   dds_entity_t reader_ = 0;
-  ShortReceiver* short_ = nullptr;  ///< Of the bus; null if all comes by DDS.
-  std::uint64_t sender_ = 0;        ///< Of the last sample that came by the short way.
+  ShortReceiver* short_ = nullptr;  ///< Owned by the bus; null: all samples come through DDS.
+  std::uint64_t sender_ = 0;        ///< The sender of the last sample of the local transport.
 };
 
-/// Reads one topic. Must be gone before its bus; thread: that of the bus.
+/// Reads one topic. Destroy it before its bus; thread: that of the bus.
 template <class Message>
 class Reader {
  public:
-  /// Error: kState (the topic exists with another type), kIo.
+  /// Creates a reader. Errors: kState (the topic exists with another type), kIo.
   [[nodiscard]] static Result<Reader> create(Bus& bus) {
     RAVE_TRY_ASSIGN(ReaderCore core, ReaderCore::create(bus, topic_of<Message>()));
     return Reader(std::move(core));
   }
-  /// The same with other qualities of service than the topic has; for those who look on and must
-  /// not ask writers for more than these give anyway.
+  /// Creates a reader with QoS other than the topic's, for monitors: they must not request more
+  /// than writers offer anyway.
   [[nodiscard]] static Result<Reader> create(Bus& bus, const QosProfile& qos) {
     TopicSpec topic = topic_of<Message>();
     topic.qos = qos;
@@ -68,15 +69,16 @@ class Reader {
     return Reader(std::move(core));
   }
 
-  /// Calls `visit(const Message&)`, or `visit(const Message&, const dds_sample_info_t&)` with the
-  /// time of sending and the like, for every sample that has come, oldest first per instance, and
-  /// `gone(const Message&)`, of which the key fields alone hold, for every object that its writer
-  /// disposed of. Samples are on loan: valid during the call only, not copied. Those of other runs,
-  /// those in the name of a process that did not send them, and those that validate() refuses are
-  /// dropped, counted, and told as events. Returns how many
-  /// were visited; after kMostAtOnce the rest waits for the next call. The callbacks must not throw
-  /// and must not take from this reader. What came by the short way is first; if that is what ended
-  /// the wait before this call, the rest may be left for the next call, and ends the next wait.
+  /// Calls `visit(const Message&)`, or `visit(const Message&, const dds_sample_info_t&)`, for every
+  /// received sample, oldest first per instance. Calls `gone(const Message&)` for every object that
+  /// its writer disposed of; only the key fields are valid then. Samples are loans: not copied,
+  /// valid during the call only. Samples of other runs, those with the writer id of another
+  /// process, and those that validate() refuses are dropped, counted, and reported as events.
+  /// Callbacks must not throw and must not take from this reader.
+  ///
+  /// Returns the number of visited samples. After kMostAtOnce the rest stays for the next call.
+  /// Samples of the local transport come first; if one of them ended the preceding wait, samples of
+  /// DDS may be left for the next call, and end the next wait.
   template <class Visit, class Gone>
   std::size_t take(Visit&& visit, Gone&& gone) {
     std::size_t visited = take_short(visit, gone);
@@ -99,14 +101,15 @@ class Reader {
     return take(std::forward<Visit>(visit), [](const Message&) {});
   }
 
-  /// Refuses a sample for a reason that only the caller can know: counted and told like the others.
+  /// Refuses a sample for a reason that only the caller can know. It is counted and reported like
+  /// the others.
   void refuse(const Message& sample, std::string_view why) {
     core_.refuse(sample.writer, std::string(why));
   }
 
-  /// How many writers are known now.
+  /// The number of matched writers.
   [[nodiscard]] std::size_t writers() const { return core_.writers(); }
-  /// For what this class does not do; the entity stays its own.
+  /// The DDS reader, for what this class does not offer. Still owned by this object.
   [[nodiscard]] dds_entity_t handle() const noexcept { return core_.handle(); }
 
  private:
@@ -149,7 +152,7 @@ class Reader {
     } else {
       if (good) visit(sample);
     }
-    // Every sample of an object that is gone says so; the last of them counts.
+    // DDS repeats the disposal with every sample of the object; report it with the last one only.
     if (disposed && info.sample_rank == 0) gone(sample);
     return good ? 1 : 0;
   }

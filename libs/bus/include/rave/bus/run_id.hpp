@@ -11,14 +11,14 @@
 
 namespace rave::bus {
 
-/// Which run a sample belongs to: 128 random bits that whoever starts a run draws and hands to all
-/// of its processes. All zero means none. A value; any thread.
+/// The id of a run: 128 random bits. The process that starts a run draws it and passes it to all
+/// others. All zero means none. A value; any thread.
 struct RunId {
   std::array<std::uint8_t, 16> bytes{};
 
-  /// From the operating system's source of chance. Not part of what a run computes with.
+  /// From the random source of the operating system, not from the seed of the run.
   [[nodiscard]] static RunId random();
-  /// 32 hexadecimal digits, as text() writes them. Error: kParse.
+  /// Parses the 32 hexadecimal digits of text(). Error: kParse.
   [[nodiscard]] static Result<RunId> parse(std::string_view text);
 
   [[nodiscard]] std::string text() const;
@@ -30,12 +30,12 @@ struct RunId {
   friend bool operator==(const RunId&, const RunId&) noexcept = default;
 };
 
-/// The number of a run that people call by a name: the same for all who know the name.
+/// The run id for a name that people agree on: a hash, equal everywhere.
 [[nodiscard]] RunId run_of_name(std::string_view name) noexcept;
-/// The same by a number of what the run does.
+/// The run id for a number, such as a seed: a hash, equal everywhere.
 [[nodiscard]] RunId run_of_number(std::uint64_t number) noexcept;
 
-/// The name of one start of one process: 64 random bits, never 0.
+/// A new writer id, for one execution of one process: 64 random bits, never 0.
 [[nodiscard]] std::uint64_t random_writer_id();
 
 }  // namespace rave::bus

@@ -10,15 +10,15 @@
 
 namespace rave::bus {
 
-/// The elements of a sequence of a wire type.
+/// A view of the elements of a wire sequence.
 template <class Sequence>
 [[nodiscard]] auto elements(const Sequence& sequence) noexcept {
   using Element = std::remove_pointer_t<decltype(sequence._buffer)>;
   return std::span<const Element>(sequence._buffer, sequence._length);
 }
 
-/// Lets a sequence of a wire type show memory of the caller, who keeps it alive as long as the
-/// sample is used. At most 2^32 - 1 elements.
+/// Makes a wire sequence refer to memory of the caller, without a copy. The memory must outlive the
+/// use of the sample. At most 2^32 - 1 elements.
 template <class Sequence, class Container>
 void borrow(Sequence& sequence, Container& container) noexcept {
   sequence._buffer = std::data(container);
@@ -27,7 +27,7 @@ void borrow(Sequence& sequence, Container& container) noexcept {
   sequence._release = false;
 }
 
-/// A sequence of octets as text, which lives as long as the sample.
+/// A sequence of octets as text, valid as long as the sample.
 template <class Sequence>
 [[nodiscard]] std::string_view text_of(const Sequence& octets) noexcept {
   static_assert(sizeof(*octets._buffer) == 1);
@@ -35,8 +35,8 @@ template <class Sequence>
   return {reinterpret_cast<const char*>(octets._buffer), octets._length};
 }
 
-/// Puts text into a bounded string of a wire type; what does not fit is cut off at the end of a
-/// character. Returns whether all of it fitted.
+/// Copies text into a bounded wire string. Text that does not fit is cut at a character boundary.
+/// Returns whether all of it fitted.
 template <std::size_t kSize>
 bool put_text(char (&field)[kSize], std::string_view text) noexcept {
   std::size_t size = std::min(text.size(), kSize - 1);

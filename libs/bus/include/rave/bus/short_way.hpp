@@ -15,18 +15,17 @@
 #include "rave/bus/run_id.hpp"
 #include "rave/bus/topics.hpp"
 
-/// The short way of small samples between processes of one machine: datagrams from socket to
-/// socket, beside DDS. For topics whose readers cope with loss, repetition and overtaking. Thread
-/// of all of it: that of the bus.
+/// The local transport: datagrams between processes of one machine, beside DDS. For small samples
+/// of topics whose readers tolerate loss, duplicates and reordering. Thread: that of the bus.
 namespace rave::bus {
 
-/// Longer samples are left to DDS.
+/// Longer samples use DDS.
 inline constexpr std::size_t kMostShortBytes = 60'000;
-/// In front of the sample: a word, the version, the topic.
+/// In front of the sample: a magic word, the version, the topic number.
 inline constexpr std::size_t kShortHeaderBytes = 8;
 
-/// A socket's address in the machine's names that are no files; they belong to a network namespace,
-/// as loopback does. A value.
+/// An address in the abstract Unix namespace (no file). It belongs to a network namespace, as
+/// loopback does. A value.
 struct ShortAddress {
   sockaddr_un name{};
   socklen_t size = 0;
@@ -37,10 +36,10 @@ struct ShortAddress {
   [[nodiscard]] bool operator==(const ShortAddress& other) const noexcept;
 };
 
-/// A socket that never waits. Owner of its descriptor.
+/// A non-blocking Unix datagram socket. Owns its descriptor.
 class ShortSocket {
  public:
-  /// None if the system gives none, or somebody has the address.
+  /// Empty if the system refuses, or if the address is in use.
   [[nodiscard]] static std::optional<ShortSocket> open(const ShortAddress& address);
   ShortSocket(ShortSocket&& other) noexcept;
   ShortSocket& operator=(ShortSocket&&) = delete;
@@ -52,7 +51,7 @@ class ShortSocket {
   int descriptor_;
 };
 
-/// Makes samples of datagrams. Their memory is kept from one to the next.
+/// Decodes datagrams into samples. Reuses the memory of the sample.
 class ShortDecoder {
  public:
   explicit ShortDecoder(const TopicSpec& topic);
@@ -60,8 +59,8 @@ class ShortDecoder {
   ShortDecoder& operator=(const ShortDecoder&) = delete;
   ~ShortDecoder();
 
-  /// The sample, until the next call; null if the bytes are none of this topic. They are aligned to
-  /// 8 and written to.
+  /// The decoded sample, valid until the next call; null if the bytes are not a sample of this
+  /// topic. `datagram` must be aligned to 8 bytes; it is modified.
   [[nodiscard]] const void* decode(std::span<std::byte> datagram);
 
  private:
@@ -70,7 +69,7 @@ class ShortDecoder {
   void* sample_;
 };
 
-/// Sends the samples of one writer.
+/// Sends the samples of one writer by the local transport.
 class ShortSender {
  public:
   ShortSender(const TopicSpec& topic, const RunId& run, int socket);
@@ -78,16 +77,18 @@ class ShortSender {
   ShortSender& operator=(const ShortSender&) = delete;
   ~ShortSender();
 
-  /// The processes of the readers at the other end, by writer id; 0: no process of this run.
+  /// Sets the processes of the matched readers, by writer id; 0: not a process of this run.
   void meet(std::vector<std::uint64_t> writers);
-  /// How many these are.
+  /// The number of matched readers.
   [[nodiscard]] std::size_t readers() const noexcept { return writers_.size(); }
-  /// Whether it is time to count the readers again. That costs as much as sending, so it is done
-  /// each 5 to 10 ms: who comes meanwhile and is to have something asks for it later than that.
+  /// Whether the readers must be counted again. Counting costs as much as sending, so it is done
+  /// every 5 to 10 ms only. A reader that appears in between asks for what it missed later than
+  /// that.
   [[nodiscard]] bool due() const noexcept;
-  /// They have been counted, and are those of meet().
+  /// The readers were counted and are still those of meet().
   void counted() noexcept;
-  /// Whether all of them got the sample. If not, it is for DDS; some may have got it.
+  /// Sends to all readers. Returns false if the sample must (also) go through DDS; some readers may
+  /// already have it.
   [[nodiscard]] bool send(const void* sample);
 
  private:
@@ -99,45 +100,46 @@ class ShortSender {
   int socket_;
   std::vector<std::uint64_t> writers_;
   std::vector<ShortAddress> addresses_;
-  bool near_ = false;  ///< All are processes of this machine, as far as is known.
+  bool near_ = false;  ///< All readers are on this machine, as far as known.
   std::int64_t counted_ms_ = INT64_MIN / 2;
   unsigned not_tried_ = 0;
   unsigned char* buffer_ = nullptr;
   std::uint32_t capacity_ = 0;
 };
 
-/// Takes the datagrams for one reader, and says when its samples of DDS must be looked at too: that
-/// costs as much as all of the short way.
+/// Receives the datagrams of one reader, and decides when to look at its DDS samples too: that
+/// costs as much as the whole local transport.
 class ShortReceiver {
  public:
   ShortReceiver(const TopicSpec& topic, const RunId& run, ShortSocket socket);
 
-  /// The processes of the writers at the other end, by writer id; 0: no process of this run.
+  /// Sets the processes of the matched writers, by writer id; 0: not a process of this run.
   void meet(const std::vector<std::uint64_t>& writers);
   [[nodiscard]] int descriptor() const noexcept { return socket_.descriptor(); }
 
-  /// Whether there is a datagram, which then has ended a wait. It is held for receive(): to ask
-  /// the system for it costs less than to ask whether there is one.
+  /// Reads a datagram ahead if there is one, after a wait. It is kept for receive(): reading costs
+  /// less than asking the system whether one is there.
   [[nodiscard]] bool fetch() noexcept;
-  /// There may be something in DDS.
+  /// Notes that DDS may have samples.
   void note_dds() noexcept { look_ = true; }
-  /// How many datagrams the take that begins may look at, at most as many as told: one, if a wait
-  /// was ended by it and there is one who sends. To see that there is no other would cost as much
-  /// as this one, and the next wait sees it anyway.
+  /// Begins a take. Returns how many datagrams it may read, at most `most`. It is one if a datagram
+  /// ended the wait and there is one sender: a further read that finds nothing would cost as much
+  /// as this one, and the next wait notices later datagrams anyway.
   [[nodiscard]] std::size_t begin_take(std::size_t most) noexcept;
-  /// Whether that take need not look at DDS; `got`: it has got a sample by the short way. Only
-  /// after a wait that was ended by this sample and found nothing in DDS: the next one finds it.
+  /// Whether this take may skip DDS; `got`: it received a datagram. True only after a wait that a
+  /// datagram ended and in which DDS had nothing; the next wait notices later samples.
   [[nodiscard]] bool leaves_dds(bool got) noexcept;
-  /// Once in a take: whether it may look who the writers are. Strangers make no more work.
+  /// True once per take: whether the take may look up the writers again. Datagrams of unknown
+  /// senders cause no further look-ups.
   [[nodiscard]] bool may_meet() noexcept { return std::exchange(may_meet_, false); }
 
   struct Datagram {
     std::span<std::byte> bytes;
-    std::uint64_t writer = 0;  ///< Who sent it; 0: none of the writers at the other end.
+    std::uint64_t writer = 0;  ///< The sender; 0: none of the matched writers.
   };
-  /// The next one, until the next receive() or fetch(); none if there is none.
+  /// The next datagram, valid until the next receive() or fetch(); empty if there is none.
   [[nodiscard]] std::optional<Datagram> receive();
-  /// Who sent the last one, when that is asked again after meet().
+  /// The sender of the last datagram, looked up again, for use after meet().
   [[nodiscard]] std::uint64_t sender() const;
   [[nodiscard]] ShortDecoder& decoder() noexcept { return decoder_; }
 
@@ -146,7 +148,7 @@ class ShortReceiver {
     std::uint64_t writer;
     ShortAddress address;
   };
-  /// Its size; none if there is none.
+  /// Reads a datagram into the buffer; its size, or empty if there is none.
   [[nodiscard]] std::optional<std::size_t> read() noexcept;
 
   RunId run_;
@@ -154,12 +156,13 @@ class ShortReceiver {
   ShortDecoder decoder_;
   std::vector<std::uint64_t> writers_;
   std::vector<Known> known_;
-  std::vector<Known> leaving_;  ///< No longer at the other end, until the queue has been empty.
+  std::vector<Known> leaving_;  ///< No longer matched; still known until the queue was empty once.
   ShortAddress from_;
   std::unique_ptr<std::uint64_t[]> buffer_;
-  std::optional<std::size_t> held_;  ///< Bytes of what is in the buffer and was not received yet.
-  bool woken_ = false;               ///< Since the last take.
-  bool after_wait_ = false;          ///< The take that goes on is the first after such a wait.
+  /// Size of the datagram in the buffer that receive() has not returned yet.
+  std::optional<std::size_t> held_;
+  bool woken_ = false;       ///< A datagram ended a wait since the last take.
+  bool after_wait_ = false;  ///< The current take is the first after such a wait.
   bool look_ = false;
   bool may_meet_ = true;
 };

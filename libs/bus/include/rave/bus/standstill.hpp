@@ -7,26 +7,26 @@
 
 namespace rave::bus {
 
-/// Notices that its process stood still: it was stopped, its machine was suspended, or it got no
-/// processor. Others seem silent for that time although they were not. One owner thread.
+/// Detects that this process was unable to run: stopped, suspended with its machine, or without a
+/// processor. Other processes then seem silent although they were not. One owner thread.
 class Standstill {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `longest`: a process that goes looks at its clock again within this time. `grace`: what others
-  /// need to be heard again after it stood.
+  /// `longest`: a process that runs calls look() at least this often. `grace`: the time that others
+  /// need to be heard again after a standstill.
   Standstill(Duration longest, Duration grace) : longest_(longest), grace_(grace) {}
 
-  /// To be called often, and after each wait. `waited`: the time that the wait was allowed to
-  /// take; below 0: any.
+  /// Call it often, and after each wait. `waited`: the longest time that the wait may have taken;
+  /// negative: unlimited.
   void look(Duration waited = {});
-  /// The same with given readings: of the clock that deadlines are measured with, and of one that
-  /// goes on while the machine is suspended.
+  /// Like look(waited), with given clock readings: `now` of the clock of deadlines, `elapsed` of a
+  /// clock that also counts while the machine is suspended.
   void look(Clock::time_point now, std::chrono::nanoseconds elapsed, Duration waited);
 
-  /// Silence before this time proves nothing. The beginning of the clock if it never stood.
+  /// Silence before this time proves nothing. The epoch of the clock if there was no standstill.
   [[nodiscard]] Clock::time_point silence_counts_from() const noexcept { return counts_from_; }
-  /// For how long it stood the last time: the longest until silence counted again.
+  /// Duration of the last standstill: the longest of those before silence counted again.
   [[nodiscard]] Duration stood() const noexcept { return stood_; }
 
  private:

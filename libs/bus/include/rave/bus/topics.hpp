@@ -18,16 +18,16 @@ namespace rave::bus {
 
 using HostReport = rave_wire_HostReport;
 using WorldStep = rave_wire_WorldStep;
-/// A world that a host hands back; the same type on another topic.
+/// The last world that a host received, sent to a manager that restarts. Same type, another topic.
 struct LastWorld : rave_wire_WorldStep {};
 using RunState = rave_wire_RunState;
-/// How a run goes as one of its hosts knows it; the same type on another topic.
+/// The state of the run as one host knows it. Same type, another topic.
 struct HostRun : rave_wire_RunState {};
 using HostState = rave_wire_HostState;
 using World = rave_wire_World;
 using RosterEntry = rave_wire_RosterEntry;
 using Obstacle = rave_wire_Obstacle;
-/// An obstacle as a host hands it to a manager that starts anew; the same type on another topic.
+/// An obstacle that a host sends to a manager that restarts. Same type, another topic.
 struct LastObstacle : rave_wire_Obstacle {};
 using Edit = rave_wire_Edit;
 using Command = rave_wire_Command;
@@ -46,18 +46,18 @@ using MapTile = rave_wire_MapTile;
 using Wish = rave_wire_Wish;
 using WishAnswer = rave_wire_WishAnswer;
 
-/// A topic as the bus needs it: where it is found, what it carries, how it is delivered.
+/// The name, type and QoS of a topic.
 struct TopicSpec {
   const char* name;
   const dds_topic_descriptor_t* type;
   QosProfile qos;
-  /// Its number on the short way (short_way.hpp); 0: all of it goes by DDS. Only for topics whose
-  /// readers cope with samples that are lost, come twice, or overtake each other.
+  /// Its number on the local transport (short_way.hpp); 0: DDS only. Only for topics whose readers
+  /// tolerate loss, duplicates and reordering.
   std::uint8_t short_way = 0;
 };
 
-/// The topic of a message type. This is the one place with names and qualities of service; the
-/// table of docs/reference/bus.md says the same.
+/// The topic of a message type. Names and QoS of all topics are defined here only; the table in
+/// docs/reference/bus.md repeats them.
 template <class Message>
 [[nodiscard]] TopicSpec topic_of();
 

@@ -8,16 +8,15 @@
 
 namespace rave::bus {
 
-/// No coordinate is further out, and nothing is faster: what exceeds these is a broken sender.
+/// Upper limits of coordinates and speeds. Larger values can only come from a faulty sender.
 inline constexpr double kMaxPosition_m = 1e7;
 inline constexpr double kMaxSpeed_mps = 1e4;
 inline constexpr double kMaxTurn_radps = 1e4;
 
-/// What makes a sample unusable whoever looks at it: numbers that are not finite or out of bounds,
-/// arrays of one robot list that differ in length, ids that do not ascend, more than the wire types
-/// allow, a body that is not convex. Error kInvalidArgument with field, entry and value. Pure.
-/// Readers call these for every sample; whether it fits the run is the receiver's to judge
-/// (check_step, HostClaims).
+/// Checks what any receiver can check: finite numbers within bounds, arrays of equal length for one
+/// list of robots, ascending ids, sizes within the wire types, convex bodies. Error
+/// kInvalidArgument with field, entry and value. Pure. Readers call it for every sample; whether
+/// the sample fits the run is checked by the receiver (check_step, HostClaims).
 [[nodiscard]] Status validate(const HostReport& sample);
 [[nodiscard]] Status validate(const WorldStep& sample);
 [[nodiscard]] Status validate(const RunState& sample);
@@ -42,8 +41,8 @@ inline constexpr double kMaxTurn_radps = 1e4;
 [[nodiscard]] Status validate(const Wish& sample);
 [[nodiscard]] Status validate(const WishAnswer& sample);
 
-/// Whether a sample of `step` is of use to somebody at `now`: at most `behind` steps back and
-/// `ahead` steps in front. Error kState.
+/// Checks that a sample of `step` is useful at step `now`: at most `behind` steps earlier and at
+/// most `ahead` steps later. Error kState.
 [[nodiscard]] Status check_step(std::uint64_t step, std::uint64_t now, std::uint64_t behind,
                                 std::uint64_t ahead);
 

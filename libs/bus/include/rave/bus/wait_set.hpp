@@ -15,7 +15,7 @@ namespace rave::bus {
 
 class Relay;
 
-/// How long to wait so as to be awake at `when`; 0 if that is over.
+/// The time from now until `when`; 0 if `when` is past.
 [[nodiscard]] inline Duration left_until(std::chrono::steady_clock::time_point when) {
   const auto left =
       std::chrono::duration_cast<std::chrono::nanoseconds>(when - std::chrono::steady_clock::now());
@@ -24,9 +24,8 @@ class Relay;
 
 enum class Woken : std::uint8_t { kReady, kTimeout, kStopped };
 
-/// Sleeps until there is something to take. Must be gone before its bus and after no reader that it
-/// waits for. Thread: that of the bus; the stop may be requested and
-/// the bell rung by any.
+/// Blocks until one of its conditions holds. Destroy it before its bus and before the readers that
+/// it waits for. Thread: that of the bus; any thread may request the stop and call ring().
 class WaitSet {
  public:
   [[nodiscard]] static Result<WaitSet> create(Bus& bus);
@@ -34,19 +33,20 @@ class WaitSet {
   WaitSet& operator=(WaitSet&&) = delete;
   ~WaitSet();
 
-  /// Wakes when the reader has samples, until they are taken.
+  /// Wakes while the reader has samples that were not taken.
   template <class Message>
   [[nodiscard]] Status add(const Reader<Message>& reader) {
     return add_reader(reader.handle());
   }
-  /// Wakes when a participant comes or goes, or when an end of a writer or reader that exists now
-  /// matches or not, until Bus::take_events() is called.
+  /// Wakes when a participant appears or leaves, or when a match of a present writer or reader
+  /// changes, until Bus::take_events() is called.
   [[nodiscard]] Status add_events();
 
-  /// Ends the wait that goes on, or else the next one, as kReady. Any thread.
+  /// Ends the current wait, or else the next one, with kReady. Any thread.
   void ring() const noexcept;
 
-  /// `timeout` below 0 waits for ever. kReady if several apply.
+  /// Waits for at most `timeout`; negative: without limit. Returns kReady if several outcomes
+  /// apply.
   [[nodiscard]] Woken wait(Duration timeout, const std::stop_token& stop = {});
 
  private:
@@ -58,7 +58,7 @@ class WaitSet {
   dds_entity_t set_ = 0;
   dds_entity_t stop_ = 0;
   dds_entity_t bell_ = 0;
-  std::unique_ptr<Relay> relay_;  ///< Only where a reader has a short way.
+  std::unique_ptr<Relay> relay_;  ///< Only if a reader uses the local transport.
   std::vector<dds_entity_t> conditions_;
 };
 

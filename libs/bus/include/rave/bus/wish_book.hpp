@@ -15,63 +15,64 @@
 
 namespace rave::bus {
 
-/// What was begun of a wish.
+/// A request that was begun.
 struct BegunWish {
-  /// Called now and then until it gives the answer, a line of UTF-8 without its end; never waits.
+  /// Polled until it returns the answer: one line of UTF-8 without a newline. It must not block.
   std::function<std::optional<std::string>()> answer;
-  std::string told;        ///< What the log says was asked; empty: it only looks.
-  bool understood = true;  ///< False: nothing was begun; the log says so once a second of each.
+  std::string told;  ///< The text for the log; empty if the request changes nothing.
+  /// False: the line was not a valid request. Logged at most once a second per process.
+  bool understood = true;
 };
 
-/// Begins what a line asks, without waiting for it. Whoever calls it does so in one thread.
+/// Begins the request of a line without waiting for it. Always called in the same thread.
 using BeginWish = std::function<BegunWish(std::string_view line)>;
 
-/// The wishes that one process was asked: who asks too often or too much at once is refused, and
-/// nobody keeps the others from being heard. What comes twice is done once. One owner thread.
+/// The requests that a process has received. It limits the rate and the number of each sender, so
+/// none keeps the others waiting, and executes a repeated request once. One owner thread.
 class WishBook {
  public:
   using Clock = std::chrono::steady_clock;
-  static constexpr double kPerSecond = 10;          ///< Of one writer.
-  static constexpr double kAtOnce = 20;             ///< Of one that was quiet.
-  static constexpr double kAllPerSecond = 50;       ///< Of all writers together.
-  static constexpr double kAllAtOnce = 100;         ///< The same.
-  static constexpr std::size_t kMostOpenEach = 4;   ///< That wait for their answer, of one writer.
-  static constexpr std::size_t kMostOpen = 32;      ///< Of all.
-  static constexpr std::size_t kMostAskers = 256;   ///< That are remembered.
-  static constexpr std::chrono::seconds kKept{10};  ///< So long an answer can be given again.
-  /// Bytes of all answers together that are longer than a message and so are kept to be fetched.
+  static constexpr double kPerSecond = 10;          ///< Rate limit of one writer.
+  static constexpr double kAtOnce = 20;             ///< Burst limit of one writer.
+  static constexpr double kAllPerSecond = 50;       ///< Rate limit of all writers together.
+  static constexpr double kAllAtOnce = 100;         ///< Burst limit of all writers together.
+  static constexpr std::size_t kMostOpenEach = 4;   ///< Unanswered requests of one writer.
+  static constexpr std::size_t kMostOpen = 32;      ///< Unanswered requests of all writers.
+  static constexpr std::size_t kMostAskers = 256;   ///< Writers that are remembered.
+  static constexpr std::chrono::seconds kKept{10};  ///< How long an answer can be repeated.
+  /// Total size in bytes of the answers that are longer than a message and are kept to be fetched.
   static constexpr std::size_t kMostKeptLong = std::size_t{16} << 20U;
 
-  /// A wish that has come. `writer` and `number` are above 0.
+  /// A received request. `writer` and `number` are above 0.
   struct Heard {
-    std::uint64_t writer = 0;  ///< Who asks.
-    std::uint64_t number = 0;  ///< The same again: it was sent again.
-    std::string_view from;     ///< Who asks, for the log.
+    std::uint64_t writer = 0;  ///< The sender.
+    std::uint64_t number = 0;  ///< Number of the request; a repetition has the same number.
+    std::string_view from;     ///< Name of the sender, for the log.
     std::string_view line;
   };
-  /// What is to be sent.
+  /// An answer to send.
   struct Reply {
-    std::uint64_t target = 0;  ///< The writer that asked.
+    std::uint64_t target = 0;  ///< The writer that sent the request.
     std::uint64_t number = 0;
-    bool taken = false;  ///< False: refused here, and `text` says why.
-    std::string text;    ///< Of a long answer the part that was asked for; see wish_parts.hpp.
+    bool taken = false;  ///< False: the request was refused here; `text` gives the reason.
+    std::string text;    ///< The answer; of a long one the requested part, see wish_parts.hpp.
   };
 
   /// `log` is not owned and may be null.
   WishBook(BeginWish begin, LogSink* log) : begin_(std::move(begin)), log_(log) {}
 
-  /// Begins it, unless it is too much or was begun before.
+  /// Begins a request, unless it exceeds a limit or is a repetition.
   void hear(const Heard& wish, Clock::time_point now);
-  /// The answers that there are since the last call.
+  /// The answers that became available since the last call.
   [[nodiscard]] std::vector<Reply> take(Clock::time_point now);
-  /// How many wait for their answer.
+  /// The number of unanswered requests.
   [[nodiscard]] std::size_t open() const noexcept { return open_.size(); }
-  /// Whether take() has nothing to do until the next wish: as of the last take(), none waits for
-  /// its answer and no answer is kept.
+  /// Whether take() has nothing to do until the next request: as of the last take(), none is
+  /// unanswered and no answer is kept.
   [[nodiscard]] bool idle() const noexcept { return open_.empty() && kept_ == 0; }
 
  private:
-  /// What may be taken now, filled again as time goes by.
+  /// A token bucket: what may be taken now. It refills with time.
   struct Budget {
     double left = 0;
     Clock::time_point filled{};
@@ -79,11 +80,11 @@ class WishBook {
   };
   struct Asker {
     Budget budget{};
-    std::uint64_t last = 0;  ///< The highest number that was taken or refused.
+    std::uint64_t last = 0;  ///< The highest number that was accepted or refused.
     std::size_t open = 0;
     Clock::time_point heard{};
-    std::optional<Clock::time_point> scolded{};  ///< When it was last told that it is too much.
-    std::optional<Clock::time_point> babbled{};  ///< When its nonsense was logged last.
+    std::optional<Clock::time_point> scolded{};  ///< When it was last told that it exceeds a limit.
+    std::optional<Clock::time_point> babbled{};  ///< When an invalid request of it was last logged.
     std::optional<Reply> said{};                 ///< The last answer.
     Clock::time_point said_at{};
   };
@@ -103,9 +104,9 @@ class WishBook {
   LogSink* log_;
   Budget all_{};
   std::map<std::uint64_t, Asker> askers_;  ///< By writer.
-  std::vector<Open> open_;                 ///< In the order in which they came.
+  std::vector<Open> open_;                 ///< In the order of arrival.
   std::vector<Reply> replies_;
-  std::size_t kept_ = 0;  ///< Answers that can be given again, as of the last take().
+  std::size_t kept_ = 0;  ///< The number of answers kept for repetition, as of the last take().
 };
 
 }  // namespace rave::bus

@@ -10,18 +10,18 @@
 
 namespace rave::bus {
 
-/// Hears what others ask of this process on the bus (topic rave/wish), and answers (rave/answer).
-/// Must be gone before its bus; thread: that of the bus.
+/// Receives the requests to this process from the bus (topic rave/wish) and sends the answers
+/// (rave/answer). Destroy it before its bus; thread: that of the bus.
 class WishBox {
  public:
-  /// `log` is not owned and may be null. Null if nothing can be begun. Errors: those of
+  /// `log` is not owned and may be null. Returns null if `begin` is empty. Errors: those of
   /// Writer::create().
   [[nodiscard]] static Result<std::unique_ptr<WishBox>> create(Bus& bus, BeginWish begin,
                                                                LogSink* log);
 
-  /// Wakes whoever waits when a wish comes.
+  /// Makes `waits` wake up when a request arrives.
   [[nodiscard]] Status wake(WaitSet& waits) const { return waits.add(wishes_); }
-  /// Begins what has come, and answers what is done. Waits for nobody.
+  /// Begins the received requests and sends the available answers. Does not block.
   void serve();
 
  private:
@@ -35,7 +35,7 @@ class WishBox {
   Writer<WishAnswer> answers_;
   std::uint64_t self_;  ///< The writer of this process.
   WishBook book_;
-  bool idle_ = true;  ///< Nothing is to be done until the next wish.
+  bool idle_ = true;  ///< Nothing to do until the next request.
 };
 
 }  // namespace rave::bus

@@ -8,36 +8,36 @@
 
 #include "rave/base/result.hpp"
 
-// An answer that is longer than one message goes in several: each begins with `from BYTE of BYTES:
-// ` and is asked for by a wish of the same number that says `from BYTE`. An answer that fits goes
-// as it is; none begins like a part. Pure; any thread.
+// An answer longer than one message is sent in parts. Each part begins with `from BYTE of BYTES: `;
+// the next is requested by a request of the same number with the text `from BYTE`. A short answer
+// is sent unchanged; no answer begins like a part. Pure; any thread.
 namespace rave::bus {
 
-/// Most bytes of an answer in all its parts.
+/// Size limit of an answer, all parts together (bytes).
 inline constexpr std::size_t kMostAnswerBytes = std::size_t{8} << 20U;
 
-/// The message with what an answer has from this byte on. Nothing: it has no such byte.
+/// The message with the part of an answer from byte `from`. Empty: the answer has no such byte.
 [[nodiscard]] std::optional<std::string> answer_part(std::string_view answer, std::size_t from);
 
-/// The wish for the rest of an answer, and where the rest begins that a wish is for; 0 for any
-/// other wish.
+/// The request for the rest of an answer, and its inverse: the byte that such a request names; 0
+/// for any other request.
 [[nodiscard]] std::string wish_for_rest(std::size_t from);
 [[nodiscard]] std::size_t rest_wished(std::string_view wish) noexcept;
 
-/// Puts an answer together. One owner thread.
+/// Assembles an answer from its parts. One owner thread.
 class AnswerParts {
  public:
-  /// The next message. A part that was there before changes nothing. Error kParse: it is not what
-  /// follows, or is of another or too long an answer, or less than a part has; nothing is kept of
-  /// it.
+  /// Adds the next message. A repeated part changes nothing. Error kParse: the part does not follow
+  /// the last one, belongs to another answer, is too short, or the answer is too long; nothing of
+  /// it is kept.
   [[nodiscard]] Status add(std::string_view message);
-  /// Whether all of it is there.
+  /// Whether all parts are present.
   [[nodiscard]] bool complete() const noexcept { return total_ > 0 && text_.size() == total_; }
-  /// What is there, from the beginning.
+  /// The text so far, from the beginning.
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
 
  private:
-  std::size_t total_ = 0;  ///< 0: nothing has come.
+  std::size_t total_ = 0;  ///< 0: nothing was added yet.
   std::string text_;
 };
 

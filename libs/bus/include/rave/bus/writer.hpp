@@ -8,7 +8,7 @@
 
 namespace rave::bus {
 
-/// What writers of all types share. Owner: a Writer.
+/// The part of Writer that does not depend on the message type. Owner: a Writer.
 class WriterCore {
  public:
   [[nodiscard]] static Result<WriterCore> create(Bus& bus, const TopicSpec& topic);
@@ -29,36 +29,36 @@ class WriterCore {
   Bus* bus_;
   const char* topic_;
   dds_entity_t writer_ = 0;
-  ShortSender* short_ = nullptr;  ///< Of the bus; null if all goes by DDS.
+  ShortSender* short_ = nullptr;  ///< Owned by the bus; null: all samples use DDS.
 };
 
-/// Writes one topic. Must be gone before its bus; thread: that of the bus.
+/// Writes one topic. Destroy it before its bus; thread: that of the bus.
 template <class Message>
 class Writer {
  public:
-  /// Error: kState (the topic exists with another type), kIo.
+  /// Creates a writer. Errors: kState (the topic exists with another type), kIo.
   [[nodiscard]] static Result<Writer> create(Bus& bus) {
     RAVE_TRY_ASSIGN(WriterCore core, WriterCore::create(bus, topic_of<Message>()));
     return Writer(std::move(core));
   }
 
-  /// Sends a sample after filling in its run and writer. Its sequences stay the caller's; they are
-  /// read during the call only. Errors: kTimeout (a reader does not keep up, and there is no
-  /// room for more; see QosProfile::waits), kInvalidArgument (a sequence is longer than its bound).
+  /// Sets the run and writer of a sample and sends it. Its sequences stay owned by the caller and
+  /// are read during the call only. Errors: kTimeout (a reader does not keep up and there is no
+  /// room; see QosProfile::waits), kInvalidArgument (a sequence is longer than its bound).
   [[nodiscard]] Status write(Message& sample) {
     sign(sample);
     return core_.write(&sample);
   }
 
-  /// Says that the object named by the key fields of `sample` is no more.
+  /// Announces that the object with the key fields of `sample` no longer exists.
   [[nodiscard]] Status dispose(Message& sample) {
     sign(sample);
     return core_.dispose(&sample);
   }
 
-  /// How many readers are known now.
+  /// The number of matched readers.
   [[nodiscard]] std::size_t readers() const { return core_.readers(); }
-  /// For what this class does not do; the entity stays its own.
+  /// The DDS writer, for what this class does not offer. Still owned by this object.
   [[nodiscard]] dds_entity_t handle() const noexcept { return core_.handle(); }
 
  private:

@@ -13,11 +13,11 @@
 
 namespace rave::config {
 
-/// What reading one value needs to know about its surroundings.
+/// The context of reading one value.
 struct ReadContext {
   Diagnostics& diagnostics;
   const FieldOptions& options;
-  /// How messages call the value, such as "`range_m`" or "item 3 of `mounts`"; may be empty.
+  /// The name of the value in messages, such as "`range_m`" or "item 3 of `mounts`"; may be empty.
   std::string label;
 
   /// Reports `label: found …, expected …` at the node.
@@ -49,19 +49,19 @@ struct EnumName {
 template <class E>
 struct EnumTag {};
 
-/// Given to `validate(const T&, CheckContext&)`, which is called after a struct was read without an
-/// error, to check what concerns several fields.
+/// Passed to `validate(const T&, CheckContext&)`, which checks conditions between fields. It is
+/// called after the struct was read without errors.
 class CheckContext {
  public:
   CheckContext(const RawNode& mapping, Diagnostics& diagnostics)
       : mapping_(mapping), diagnostics_(diagnostics) {}
 
-  /// Reports an error at the value of `key`, or at the mapping if the key was left out or is empty.
+  /// Reports an error at the value of `key`, or at the mapping if the key is missing or empty.
   template <class... Args>
   void error(std::string_view key, fmt::format_string<Args...> format, Args&&... args) {
     report(key, fmt::format(format, std::forward<Args>(args)...));
   }
-  /// Reports an error at a place of its own, such as that of a Located value further down.
+  /// Reports an error at the given place, such as that of a Located value further down.
   template <class... Args>
   void error_at(SourceLocation where, fmt::format_string<Args...> format, Args&&... args) {
     diagnostics_.add(Error{ErrorCode::kParse, fmt::format(format, std::forward<Args>(args)...),
@@ -69,7 +69,7 @@ class CheckContext {
   }
   /// Where the struct stands in the file.
   [[nodiscard]] SourceLocation where() const { return mapping_.where(); }
-  /// The mapping as read, to ask whether a key was given.
+  /// The mapping as read, to test whether a key was given.
   [[nodiscard]] const RawNode& node() const noexcept { return mapping_; }
 
  private:

@@ -12,7 +12,7 @@
 #include "rave/base/result.hpp"
 #include "rave/config/codec_base.hpp"
 
-// What the codecs share; not for use outside of this library.
+// Shared by the codecs; internal to this library.
 namespace rave::config {
 namespace detail {
 
@@ -33,7 +33,7 @@ std::string enum_expectation(std::span<const std::string_view> names);
 /// Whether the node is a list (or mapping) of allowed length; reports if not.
 bool check_list(const ReadContext& context, const RawNode& node, std::string_view expected);
 bool check_map(const ReadContext& context, const RawNode& node, std::string_view expected);
-/// The options of the elements: those of the whole without the limits on its length.
+/// The options for elements: those of the list or map without its length limits.
 FieldOptions element_options(const FieldOptions& options);
 std::string item_label(const ReadContext& context, std::size_t index);
 void add_shorthand(const ReadContext& context, const RawNode& node, Status status);

@@ -11,7 +11,7 @@
 #include "rave/config/codec_support.hpp"
 #include "rave/config/located.hpp"
 
-// Codecs of what holds other values: Located, optional, list, array and map.
+// Codecs of types that contain other values: Located, optional, list, array and map.
 namespace rave::config {
 
 template <class T>

@@ -9,13 +9,13 @@
 
 namespace rave::config {
 
-/// All that is wrong with one input, in the order in which it was found. Owned by whoever reads;
-/// not for use by two threads at once.
+/// All errors of one input, in the order in which they were found. Owned by the reading function;
+/// not thread-safe.
 class Diagnostics {
  public:
-  /// More errors than this are not kept, so that a hostile file cannot fill the memory.
+  /// Later errors are dropped, so that a malicious file cannot exhaust the memory.
   static constexpr std::size_t kMaxErrors = 1000;
-  /// How many errors `joined` shows unless told otherwise.
+  /// The default number of errors that `joined` shows.
   static constexpr std::size_t kMaxShown = 20;
 
   void add(Error error);
@@ -23,11 +23,11 @@ class Diagnostics {
   [[nodiscard]] std::size_t size() const noexcept { return errors_.size(); }
   [[nodiscard]] std::span<const Error> errors() const noexcept { return errors_; }
 
-  /// Puts the errors in the order of their lines and columns; those of one place stay in order.
+  /// Sorts the errors by line and column; stable.
   void sort();
 
-  /// One Error that shows up to `shown` errors, one per line, each with its own
-  /// file:line:column, and says how many more there are. Precondition: not ok().
+  /// One Error that lists up to `shown` errors, one per line, each with its file:line:column, and
+  /// the number of further ones. Precondition: not ok().
   [[nodiscard]] Error joined(std::size_t shown = kMaxShown) const;
 
  private:

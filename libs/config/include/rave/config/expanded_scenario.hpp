@@ -13,24 +13,24 @@
 
 namespace rave::config {
 
-/// The other drivers of a robot: a robot file of the same robot.
+/// The second set of drivers of a robot: another robot file for the same robot.
 struct TwinGroup {
   std::string file;  ///< As RobotGroup::file.
   RobotFile robot;
   bool operator==(const TwinGroup&) const = default;
 };
 
-/// What the robots of one entry of the scenario have in common.
+/// Properties shared by all robots of one entry of the scenario.
 struct RobotGroup {
-  Located<std::string> name;  ///< As written; the place is the entry's, for later errors.
+  Located<std::string> name;  ///< As written, with the place of the entry for later errors.
   std::string team;
   std::optional<std::string> kind;
-  /// Absolute path of the robot file, which relative paths among its parameters start from; empty
-  /// if the robot was written out in the scenario alone.
+  /// Absolute path of the robot file, the base of relative paths among its parameters; empty if the
+  /// robot is defined in the scenario itself.
   std::string file;
   RobotFile robot;
-  std::optional<ScatterFile> scatter;  ///< Set: the robots have no poses yet.
-  std::optional<TwinGroup> twin;       ///< Set: it is one robot.
+  std::optional<ScatterFile> scatter;  ///< If set, poses are still to be drawn.
+  std::optional<TwinGroup> twin;       ///< If set, the entry is one robot.
   HandOverFile hand_over;
   bool shadow = false;  ///< With `twin` only.
   bool operator==(const RobotGroup&) const = default;
@@ -45,14 +45,15 @@ struct ExpandedRobot {
   bool operator==(const ExpandedRobot&) const = default;
 };
 
-/// A scenario with all that it refers to. A value.
+/// A scenario and all files that it refers to. A value.
 struct ExpandedScenario {
-  /// Settings, checks and picture. Its world, obstacles, maps and robots were moved to the members
+  /// Settings, checks and picture. Its world, obstacles, maps and robots are moved to the members
   /// below and are empty here.
   ScenarioFile scenario;
   std::vector<RobotGroup> groups;     ///< In the order of the file.
   std::vector<ExpandedRobot> robots;  ///< By group; names are unique.
-  /// World and scenario together; names are unique, map files absolute and present.
+  /// Obstacles of the world file and the scenario; names are unique, map files exist and have
+  /// absolute paths.
   WorldFile world;
 
   [[nodiscard]] const RobotGroup& group_of(const ExpandedRobot& robot) const {
@@ -61,11 +62,11 @@ struct ExpandedScenario {
   bool operator==(const ExpandedScenario&) const = default;
 };
 
-/// The indices of the robots that a name stands for: one robot, or all of an entry. Empty: none.
+/// The indices of the robots with this name: one robot, or all robots of an entry. Empty: none.
 [[nodiscard]] std::vector<std::size_t> robots_named(const ExpandedScenario& scenario,
                                                     std::string_view name);
 
-/// One host of a scenario that is shared among several.
+/// One host of a scenario with several hosts.
 struct PlannedHost {
   std::string name;
   std::vector<std::size_t> robots;  ///< Indices, ascending; at least one.
@@ -73,29 +74,29 @@ struct PlannedHost {
   bool operator==(const PlannedHost&) const = default;
 };
 
-/// Who runs which robot: by `hosts`, or `processes` equal parts in the order of the robots. Empty:
-/// one process runs them all. Errors: kParse (no such robot, a robot of two hosts or of none, a
-/// host without robots, more processes than robots).
+/// Assigns robots to hosts: by `hosts`, or `processes` equal parts in the order of the robots.
+/// Empty: one process runs them all. Errors: kParse (unknown robot, a robot of two hosts or of
+/// none, a host without robots, more processes than robots).
 [[nodiscard]] Result<std::vector<PlannedHost>> plan_hosts(const ExpandedScenario& scenario);
 
-/// After how many steps the host of a robot says again where it is; at least 1.
+/// The period at which the host of a robot publishes its state, in steps, rounded up; at least 1.
 [[nodiscard]] std::uint32_t report_period_steps(const ExpandedScenario& scenario,
                                                 const ExpandedRobot& robot);
 
 /// Reads a scenario and the files it names (a robot file once per entry) and checks them together:
-/// names, periods that are multiples of the step, sensors that checks and picture name, files that
-/// do not exist (error at the line that names them). Errors: kNotFound, kIo, kParse.
+/// names, periods that must be multiples of the step, sensors that checks and picture name, missing
+/// files (error at the line that names them). Errors: kNotFound, kIo, kParse.
 [[nodiscard]] Result<ExpandedScenario> expand_scenario(const std::filesystem::path& path);
-/// The same for a text that stands in for the file `path`.
+/// Like expand_scenario(), for a text instead of the content of file `path`.
 [[nodiscard]] Result<ExpandedScenario> expand_scenario_text(std::string_view text,
                                                             const std::filesystem::path& path);
 
-/// The same for a scenario that was made by code; `path` is where it would stand.
+/// Like expand_scenario(), for a scenario made by code; `path` is the base of relative paths.
 [[nodiscard]] Result<ExpandedScenario> expand_scenario_file(ScenarioFile scenario,
                                                             const std::filesystem::path& path);
 
-/// One scenario file that says everything, all defaults included; expanding it anywhere gives an
-/// equal value as long as the maps exist.
+/// The scenario as one self-contained file with all defaults. Expanding it in any folder gives an
+/// equal value as long as the map files exist.
 [[nodiscard]] std::string write_expanded(const ExpandedScenario& expanded);
 
 }  // namespace rave::config

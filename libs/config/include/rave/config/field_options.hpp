@@ -8,8 +8,8 @@
 
 namespace rave::config {
 
-/// What a description says about one field beyond its name and type. Texts are views: give
-/// literals. Limits on numbers apply to each number of a list, map, array or optional.
+/// Constraints and documentation of a field. Texts are views: pass literals. Limits on numbers
+/// apply to each number of a list, map, array or optional.
 struct FieldOptions {
   /// One sentence; becomes the comment of the written file and the schema's description.
   std::string_view doc = {};

@@ -35,8 +35,8 @@
 // leaving it out or by `null`. A struct may not contain itself.
 namespace rave::config {
 
-/// Reads a described struct from a parsed tree and adds what is wrong to the diagnostics; the value
-/// is complete only if nothing was added.
+/// Reads a described struct from a parsed tree. Errors are added to the diagnostics; the value is
+/// complete only if none was added.
 template <class T>
 [[nodiscard]] T read_node(const RawNode& node, Diagnostics& diagnostics) {
   T value{};
@@ -45,7 +45,7 @@ template <class T>
   return value;
 }
 
-/// The same, with all errors joined into one.
+/// Like read_node(), with all errors joined into one.
 template <class T>
 [[nodiscard]] Result<T> read_node(const RawNode& node) {
   Diagnostics diagnostics;
@@ -55,8 +55,8 @@ template <class T>
   return tl::unexpected<Error>(diagnostics.joined());
 }
 
-/// Reads a struct from YAML text. `file_name` is only for messages. On failure the diagnostics hold
-/// every error found, sorted by place; the Error joins the first of them.
+/// Reads a struct from YAML text. `file_name` is used in messages only. On failure the diagnostics
+/// hold every error found, sorted by place; the Error joins the first of them.
 template <class T>
 [[nodiscard]] Result<T> read_text(std::string_view text, std::string_view file_name,
                                   Diagnostics& diagnostics) {
@@ -76,20 +76,20 @@ template <class T>
 }
 
 /// Reads a struct from a YAML file of at most kMaxFileBytes. Errors: those of rave::read_file, and
-/// kParse with file:line:column for what is wrong in it.
+/// kParse with file:line:column for errors in its content.
 template <class T>
 [[nodiscard]] Result<T> read_file(const std::filesystem::path& path) {
   RAVE_TRY_ASSIGN(const std::string text, rave::read_file(path, kMaxFileBytes));
   return read_text<T>(text, path.string());
 }
 
-/// The struct as a tree, every field included.
+/// The struct as a tree with all fields.
 template <class T>
 [[nodiscard]] RawNode write_node(const T& value) {
   return Codec<T>::write(value);
 }
 
-/// The struct as YAML with every field, its unit and its sentence as comments. Reading it back
+/// The struct as YAML with all fields; units and doc sentences become comments. Reading it back
 /// gives an equal struct.
 template <class T>
 [[nodiscard]] std::string write_text(const T& value) {

@@ -10,10 +10,10 @@
 
 namespace rave::config {
 
-/// Whose rights a rule sets. A super-user has every right.
+/// The role that a rule applies to. A super-user has every right.
 enum class GuiRole : std::uint8_t { kObserver, kCommander };
 
-/// What is given or withheld as a whole.
+/// What a rule permits or forbids.
 enum class GuiClass : std::uint8_t {
   kPose,
   kTruePose,
@@ -34,35 +34,36 @@ enum class GuiClass : std::uint8_t {
   kProbe,
 };
 
-/// Of which robots.
+/// The robots that a rule applies to.
 enum class GuiReach : std::uint8_t {
   kNone,
-  kOwn,  ///< Those of the user's own teams.
+  kOwn,  ///< Robots of the user's own teams.
   kAll,
-  kTeams,  ///< Those of `teams`.
+  kTeams,  ///< Robots of `teams`.
 };
 
-/// One entry of `gui: rights:`; later ones go before earlier ones.
+/// One entry of `gui: rights:`. Later entries override earlier ones.
 struct GuiRightFile {
   std::optional<GuiRole> role;  ///< Exactly one of role and user is set.
   std::optional<Located<std::string>> user;
   std::vector<GuiClass> classes;
   GuiReach reach = GuiReach::kNone;
-  std::vector<std::string> teams;  ///< Of kTeams alone.
+  std::vector<std::string> teams;  ///< Used with kTeams only.
   bool operator==(const GuiRightFile&) const = default;
 };
 
-/// One entry of `gui: components:`: a panel of the page that the scenario brings along.
+/// One entry of `gui: components:`: a panel of the page that the scenario supplies.
 struct GuiComponentFile {
-  Located<std::string> module;  ///< An ES module; absolute in an expanded scenario.
-  std::vector<GuiRole> roles;   ///< Who gets it, beside super-users.
+  Located<std::string> module;  ///< An ES module; an absolute path in an expanded scenario.
+  std::vector<GuiRole> roles;   ///< The roles that get the panel, besides super-users.
   bool operator==(const GuiComponentFile&) const = default;
 };
 
-/// What the page shows to whom. It is no part of the run: processes of one run need not agree.
+/// The part of a scenario that configures the page: rights and panels. It is not part of the run,
+/// so the processes of a run may have different values.
 struct GuiFile {
   std::vector<GuiRightFile> rights;
-  bool relay = false;  ///< Orders may go through the GUI Server where there is no direct line.
+  bool relay = false;  ///< Orders may go through the GUI Server if there is no direct line.
   std::vector<GuiComponentFile> components;
   bool operator==(const GuiFile&) const = default;
 };

@@ -7,13 +7,12 @@
 
 namespace rave::config {
 
-/// A value of a file together with the place it was read from, for checks that come later (an
-/// unknown driver, two robots of one name). Usable as the type of a field. Two are equal if their
-/// values are; the place does not count.
+/// A value of a file with the place where it was read, for errors found later (an unknown driver,
+/// two robots of one name). May be the type of a field. Comparison ignores the place.
 template <class T>
 struct Located {
   T value{};
-  /// Of the value; without a file if the value is a default or was set by code.
+  /// The place of the value; without a file if it is a default or was set by code.
   SourceLocation where;
 
   Located() = default;

@@ -12,7 +12,7 @@
 
 namespace rave::config {
 
-/// What a map says of one cell.
+/// The state of one map cell.
 enum class CellState : std::uint8_t { kFree, kOccupied, kUnknown };
 
 /// Images with more pixels than this are refused.
@@ -22,8 +22,8 @@ inline constexpr std::size_t kMaxMapPixels = std::size_t{64} * 1000 * 1000;
 struct GreyImage {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> shade;   ///< 0 black to 255 white; colours are averaged.
-  std::vector<std::uint8_t> opaque;  ///< 0 where the image is at least partly transparent, else 1.
+  std::vector<std::uint8_t> shade;   ///< 0 black to 255 white; the mean of the colour channels.
+  std::vector<std::uint8_t> opaque;  ///< 0 where the image is partly or fully transparent, else 1.
 };
 
 /// A map in the sense of ROS `map_server`. Map frame: origin at the lower left corner of the image,
@@ -57,12 +57,14 @@ struct MapImage {
 /// ignored in the other modes.
 [[nodiscard]] Result<MapImage> read_map(const std::filesystem::path& yaml_path);
 
-/// The same for YAML that was already loaded; `yaml_path` tells where the image lies.
+/// Like read_map(), for YAML text that was already loaded; `yaml_path` is the base of the image
+/// path.
 [[nodiscard]] Result<MapImage> read_map_text(std::string_view yaml,
                                              const std::filesystem::path& yaml_path);
 
 /// Decodes PGM (P2 or P5, comments, up to 16 bits) or PNG (grey, RGB, palette, alpha; 16 bits are
-/// reduced to 8), told apart by their first bytes. `file_name` is for messages. Errors: kParse.
+/// reduced to 8); the magic bytes select the format. `file_name` is used in messages. Errors:
+/// kParse.
 [[nodiscard]] Result<GreyImage> decode_image(std::string_view bytes, std::string_view file_name);
 [[nodiscard]] Result<GreyImage> decode_pgm(std::string_view bytes, std::string_view file_name);
 [[nodiscard]] Result<GreyImage> decode_png(std::string_view bytes, std::string_view file_name);
@@ -83,8 +85,8 @@ struct MapRectangle {
   double max_y_m = 0;
 };
 
-/// Covers the occupied cells exactly, without overlaps, by few rectangles (greedy: each is the
-/// larger of growing right first and growing down first). Deterministic, ordered by row and column.
+/// A cover of the occupied cells by few rectangles, exact and without overlaps. Greedy: each is the
+/// larger of growing right first and growing down first. Deterministic; ordered by row and column.
 [[nodiscard]] std::vector<CellRectangle> cell_rectangles_of(const MapImage& map);
 [[nodiscard]] std::vector<MapRectangle> rectangles_of(const MapImage& map);
 

@@ -8,18 +8,18 @@
 
 namespace rave::config {
 
-/// How fast simulated time may pass against wall time.
+/// The upper limit of simulated time per wall time.
 struct Pace {
-  /// Simulated seconds per wall second; 0: as fast as it can.
+  /// Simulated seconds per wall second; 0: no limit.
   double factor = 0;
 
   [[nodiscard]] bool is_max() const noexcept { return factor == 0; }
   bool operator==(const Pace&) const = default;
 };
 
-/// Reads `max`, `realtime` or a positive number followed by `x`, such as `10x`.
+/// Parses `max`, `realtime` or a positive number followed by `x`, such as `10x`. Error: kParse.
 [[nodiscard]] Result<Pace> parse_pace(std::string_view text);
-/// The text that parse_pace reads back.
+/// The inverse of parse_pace().
 [[nodiscard]] std::string to_string(const Pace& pace);
 
 }  // namespace rave::config

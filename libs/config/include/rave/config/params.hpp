@@ -15,33 +15,33 @@
 
 namespace rave::config {
 
-/// The types a parameter that is only known at run time (of a plug-in) can have.
+/// The types of parameters that are only known at run time, such as those of a plug-in.
 enum class ParamType : std::uint8_t { kBool, kInt, kDouble, kString, kEnum, kDoubleList };
 
-/// The value of a parameter; an enum is the std::string of its choice.
+/// The value of a parameter; an enum is stored as the name of its choice.
 using ParamValue = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
 
-/// The description of one parameter at run time: what FieldOptions are to a member of a struct.
+/// The description of one parameter at run time; corresponds to FieldOptions of a struct member.
 struct FieldSpec {
   std::string name;
   ParamType type = ParamType::kDouble;
   std::string doc = {};
-  std::optional<double> min = {};  ///< Also of each number of a list.
+  std::optional<double> min = {};  ///< Applies to each number of a list.
   bool exclusive_min = false;
   std::optional<double> max = {};
   bool exclusive_max = false;
   std::string unit = {};                         ///< SI symbol, or empty.
-  std::vector<std::string> choices = {};         ///< Of an enum.
-  std::optional<std::size_t> min_items = {};     ///< Of a list, or bytes of a string.
-  std::optional<std::size_t> max_items = {};     ///< Likewise.
-  std::optional<ParamValue> default_value = {};  ///< None: the parameter must be given.
+  std::vector<std::string> choices = {};         ///< For an enum.
+  std::optional<std::size_t> min_items = {};     ///< Length of a list, or bytes of a string.
+  std::optional<std::size_t> max_items = {};     ///< Length of a list, or bytes of a string.
+  std::optional<ParamValue> default_value = {};  ///< Empty: the parameter is required.
 };
 
 /// One parameter with its value.
 struct Param {
   std::string name;
   ParamValue value;
-  SourceLocation where = {};  ///< Of the value in the file; without a file for a default.
+  SourceLocation where = {};  ///< The place of the value; without a file for a default.
   friend bool operator==(const Param& a, const Param& b) {
     return a.name == b.name && a.value == b.value;
   }
@@ -53,9 +53,9 @@ class ParamValues {
   void add(Param param) { params_.push_back(std::move(param)); }
   [[nodiscard]] std::span<const Param> all() const noexcept { return params_; }
   [[nodiscard]] std::size_t size() const noexcept { return params_.size(); }
-  /// nullptr if there is none of this name.
+  /// The parameter of this name; nullptr if there is none.
   [[nodiscard]] const Param* find(std::string_view name) const noexcept;
-  /// The value as T; nullptr if there is none of this name and type.
+  /// The value of this name as T; nullptr if there is none of this name and type.
   template <class T>
   [[nodiscard]] const T* get(std::string_view name) const noexcept {
     const Param* param = find(name);
@@ -67,21 +67,21 @@ class ParamValues {
   std::vector<Param> params_;
 };
 
-/// Whether the specs themselves are sound: names unique and not empty, choices for every enum,
-/// defaults of the right type and within their own limits. Errors: kInvalidArgument.
+/// Checks the specs themselves: unique and non-empty names, choices for every enum, defaults of the
+/// right type and within their limits. Errors: kInvalidArgument.
 [[nodiscard]] Status check_specs(std::span<const FieldSpec> specs);
 
-/// Reads parameters from a mapping (or null: none given) strictly and fills in the defaults.
-/// `context` begins each message, for example "driver `virtual_laser`". Problems go to the
-/// diagnostics; the values are complete only if none were added.
+/// Reads parameters from a mapping (or null: none given) and adds the defaults. Unknown names and
+/// wrong types are errors. `context` begins each message, for example "driver `virtual_laser`".
+/// Errors are added to the diagnostics; the values are complete only if none was added.
 [[nodiscard]] ParamValues read_params(const RawNode& node, std::span<const FieldSpec> specs,
                                       std::string_view context, Diagnostics& diagnostics);
-/// The same with all problems joined into one Error.
+/// Like read_params(), with all errors joined into one.
 [[nodiscard]] Result<ParamValues> read_params(const RawNode& node, std::span<const FieldSpec> specs,
                                               std::string_view context);
 
-/// The values as a mapping with units and sentences as comments (to_yaml gives the text).
-/// Parameters without a value are left out.
+/// The values as a mapping; units and doc sentences become comments (to_yaml gives the text).
+/// Parameters without a value are omitted.
 [[nodiscard]] RawNode write_params(const ParamValues& values, std::span<const FieldSpec> specs);
 
 /// The JSON Schema fragment (draft 07) of a mapping with these parameters.

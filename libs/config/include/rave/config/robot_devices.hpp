@@ -10,11 +10,11 @@
 #include "rave/config/raw_node.hpp"
 #include "rave/config/shape_file.hpp"
 
-// What a robot file says of the devices of a robot. Plain values; driver names and parameters are
-// checked later against the drivers that are loaded.
+// The devices of a robot as a robot file describes them. Plain values; driver names and parameters
+// are checked later against the loaded drivers.
 namespace rave::config {
 
-/// Pose of a sensor in the body frame. Roll and pitch other than 0 are refused.
+/// Pose of a sensor in the body frame. Nonzero roll and pitch are refused.
 struct MountFile {
   double x_m = 0;
   double y_m = 0;
@@ -25,21 +25,22 @@ struct MountFile {
   bool operator==(const MountFile&) const = default;
 };
 
-/// Errors that are put on every reading; 0 switches each of them off.
+/// Errors that are added to every reading; 0 disables each of them.
 struct NoiseFile {
   double length_sigma_m = 0;  ///< Standard deviations of Gaussian noise.
   double angle_sigma_deg = 0;
   double velocity_sigma_mps = 0;
-  double length_quantum_m = 0;  ///< Steps that values are rounded to.
+  double length_quantum_m = 0;  ///< Quantisation steps that values are rounded to.
   double angle_quantum_deg = 0;
   double velocity_quantum_mps = 0;
-  double dropout_probability = 0;  ///< 0 to 1; that a reading (or one of its items) is lost.
+  /// Probability, 0 to 1, that a reading (or one of its items) is lost.
+  double dropout_probability = 0;
   bool operator==(const NoiseFile&) const = default;
 };
 
 /// `median:` of a filter.
 struct MedianFilterFile {
-  int window = 5;  ///< Readings, odd, 1 to 99.
+  int window = 5;  ///< Number of readings, odd, 1 to 99.
   bool operator==(const MedianFilterFile&) const = default;
 };
 
@@ -49,7 +50,7 @@ struct ExponentialFilterFile {
   bool operator==(const ExponentialFilterFile&) const = default;
 };
 
-/// One stage of a sensor's processing chain; exactly one is set.
+/// One stage of a sensor's filter chain; exactly one member is set.
 struct FilterFile {
   std::optional<MedianFilterFile> median;
   std::optional<ExponentialFilterFile> exponential;
@@ -64,14 +65,15 @@ struct DeviceFile {
   bool operator==(const DeviceFile&) const = default;
 };
 
-/// The real or the virtual half of a hybrid sensor; it sits where the sensor does.
+/// The real or the virtual half of a hybrid sensor. Both halves use the mount of the sensor.
 struct SensorHalfFile {
   Located<std::string> driver;
   std::optional<Located<std::string>> device;  ///< Real half: names one of the robot's devices.
-  /// Virtual half; unset: what the real half cannot see (virtual obstacles, simulated robots).
+  /// Virtual half only; unset: the layers that the real half cannot sense (virtual obstacles,
+  /// simulated robots).
   std::optional<Located<std::vector<SensedLayer>>> senses;
   RawNode params;   ///< A mapping or null.
-  NoiseFile noise;  ///< Of this half alone, before fusion.
+  NoiseFile noise;  ///< Noise of this half alone, added before fusion.
   bool operator==(const SensorHalfFile&) const = default;
 };
 
@@ -80,19 +82,21 @@ struct SensorFile {
   Located<std::string> name;
   Located<std::string> driver;
   std::optional<Located<std::string>> device;  ///< Names one of the robot's devices.
-  /// Both set: a hybrid sensor, whose driver fuses them.
+  /// Both set for a hybrid sensor, whose driver fuses them.
   std::optional<SensorHalfFile> real;
   std::optional<SensorHalfFile> imagined;  ///< Key `virtual`.
   Located<MountFile> mount;
-  /// Unset: the scenario's step. expand_scenario checks that it is a multiple of that.
+  /// Unset: the scenario's step. expand_scenario checks that it is a multiple of the step.
   std::optional<Located<double>> period_s;
   Located<double> phase_s = 0.0;  ///< At least 0, less than the period, a multiple of the step.
-  /// Unset: the default of the driver's kind (virtual: all; hybrid: what its real half cannot see).
+  /// Unset: the default of the driver's kind (virtual: all layers; hybrid: those that its real half
+  /// cannot sense).
   std::optional<Located<std::vector<SensedLayer>>> senses;
   RawNode params;  ///< A mapping or null.
   NoiseFile noise;
   double latency_s = 0;
-  /// Real sensors, the real half of hybrid ones: above 0; unset: three periods, at least 0.2 s.
+  /// Real sensors and real halves of hybrid ones: the age from which a reading is too old; above 0.
+  /// Unset: three periods, but at least 0.2 s.
   std::optional<Located<double>> max_age_s;
   std::vector<FilterFile> filters;
   bool operator==(const SensorFile&) const = default;
@@ -116,7 +120,7 @@ struct ControllerFile {
   bool operator==(const ControllerFile&) const = default;
 };
 
-/// What carries messages out of the robot.
+/// The device that carries messages of the robot.
 struct TransmitterFile {
   Located<std::string> name;
   Located<std::string> driver;
@@ -125,7 +129,8 @@ struct TransmitterFile {
   bool operator==(const TransmitterFile&) const = default;
 };
 
-/// Through which the program talks; robots whose communicators have the same name hear each other.
+/// The channel through which the program communicates. Robots hear each other if their
+/// communicators have the same name.
 struct CommunicatorFile {
   Located<std::string> name;
   Located<std::string> driver;
@@ -134,23 +139,23 @@ struct CommunicatorFile {
   bool operator==(const CommunicatorFile&) const = default;
 };
 
-/// What a robot does when the virtual world stops coming: a frozen wall must not read as free.
+/// What a robot does when no world messages arrive: a virtual wall may have moved meanwhile.
 enum class WorldLost { kStop, kSlow, kIgnore };
 
-/// Limits that no program can pass; null: not limited.
+/// Limits of the guard, which no program can exceed; unset: not limited.
 struct GuardFile {
-  bool arm = true;  ///< A real robot stands until somebody arms it.
+  bool arm = true;  ///< A real robot does not move before it was armed.
   std::optional<double> max_speed_mps;
   std::optional<double> max_turn_dps;
-  /// Corners in the world, at least 3; the robot's body stays inside.
+  /// Corners in the world frame, at least 3; the robot's body stays inside.
   std::optional<Located<std::vector<std::array<double, 2>>>> fence_m;
   std::optional<double> separation_m;  ///< Least distance to the bodies of other robots.
   WorldLost world_lost = WorldLost::kStop;
   double world_timeout_s = 0.5;
-  double slow_speed_mps = 0.05;    ///< For kSlow.
-  double deceleration_mps2 = 0.5;  ///< What the robot surely brakes with.
-  double reaction_s = 0.1;         ///< From a command until it obeys.
-  double watchdog_s = 1;           ///< Older commands of the program are none.
+  double slow_speed_mps = 0.05;    ///< Speed limit for kSlow.
+  double deceleration_mps2 = 0.5;  ///< The deceleration that the robot achieves at least.
+  double reaction_s = 0.1;         ///< Delay between a command and its effect.
+  double watchdog_s = 1;  ///< Commands of the program that are older than this are ignored.
   bool operator==(const GuardFile&) const = default;
 };
 
@@ -159,7 +164,7 @@ struct ProgramFile {
   Located<std::string> driver;
   std::optional<Located<double>> period_s;  ///< Unset: the scenario's step.
   Located<double> phase_s = 0.0;
-  bool isolate = false;  ///< In a process of its own.
+  bool isolate = false;  ///< Whether it runs in a process of its own.
   RawNode params;        ///< A mapping or null.
   bool operator==(const ProgramFile&) const = default;
 };

@@ -19,26 +19,26 @@ namespace rave::config {
 struct BodyFile {
   std::vector<ShapeFile> shapes;  ///< 1 to 64.
   double mass_kg = 1;
-  std::optional<std::string> colour;  ///< `#rrggbb`; unset: pictures choose.
-  std::optional<int> barcode;         ///< What landmark cameras read on it; 0 to 65535.
-  /// Heights that the barcode covers; unset: the lowest to the highest of the shapes.
+  std::optional<std::string> colour;  ///< `#rrggbb`; unset: chosen by the renderer.
+  std::optional<int> barcode;  ///< The code that landmark cameras read on the body; 0 to 65535.
+  /// Heights that the barcode covers; unset: from the lowest to the highest of the shapes.
   std::optional<HeightRange> barcode_z_m;
   bool operator==(const BodyFile&) const = default;
 };
 
-/// A robot file after its variables were put in; also what may stand inline in a scenario.
-/// Devices, sensors, actuators, controllers, transmitters and communicators have names of their own
-/// kind that are unique; whatever names another of them names an existing one.
+/// A robot file after substitution of its variables; a scenario may also contain one inline. Names
+/// are unique among devices, among sensors, and so on; every name that refers to another entry
+/// exists.
 struct RobotFile {
   std::string description;
-  Variables variables;  ///< The values in force.
+  Variables variables;  ///< The values used.
   Located<BodyFile> body;
-  std::optional<Located<std::string>> pose_from;  ///< A sensor; unset: the truth.
-  PoseFile source_frame;  ///< X_WM: pose in the world of the frame that pose_from reports in.
+  std::optional<Located<std::string>> pose_from;  ///< Name of a sensor; unset: the true pose.
+  PoseFile source_frame;  ///< X_WM: pose in the world of the frame M that pose_from reports in.
   double staleness_s = 0.5;
-  bool ros2 = false;  ///< It shows itself to ROS 2; ScenarioFile::ros2 says where.
-  /// How often its host says where it is, in real time; a multiple of the step. Unset: 0.1 s, or
-  /// the next multiple.
+  bool ros2 = false;  ///< Whether it is visible on ROS 2; ScenarioFile::ros2 gives the network.
+  /// Real time only: the period at which its host publishes its state; a multiple of the step.
+  /// Unset: 0.1 s, rounded up to a multiple.
   std::optional<Located<double>> report_period_s;
   std::vector<DeviceFile> devices;
   std::vector<SensorFile> sensors;
@@ -52,14 +52,14 @@ struct RobotFile {
 };
 
 /// Reads a robot file; `given` overrides the defaults of its variables. Errors: those of
-/// rave::read_file, and kParse with file:line:column for what is wrong in it.
+/// rave::read_file, and kParse with file:line:column for errors in its content.
 [[nodiscard]] Result<RobotFile> read_robot_file(const std::filesystem::path& path,
                                                 const Variables& given = {});
-/// The same for a text; `file_name` is for messages.
+/// Like read_robot_file(), for a text; `file_name` is used in messages.
 [[nodiscard]] Result<RobotFile> read_robot_text(std::string_view text, std::string_view file_name,
                                                 const Variables& given = {});
 
-/// YAML with all defaults that read_robot_text reads back as an equal value.
+/// The robot as YAML with all defaults. read_robot_text gives an equal value.
 [[nodiscard]] std::string write_robot(const RobotFile& robot);
 
 /// The JSON Schema (draft 07) of robot files.

@@ -9,7 +9,7 @@
 
 #include "rave/config/codec_support.hpp"
 
-// Codecs of bool, numbers, texts, enums and opaque trees; see codec_base.hpp for the functions.
+// Codecs of bool, numbers, texts, enums and trees; codec_base.hpp documents their functions.
 namespace rave::config {
 
 template <>

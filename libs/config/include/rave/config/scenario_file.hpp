@@ -21,20 +21,21 @@ namespace rave::config {
 /// A rectangle of the world in which robots are placed at random by the seed.
 struct ScatterFile {
   int count = 1;                ///< 1 to 100000.
-  std::array<double, 2> x_m{};  ///< Low, high; low <= high.
+  std::array<double, 2> x_m{};  ///< Lowest and highest value.
   std::array<double, 2> y_m{};
   double clearance_m = 0.1;  ///< Free space around each body, at least 0.
   bool operator==(const ScatterFile&) const = default;
 };
 
-/// How far the pose of a robot may jump when its drivers change; farther, and that is refused.
+/// The largest difference between the poses of both sets of drivers at which a hand-over is
+/// accepted.
 struct HandOverFile {
   double within_m = 0.25;
   double within_deg = 20;
   bool operator==(const HandOverFile&) const = default;
 };
 
-/// Which drivers a robot with a twin is given.
+/// The set of drivers that a robot with a twin uses.
 enum class HandOverTo : std::uint8_t {
   kReal,
   kSimulated,
@@ -42,44 +43,43 @@ enum class HandOverTo : std::uint8_t {
   kTwin,
 };
 
-/// One entry of `robots:`, which stands for one robot or several equal ones.
+/// One entry of `robots:`. It stands for one robot or for several that differ in their poses only.
 struct RobotEntry {
-  /// Of the robot, or with several of them what `-1`, `-2`, … is put behind.
+  /// Name of the robot; if there are several, a prefix to which `-1`, `-2`, … is appended.
   Located<std::string> name;
-  /// The robot file. With `robot` given too it is not opened and only says where that came from.
+  /// The robot file. If `robot` is also set, the file is not opened and only records its origin.
   std::optional<Located<std::string>> file;
-  std::optional<RobotFile> robot;  ///< Written out in place; its variables are already put in.
+  std::optional<RobotFile> robot;  ///< Written inline; its variables are already substituted.
   std::string team;
   Variables variables;
   std::optional<PoseFile> pose;  ///< At most one of pose, poses and scatter is set.
   std::optional<std::vector<std::array<double, 3>>> poses;  ///< Each x [m], y [m], yaw [deg].
   std::optional<ScatterFile> scatter;
-  std::optional<std::string> kind;  ///< A free word for pictures.
-  /// Another robot file of the same robot, with drivers that may serve it instead; as `file` and
-  /// `robot`. Of one robot only.
+  std::optional<std::string> kind;  ///< A label for pictures.
+  /// Another robot file for the same robot, with the second set of drivers; like `file` and
+  /// `robot`. Only if the entry is one robot.
   std::optional<Located<std::string>> twin;
   std::optional<RobotFile> twin_robot;
   HandOverFile hand_over;
-  bool shadow = false;  ///< While it is real, its simulated twin runs beside it.
+  bool shadow = false;  ///< While the robot is real, its simulated twin runs in parallel.
   bool operator==(const RobotEntry&) const = default;
 };
 
 /// Compares real barcode sightings with those of a virtual camera on the same robot.
 struct SightingsCheckFile {
-  Located<std::string> real;  ///< Names of sensors that at least one robot has both of.
+  Located<std::string> real;  ///< Names of two sensors; at least one robot has both.
   Located<std::string> twin;
   double range_m = 0.5;
   double bearing_deg = 5;
   double min_within_pct = 99;
-  int min_compared = 100;  ///< Fewer sightings than this are not enough to judge by.
-  int max_unknown = 10;    ///< Codes that nobody carries: so many are taken for misread ones.
+  int min_compared = 100;  ///< The check fails with fewer sightings than this.
+  int max_unknown = 10;  ///< Codes that nobody carries: up to this many are taken for misread ones.
   bool operator==(const SightingsCheckFile&) const = default;
 };
 
-/// Counts how often robots begin to touch something.
+/// Counts the contacts of robots.
 struct TouchesCheckFile {
-  std::vector<Located<std::string>>
-      robots;  ///< Of a robot, or of an entry that stands for several.
+  std::vector<Located<std::string>> robots;  ///< Names of robots, or of entries with several.
   /// A contact sensor whose readings count; unset: contacts in the world of the run.
   std::optional<Located<std::string>> sensor;
   int most = 0;
@@ -87,23 +87,24 @@ struct TouchesCheckFile {
   bool operator==(const TouchesCheckFile&) const = default;
 };
 
-/// Wants a robot to come to a place.
+/// Requires that a robot reaches a place.
 struct ArrivalCheckFile {
-  Located<std::string> robot;  ///< Of a robot, or of an entry: each of its robots must arrive.
+  Located<std::string> robot;  ///< Name of a robot, or of an entry: each of its robots must arrive.
   double x_m = 0;
   double y_m = 0;
   double within_m = 0.25;
-  std::optional<double> before_s;  ///< Unset: by the end of the run.
+  std::optional<double> before_s;  ///< Unset: the end of the run.
   bool operator==(const ArrivalCheckFile&) const = default;
 };
 
-/// One robot has to catch another: their outlines come that near.
+/// Requires that one robot catches another: the distance of their outlines falls below a limit.
 struct CaptureCheckFile {
-  Located<std::string> predator;  ///< Robots, or entries of `robots:` that stand for several.
+  Located<std::string> predator;  ///< Robots, or entries of `robots:` with several.
   Located<std::string> prey;
-  double within_m = 0.1;           ///< Between the outlines.
-  std::optional<double> before_s;  ///< Later is a failure; unset: it need not happen at all.
-  bool end_run = false;            ///< The run ends with the first capture.
+  double within_m = 0.1;  ///< Between the outlines.
+  /// A later capture fails the check. Unset: a capture is not required.
+  std::optional<double> before_s;
+  bool end_run = false;  ///< The first capture ends the run.
   bool operator==(const CaptureCheckFile&) const = default;
 };
 
@@ -116,11 +117,11 @@ struct ChecksFile {
   bool operator==(const ChecksFile&) const = default;
 };
 
-/// What changes while the run goes; part of the run, as if the programs had known. Either `robot`
-/// and `set` or `hand_over`, or one of the others is given.
+/// A change during the run. It is part of the run, as if the programs had known it. Set are either
+/// `robot` with `set` or `hand_over`, or exactly one of the others.
 struct ChangeFile {
   Located<double> at_s = 0.0;  ///< A multiple of the step.
-  /// A robot, or an entry of `robots:` that stands for several.
+  /// A robot, or an entry of `robots:` with several.
   std::optional<Located<std::string>> robot;
   std::optional<RawNode> set;  ///< A mapping from keys such as `program.speed_mps` to values.
   std::optional<HandOverTo> hand_over;
@@ -132,62 +133,64 @@ struct ChangeFile {
 
 /// `picture:` of a scenario.
 struct PictureFile {
-  std::optional<double> instant_s;  ///< The frozen instant; unset: the middle of the run.
-  std::string title;                ///< Empty: the scenario's name.
-  std::optional<Located<std::string>> odometry_sensor;  ///< Whose track is drawn dashed.
+  /// The time that the picture shows; unset: the middle of the run.
+  std::optional<double> instant_s;
+  std::string title;                                    ///< Empty: the scenario's name.
+  std::optional<Located<std::string>> odometry_sensor;  ///< The sensor whose track is drawn dashed.
   bool operator==(const PictureFile&) const = default;
 };
 
-/// One host of robots: a process, on this machine or another.
+/// One host: a process that runs robots, on this machine or another.
 struct HostFile {
   Located<std::string> name;
-  /// Robots, or entries of `robots:` that stand for several. Empty: all that no other host has, and
-  /// at most one host may be so.
+  /// Robots, or entries of `robots:` with several. Empty: all robots without another host; at most
+  /// one host may be empty.
   std::vector<Located<std::string>> robots;
-  /// It is started by hand, with `rave robot`; otherwise `rave run` starts it.
+  /// Whether it is started by hand, with `rave robot`; otherwise `rave run` starts it.
   bool elsewhere = false;
   bool operator==(const HostFile&) const = default;
 };
 
-/// What happens to a run in lock-step when one of its hosts does not answer, or is gone.
+/// What a lock-step run does when a host does not answer or is lost.
 enum class LostHost : std::uint8_t {
-  kWait,     ///< All wait until it is back, and say for whom.
-  kDrop,     ///< Its robots stand from then on, and the others go on.
-  kRestart,  ///< The same, and it may come back: its robots go on from where they stand.
+  kWait,     ///< All hosts wait until it is back, and report which one they wait for.
+  kDrop,     ///< Its robots stand still from then on; the other hosts continue.
+  kRestart,  ///< Like kDrop, but it may return; its robots continue from where they stand.
 };
 
-/// Where the origin of the world lies on the earth (WGS 84).
+/// The position of the world's origin on the earth (WGS 84).
 struct GeoOriginFile {
   double latitude_deg = 0;   ///< -90 to 90, positive in the north.
   double longitude_deg = 0;  ///< -180 to 180, positive in the east.
   double altitude_m = 0;     ///< Above the ellipsoid.
-  double yaw_deg = 0;        ///< Of the world's x axis, from east towards north.
+  double yaw_deg = 0;        ///< Direction of the world's x axis, from east towards north.
   bool operator==(const GeoOriginFile&) const = default;
 };
 
 enum class Ros2Multicast { kNone, kDiscovery, kData };
-/// The form in which nodes are announced: as of Iron (2023) and later, or of Humble and before.
+/// How ROS 2 nodes are announced: the format of Iron (2023) and later, or that of Humble and
+/// before.
 enum class Ros2Nodes { kNone, kHumble, kIron };
 
-/// Where robots with `ros2: true` show themselves.
+/// The ROS 2 network on which robots with `ros2: true` are visible.
 struct Ros2File {
   int domain = 0;                       ///< ROS_DOMAIN_ID, 0 to 230.
-  std::string interface = "127.0.0.1";  ///< By address or name.
-  std::vector<std::string> peers;       ///< Addresses to look for others at.
+  std::string interface = "127.0.0.1";  ///< Address or name.
+  std::vector<std::string> peers;       ///< Addresses at which other participants are looked for.
   Ros2Multicast multicast = Ros2Multicast::kNone;
   Ros2Nodes nodes = Ros2Nodes::kIron;
-  double period_s = 0.05;  ///< Of transforms, and of poses that no odometry gives.
+  double period_s = 0.05;  ///< Period of transforms, and of poses that no odometry gives.
   bool operator==(const Ros2File&) const = default;
 };
 
-/// What a run keeps to.
+/// The clock that a run follows.
 enum class RunClockMode : std::uint8_t {
-  kLockStep,  ///< Steps, of which each waits for all; in real time all the same if a driver is
-              ///< live.
-  kRealTime,  ///< The clock on the wall.
+  kLockStep,  ///< All hosts compute a step before any begins the next; if a driver is live, steps
+              ///< also follow the wall clock.
+  kRealTime,  ///< Each host follows the wall clock.
 };
 
-/// A scenario file as it was written, with its defaults.
+/// A scenario file as written, with defaults added.
 struct ScenarioFile {
   Located<std::string> name;
   std::string description;
@@ -200,28 +203,30 @@ struct ScenarioFile {
   int threads = 1;
   Pace pace;
   double history_s = 0;
-  /// The robots are shared evenly among so many processes; unset: one, unless there are hosts.
+  /// The number of processes with equal shares of the robots; unset: one, unless `hosts` is set.
   std::optional<Located<int>> processes;
   std::vector<HostFile> hosts;
   LostHost on_lost_host = LostHost::kWait;
-  double host_timeout_s = 10;  ///< A host that has not answered for so long counts as late.
+  double host_timeout_s = 10;  ///< A host without an answer for this long counts as late.
   RunClockMode clock = RunClockMode::kLockStep;
-  double world_period_s = 0.1;  ///< At which hosts are told where all robots are, in real time.
-  double max_missed_pct = 1;    ///< A live run that misses more of its deadlines is not whole.
+  /// Real time only: the period at which hosts receive the poses of all robots.
+  double world_period_s = 0.1;
+  /// A live run that misses more of its deadlines (percent) is not complete.
+  double max_missed_pct = 1;
   std::vector<RobotEntry> robots;
   std::vector<ChangeFile> changes;
   ChecksFile checks;
   std::optional<PictureFile> picture;
-  std::optional<GeoOriginFile> geo_origin;  ///< Unset: nobody knows where the world lies.
+  std::optional<GeoOriginFile> geo_origin;  ///< Unset: the position on the earth is unknown.
   Ros2File ros2;
   GuiFile gui;
   bool operator==(const ScenarioFile&) const = default;
 };
 
 /// Reads a scenario file without opening the files it names. Errors: those of rave::read_file, and
-/// kParse with file:line:column for what is wrong in it.
+/// kParse with file:line:column for errors in its content.
 [[nodiscard]] Result<ScenarioFile> read_scenario_file(const std::filesystem::path& path);
-/// The same for a text; `file_name` is for messages.
+/// Like read_scenario_file(), for a text; `file_name` is used in messages.
 [[nodiscard]] Result<ScenarioFile> read_scenario_text(std::string_view text,
                                                       std::string_view file_name);
 

@@ -11,12 +11,13 @@ namespace rave::config {
 /// An interval of heights above the floor, metres: low, high; low < high.
 using HeightRange = std::array<double, 2>;
 
-/// The outline of a body seen from above; exactly one of the three is set.
+/// The outline of a body seen from above; exactly one member is set.
 struct Outline {
   std::optional<double> disc_radius_m;  ///< Greater than 0.
   /// Full length along x and full width along y, centred; both greater than 0.
   std::optional<std::array<double, 2>> box_m;
-  /// Corners in order, either sense, at least 3; simple (no edge crosses another), may be concave.
+  /// Corners in order, clockwise or counter-clockwise, at least 3; no edge crosses another; may be
+  /// concave.
   std::optional<std::vector<std::array<double, 2>>> polygon_m;
   bool operator==(const Outline&) const = default;
 };
@@ -25,7 +26,7 @@ struct Outline {
 struct ShapeFile {
   Outline outline;
   std::array<double, 2> centre_m{};  ///< Origin of the outline in the body frame.
-  double yaw_deg = 0;                ///< Turn of the outline about its origin.
+  double yaw_deg = 0;                ///< Rotation of the outline about its origin.
   HeightRange z_m{0, 0.5};
   bool operator==(const ShapeFile&) const = default;
 };

@@ -11,7 +11,7 @@
 
 namespace rave::config {
 
-/// A struct that `describe` is defined for.
+/// A struct for which `describe` is defined.
 template <class T>
 concept Described = std::is_class_v<T> && requires(Writer& v, T& c) { describe(v, c); };
 
@@ -42,8 +42,8 @@ struct Codec<T> {
   }
   static RawNode write(const T& value) {
     Writer writer;
-    // One describe serves readers and writers, so it takes the struct by mutable reference; the
-    // writer only reads.
+    // The same describe() serves readers and writers, so it takes the struct by mutable reference;
+    // the writer only reads it.
     describe(writer, const_cast<T&>(value));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
     return std::move(writer).take();
   }

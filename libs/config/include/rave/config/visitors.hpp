@@ -16,7 +16,7 @@
 //   v.location(member)                 a SourceLocation that receives the place of the mapping
 namespace rave::config {
 
-/// Reads the entries of one mapping.
+/// Reads the entries of a mapping into a struct.
 class Reader {
  public:
   Reader(const RawNode& mapping, Diagnostics& diagnostics)
@@ -36,7 +36,7 @@ class Reader {
   }
   void location(SourceLocation& target) { target = mapping_.where(); }
 
-  /// Reports the keys that no field claimed. Called once, after describe.
+  /// Reports the keys that no field used. Call it once, after describe.
   void finish();
 
  private:
@@ -58,7 +58,7 @@ class Reader {
   std::vector<Known> known_;
 };
 
-/// Collects the values of one struct as a mapping with comments.
+/// Writes a struct as a mapping with comments.
 class Writer {
  public:
   template <class T>
@@ -79,7 +79,7 @@ class Writer {
   RawNode mapping_ = RawNode::mapping();
 };
 
-/// Collects the JSON Schema of one struct.
+/// Makes the JSON Schema of a struct.
 class SchemaWriter {
  public:
   template <class T>

@@ -13,7 +13,7 @@
 
 namespace rave::config {
 
-/// An upright prism that stands still, in the world frame.
+/// A static upright prism in the world frame.
 struct ObstacleFile {
   Located<std::string> name;
   Outline outline;
@@ -22,13 +22,13 @@ struct ObstacleFile {
   double yaw_deg = 0;
   HeightRange z_m{0, 0.5};
   ObstacleLayer layer = ObstacleLayer::kVirtualObstacles;
-  std::optional<int> barcode;              ///< What landmark cameras read on it; 0 to 65535.
+  std::optional<int> barcode;  ///< The code that landmark cameras read on it; 0 to 65535.
   std::optional<HeightRange> barcode_z_m;  ///< Unset: z_m.
-  std::optional<std::string> colour;       ///< `#rrggbb`; unset: pictures choose.
+  std::optional<std::string> colour;       ///< `#rrggbb`; unset: chosen by the renderer.
   bool operator==(const ObstacleFile&) const = default;
 };
 
-/// Another place for an obstacle.
+/// A new pose for an obstacle.
 struct MoveObstacleFile {
   Located<std::string> name;
   double x_m = 0;
@@ -45,7 +45,7 @@ struct MapFile {
   bool operator==(const MapFile&) const = default;
 };
 
-/// A world file as it was written, with its defaults.
+/// A world file as written, with defaults added.
 struct WorldFile {
   std::string description;
   std::vector<ObstacleFile> obstacles;  ///< Names are unique.
@@ -54,19 +54,19 @@ struct WorldFile {
 };
 
 /// Reads a world file without opening its maps. Errors: those of rave::read_file, and kParse with
-/// file:line:column for what is wrong in it.
+/// file:line:column for errors in its content.
 [[nodiscard]] Result<WorldFile> read_world_file(const std::filesystem::path& path);
-/// The same for a text; `file_name` is for messages.
+/// Like read_world_file(), for a text; `file_name` is used in messages.
 [[nodiscard]] Result<WorldFile> read_world_text(std::string_view text, std::string_view file_name);
 
-/// Reads one entry of `obstacles:`, a mapping; for who adds an obstacle to a running world.
-/// `file_name` is for messages. Errors: kParse.
+/// Reads one entry of `obstacles:` (a mapping) for a change of a running world. `file_name` is used
+/// in messages. Errors: kParse.
 [[nodiscard]] Result<ObstacleFile> read_obstacle_text(std::string_view text,
                                                       std::string_view file_name);
 [[nodiscard]] Result<MoveObstacleFile> read_move_text(std::string_view text,
                                                       std::string_view file_name);
 
-/// YAML with all defaults that read_world_text reads back as an equal value.
+/// The world as YAML with all defaults. read_world_text gives an equal value.
 [[nodiscard]] std::string write_world(const WorldFile& world);
 
 /// The JSON Schema (draft 07) of world files.

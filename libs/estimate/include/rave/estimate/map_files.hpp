@@ -8,19 +8,19 @@
 
 namespace rave::estimate {
 
-/// From which probability on a cell is occupied or free; unknown between the two. The defaults are
-/// those of ROS `map_server`, http://wiki.ros.org/map_server.
+/// Probabilities above `occupied` mean occupied and below `free` mean free; between them a cell is
+/// unknown. The defaults are those of ROS `map_server`, http://wiki.ros.org/map_server.
 struct MapThresholds {
   double occupied = 0.65;
   double free = 0.196;
 };
 
-/// The grid as a PGM image (P5) as `map_server` reads it: 0 occupied, 254 free, 205 unknown; the
-/// first row is the one with the largest y.
+/// The grid as a PGM image (P5) for `map_server`: 0 occupied, 254 free, 205 unknown; the first row
+/// has the largest y.
 [[nodiscard]] std::string map_image(const OccupancyGrid& grid, const MapThresholds& thresholds);
 
-/// The YAML that goes with it. `image` is the file name of the image, `comment` lines begin with
-/// `#` and may be empty.
+/// The YAML file of a map. `image` is the file name of the image. Lines of `comment` begin with
+/// `#`; it may be empty.
 [[nodiscard]] std::string map_yaml(const GridFrame& frame, const MapThresholds& thresholds,
                                    std::string_view image, std::string_view comment);
 

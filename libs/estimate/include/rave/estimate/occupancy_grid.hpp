@@ -11,8 +11,8 @@
 
 namespace rave::estimate {
 
-/// The cells of a grid in the world frame: cell (0, 0) has its lower left corner at the origin,
-/// columns go along x, rows along y.
+/// The cells of a grid in the world frame: the lower left corner of cell (0, 0) is the origin,
+/// columns run along x, rows along y.
 struct GridFrame {
   double resolution_m = 0.05;
   Vec2 origin_W;
@@ -24,21 +24,20 @@ struct GridFrame {
   }
 };
 
-/// How one beam changes what is believed of a cell: odds in favour of "occupied", as natural
-/// logarithms.
+/// The change of a cell's log odds (natural logarithm of the odds of "occupied") by one beam.
 struct BeamModel {
-  double log_odds_hit = 0.85;   ///< Added where a beam ends.
-  double log_odds_pass = -0.4;  ///< Added where it passed.
-  double log_odds_limit = 4.0;  ///< The belief never leaves +- this, so that it can change.
-  double range_max_m = 30;      ///< Of a longer beam only this much is used, and no end.
-  double no_return_free_m = 0;  ///< How far a beam without return proves free space.
+  double log_odds_hit = 0.85;   ///< Added to the cell in which a beam ends.
+  double log_odds_pass = -0.4;  ///< Added to cells that a beam crosses.
+  double log_odds_limit = 4.0;  ///< Bound of |log odds|, so that a cell can still change.
+  double range_max_m = 30;      ///< A longer beam counts up to this range, without an end.
+  double no_return_free_m = 0;  ///< Range up to which a beam without return marks cells free.
 };
 
-/// Rays of one scan in the frame of the sensor.
+/// The beams of one scan in the sensor frame.
 struct ScanView {
   Pose2 X_WS;
   std::span<const double> bearings_rad;
-  std::span<const float> ranges_m;  ///< One per bearing; +infinity is no return.
+  std::span<const float> ranges_m;  ///< One per bearing; +infinity: no return.
 };
 
 /// An occupancy grid by the log-odds form of Bayes' rule, cells independent of one another:
@@ -51,23 +50,24 @@ struct ScanView {
 /// A value type; one thread at a time. Same input, same bits.
 class OccupancyGrid {
  public:
-  /// Errors (kInvalidArgument): no cells, more than 100 million, a resolution that is not positive.
+  /// Errors (kInvalidArgument): no cells, more than 100 million cells, a resolution that is not
+  /// positive.
   [[nodiscard]] static Result<OccupancyGrid> create(const GridFrame& frame, const BeamModel& model);
 
   [[nodiscard]] const GridFrame& frame() const noexcept { return frame_; }
-  /// Takes one scan in; what lies outside of the grid is left out. A view whose two spans differ in
-  /// size is a programmer's mistake.
+  /// Adds a scan. Beams outside of the grid are ignored. Precondition: both spans have the same
+  /// size.
   void add(const ScanView& scan);
 
-  /// 0 where nothing is known.
+  /// The log odds of a cell; 0 if nothing is known.
   [[nodiscard]] double log_odds(int column, int row) const noexcept {
     return log_odds_[index(column, row)];
   }
-  /// Whether any beam has touched the cell.
+  /// Whether any beam has reached the cell.
   [[nodiscard]] bool seen(int column, int row) const noexcept {
     return last_scan_[index(column, row)] != 0;
   }
-  /// Probability of "occupied", 0 to 1.
+  /// Probability that the cell is occupied, 0 to 1.
   [[nodiscard]] double probability(int column, int row) const noexcept;
 
  private:
@@ -84,7 +84,8 @@ class OccupancyGrid {
   GridFrame frame_;
   BeamModel model_;
   std::vector<double> log_odds_;
-  /// The number of the last scan that touched a cell, from 1; negative: that ended in it.
+  /// Number of the last scan that touched the cell, from 1; 0: none; negative if a beam of that
+  /// scan ended in it.
   std::vector<std::int32_t> last_scan_;
   std::int32_t scan_ = 0;
 };

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-/// Exponential, logarithm and hypotenuse with the same promise of equal bits as
+/// Exponential, logarithm and hypotenuse, bit-identical on all processors like
 /// rave/math/trigonometry.hpp. Pure; any thread. A NaN result is always the default quiet NaN.
 namespace rave {
 
@@ -46,8 +46,8 @@ namespace rave {
   if (x == kInfinity) return x;
   const bool subnormal = x < std::numeric_limits<double>::min();
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(subnormal ? x * 0x1p54 : x);
-  // x = 2^k m with m from sqrt(1/2) to sqrt(2): subtract the bits of sqrt(1/2), then the exponent
-  // field counts from there.
+  // x = 2^k m with m in [sqrt(1/2), sqrt(2)). Subtracting the bits of sqrt(1/2) makes the exponent
+  // field equal to k.
   constexpr std::uint64_t kRootHalf = 0x3FE6A09E667F3BCDULL;
   const std::uint64_t above = bits - kRootHalf;
   const auto exponent = static_cast<std::int64_t>(above) >> 52;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Everything about polygons in one include.
+/// Includes all headers about polygons.
 #include "rave/math/convex_polygon.hpp"
 #include "rave/math/decompose.hpp"
 #include "rave/math/separation.hpp"

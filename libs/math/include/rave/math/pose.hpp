@@ -3,9 +3,8 @@
 
 namespace rave {
 
-/// A point or free vector in the plane, metres (or metres per second). Which frame it is expressed
-/// in is said by the name of the variable: `p_WR` is the position of R in W. See
-/// docs/frames-and-units.md.
+/// A point or free vector in the plane, metres (or metres per second). The name of a variable gives
+/// its frame: `p_WR` is the position of R in W. See docs/frames-and-units.md.
 struct Vec2 {
   double x = 0;
   double y = 0;
@@ -17,15 +16,14 @@ struct Vec2 {
   friend constexpr Vec2 operator*(double s, Vec2 a) noexcept { return {s * a.x, s * a.y}; }
 };
 
-/// The scalar product.
+/// The dot product.
 [[nodiscard]] constexpr double dot(Vec2 a, Vec2 b) noexcept { return a.x * b.x + a.y * b.y; }
-/// The z component of the cross product: positive when b lies counter-clockwise of a.
+/// The z component of the cross product: positive if b is counter-clockwise of a.
 [[nodiscard]] constexpr double cross(Vec2 a, Vec2 b) noexcept { return a.x * b.y - a.y * b.x; }
-/// The square of the length.
 [[nodiscard]] constexpr double squared_norm(Vec2 a) noexcept { return dot(a, a); }
 
 /// A planar pose (`X_WB`: of body B in frame W). REP-103: x forward, y left, yaw counter-clockwise
-/// from x. Metres and radians; yaw is kept in (-pi, pi] by whoever integrates it.
+/// from x. Metres and radians; code that integrates yaw keeps it in (-pi, pi].
 struct Pose2 {
   double x = 0;
   double y = 0;

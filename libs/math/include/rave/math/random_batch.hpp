@@ -7,22 +7,22 @@
 
 #include "rave/base/random.hpp"
 
-/// Many random numbers at once, in vector instructions. A number depends on the key, the counter of
-/// its block and its place in the block, and on nothing else: the bits are equal with scalar, SSE4,
-/// AVX2 and AVX-512 instructions and for any length. All are pure; any thread.
+/// Batches of random numbers by vector instructions. A number depends only on the key, the counter
+/// of its block and its place in the block: results are bit-identical with scalar, SSE4, AVX2 and
+/// AVX-512 instructions and for any length. All functions are pure; any thread.
 namespace rave {
 
-/// The key of a block of random words: what tells streams apart.
+/// The key of a block of random words; it identifies the stream.
 using RandomKey = std::array<std::uint32_t, 2>;
-/// The place of a block of random words in its stream.
+/// The position of a block of random words in its stream.
 using RandomCounter = std::array<std::uint32_t, 4>;
 
-/// out[4 b + i] is word i of philox4x32(counters[b], key). Needs out.size() <= 4 counters.size();
-/// counters beyond that are not used.
+/// Sets out[4 b + i] to word i of philox4x32(counters[b], key). Precondition: out.size() <= 4
+/// counters.size(); further counters are not used.
 void fill_bits(const RandomKey& key, std::span<const RandomCounter> counters,
                std::span<std::uint32_t> out) noexcept;
 
-/// out[i] is what the i-th call of bits() would give from the next whole block of `stream` on.
+/// Sets out[i] to the i-th result of bits() from the next whole block of `stream` on.
 void fill_bits(const RandomStream& stream, std::span<std::uint32_t> out) noexcept;
 
 /// Draws of the standard normal distribution (mean 0, variance 1), independent of one another and
@@ -39,7 +39,7 @@ void fill_bits(const RandomStream& stream, std::span<std::uint32_t> out) noexcep
 void fill_normal(const RandomKey& key, std::span<const RandomCounter> counters,
                  std::span<float> out) noexcept;
 
-/// The same from the words of the next whole block of `stream` on.
+/// Like fill_normal() above, with the words from the next whole block of `stream` on.
 void fill_normal(const RandomStream& stream, std::span<float> out) noexcept;
 
 }  // namespace rave

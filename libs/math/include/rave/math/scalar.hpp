@@ -4,8 +4,8 @@
 #include "rave/math/exponential.hpp"
 #include "rave/math/trigonometry.hpp"
 
-/// All elementary functions that RAVE computes with. The C library's own differ with the
-/// processor, so nothing that reaches the hash of a run may call them.
+/// All elementary functions that RAVE uses. Those of the C library differ between processors, so
+/// code that affects the hash of a run must not call them.
 namespace rave {
 
 /// Tangent, within 3 ulp.
@@ -30,18 +30,16 @@ namespace detail {
 [[nodiscard]] double wrap_outside(double angle) noexcept;
 }  // namespace detail
 
-/// The same direction in (-pi, pi]. Angles that are already there keep their bits; whole turns are
-/// taken away with the error of one rounding. NaN for infinities and NaN.
+/// The equivalent angle in (-pi, pi]. Angles in that range keep their bits; others have the error
+/// of one rounding. NaN for infinities and NaN.
 [[nodiscard]] inline double wrap_angle(double angle_rad) noexcept {
   if (angle_rad > -kPi && angle_rad <= kPi) return angle_rad;
   return detail::wrap_outside(angle_rad);
 }
 
-/// An angle in radians.
 [[nodiscard]] constexpr double deg_to_rad(double angle_deg) noexcept {
   return angle_deg * (kPi / 180.0);
 }
-/// An angle in degrees.
 [[nodiscard]] constexpr double rad_to_deg(double angle_rad) noexcept {
   return angle_rad * (180.0 / kPi);
 }

@@ -6,12 +6,12 @@
 
 namespace rave {
 
-/// How two shapes A and B lie to each other.
+/// The separation of two shapes A and B.
 struct Separation {
-  /// Metres between the nearest points; if the shapes overlap, minus the shortest translation that
-  /// takes them apart.
+  /// Distance between the nearest points in metres; if the shapes overlap, minus the length of the
+  /// shortest translation that separates them.
   double distance_m = 0;
-  /// Unit vector from A to B: moving B along it takes them apart. In W.
+  /// Unit vector from A to B in W: moving B along it separates them.
   Vec2 normal_W;
   /// The witness points, on A and on B: p_WB = p_WA + distance_m * normal_W.
   Vec2 p_WA;
@@ -19,12 +19,12 @@ struct Separation {
 };
 
 /// Signed separation of polygon `a` at X_WA and polygon `b` at X_WB: all edge normals are tried
-/// (separating axis theorem), then the nearest vertices. Of equally good axes the first of a, then
-/// the first of b is taken; equal bits everywhere. No allocation; any thread.
+/// (separating axis theorem), then the nearest vertices. Of equally good axes the first of a wins,
+/// then the first of b. Bit-identical on all processors. No allocation; any thread.
 [[nodiscard]] Separation distance(const ConvexPolygon& a, const Pose2& X_WA, const ConvexPolygon& b,
                                   const Pose2& X_WB) noexcept;
 
-/// The same for polygon `a` and a disc B of radius_m >= 0 about p_WC.
+/// Like the above, for polygon `a` and a disc B of radius_m >= 0 about p_WC.
 [[nodiscard]] Separation distance(const ConvexPolygon& a, const Pose2& X_WA, Vec2 p_WC,
                                   double radius_m) noexcept;
 

@@ -4,8 +4,8 @@
 #include "rave/math/pose.hpp"
 #include "rave/math/scalar.hpp"
 
-/// Planar rigid transforms. Every yaw returned lies in (-pi, pi]. Pure; any thread; equal bits
-/// everywhere. Frames are named as docs/frames-and-units.md says.
+/// Planar rigid transforms. Every yaw returned lies in (-pi, pi]. Pure; any thread; bit-identical
+/// on all processors. docs/frames-and-units.md defines the names of frames.
 namespace rave {
 
 /// `v` turned counter-clockwise by an angle whose sine and cosine are known.
@@ -21,12 +21,12 @@ namespace rave {
   return rotate(sincos(angle_rad), v);
 }
 
-/// p_AP of the point that is p_BP in B.
+/// p_AP from p_BP: changes the frame of a point from B to A.
 [[nodiscard]] inline Vec2 transform(const Pose2& X_AB, Vec2 p_BP) noexcept {
   return X_AB.position() + rotate(X_AB.yaw, p_BP);
 }
 
-/// p_BP of the point that is p_AP in A.
+/// p_BP from p_AP: changes the frame of a point from A to B.
 [[nodiscard]] inline Vec2 transform_back(const Pose2& X_AB, Vec2 p_AP) noexcept {
   return rotate_back(sincos(X_AB.yaw), p_AP - X_AB.position());
 }
@@ -43,17 +43,17 @@ namespace rave {
   return {p_BA.x, p_BA.y, wrap_angle(-X_AB.yaw)};
 }
 
-/// The pose a share `s` of the way from X_0 (s = 0) to X_1 (s = 1): straight line, shortest turn
-/// (counter-clockwise for half a turn). s outside [0, 1] extrapolates.
+/// The pose at fraction `s` of the way from X_0 (s = 0) to X_1 (s = 1): straight line, shortest
+/// turn (counter-clockwise for half a turn). s outside [0, 1] extrapolates.
 [[nodiscard]] inline Pose2 interpolate(const Pose2& X_0, const Pose2& X_1, double s) noexcept {
   const double turn_rad = wrap_angle(X_1.yaw - X_0.yaw);
-  // Counted from the nearer end, so that both ends are met exactly.
+  // Start from the nearer end, so that s = 0 and s = 1 give both ends exactly.
   const double yaw_rad = s < 0.5 ? X_0.yaw + s * turn_rad : X_1.yaw - (1.0 - s) * turn_rad;
   return {(1.0 - s) * X_0.x + s * X_1.x, (1.0 - s) * X_0.y + s * X_1.y, wrap_angle(yaw_rad)};
 }
 
 namespace detail {
-/// sin(h)/h; its Taylor series where the quotient is 0/0 or nearly so.
+/// sin(h)/h; its Taylor series near 0, where the quotient is inaccurate.
 [[nodiscard]] inline double sinc(double h) noexcept {
   const double z = h * h;
   if (z < 1.0e-4) return 1.0 - z / 6.0 * (1.0 - z / 20.0 * (1.0 - z / 42.0));
@@ -63,8 +63,8 @@ namespace detail {
 
 /// The pose after moving for dt_s with the constant body twist v_WB_B: an exact circular arc, a
 /// straight line for wz = 0. The chord of the arc points along the mean heading and is sinc(half
-/// the turn) times as long as the arc. For who has `turn_WB`, which must be sincos(X_WB.yaw),
-/// already: what goes straight on needs no other.
+/// the turn) times as long as the arc. `turn_WB` must be sincos(X_WB.yaw); callers that already
+/// have it save its computation on straight motion.
 [[nodiscard]] inline Pose2 integrate(const Pose2& X_WB, const SinCos& turn_WB, const Twist2& v_WB_B,
                                      double dt_s) noexcept {
   const double turn_rad = v_WB_B.wz * dt_s;
@@ -74,7 +74,7 @@ namespace detail {
   const Vec2 chord_W = rotate(heading, {scale_s * v_WB_B.vx, scale_s * v_WB_B.vy});
   return {X_WB.x + chord_W.x, X_WB.y + chord_W.y, wrap_angle(X_WB.yaw + turn_rad)};
 }
-/// The same, with the same bits.
+/// Like the above, with the same bits.
 [[nodiscard]] inline Pose2 integrate(const Pose2& X_WB, const Twist2& v_WB_B,
                                      double dt_s) noexcept {
   return integrate(X_WB, sincos(X_WB.yaw), v_WB_B, dt_s);

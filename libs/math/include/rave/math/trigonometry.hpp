@@ -8,10 +8,10 @@
 
 #include "rave/math/two_sum.hpp"
 
-/// Sine, cosine and arc tangent that give the same bits on every processor and at every
-/// optimisation level: only +, -, * and / in a fixed order, selections and bit operations. They
-/// assume IEEE 754 doubles rounded to nearest and -ffp-contract=off, which rave::base exports.
-/// Angles in radians. All are pure; any thread. A NaN result is always the default quiet NaN.
+/// Sine, cosine and arc tangent, bit-identical on every processor and at every optimisation level:
+/// they use only +, -, * and / in a fixed order, selections and bit operations. They assume IEEE
+/// 754 doubles rounded to nearest and -ffp-contract=off, which rave::base exports. Angles in
+/// radians. All are pure; any thread. A NaN result is always the default quiet NaN.
 namespace rave {
 
 /// The double nearest to pi.
@@ -27,7 +27,7 @@ struct SinCos {
 
 namespace detail {
 
-/// An angle less its multiple of pi/2: value + tail in about [-pi/4, pi/4].
+/// An angle minus a multiple of pi/2: value + tail is in about [-pi/4, pi/4].
 struct ReducedAngle {
   double value = 0;
   double tail = 0;
@@ -35,16 +35,17 @@ struct ReducedAngle {
   std::uint64_t quadrant = 0;
 };
 
-/// Up to here n * kHalfPi1 and the next two products are exact (n fits in 20 bits, a part in 33).
+/// Up to this angle n * kHalfPi1 and the next two products are exact (n has at most 20 bits, each
+/// part 33).
 inline constexpr double kMaxQuickAngle = 1.0e6;
-// pi/2 in three parts of 33 bits and a rest (Cody and Waite, "Software Manual for the Elementary
-// Functions", 1980; this split as in fdlibm).
+// pi/2 as the sum of three parts of 33 bits and a remainder (Cody and Waite, "Software Manual for
+// the Elementary Functions", 1980; this split as in fdlibm).
 inline constexpr double kHalfPi1 = 0x1.921fb544p+0;
 inline constexpr double kHalfPi2 = 0x1.0b4611a6p-34;
 inline constexpr double kHalfPi3 = 0x1.3198a2ep-69;
 inline constexpr double kHalfPi4 = 0x1.b839a252049c1p-104;
-/// Adding and taking away 1.5 * 2^52 rounds to the nearest integer, whose low bits are then the
-/// low bits of the sum.
+/// Adding and subtracting 1.5 * 2^52 rounds to the nearest integer; the low bits of the sum are
+/// then those of the integer.
 inline constexpr double kRounder = 0x1.8p52;
 
 /// For |angle| <= kMaxQuickAngle.
@@ -58,7 +59,7 @@ inline constexpr double kRounder = 0x1.8p52;
   return {value, (second.sum - value) + rest, std::bit_cast<std::uint64_t>(shifted) & 3U};
 }
 
-/// For any finite angle beyond kMaxQuickAngle, as exact as reduce_quick, ten times slower
+/// For any finite angle beyond kMaxQuickAngle; as exact as reduce_quick, but ten times slower
 /// (Payne and Hanek, "Radian reduction for trigonometric functions", 1983, in integers).
 [[nodiscard]] ReducedAngle reduce_huge(double angle) noexcept;
 
@@ -99,7 +100,7 @@ inline constexpr double kRounder = 0x1.8p52;
 
 }  // namespace detail
 
-/// Sine and cosine together, for every finite angle_rad within 1 ulp (NaN otherwise).
+/// Sine and cosine together, within 1 ulp for every finite angle_rad; NaN otherwise.
 [[nodiscard]] inline SinCos sincos(double angle_rad) noexcept {
   if (!(std::abs(angle_rad) <= detail::kMaxQuickAngle)) return detail::sincos_huge(angle_rad);
   const detail::ReducedAngle reduced = detail::reduce_quick(angle_rad);
@@ -110,9 +111,7 @@ inline constexpr double kRounder = 0x1.8p52;
   return result;
 }
 
-/// Sine and cosine with equal bits on every processor.
 [[nodiscard]] inline double sin(double angle_rad) noexcept { return sincos(angle_rad).sin; }
-/// As sin().
 [[nodiscard]] inline double cos(double angle_rad) noexcept { return sincos(angle_rad).cos; }
 
 /// The angle of the vector (x, y) in [-pi, pi], within 2 ulp; signs of zero and infinities as in
@@ -129,7 +128,7 @@ inline constexpr double kRounder = 0x1.8p52;
     small = small == kInfinity ? 1.0 : 0.0;
     large = 1.0;
   }
-  // Keeps small + large below overflow and 0.66 * large a normal number; quotients do not change.
+  // Prevents overflow of small + large and a subnormal 0.66 * large; quotients do not change.
   const double scale = large > 0x1p1000 ? 0.25 : (large < 0x1p-900 ? 0x1p100 : 1.0);
   small *= scale;
   large = large == 0.0 ? 1.0 : large * scale;
@@ -149,7 +148,8 @@ inline constexpr double kRounder = 0x1.8p52;
                        z +
                    1.945506571482613964425e2;
   const double angle = t + t * (z * p / q);
-  // The answer is k pi/4 + sign * angle, pi/4 in two parts so that k times the first is exact.
+  // The result is k pi/4 + sign * angle; pi/4 is split in two parts so that k times the first is
+  // exact.
   const bool behind = std::signbit(x);
   const double first = diagonal ? 1.0 : 0.0;
   const double half = steep ? 2.0 - first : first;

@@ -3,13 +3,13 @@
 
 namespace rave::detail {
 
-/// a + b without loss: the rounded value and what rounding took away.
+/// The exact result of an operation: the rounded value and the rounding error.
 struct TwoSum {
   double sum = 0;
   double error = 0;
 };
 
-/// Source: Knuth, "The Art of Computer Programming", volume 2, section 4.2.2.
+/// a + b. Source: Knuth, "The Art of Computer Programming", volume 2, section 4.2.2.
 [[nodiscard]] constexpr TwoSum two_sum(double a, double b) noexcept {
   const double sum = a + b;
   const double b_part = sum - a;
@@ -17,8 +17,8 @@ struct TwoSum {
   return {sum, (a - a_part) + (b - b_part)};
 }
 
-/// a * b without loss (no overflow or underflow assumed), without fused operations.
-/// Source: Dekker, "A floating-point technique for extending the available precision", 1971.
+/// a * b, without fused operations; overflow and underflow must not occur. Source: Dekker, "A
+/// floating-point technique for extending the available precision", 1971.
 [[nodiscard]] constexpr TwoSum two_product(double a, double b) noexcept {
   constexpr double kSplitter = 134217729.0;  // 2^27 + 1
   const double a_scaled = kSplitter * a;

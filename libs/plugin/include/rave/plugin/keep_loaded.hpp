@@ -3,9 +3,9 @@
 
 namespace rave::plugin {
 
-/// The file that `address` (of a function or an object in it) was loaded from stays loaded until
-/// the process ends, whoever unloads it: for a driver whose thread goes on. Nothing for an address
-/// of the program itself, or null. Any thread.
+/// Keeps the shared object that contains `address` (a function or an object) loaded until the
+/// process ends, also after it is unloaded. For a driver with a thread that cannot be stopped. Has
+/// no effect for null or an address of the program itself. Any thread.
 void keep_loaded(const void* address) noexcept;
 
 }  // namespace rave::plugin

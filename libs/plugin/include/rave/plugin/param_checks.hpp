@@ -6,8 +6,8 @@
 
 namespace rave {
 
-/// Refuses two number parameters of which the first is not smaller than the second: what the range
-/// of a single parameter cannot say. Error: kInvalidArgument, naming both and their values.
+/// Checks that number parameter `low` is smaller than `high`, a condition that the ranges of single
+/// parameters cannot express. Error kInvalidArgument names both and their values.
 [[nodiscard]] inline Status check_ascending(const Params& params, const char* low,
                                             const char* high) {
   // Written so that a NaN fails as well.

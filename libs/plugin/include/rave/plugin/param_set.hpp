@@ -10,8 +10,8 @@
 
 namespace rave::plugin {
 
-/// Owns the parameter values of one driver or program, for the host. Movable: what values() points
-/// to stays where it is. A copy would not, so there is none.
+/// Owns the parameter values of one driver or program; used by the host. A move keeps the pointers
+/// in values() valid. A copy would not, so copying is disabled.
 class ParamSet {
  public:
   ParamSet() = default;

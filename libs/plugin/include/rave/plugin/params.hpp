@@ -7,21 +7,21 @@
 
 namespace rave {
 
-/// What a parameter holds. The number is part of the plug-in interface.
+/// The type of a parameter. The numbers are part of the plug-in interface.
 enum class ParamType : std::uint32_t { kBool, kInteger, kNumber, kText, kChoice, kNumbers };
 
-/// One parameter of a driver or program as its author declares it. All pointers are to constants
-/// that live as long as the plug-in. Make them with the functions below.
+/// The declaration of one parameter of a driver or program. All pointers refer to constants that
+/// live as long as the plug-in. Make specs with the functions below.
 struct ParamSpec {
-  const char* name = "";  ///< With its unit: `range_m`, `period_s`, `fov_deg`.
+  const char* name = "";  ///< Includes the unit: `range_m`, `period_s`, `fov_deg`.
   ParamType type = ParamType::kNumber;
-  std::uint32_t required = 0;            ///< 1: a file must give it.
-  const char* unit = "";                 ///< For people: `m`, `rad/s`; empty for a pure number.
-  double min = 0;                        ///< Smallest value of an integer, number or list element.
-  double max = 0;                        ///< Largest value.
-  double default_number = 0;             ///< Default of bool (0 or 1), integer and number.
-  const char* default_text = "";         ///< Default of text and choice.
-  const char* const* choices = nullptr;  ///< Names of a choice.
+  std::uint32_t required = 0;     ///< 1: the file must contain it.
+  const char* unit = "";          ///< As shown to people: `m`, `rad/s`; empty for a pure number.
+  double min = 0;                 ///< Smallest value of an integer, number or list element.
+  double max = 0;                 ///< Largest value.
+  double default_number = 0;      ///< Default of bool (0 or 1), integer and number.
+  const char* default_text = "";  ///< Default of text and choice.
+  const char* const* choices = nullptr;  ///< Permitted values of a choice.
   std::uint64_t choice_count = 0;
   const char* doc = "";  ///< One sentence.
 };
@@ -39,7 +39,7 @@ constexpr ParamSpec number_param(const char* name, const char* unit, double valu
   return spec;
 }
 
-/// A whole number from `min` to `max`; `value` is the default.
+/// An integer from `min` to `max`; `value` is the default.
 constexpr ParamSpec integer_param(const char* name, std::int64_t value, std::int64_t min,
                                   std::int64_t max, const char* doc) noexcept {
   ParamSpec spec = number_param(name, "", static_cast<double>(value), static_cast<double>(min),
@@ -48,7 +48,7 @@ constexpr ParamSpec integer_param(const char* name, std::int64_t value, std::int
   return spec;
 }
 
-/// True or false; `value` is the default.
+/// A Boolean; `value` is the default.
 constexpr ParamSpec bool_param(const char* name, bool value, const char* doc) noexcept {
   ParamSpec spec = number_param(name, "", value ? 1 : 0, 0, 1, doc);
   spec.type = ParamType::kBool;
@@ -83,14 +83,14 @@ constexpr ParamSpec numbers_param(const char* name, const char* unit, double min
   return spec;
 }
 
-/// The same parameter without a default.
+/// A copy of `spec` without a default: the file must contain the parameter.
 constexpr ParamSpec required(ParamSpec spec) noexcept {
   spec.required = 1;
   return spec;
 }
 
-/// The value of one parameter, checked against its spec by the host. Which member counts is said
-/// by the type of the spec.
+/// The value of one parameter, checked against its spec by the host. The type of the spec
+/// determines which member is set.
 struct ParamValue {
   const char* name = "";
   double number = 0;  ///< Bool, integer (exact up to 2^53) and number.
@@ -99,16 +99,16 @@ struct ParamValue {
   std::uint64_t list_size = 0;
 };
 
-/// All parameters of one driver or program, in the order of its specs, defaults filled in.
-/// A view: valid during the call it is passed to.
+/// All parameters of one driver or program, in the order of its specs, with defaults filled in. A
+/// view, valid during the call that receives it.
 class Params {
  public:
   constexpr Params() noexcept = default;
   constexpr explicit Params(std::span<const ParamValue> values) noexcept
       : values_(values.data()), count_(values.size()) {}
 
-  /// The value of the declared parameter `name`. Asking for one that was not declared gives 0,
-  /// an empty text or an empty list: a mistake of the author, which the driver's own test finds.
+  /// The value of the declared parameter `name`. For an undeclared name the result is 0, an empty
+  /// text or an empty list. Tests of the driver must find such mistakes.
   [[nodiscard]] constexpr double number(std::string_view name) const noexcept {
     return find(name).number;
   }

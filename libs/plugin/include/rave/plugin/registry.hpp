@@ -9,12 +9,13 @@
 
 namespace rave {
 
-/// What a registered driver serves; decides which table of functions it comes with.
+/// The kind of a registered driver. It determines the type of the driver's function table.
 enum class DriverKind : std::uint32_t {
-  kSensor,           ///< Hardware or a recording: rave/robot/hardware_sensor.hpp
+  kSensor,           ///< Reads hardware or a recording: rave/robot/hardware_sensor.hpp
   kVirtualSensor,    ///< Reads the virtual world: rave/sim/virtual_sensor.hpp
   kHybridSensor,     ///< Fuses a real and a virtual half: rave/robot/hybrid_sensor.hpp
-  kActuator,         ///< Hardware, or a recording that cannot obey: rave/robot/actuator.hpp
+  kActuator,         ///< Controls hardware, or a recording, which ignores commands:
+                     ///< rave/robot/actuator.hpp
   kVirtualActuator,  ///< Dynamics of a simulated robot: rave/robot/actuator.hpp
   kController,       ///< rave/robot/controller.hpp
   kCommunicator,     ///< A message model: rave/robot/communicator.hpp
@@ -22,33 +23,34 @@ enum class DriverKind : std::uint32_t {
   kProgram,          ///< A decision process: rave/robot/program.hpp
   kDevice,           ///< Hardware that sensors and actuators share: rave/robot/device.hpp
 };
-/// How many kinds of drivers there are.
+/// The number of kinds.
 inline constexpr std::uint32_t kDriverKindCount = 10;
 
 /// The name of a kind, as `rave drivers` prints it.
 [[nodiscard]] std::string_view to_string(DriverKind kind) noexcept;
 
-/// How a driver's time runs. Stepped: as a function of simulation time, so a run can be repeated.
-/// Live: by the clock on the wall. Either: a parameter `clock` chooses.
+/// The time base of a driver. Stepped: a function of simulation time, so a run can be repeated.
+/// Live: the wall clock. Either: its parameter `clock` selects one.
 enum class DriverClock : std::uint32_t { kStepped, kLive, kEither };
 
 /// `stepped`, `live` or `either`.
 [[nodiscard]] std::string_view to_string(DriverClock clock) noexcept;
 
-/// When the samples of a hardware sensor come, which decides how a dead one is noticed. Unknown: at
-/// the pace of the device; only `max_age_s` in the robot file says how old a sample may be.
-/// Periodic: HardwareDeclaration::period_s says how often. Events: when something happens, so that
-/// silence is no fault, and SampleSink::fail() alone says that the sensor is lost.
+/// When a hardware sensor produces samples; determines how a failure is detected. Unknown: at the
+/// rate of the device; only `max_age_s` in the robot file limits the age of a sample. Periodic:
+/// every HardwareDeclaration::period_s. Events: when something happens; silence is no fault, and
+/// only SampleSink::fail() reports that the sensor is lost.
 enum class SampleTiming : std::uint32_t { kUnknown, kPeriodic, kEvents };
 
 /// The name of a timing, as `rave describe` prints it.
 [[nodiscard]] std::string_view to_string(SampleTiming timing) noexcept;
 
-/// A driver or program as it describes itself. Pointers are to constants of the plug-in.
+/// The description of a driver or program by its plug-in. Pointers refer to constants of the
+/// plug-in.
 struct DriverInfo {
   DriverKind kind = DriverKind::kSensor;
   DriverClock clock = DriverClock::kStepped;
-  const char* name = "";     ///< Unique among those of its kind; lower_snake_case.
+  const char* name = "";     ///< Unique within its kind; lower_snake_case.
   const char* version = "";  ///< `1.0`
   const char* summary = "";  ///< One sentence.
   const ParamSpec* params = nullptr;
@@ -56,7 +58,8 @@ struct DriverInfo {
   /// A rave::ReadingKind (sensors) or rave::CommandKind (controllers, actuators); 0 for others.
   std::uint32_t data_kind = 0;
   SampleTiming timing = SampleTiming::kUnknown;  ///< Drivers of kind kSensor.
-  /// The driver of kind kDevice, of the same plug-in, that it must be given; empty: none.
+  /// The name of the driver of kind kDevice, in the same plug-in, whose device this driver needs;
+  /// empty: none.
   const char* device = "";
 
   [[nodiscard]] std::span<const ParamSpec> param_specs() const noexcept {
@@ -64,7 +67,8 @@ struct DriverInfo {
   }
 };
 
-/// Filled by a plug-in's one exported function; belongs to the loader.
+/// Receives the drivers that a plug-in registers. Owned by the loader; valid during the call of the
+/// plug-in's entry function.
 class RegistrySink {
  public:
   /// Adds one driver. `ops` is the function table of its kind, a constant of the plug-in.

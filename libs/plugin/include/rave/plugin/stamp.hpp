@@ -12,24 +12,26 @@
 
 namespace rave::plugin {
 
-/// Written into the section `.rave_stamp` of every plug-in and read from the file before the
-/// plug-in is loaded, so that one built for another interface never gets to run. Plain bytes.
+/// The contents of the section `.rave_stamp` of every plug-in. The host reads it from the file
+/// before it loads the plug-in, so that a plug-in for another interface is never executed. Plain
+/// bytes.
 struct Stamp {
   static constexpr std::uint64_t kMagic = 0x31504d5453455652ULL;  // "RVESTMP1", little endian
 
   std::uint64_t magic = kMagic;
-  /// Layout of everything in rave/robot that crosses the interface; see interface_hash.hpp there.
+  /// Hash of the layout of all types in rave/robot that cross the interface; see interface_hash.hpp
+  /// there.
   std::uint64_t robot_interface = 0;
-  /// Layout of the virtual-driver interface in rave/sim; 0 in plug-ins that do not use it.
+  /// Hash of the layout of the virtual-driver interface in rave/sim; 0 if not used.
   std::uint64_t virtual_interface = 0;
   /// The C++ ABI of the compiler (`__GXX_ABI_VERSION`).
   std::uint32_t compiler_abi = 0;
   /// `alignof(std::max_align_t)` and the vector alignment that the flags imply.
   std::uint32_t alignment = 0;
-  /// 0 none, 1 address, 2 thread: a plug-in must be built as its host is.
+  /// 0 none, 1 address, 2 thread; plug-in and host must use the same.
   std::uint32_t sanitizer = 0;
   std::uint32_t reserved = 0;
-  /// Names of the drivers inside, separated by blanks, so that a host loads only what it needs.
+  /// Names of the drivers, separated by blanks, so that a host loads only the files it needs.
   char provides[216] = {};
 };
 static_assert(sizeof(Stamp) == 256);
@@ -54,7 +56,7 @@ constexpr std::uint32_t sanitizer_of_this_build() noexcept {
 }
 }  // namespace detail
 
-/// The stamp of the translation unit that calls it. `provides` lists the drivers inside, separated
+/// The stamp of the calling translation unit. `provides` lists the names of its drivers, separated
 /// by blanks, in at most 215 characters.
 constexpr Stamp make_stamp(std::uint64_t robot_interface, std::uint64_t virtual_interface,
                            std::string_view provides) noexcept {
@@ -70,19 +72,19 @@ constexpr Stamp make_stamp(std::uint64_t robot_interface, std::uint64_t virtual_
   return stamp;
 }
 
-/// Reads the stamp of a shared library without loading it.
-/// Errors: kNotFound, kIo, kParse (not a 64-bit ELF file, damaged), kIncompatible (no stamp, for
-/// another processor). They give the reason and leave it to the caller to name the file.
+/// Reads the stamp of a shared library without loading it. Errors: kNotFound, kIo, kParse (not a
+/// 64-bit ELF file, damaged), kIncompatible (no stamp, another processor). The messages do not name
+/// the file; the caller adds it.
 [[nodiscard]] Result<Stamp> read_stamp(const std::filesystem::path& path);
 
-/// The same from the bytes of a file; the decoder that the fuzz target drives.
+/// Reads the stamp from the bytes of a file; target of the fuzz test.
 [[nodiscard]] Result<Stamp> parse_stamp(std::string_view bytes);
 
 /// The driver names that a stamp lists, in its order.
 [[nodiscard]] std::vector<std::string> parse_provides(const Stamp& stamp);
 
-/// Says in words everything that keeps a plug-in with stamp `plugin` from running in a host with
-/// stamp `host`, and what to do about it; success if nothing does. Error: kIncompatible.
+/// Checks that a plug-in with stamp `plugin` can run in a host with stamp `host`. Error
+/// kIncompatible lists all differences and what to do about each.
 [[nodiscard]] Status check_stamp(const Stamp& plugin, const Stamp& host);
 
 }  // namespace rave::plugin

@@ -14,34 +14,38 @@
 
 namespace rave::process {
 
-/// How a child begins. Without more it has the files, signals and environment of this process.
+/// How a child process starts. By default it inherits the files, signals and environment of this
+/// process.
 struct ChildOptions {
   struct File {
-    int ours;    ///< Open here; stays open.
-    int theirs;  ///< Its number there.
+    int ours;    ///< Descriptor in this process; stays open.
+    int theirs;  ///< Descriptor number in the child.
   };
-  std::vector<std::string> words;              ///< The path of the executable, and its arguments.
-  std::vector<File> files;                     ///< What it gets under which number.
-  bool no_input = false;                       ///< Its standard input is empty.
-  std::optional<int> close_from;               ///< It has no file of this number or above.
-  bool default_signals = false;                ///< It blocks, ignores and handles none.
-  bool own_group = false;                      ///< Ctrl-C in the terminal is not for it.
-  std::vector<std::string> without_variables;  ///< Of the environment.
+  std::vector<std::string> words;  ///< The path of the executable, and its arguments.
+  std::vector<File> files;         ///< Descriptors that the child receives.
+  bool no_input = false;           ///< Its standard input is /dev/null.
+  /// Descriptors with this number or above are closed in the child.
+  std::optional<int> close_from;
+  bool default_signals = false;  ///< All signals have their default action and none is blocked.
+  /// A process group of its own: Ctrl-C in the terminal does not reach it.
+  bool own_group = false;
+  std::vector<std::string> without_variables;  ///< Environment variables that are removed.
 };
 
-/// How a child ended.
+/// How a child process ended.
 struct ChildEnd {
-  std::optional<int> exit_code;  ///< It ended by itself.
-  std::optional<int> signal;     ///< A signal ended it. Neither: another part of the process knows.
+  std::optional<int> exit_code;  ///< Set if it exited.
+  std::optional<int> signal;     ///< Set if a signal ended it. Neither is set: another part of this
+                                 ///< process has reaped it.
 };
 
-/// A child process. Whoever destroys this before the child has ended leaves it running, and as a
-/// zombie afterwards. One owner thread.
+/// A child process. The destructor does not end it: a running child continues, and becomes a zombie
+/// when it ends. One owner thread.
 class Child {
  public:
-  /// Errors: kNotFound (no such executable), kIo.
+  /// Starts a child. Errors: kNotFound (no such executable), kIo.
   [[nodiscard]] static Result<Child> start(const ChildOptions& options);
-  Child() = default;  ///< None.
+  Child() = default;  ///< No process.
   Child(Child&& other) noexcept
       : id_(std::exchange(other.id_, 0)), handle_(std::move(other.handle_)), end_(other.end_) {}
   Child& operator=(Child&& other) noexcept {
@@ -52,12 +56,12 @@ class Child {
   }
   ~Child() = default;
 
-  /// Its number; 0: there is none, or it has ended.
+  /// The process id; 0: no process, or it has ended.
   [[nodiscard]] pid_t id() const noexcept { return id_; }
   void signal(int number) const noexcept;
-  /// How it ended, if it has. Waits for that at most `longest`; below 0 without limit.
+  /// Waits for the end for at most `longest` (negative: without limit). Empty: still running.
   [[nodiscard]] std::optional<ChildEnd> wait(std::chrono::milliseconds longest);
-  /// Ends it at once, if it has not ended.
+  /// Kills the child (SIGKILL) unless it has ended, and waits for its end.
   ChildEnd kill();
 
  private:

@@ -7,7 +7,7 @@
 
 namespace rave::process {
 
-/// Owns one file descriptor; below 0 there is none.
+/// Owns a file descriptor; negative: none.
 class Descriptor {
  public:
   explicit Descriptor(int file = -1) noexcept : file_(file) {}
@@ -20,7 +20,7 @@ class Descriptor {
 
   [[nodiscard]] int get() const noexcept { return file_; }
   [[nodiscard]] explicit operator bool() const noexcept { return file_ >= 0; }
-  /// Closes it now.
+  /// Closes the descriptor now.
   void reset() noexcept {
     if (file_ >= 0) ::close(file_);
     file_ = -1;

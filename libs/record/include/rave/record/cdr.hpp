@@ -19,14 +19,14 @@ template <class T>
 concept CdrPrimitive = std::is_arithmetic_v<T>;
 
 /// Writes the classic CDR encoding (OMG CORBA 3.0, 15.3; plain CDR of DDS-XTypes 1.3, 7.4.1),
-/// little-endian with its four-byte encapsulation header, as ROS 2 messages have it: a primitive
-/// stands at a multiple of its size, counted from behind the header; a string is its length with
-/// the closing zero, then the bytes; a sequence is its count, then the elements.
+/// little-endian with a four-byte encapsulation header, as in ROS 2 messages. A primitive is
+/// aligned to its size, counted from behind the header; a string is its length including the final
+/// zero, then the bytes; a sequence is its count, then the elements.
 class CdrWriter {
  public:
   CdrWriter() { clear(); }
 
-  /// Begins a new message; keeps the memory.
+  /// Starts a new message; keeps the allocated memory.
   void clear() {
     bytes_.clear();
     bytes_.insert(bytes_.end(), {std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}});
@@ -42,7 +42,7 @@ class CdrWriter {
     bytes_.push_back(std::byte{0});
   }
   void put_count(std::size_t count) { put(static_cast<std::uint32_t>(count)); }
-  /// A sequence of primitives, its count included.
+  /// A sequence of primitives with its count.
   template <CdrPrimitive T>
   void put_sequence(std::span<const T> values) {
     put_count(values.size());
@@ -50,14 +50,14 @@ class CdrWriter {
     align(sizeof(T));
     append(values.data(), values.size_bytes());
   }
-  /// Elements that lie in memory as CDR wants them: all members at multiples of their size, the
-  /// size of T a multiple of 8, and this place a multiple of 8 (the caller's layout sees to that).
+  /// Writes elements whose memory layout is their CDR encoding: all members aligned to their size,
+  /// sizeof(T) a multiple of 8. Precondition: position() is a multiple of 8.
   template <class T>
     requires(std::is_trivially_copyable_v<T> && sizeof(T) % 8 == 0)
   void put_packed(std::span<const T> values) {
     append(values.data(), values.size_bytes());
   }
-  /// Bytes from behind the encapsulation header: what alignment is counted from.
+  /// The number of bytes after the encapsulation header; alignment is relative to it.
   [[nodiscard]] std::size_t position() const noexcept { return bytes_.size() - 4; }
   [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
 
@@ -74,9 +74,9 @@ class CdrWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// Reads the same. After the first read beyond the end, or a header that is not little-endian plain
-/// CDR, ok() is false and everything is zero or empty: read all, then ask once. Spans and views
-/// point into the message.
+/// Reads what CdrWriter writes. After a read beyond the end, or if the header is not little-endian
+/// plain CDR, ok() is false and all results are zero or empty; so read everything and check once.
+/// Spans point into the message.
 class CdrReader {
  public:
   explicit CdrReader(std::span<const std::byte> message) noexcept
@@ -109,7 +109,7 @@ class CdrReader {
   [[nodiscard]] std::span<const std::byte> get_bytes() noexcept {
     return raw(get<std::uint32_t>());
   }
-  /// The counterpart of CdrWriter::put_packed().
+  /// The inverse of CdrWriter::put_packed().
   template <class T>
     requires(std::is_trivially_copyable_v<T> && sizeof(T) % 8 == 0)
   [[nodiscard]] std::vector<T> get_packed(std::uint64_t count) {
@@ -118,15 +118,15 @@ class CdrReader {
     if (!from.empty()) std::memcpy(values.data(), from.data(), from.size());
     return values;
   }
-  /// A count of elements of which each takes at least `least_bytes`; 0 and not ok if they cannot
-  /// all be there.
+  /// A count of elements that take at least `least_bytes` each. If the message is too short for
+  /// that many, returns 0 and ok() becomes false.
   [[nodiscard]] std::uint32_t get_count(std::uint64_t least_bytes) noexcept {
     const auto count = get<std::uint32_t>();
     if (ok_ && count * least_bytes > body_.size() - position_) ok_ = false;
     return ok_ ? count : 0;
   }
   [[nodiscard]] bool ok() const noexcept { return ok_; }
-  /// Whether all has been read.
+  /// Whether the whole message has been read.
   [[nodiscard]] bool at_end() const noexcept { return position_ == body_.size(); }
 
  private:

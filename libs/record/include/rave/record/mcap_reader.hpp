@@ -19,41 +19,41 @@ namespace rave::record {
 struct RecordFile;
 class ByteSource;
 
-/// How an MCAP file is read.
+/// Options for reading an MCAP file.
 struct McapReaderOptions {
-  /// A chunk that says it is larger than this is taken for damaged.
+  /// A chunk that claims to be larger is treated as damaged.
   std::uint64_t max_chunk_bytes = std::uint64_t{1} << 30;
 };
 
-/// What a look at every byte of a file found. Each text names file and offset.
+/// The result of checking every byte of a file. Each text names file and offset.
 struct CheckedFile {
-  std::vector<std::string> cuts;      ///< What is missing at the end of a file that broke off.
-  std::vector<std::string> damages;   ///< What does not match its checksum, or is no whole record.
-  std::vector<std::string> unsummed;  ///< Pieces without a checksum, of which nothing can be said.
+  std::vector<std::string> cuts;      ///< Missing parts at the end of a truncated file.
+  std::vector<std::string> damages;   ///< Checksum mismatches and incomplete records.
+  std::vector<std::string> unsummed;  ///< Parts without a checksum, which cannot be checked.
 
-  /// Each byte is the one that was written.
+  /// Whether every byte is known to be as written.
   [[nodiscard]] bool whole() const noexcept {
     return cuts.empty() && damages.empty() && unsummed.empty();
   }
 };
 
-/// Which messages a MessageCursor gives. Times in ns on the clock of the record, both included.
+/// Selects the messages of a MessageCursor. Times in ns of the recording's clock, both inclusive.
 struct MessageFilter {
-  std::vector<std::uint16_t> channels;  ///< Empty: all.
+  std::vector<std::uint16_t> channels;  ///< Channel ids; empty: all.
   std::uint64_t from_ns = 0;
   std::uint64_t to_ns = ~std::uint64_t{0};
 };
 
-/// Messages in order of log time; those of equal time in the order in which they were written.
-/// Holds its own share of the file, so it may outlive the reader. One thread.
+/// Iterates over messages in order of log time; those of equal time in the order of writing. Shares
+/// ownership of the file, so it may outlive the reader. One thread.
 class MessageCursor {
  public:
   MessageCursor(MessageCursor&&) noexcept;
   MessageCursor& operator=(MessageCursor&&) noexcept;
   ~MessageCursor();
 
-  /// The next message, or nothing at the end. Its bytes stay until the next call. A damaged chunk
-  /// is an error that names file and offset; the call after it goes on with the other chunks.
+  /// The next message, or nothing at the end. Its bytes are valid until the next call. A damaged
+  /// chunk is an error that names file and offset; the next call continues with the other chunks.
   [[nodiscard]] Result<std::optional<MessageView>> next();
 
  private:
@@ -63,28 +63,29 @@ class MessageCursor {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reads MCAP files (version 0, https://mcap.dev/spec), uncompressed or zstd. Opens by the summary
-/// at the end; if that is missing or damaged, by going through the file from its start, which ends
-/// quietly at the first piece that is not whole. Nothing in a file is trusted. One thread.
+/// Reads MCAP files (version 0, https://mcap.dev/spec), uncompressed or zstd. It uses the summary
+/// at the end of the file. If the summary is missing or damaged, it scans the file from the start
+/// and stops without an error at the first incomplete record. No content of a file is trusted. One
+/// thread.
 class McapReader {
  public:
-  /// Errors: kNotFound, kIo, kParse (no MCAP file at all).
+  /// Opens a file. Errors: kNotFound, kIo, kParse (not an MCAP file).
   [[nodiscard]] static Result<McapReader> open(const std::filesystem::path& path,
                                                McapReaderOptions options = {});
-  /// The same for bytes in memory, which must outlive the reader and its cursors; `name` stands for
-  /// the path in errors.
+  /// Opens bytes in memory, which must outlive the reader and its cursors; `name` replaces the path
+  /// in errors.
   [[nodiscard]] static Result<McapReader> open_memory(std::span<const std::byte> bytes,
                                                       std::string name,
                                                       McapReaderOptions options = {});
 
   [[nodiscard]] const std::string& profile() const noexcept;
   [[nodiscard]] const std::string& library() const noexcept;
-  /// Whether the file ends with a footer; one that does not broke off.
+  /// Whether the file ends with a footer; without one it is truncated.
   [[nodiscard]] bool ended() const noexcept;
-  /// Whether it ends as it should, with index and footer, and nothing is known to be wrong.
-  /// Opening reads the index, not the data: check() does.
+  /// Whether the file has index and footer and no known damage. Opening reads the index only;
+  /// check() also reads the data.
   [[nodiscard]] bool whole() const noexcept;
-  /// What opening found to be wrong, if anything; each names file and offset.
+  /// Damage found when opening; each text names file and offset.
   [[nodiscard]] std::vector<std::string> damages() const;
   [[nodiscard]] std::uint64_t file_size() const noexcept;
   [[nodiscard]] const std::vector<SchemaInfo>& schemas() const noexcept;
@@ -94,17 +95,18 @@ class McapReader {
   [[nodiscard]] const std::vector<AttachmentInfo>& attachments() const noexcept;
   [[nodiscard]] const std::vector<MetadataInfo>& metadata() const noexcept;
 
-  /// The channel of a topic; null if there is none.
+  /// The channel of a topic; null if it does not exist.
   [[nodiscard]] const ChannelInfo* channel(std::string_view topic) const noexcept;
   [[nodiscard]] const SchemaInfo* schema(std::uint16_t id) const noexcept;
 
   [[nodiscard]] MessageCursor messages(MessageFilter filter = {}) const;
-  /// The content of an attachment, its checksum compared.
+  /// The content of an attachment; its checksum is verified.
   [[nodiscard]] Result<std::string> read_attachment(const AttachmentInfo& attachment) const;
   [[nodiscard]] Result<StringMap> read_metadata(const MetadataInfo& metadata) const;
-  /// Reads everything once: every checksum and every record of every chunk. Goes on after a damage.
+  /// Reads the whole file and verifies every checksum and record. Continues after damage.
   [[nodiscard]] CheckedFile check() const;
-  /// check() as one answer: the first cut or damage. Pieces without a checksum are allowed.
+  /// Like check(), with the first truncation or damage as error. Parts without a checksum are
+  /// accepted.
   [[nodiscard]] Status verify() const;
 
  private:

@@ -13,7 +13,7 @@ namespace rave::record {
 
 using StringMap = std::map<std::string, std::string>;
 
-/// What the messages of a channel look like. Ids count from 1; 0 means "no schema".
+/// The format of the messages of a channel. Ids count from 1; 0 means "no schema".
 struct SchemaInfo {
   std::uint16_t id = 0;
   std::string name;      ///< `sensor_msgs/msg/LaserScan`
@@ -21,7 +21,7 @@ struct SchemaInfo {
   std::string data;
 };
 
-/// A stream of messages of one kind.
+/// A stream of messages of one schema.
 struct ChannelInfo {
   std::uint16_t id = 0;
   std::uint16_t schema_id = 0;
@@ -30,10 +30,10 @@ struct ChannelInfo {
   StringMap metadata;
 };
 
-/// Where an attached file lies. Times in ns on the clock of the record.
+/// The place of an attachment in the file. Times in ns of the recording's clock.
 struct AttachmentInfo {
-  std::uint64_t offset = 0;  ///< Of its record, from the start of the file.
-  std::uint64_t length = 0;  ///< Of its record, with opcode and length.
+  std::uint64_t offset = 0;  ///< Offset of its record from the start of the file.
+  std::uint64_t length = 0;  ///< Length of its record, including opcode and length field.
   std::uint64_t log_time_ns = 0;
   std::uint64_t create_time_ns = 0;
   std::uint64_t data_size = 0;
@@ -41,16 +41,16 @@ struct AttachmentInfo {
   std::string media_type;
 };
 
-/// Where a named set of texts lies.
+/// The place of a metadata record: a named set of texts.
 struct MetadataInfo {
   std::uint64_t offset = 0;
   std::uint64_t length = 0;
   std::string name;
 };
 
-/// Where a chunk of messages lies and what is in it.
+/// The place and content of a chunk of messages.
 struct ChunkInfo {
-  std::uint64_t start_ns = 0;  ///< Earliest log time in it; 0 without messages.
+  std::uint64_t start_ns = 0;  ///< Earliest log time; 0 without messages.
   std::uint64_t end_ns = 0;
   std::uint64_t offset = 0;
   std::uint64_t length = 0;
@@ -58,13 +58,13 @@ struct ChunkInfo {
   std::uint64_t uncompressed_size = 0;
   std::uint64_t message_index_length = 0;
   std::string compression;  ///< `zstd` or empty.
-  /// Channels with messages in it and where their indexes lie; empty: not known.
+  /// Ids of the channels with messages in it and offsets of their message indexes; empty: unknown.
   std::vector<std::pair<std::uint16_t, std::uint64_t>> channels;
-  /// No chunk record but a stretch of message records that stand in the file as they are.
+  /// Not a chunk record but a series of message records directly in the file.
   bool bare = false;
 };
 
-/// How much there is of what.
+/// Counts of the records of a file.
 struct Statistics {
   std::uint64_t message_count = 0;
   std::uint64_t start_ns = 0;
@@ -75,7 +75,7 @@ struct Statistics {
   std::map<std::uint16_t, std::uint64_t> channel_message_counts;
 };
 
-/// One message as it lies in a record. The bytes belong to whoever gave it.
+/// One message of a file. The span is valid as long as its source says.
 struct MessageView {
   std::uint16_t channel = 0;
   std::uint32_t sequence = 0;

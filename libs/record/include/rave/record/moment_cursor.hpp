@@ -13,30 +13,31 @@
 
 namespace rave::record {
 
-/// Goes through a record moment by moment: all messages of one log time at once, by topic, copied.
+/// Iterates over a recording by log time: all messages of one time together, by topic, copied.
 class MomentCursor {
  public:
   using Bytes = std::vector<std::byte>;
   using Messages = std::map<std::string_view, std::vector<Bytes>>;
 
-  /// `topics` of other lifetime; those that the record does not have are left out.
+  /// The texts of `topics` must outlive the cursor; topics that the recording does not have are
+  /// ignored.
   MomentCursor(const McapReader& reader, const std::vector<std::string_view>& topics);
 
-  /// Loads the next moment; false at the end. Errors: as MessageCursor::next().
+  /// Loads the next time; false at the end. Errors: those of MessageCursor::next().
   [[nodiscard]] Result<bool> next();
 
   [[nodiscard]] std::uint64_t time_ns() const noexcept { return time_ns_; }
   [[nodiscard]] const Messages& messages() const noexcept { return messages_; }
-  /// Of one topic, in the order in which they were written.
+  /// The messages of one topic, in the order in which they were written.
   [[nodiscard]] const std::vector<Bytes>& messages(std::string_view topic) const;
-  /// Whether the moment that was loaded is the last one.
+  /// Whether the loaded time is the last one.
   [[nodiscard]] bool at_last() const noexcept { return !ahead_; }
 
  private:
   [[nodiscard]] Status take();
 
   std::map<std::uint16_t, std::string_view> topic_of_;
-  std::optional<MessageCursor> cursor_;  ///< None: the record has none of the topics.
+  std::optional<MessageCursor> cursor_;  ///< Empty: the recording has none of the topics.
   Messages messages_;
   std::uint64_t time_ns_ = 0;
   std::optional<Bytes> ahead_;

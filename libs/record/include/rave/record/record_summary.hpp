@@ -13,49 +13,50 @@
 
 namespace rave::record {
 
-/// One stream of a record.
+/// One stream of a recording.
 struct ChannelSummary {
   std::string topic;
   std::string schema;
   std::string encoding;
   std::uint64_t messages = 0;
-  double rate_hz = 0;  ///< Messages per second of the record's duration; 0 if it has none.
+  double rate_hz = 0;  ///< Messages per second of the recording's duration; 0 if the duration is 0.
 };
 
-/// What `rave info` says about a record.
+/// The content of `rave info` for a recording.
 struct RecordSummary {
   std::uint64_t file_bytes = 0;
-  bool ended = false;    ///< Ends as it should, with index and footer.
-  bool checked = false;  ///< Every byte was looked at, not only index, beginning and end.
-  std::vector<std::string> damages;   ///< What is wrong with it; empty: nothing that was looked at.
-  std::vector<std::string> unsummed;  ///< If checked: pieces without a checksum.
+  bool ended = false;                ///< Has index and footer.
+  bool checked = false;              ///< Every byte was checked, not only index, beginning and end.
+  std::vector<std::string> damages;  ///< Problems found; empty: none in the part that was checked.
+  std::vector<std::string> unsummed;  ///< Parts without a checksum; filled if `checked`.
   std::string profile;
   std::string library;
-  double start_s = 0;  ///< Of the first and of the last message.
+  double start_s = 0;  ///< Log time of the first message.
   double end_s = 0;
   std::uint64_t messages = 0;
   std::uint32_t chunks = 0;
   std::vector<ChannelSummary> channels;  ///< Those with messages, by topic.
   std::vector<AttachmentInfo> attachments;
-  StringMap hybrids;  ///< `robot/sensor` to what it is made of; their parts are recorded.
-  StringMap parts;    ///< The files that it was made of, and their bytes.
-  std::vector<std::string> missing;  ///< ... and what is missing or torn of them.
+  StringMap hybrids;  ///< Hybrid sensors whose parts are recorded: `robot/sensor` to a description
+                      ///< of the parts.
+  StringMap parts;    ///< The files that were merged into it, with their sizes.
+  std::vector<std::string> missing;  ///< Missing or truncated files among them.
   std::optional<RunInfo> run;        ///< None: not written by RAVE.
-  std::optional<RunEnd> end;         ///< None: the run did not come to its end.
+  std::optional<RunEnd> end;         ///< Empty: the run did not end.
 };
 
-/// How much of a record is read.
+/// How much of a recording is read.
 enum class RecordLook : std::uint8_t {
-  kIndex,  ///< Index, beginning and end: quick, says nothing about the data between.
-  kAll,    ///< Everything, and the records it was made of as far as they are there.
+  kIndex,  ///< Index, beginning and end: fast, but the data between is not checked.
+  kAll,    ///< Everything, including the recordings that were merged into it, if present.
 };
 
-/// Says what is in a record. Errors: kNotFound, kIo, kParse (no MCAP file).
+/// Summarises a recording. Errors: kNotFound, kIo, kParse (not an MCAP file).
 [[nodiscard]] Result<RecordSummary> describe_record(const std::filesystem::path& path,
                                                     RecordLook look = RecordLook::kIndex);
 
-/// Compares every checksum of a record and of those it was made of, as far as they are beside it.
-/// Errors: as describe_record().
+/// Verifies every checksum of a recording, and of the recordings merged into it if they are beside
+/// it. Errors: those of describe_record().
 [[nodiscard]] Result<CheckedFile> check_record(const std::filesystem::path& path);
 
 }  // namespace rave::record

@@ -10,10 +10,11 @@
 
 namespace rave::record {
 
-/// Ids of robots as text: `0-9,12`. Any order, without repetition.
+/// Ids of robots as text: `0-9,12`. The input may be in any order, without duplicates.
 [[nodiscard]] std::string robot_ranges(std::vector<std::uint32_t> robots);
 
-/// The ids again, ascending. Errors: kParse (not of that form, or an id of `count` and above).
+/// The inverse of robot_ranges(), ascending. Errors: kParse (wrong syntax, or an id that is not
+/// below `count`).
 [[nodiscard]] Result<std::vector<std::uint32_t>> parse_robot_ranges(std::string_view text,
                                                                     std::uint32_t count);
 

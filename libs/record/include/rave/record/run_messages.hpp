@@ -14,12 +14,11 @@
 #include "rave/math/pose.hpp"
 #include "rave/record/run_info.hpp"
 
-// What is in the messages of a record, and how to read them back.
-// docs/reference/recording-format.md has the table of topics. Everything comes back with the bits
-// that went in.
+// The messages of a recording and their decoders. docs/reference/recording-format.md lists the
+// topics. Decoding restores values bit by bit.
 namespace rave::record {
 
-/// Topics of the exact streams.
+/// Topics of the streams with exact values.
 namespace topic {
 inline constexpr const char* kRun = "/rave/run";
 inline constexpr const char* kEnd = "/rave/end";
@@ -36,20 +35,20 @@ inline constexpr const char* kHash = "/rave/hash";
 inline constexpr const char* kConsole = "/rosout";
 }  // namespace topic
 
-/// Where a robot is in one step, in W.
+/// The pose of a robot in one step, in W.
 struct RobotPose {
   RobotId robot;
-  std::optional<Pose2> true_pose;      ///< Of simulated robots.
-  std::optional<Pose2> reported_pose;  ///< Missing as long as a real robot has none.
-  Twist2 velocity_W;                   ///< Of the origin over ground, axes of W.
+  std::optional<Pose2> true_pose;      ///< Simulated robots only.
+  std::optional<Pose2> reported_pose;  ///< Empty until a real robot has reported one.
+  Twist2 velocity_W;                   ///< Velocity of the origin over ground, in the axes of W.
 
   friend bool operator==(const RobotPose&, const RobotPose&) = default;
 };
 
-/// Which part of a reading: what the program was given, or one half of a hybrid before fusion.
+/// Which reading of a hybrid sensor: the result for the program, or one half before fusion.
 enum class PerceptPart : std::uint8_t { kResult = 0, kReal = 1, kVirtual = 2 };
 
-/// The bits of rave::SampleHeader.
+/// The fields of rave::SampleHeader.
 struct ReadingHeader {
   std::int64_t stamp_ns = 0;
   std::uint32_t sequence = 0;
@@ -60,7 +59,8 @@ struct ReadingHeader {
   friend bool operator==(const ReadingHeader&, const ReadingHeader&) = default;
 };
 
-/// One reading of one sensor. `records` are the bytes behind the header, as the program got them.
+/// One reading of one sensor. `records` are the bytes after the header, as the program received
+/// them.
 struct Percept {
   RobotId robot;
   DeviceId sensor;  ///< At most 65535.
@@ -70,8 +70,8 @@ struct Percept {
   std::span<const std::byte> records;
 };
 
-/// The readings that one sensor gave a row of robots at the same time: robots `first`,
-/// `first` + 1, ... with the same header and as many bytes of records each, one after the other.
+/// Readings of one sensor for consecutive robots `first`, `first` + 1, ... with equal headers and
+/// equally many bytes of records each, concatenated.
 struct PerceptBlock {
   RobotId first;
   std::uint32_t robots = 0;
@@ -81,16 +81,16 @@ struct PerceptBlock {
   std::span<const std::byte> records;  ///< A multiple of `robots` bytes.
 };
 
-/// The commands that a row of robots gave to the same controller in one step.
+/// Commands of consecutive robots to the same controller in one step.
 struct CommandBlock {
   RobotId first;
   std::uint32_t robots = 0;
   DeviceId controller;
-  std::span<const std::byte> commands;  ///< The bytes of one rave::Command for each robot.
+  std::span<const std::byte> commands;  ///< One rave::Command per robot, as bytes.
 };
 
-/// Where a row of simulated robots is whose reported pose is the true one. Robot `first` + i has
-/// its pose i * `stride_bytes` behind `X_WR`, its velocity the same behind `velocity_W`.
+/// Poses of consecutive simulated robots whose reported pose is the true one. The pose of robot
+/// `first` + i is i * `stride_bytes` behind `X_WR`, its velocity as far behind `velocity_W`.
 struct PoseBlock {
   RobotId first;
   std::uint32_t robots = 0;
@@ -99,15 +99,15 @@ struct PoseBlock {
   std::size_t stride_bytes = 0;
 };
 
-/// One command that a controller accepted; the bytes of rave::Command.
+/// One command that a controller accepted: the bytes of a rave::Command.
 struct CommandRecord {
   RobotId robot;
   DeviceId controller;
   std::span<const std::byte> command;
 };
 
-/// What reached an actuator, behind the controllers: the bytes of rave::Command. It holds until the
-/// next one for the same actuator, so only changes are recorded.
+/// A command to an actuator, after the controllers: the bytes of a rave::Command. It holds until
+/// the next one for the same actuator; only changes are recorded.
 struct ActuatorRecord {
   RobotId robot;
   DeviceId actuator;
@@ -125,52 +125,54 @@ struct RadioPacket {
   std::span<const std::byte> payload;
 };
 
-/// Something that happened: a contact, a guard that stopped a robot, an edit of the world.
+/// An event of a run: a contact, a stop by the guard, an edit of the world.
 struct RunEvent {
-  RobotId robot;     ///< None: it concerns the run.
+  RobotId robot;     ///< None: it concerns the whole run.
   std::string kind;  ///< `contact`, `guard_stop`, `device_lost`, ...
   std::string text;
-  std::vector<double> values;  ///< Meaning by kind.
+  std::vector<double> values;  ///< Their meaning depends on the kind.
 };
 
-/// What somebody asked of the run between two steps, and was done: enough to ask for it again.
+/// A request that changed the run between two steps, complete enough to repeat it.
 struct RunInput {
-  std::uint64_t step = 0;  ///< The step that comes next.
-  /// `stop`, `release`, `arm`, `set`, `hand_over`; of obstacles `add`, `move`, `remove`; of people
-  /// to robots `drive`, `goal`, `path`, `cancel`, `text`, `place`.
+  std::uint64_t step = 0;  ///< The next step after the request.
+  /// `stop`, `release`, `arm`, `set`, `hand_over`; of obstacles `add`, `move`, `remove`; orders of
+  /// users `drive`, `goal`, `path`, `cancel`, `text`, `place`.
   std::string kind;
-  std::string robot;  ///< Empty: all of them.
-  std::string key;    ///< Of `set`: such as `program.max_speed_mps`; of `remove`: which one.
-  std::string value;  ///< Of `set`, `hand_over`, `add` and `move`: as in a file; of orders: what.
-  std::string by{};   ///< Who asked; empty: nobody with a name, or an older record.
+  std::string robot;  ///< Empty: all robots.
+  std::string key;    ///< For `set`: the parameter, such as `program.max_speed_mps`; for `remove`:
+                      ///< the obstacle.
+  std::string value;  ///< For `set`, `hand_over`, `add` and `move`: the value as in a file; for
+                      ///< orders: their content.
+  std::string by{};   ///< The user who sent it; empty: no named user, or an older recording.
 
   friend bool operator==(const RunInput&, const RunInput&) = default;
 };
 
-/// What somebody said to people, or to robots and the people who see them. It changes nothing.
+/// A chat message between users, optionally about robots. It does not affect the run.
 struct RunChat {
-  std::uint64_t step = 0;    ///< The step that comes next.
-  std::uint64_t number = 0;  ///< Counts the lines of the server that it was said at, from 1 on.
-  std::string from;          ///< Who said it,
-  std::string role;          ///< `observer`, `commander` or `super_user`,
-  std::string to;            ///< to whom: `all`, `role`, `user`, `team` or `robot`,
-  std::string name;          ///< of this name; empty: all.
+  std::uint64_t step = 0;    ///< The next step after the message.
+  std::uint64_t number = 0;  ///< Number of the message at its server, from 1.
+  std::string from;          ///< The sender.
+  std::string role;          ///< Role of the sender: `observer`, `commander` or `super_user`.
+  std::string to;            ///< Kind of receiver: `all`, `role`, `user`, `team` or `robot`.
+  std::string name;          ///< Name of the receiver; empty: all.
   std::string text;
 };
 
-/// How far a real robot and its shadow are from each other in one step.
+/// The difference between a real robot and its shadow in one step.
 struct ShadowRecord {
   RobotId robot;
-  Pose2 X_WR;      ///< Of the robot, as reported.
-  Pose2 X_WS;      ///< Of its shadow.
-  double m = 0;    ///< Between the origins.
-  double rad = 0;  ///< Between the headings, 0 to pi.
-  /// By sensor: of the newest readings; in metres of ranges and odometry, as a share of contacts.
-  /// NaN: not compared so far.
+  Pose2 X_WR;      ///< Reported pose of the robot.
+  Pose2 X_WS;      ///< Pose of its shadow.
+  double m = 0;    ///< Distance of the origins.
+  double rad = 0;  ///< Difference of the headings, 0 to pi.
+  /// By sensor: the difference of the newest readings; in metres for ranges and odometry, as a
+  /// fraction for contacts. NaN: not compared yet.
   std::vector<double> readings;
 };
 
-/// A line of the console.
+/// A line of the console log.
 struct ConsoleLine {
   SimTime time;
   LogLevel level = LogLevel::kInfo;
@@ -178,7 +180,7 @@ struct ConsoleLine {
   std::string text;
 };
 
-/// The content of one step; spans point into the message.
+/// The content of one step; spans refer to the message.
 template <class Item>
 struct StepOf {
   SimTime time;
@@ -186,21 +188,21 @@ struct StepOf {
   std::vector<Item> items;
 };
 
-/// The run hash as it was after a step of a lock-step run.
+/// The run hash after a step of a lock-step run.
 struct StepHash {
   SimTime time;
   std::uint64_t step = 0;
   std::uint64_t hash = 0;
 };
 
-/// How a run ended.
+/// The end of a run.
 struct RunEnd {
   SimTime time;
   std::uint64_t steps = 0;
-  std::optional<std::uint64_t> hash;  ///< None for a run with a live driver.
+  std::optional<std::uint64_t> hash;  ///< Empty for a run with a live driver.
 };
 
-// Errors: kParse with the topic's name if a message is not as RAVE writes it.
+// Decoders. Errors: kParse with the topic's name if a message does not have the format of RAVE.
 [[nodiscard]] Result<RunInfo> decode_run(std::span<const std::byte> message);
 [[nodiscard]] Result<RunEnd> decode_end(std::span<const std::byte> message);
 [[nodiscard]] Result<StepOf<RobotPose>> decode_poses(std::span<const std::byte> message);
@@ -210,7 +212,7 @@ struct RunEnd {
 [[nodiscard]] Result<StepOf<RadioPacket>> decode_radio(std::span<const std::byte> message);
 [[nodiscard]] Result<StepOf<RunEvent>> decode_event(std::span<const std::byte> message);
 [[nodiscard]] Result<RunInput> decode_input(std::span<const std::byte> message);
-/// The time is that of the run when it was said.
+/// The time is the time of the run at which it was sent.
 [[nodiscard]] Result<std::pair<SimTime, RunChat>> decode_chat(std::span<const std::byte> message);
 [[nodiscard]] Result<StepOf<ShadowRecord>> decode_shadow(std::span<const std::byte> message);
 [[nodiscard]] Result<StepHash> decode_hash(std::span<const std::byte> message);

@@ -11,18 +11,19 @@
 #include "rave/record/mcap_reader.hpp"
 #include "rave/record/run_messages.hpp"
 
-// What tools ask of the record of a run: who took part, and what one sensor read.
+// Access to the recording of a run for tools: its participants, and the readings of one sensor.
 namespace rave::record {
 
-/// What stands at the beginning of a record, with its scenario and its input files. Errors: kParse
-/// (not written by RAVE, or damaged).
+/// Reads the description of the run with its scenario and input files. Errors: kParse (not written
+/// by RAVE, or damaged).
 [[nodiscard]] Result<RunInfo> read_run_info(const McapReader& reader);
 
-/// How the run ended; none if it was killed or the end is damaged.
+/// The end of the run; empty if it was killed or the end is damaged.
 [[nodiscard]] std::optional<RunEnd> read_run_end(const McapReader& reader);
 
-/// All messages of one topic, in order; empty if the record has none. Errors: kIo, kParse.
-/// `take(message)` returns a Status; the first failure ends it.
+/// Calls `take(message)` for all messages of one topic, in order; none if the recording does not
+/// have it. `take` returns a Status; a failure ends the iteration. Errors: kIo, kParse, those of
+/// `take`.
 template <class Take>
 Status for_each_message(const McapReader& reader, const char* topic, Take take) {
   const ChannelInfo* const channel = reader.channel(topic);
@@ -35,19 +36,19 @@ Status for_each_message(const McapReader& reader, const char* topic, Take take) 
   }
 }
 
-/// The robot of a name. Errors: kNotFound with the nearest name.
+/// The robot with this name. Errors: kNotFound with the nearest name.
 [[nodiscard]] Result<const RecordedRobot*> find_robot(const RunInfo& run, std::string_view name);
-/// The sensor of a name of that robot. Errors: kNotFound with the nearest name.
+/// The sensor of that robot with this name. Errors: kNotFound with the nearest name.
 [[nodiscard]] Result<const RecordedSensor*> find_sensor(const RunInfo& run,
                                                         const RecordedRobot& robot,
                                                         std::string_view name);
 
-/// All readings of one sensor, in the order in which the run gave them.
+/// All readings of one sensor, in the order in which they were delivered.
 struct SensorSamples {
   struct Sample {
-    SimTime delivered;  ///< The step that handed it over.
+    SimTime delivered;  ///< The step that delivered it.
     ReadingHeader header;
-    std::size_t offset = 0;  ///< Into `records`.
+    std::size_t offset = 0;  ///< Offset into `records`.
     std::size_t size = 0;    ///< Bytes.
   };
   std::vector<Sample> samples;
@@ -58,11 +59,11 @@ struct SensorSamples {
   }
 };
 
-/// Goes through the percepts of the record once. Errors: kIo, kParse (a damaged piece).
+/// Reads the percepts of the recording once. Errors: kIo, kParse (damaged data).
 [[nodiscard]] Result<SensorSamples> read_samples(const McapReader& reader, RobotId robot,
                                                  DeviceId sensor, PerceptPart part);
 
-/// Where one robot was, of each step. Missing in a step: nothing was known.
+/// The pose of one robot at the time of one step. A step without an entry: no pose was known.
 struct PoseTrackPoint {
   SimTime time;
   std::optional<Pose2> true_pose;

@@ -26,35 +26,35 @@ struct PageBox {
 
 enum class PanelContent : std::uint8_t { kTracks, kInstant };
 
-/// One map of the world on the page.
+/// One view of the world on the page.
 struct Panel {
   PanelContent content = PanelContent::kTracks;
-  PageBox frame;  ///< Where on the page.
-  Vec2 centre_W;  ///< The world point in the frame's middle.
+  PageBox frame;  ///< Its place on the page.
+  Vec2 centre_W;  ///< The world point in the centre of the frame.
   double units_per_m = 1;
 
-  /// World to page. A PNG's pixel is this times the scale it was written with.
+  /// World to page coordinates. Multiply by the scale of a PNG to get pixels.
   [[nodiscard]] Vec2 to_page(Vec2 p_W) const noexcept {
     return {0.5 * (frame.x0 + frame.x1) + units_per_m * (p_W.x - centre_W.x),
             0.5 * (frame.y0 + frame.y1) - units_per_m * (p_W.y - centre_W.y)};
   }
 };
 
-/// Where everything of a picture goes.
+/// The places of all parts of a picture.
 struct Layout {
   double width = 0;
   double height = 0;
-  std::vector<Panel> panels;  ///< One or two, of one scale.
+  std::vector<Panel> panels;  ///< One or two, with equal scale.
   PageBox legend;
   PageBox caption;
 };
 
-/// The layout that write_svg and write_png use. Tall worlds get their panels side by side, wide
-/// ones one above the other; a world thinner than a panel may be is shown with empty floor beside
-/// it. Fails as write_svg does on bad input.
+/// The layout of write_svg and write_png. Panels of tall worlds are side by side, those of wide
+/// worlds one above the other; a very narrow world is shown with empty floor beside it. Errors:
+/// those of write_svg.
 [[nodiscard]] Result<Layout> lay_out(const Picture& picture);
 
-/// The step of a metre grid: 1, 2 or 5 times a power of ten, the least that is no smaller than
+/// The grid step in metres: the smallest of 1, 2 or 5 times a power of ten that is not below
 /// `least_m` (> 0).
 [[nodiscard]] double nice_step_m(double least_m) noexcept;
 

@@ -8,15 +8,14 @@
 
 namespace rave::report {
 
-/// What a thing in a picture is. Decides its colour, its place in the drawing order and its line
-/// of the legend.
+/// The kind of an object in a picture. It determines colour, drawing order and line of the legend.
 enum class Kind : std::uint8_t {
-  kMappedWall,       ///< A wall or body of the real floor, known from a map.
-  kLandmark,         ///< A real tube or post that carries an id.
+  kMappedWall,       ///< A wall or body of the real floor, from a map.
+  kLandmark,         ///< A real tube or post with a barcode.
   kVirtualObstacle,  ///< A body that exists in the virtual world only.
-  kRecordedRobot,    ///< A robot that really drove (or drives now).
+  kRecordedRobot,    ///< A real robot, live or recorded.
   kSimulatedRobot,   ///< A robot that exists in the simulation only.
-  kHunter,           ///< A simulated robot that pursues another; drawn to stand out.
+  kHunter,           ///< A simulated robot that pursues another; drawn in a conspicuous colour.
   kRobotPart,        ///< A further prism of a robot's body.
   kSensor,           ///< The mounting point of a sensor, in drawings of one robot.
   kOther,            ///< Anything else.
@@ -27,20 +26,20 @@ inline constexpr std::array kAllKinds = {
     Kind::kRecordedRobot, Kind::kSimulatedRobot, Kind::kHunter,
     Kind::kRobotPart,     Kind::kSensor,         Kind::kOther};
 
-/// How a kind looks and what it is called. All views refer to static text.
+/// Colour and names of a kind. All views refer to static text.
 struct KindStyle {
-  std::string_view colour;    ///< `#rrggbb`, of lines and laser hits.
+  std::string_view colour;    ///< `#rrggbb`, for lines and laser hits.
   std::string_view singular;  ///< "simulated robot"
   std::string_view plural;    ///< "simulated robots"
 };
 
-/// The one source of colours for kinds, for every output of RAVE. The hues are those of Okabe and
-/// Ito ("Color Universal Design", 2008), which people with any common colour blindness can tell
-/// apart, with Tol's wine for the hunter and greys and browns for what is only context.
+/// The colours of kinds, for all output of RAVE. The hues are those of Okabe and Ito ("Color
+/// Universal Design", 2008), which people with any common colour vision deficiency can distinguish;
+/// wine of Tol for the hunter; greys and browns for context.
 [[nodiscard]] KindStyle palette_for(Kind kind) noexcept;
 
-/// The colour of the index-th of several recorded robots: five hues of the same set that differ
-/// from each other and from those of the other kinds; they repeat from the sixth robot on.
+/// The colour of the recorded robot with this index: five hues of the same set that differ from
+/// each other and from the other kinds; they repeat from the sixth robot on.
 [[nodiscard]] std::string_view robot_colour(std::size_t index) noexcept;
 
 }  // namespace rave::report

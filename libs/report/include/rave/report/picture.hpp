@@ -10,15 +10,17 @@
 #include "rave/math/pose.hpp"
 #include "rave/report/palette.hpp"
 
-// The picture of a run, as plain values. Everything is in the world frame W, metres, radians and
-// seconds of the run; all text is UTF-8; `colour` is `#rrggbb`, or empty for the kind's own.
+// The picture of a run, as plain values. All positions are in the world frame W in metres, angles
+// in radians, times in seconds of the run; texts are UTF-8; `colour` is `#rrggbb`, or empty for the
+// kind's colour.
 namespace rave::report {
 
-/// A body that does not move: drawn to scale.
+/// A static body, drawn to scale.
 struct PictureBody {
-  std::vector<Vec2> outline_W;  ///< Polygon, three corners or more, either sense.
+  /// Polygon with at least three corners, clockwise or counter-clockwise.
+  std::vector<Vec2> outline_W;
   Kind kind = Kind::kOther;
-  std::string label;  ///< A tube's id or an obstacle's name; empty for none.
+  std::string label;  ///< Barcode of a tube or name of an obstacle; empty for none.
   std::string colour;
 };
 
@@ -27,75 +29,77 @@ struct TrackPoint {
   Pose2 X_WB;
 };
 
-/// A stretch of time in which a pose source was silent; t0_s <= t1_s.
+/// An interval in which a pose source was silent; t0_s <= t1_s.
 struct PoseGap {
   double t0_s = 0;
   double t1_s = 0;
 };
 
-/// Where one robot was over time.
+/// The poses of one robot over time.
 struct PictureTrack {
   std::string label;
   Kind kind = Kind::kSimulatedRobot;
   std::string colour;
-  std::vector<TrackPoint> points;       ///< Times do not fall; may be empty.
-  std::vector<PoseGap> gaps;            ///< Drawn dashed.
-  bool odometry_only = false;           ///< Integrated commands beside the captured track: dashed.
-  std::optional<double> pose_lost_t_s;  ///< Poses end here although the run goes on.
+  std::vector<TrackPoint> points;  ///< In order of time; may be empty.
+  std::vector<PoseGap> gaps;       ///< Drawn dashed.
+  /// Integrated odometry shown beside the captured track; drawn dashed.
+  bool odometry_only = false;
+  std::optional<double> pose_lost_t_s;  ///< Set if the poses end here before the run does.
 };
 
-/// A robot at the frozen instant.
+/// A robot at the time of the picture.
 struct PictureRobot {
   std::vector<Vec2> outline_W;
-  Pose2 X_WB;  ///< Where the heading mark starts and points.
+  Pose2 X_WB;  ///< Position and direction of the heading mark.
   Kind kind = Kind::kSimulatedRobot;
   std::string label;
   std::string colour;
 };
 
-/// One laser ray at the frozen instant. Neighbours in the list with the same `from_W` are one fan.
+/// One laser ray at the time of the picture. Consecutive entries with the same `from_W` are one
+/// fan.
 struct PictureHit {
   Vec2 from_W;
-  Vec2 to_W;                 ///< Where it ended; at maximum range if it met nothing.
-  std::optional<Kind> kind;  ///< What it met; none: no return (shapes the fan, no dot).
+  Vec2 to_W;                 ///< Its end; at maximum range if there was no return.
+  std::optional<Kind> kind;  ///< The kind it hit; empty: no return (outlines the fan, no dot).
 };
 
-/// A real camera's sighting at the frozen instant.
+/// A sighting by a real camera at the time of the picture.
 struct PictureSighting {
-  Vec2 from_W;                 ///< The robot.
-  Vec2 to_W;                   ///< Where range and bearing put the thing that was seen.
-  std::optional<Vec2> tube_W;  ///< Where that thing is; none if the code is unknown.
+  Vec2 from_W;                 ///< Position of the robot.
+  Vec2 to_W;                   ///< Position of the landmark according to range and bearing.
+  std::optional<Vec2> tube_W;  ///< True position of the landmark; empty if the code is unknown.
   std::string label;
   std::string colour;
 };
 
-/// Everything that one moment of the run adds.
+/// The state of the run at one time.
 struct PictureInstant {
   double t_s = 0;
-  std::string heading;         ///< Of its panel; empty: what the sensors see at `t_s`.
-  bool show_all_rays = false;  ///< The panel is large enough for all rays, not just the bodies.
+  std::string heading;         ///< Heading of its panel; empty: a default that names `t_s`.
+  bool show_all_rays = false;  ///< Scale the panel so that all rays fit, not just the bodies.
   std::vector<PictureRobot> robots;
   std::vector<PictureHit> hits;
   std::vector<PictureSighting> sightings;
 };
 
-/// A whole picture. With both tracks and an instant it has two panels of the same scale: (a) the
-/// tracks, (b) the instant; with one of them, one panel.
+/// A picture. With both tracks and an instant it has two panels of equal scale: (a) the tracks, (b)
+/// the instant; otherwise one panel.
 struct Picture {
   std::string title;
   std::string subtitle;
   std::vector<std::string> caption;  ///< Lines below the legend; long ones are wrapped.
   std::vector<PictureBody> bodies;
   std::vector<PictureTrack> tracks;
-  double tick_s = 10;  ///< Time between the ticks along a track, > 0; a time label each six.
+  double tick_s = 10;  ///< Time between the ticks along a track, > 0; every sixth has a time label.
   std::optional<PictureInstant> instant;
 };
 
-/// Draws the picture as SVG (text as outlines, so that it looks the same everywhere; the words are
-/// in its `title` and `desc`) or as PNG with `scale` pixels per page unit (0.1 to 8; a page is 800
-/// units wide). Both come from one drawing routine; equal input gives equal bytes. The file
-/// appears whole or not at all. Errors: kInvalidArgument names the first value that is not finite,
-/// out of order, no colour or no UTF-8; kNotFound if the folder is missing; kIo.
+/// Draws the picture as SVG (text as outlines, so that it does not depend on fonts; `title` and
+/// `desc` contain the words) or as PNG with `scale` pixels per page unit (0.1 to 8; a page is 800
+/// units wide). Both use the same drawing routine; equal input gives equal bytes. The file is
+/// written atomically. Errors: kInvalidArgument names the first value that is not finite, out of
+/// order, not a colour or not UTF-8; kNotFound if the folder does not exist; kIo.
 [[nodiscard]] Status write_svg(const Picture& picture, const std::filesystem::path& path);
 [[nodiscard]] Status write_png(const Picture& picture, const std::filesystem::path& path,
                                double scale = 2);

@@ -6,36 +6,38 @@
 
 namespace rave {
 
-/// What the driver of a simulated actuator knows in one step.
+/// The input of a virtual actuator in one step.
 struct MotionInput {
-  Command command;  ///< From the controller; kNone before the first.
-  Twist2 velocity;  ///< What the world let the body do in the last step, body frame.
+  Command command;  ///< Command of the controller; kNone before the first.
+  Twist2 velocity;  ///< Actual body velocity of the last step, after the limits of the world; body
+                    ///< frame.
   double dt_s = 0;
   std::uint64_t seed = 0;
   std::uint32_t robot = 0;
   std::uint32_t device = 0;
   std::uint32_t step = 0;
-  std::uint32_t contact = 0;  ///< 1: something limited the last motion.
+  std::uint32_t contact = 0;  ///< 1: a contact limited the last motion.
 
   [[nodiscard]] RandomStream random() const noexcept { return {seed, robot, device, step}; }
 };
 
-/// The dynamics of a simulated robot: proposes a motion, which the world then limits. One object
+/// The dynamics of a simulated robot. It proposes a motion, which the world then limits. One object
 /// per robot.
 class VirtualActuator {
  public:
   virtual ~VirtualActuator() = default;
   virtual Status start(const DeviceSetup& setup) = 0;
-  /// The body velocity of this step, body frame; held over the step along the exact arc.
+  /// The body velocity for this step, in the body frame. It is held over the step, so the path is
+  /// an exact arc.
   virtual Twist2 propose(const MotionInput& input) = 0;
-  /// Somebody changed parameters while the robot runs; comes between two steps, with all of them.
-  /// An error refuses the change: it goes on with the old ones.
+  /// New parameter values while the robot runs, called between two steps with all parameters. An
+  /// error refuses the change; the old values stay in force.
   virtual Status parameters_changed(const Params& /*params*/) {
     return fail(ErrorCode::kInvalidArgument, "it takes no new parameters while it runs");
   }
 };
 
-/// The functions of a simulated actuator as the host calls them; made by add_virtual_actuator().
+/// The function table of a virtual actuator, as the host calls it; made by add_virtual_actuator().
 struct VirtualActuatorOps {
   InstanceOps instance;
   int (*start)(void* instance, const DeviceSetup* setup, ErrorText* error) = nullptr;
@@ -44,21 +46,22 @@ struct VirtualActuatorOps {
   UpdateFunction update = nullptr;
 };
 
-/// Hands commands to hardware. One object per robot. write() must return at once: a driver with a
-/// slow line posts to its own thread. In a live run the thread of the robot's guard calls it.
+/// Passes commands to hardware. One object per robot. write() must return at once; a driver with a
+/// slow line writes in its own thread. In a live run the thread of the robot's guard calls it.
 class HardwareActuator {
  public:
   virtual ~HardwareActuator() = default;
-  /// Opens the device. Errors keep the run from starting.
+  /// Opens the device. An error prevents the start of the run.
   virtual Status open(const DeviceSetup& setup) = 0;
   virtual Status write(const Command& command, SimTime now) = 0;
-  /// Stops the robot and lets the device go; called also after errors.
+  /// Stops the robot and releases the device; also called after errors.
   virtual void close() = 0;
-  /// False for a device that cannot obey, such as a recording: the run's summary says so.
+  /// False for a device that cannot execute commands, such as a recording; the summary of the run
+  /// mentions it.
   [[nodiscard]] virtual bool obeys() const { return true; }
 };
 
-/// The functions of a real actuator as the host calls them; made by add_actuator().
+/// The function table of a real actuator, as the host calls it; made by add_actuator().
 struct HardwareActuatorOps {
   InstanceOps instance;
   int (*open)(void* instance, const DeviceSetup* setup, ErrorText* error) = nullptr;

@@ -8,55 +8,58 @@
 
 namespace rave {
 
-/// What a communicator says of itself once it knows its parameters: the part of its message model
-/// that the host works out for all robots at once. Rate, queue, overhead and sizes are those of the
-/// sender. A message must be within the ranges of both sides; the line of sight is asked if either
-/// side asks for it, at the mean height of both antennas.
+/// The part of a communicator's message model that the host computes for all robots at once; the
+/// communicator fills it in start(). Rate, queue, overhead and sizes apply to the sender. A message
+/// must be within the ranges of both sides. The line of sight is checked if either side requires
+/// it, at the mean height of both antennas.
 struct RadioDeclaration {
-  double range_m = 0;               ///< Between reported poses; 0: unlimited.
-  std::uint32_t line_of_sight = 0;  ///< 1: bodies in between stop it or weaken it, see LinkQuery.
+  double range_m = 0;  ///< Range between reported poses; 0: unlimited.
+  /// 1: bodies between the robots block or weaken a message, see LinkQuery.
+  std::uint32_t line_of_sight = 0;
   std::uint32_t max_message_bytes = 1024;
-  std::uint32_t max_messages = 32;  ///< Per decision, each direction.
-  /// Waiting to be sent or being sent, overhead included; 0: unlimited. Newer ones are lost.
+  std::uint32_t max_messages = 32;  ///< Per decision and direction.
+  /// Limit of the bytes waiting or being sent, overhead included; 0: unlimited. New messages beyond
+  /// it are lost.
   std::uint32_t max_queue_bytes = 0;
-  double byte_rate = 0;              ///< Bytes a second; 0: unlimited.
-  std::uint32_t overhead_bytes = 0;  ///< Counted for each message besides its own.
-  /// Of all messages of one decision, each direction; at least max_message_bytes.
+  double byte_rate = 0;              ///< Bytes per second; 0: unlimited.
+  std::uint32_t overhead_bytes = 0;  ///< Added to each message.
+  /// Limit for all messages of one decision, per direction; at least max_message_bytes.
   std::uint32_t max_mailbox_bytes = 8192;
-  double antenna_z_m = 0.1;  ///< Height for the line of sight.
+  double antenna_z_m = 0.1;  ///< Height of the antenna for the line of sight.
 };
 
-/// One message about to go from one robot to another that is in range. The model of the receiver is
-/// asked, so that it is the same whatever carried the message.
+/// A message from one robot to another in range. The host asks the model of the receiver, so the
+/// result does not depend on the transmitter.
 struct LinkQuery {
-  double distance_m = 0;         ///< Between reported poses.
-  std::uint32_t obstructed = 0;  ///< 1: a body stands in between (if line_of_sight is asked).
+  double distance_m = 0;         ///< Distance between reported poses.
+  std::uint32_t obstructed = 0;  ///< 1: a body is in between (only if line_of_sight is required).
   std::uint32_t bytes = 0;
-  std::uint32_t from = 0;  ///< RobotId; of a sender that is no robot here the hash of its name.
+  std::uint32_t from = 0;  ///< RobotId; for a sender outside of this run, the hash of its name.
   std::uint32_t to = 0;
-  std::uint32_t sequence = 0;  ///< Of the message.
-  std::uint32_t device = 0;    ///< Of the sender: its communicator, from kRadioDevice on.
+  std::uint32_t sequence = 0;  ///< Sequence number of the message.
+  std::uint32_t device = 0;    ///< Communicator of the sender, counted from kRadioDevice.
   std::uint64_t seed = 0;
 
-  /// Numbers that devices of other kinds do not draw under.
+  /// Device number of the first communicator for random streams; other devices have lower numbers.
   static constexpr std::uint32_t kRadioDevice = 0x2000'0000U;
 
-  /// Random numbers of this delivery.
+  /// The random numbers for this delivery.
   [[nodiscard]] RandomStream random() const noexcept {
     const std::uint64_t message = mix64((std::uint64_t{from} << 32U) | sequence);
     return {seed, to, device, static_cast<std::uint32_t>(message)};
   }
 };
 
-/// What becomes of one message on its way to one robot.
+/// The fate of one message to one robot.
 struct LinkAnswer {
   std::uint32_t arrives = 1;
   std::uint32_t reserved = 0;
-  double delay_s = 0;  ///< From the end of sending to arrival, at least 0; rounded up to steps.
+  /// Time from the end of sending to arrival, at least 0; rounded up to steps.
+  double delay_s = 0;
 };
 
-/// A message model: who hears what, and when. One object serves all robots that use the driver
-/// with the same parameters; link() may run in several threads at once, so it is const.
+/// A message model: who receives a message, and when. One object serves all robots with the same
+/// driver and parameters. Several threads may call link() at once, so it is const.
 class Communicator {
  public:
   virtual ~Communicator() = default;
@@ -64,7 +67,7 @@ class Communicator {
   [[nodiscard]] virtual LinkAnswer link(const LinkQuery& query) const = 0;
 };
 
-/// The functions of a message model as the host calls them; made by add_communicator().
+/// The function table of a message model, as the host calls it; made by add_communicator().
 struct CommunicatorOps {
   InstanceOps instance;
   int (*start)(void* instance, const DeviceSetup* setup, RadioDeclaration* declaration,

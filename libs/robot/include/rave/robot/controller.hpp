@@ -9,15 +9,15 @@ namespace rave {
 
 class HardwareDevice;
 
-/// What a controller or actuator is given when it starts.
+/// Passed to a controller or actuator when it starts.
 struct DeviceSetup {
   RobotInfo robot;
   HostServices host;
   const ParamValue* params = nullptr;
   std::uint64_t param_count = 0;
-  double step_s = 0;  ///< Base period: control() and propose() come once a step.
-  /// Actuators: what `device:` in the robot file names; null if it names nothing. Lives longer
-  /// than the instance.
+  double step_s = 0;  ///< Base period: control() and propose() are called once per step.
+  /// Actuators only: the device that `device:` in the robot file names, or null. Outlives the
+  /// instance.
   HardwareDevice* device = nullptr;
 
   [[nodiscard]] Params parameters() const noexcept {
@@ -25,37 +25,38 @@ struct DeviceSetup {
   }
 };
 
-/// What a controller knows in one step.
+/// The input of a controller in one step.
 struct ControlInput {
-  Command command;           ///< The last one that the program gave; kNone before the first.
-  double command_age_s = 0;  ///< Simulation time since it was given.
-  PoseReading pose;          ///< Reported pose in the world frame.
+  Command command;           ///< Last command of the program; kNone before the first.
+  double command_age_s = 0;  ///< Age of the command in simulation time.
+  PoseReading pose;          ///< Reported pose, world frame.
   Twist2 velocity;           ///< Reported velocity, body frame.
   double dt_s = 0;
 };
 
-/// Turns what a program wants into what an actuator understands, each step. One object per robot;
-/// it deals with two abstract interfaces, so it is the same for a real and a simulated robot.
+/// Converts commands of a program to commands of an actuator, once per step. One object per robot.
+/// It sees abstract interfaces only, so it is the same for real and simulated robots.
 class Controller {
  public:
   virtual ~Controller() = default;
   virtual Status start(const DeviceSetup& setup) = 0;
-  /// Must return a stop (not nothing) once the command is older than its watchdog allows.
+  /// The command for the actuator. Must be a stop command once `command_age_s` exceeds the
+  /// controller's watchdog.
   virtual Command control(const ControlInput& input) = 0;
-  /// Somebody changed parameters while the robot runs; comes between two steps, with all of them.
-  /// An error refuses the change: it goes on with the old ones.
+  /// New parameter values while the robot runs, called between two steps with all parameters. An
+  /// error refuses the change; the old values stay in force.
   virtual Status parameters_changed(const Params& /*params*/) {
     return fail(ErrorCode::kInvalidArgument, "it takes no new parameters while it runs");
   }
 };
 
-/// The functions of a controller as the host calls them; made by add_controller().
+/// The function table of a controller, as the host calls it; made by add_controller().
 struct ControllerOps {
   InstanceOps instance;
   int (*start)(void* instance, const DeviceSetup* setup, ErrorText* error) = nullptr;
   void (*control)(void* first, std::uint64_t stride, const ControlInput* inputs, Command* outputs,
                   std::uint64_t count, std::uint8_t* failed, ErrorText* error) = nullptr;
-  CommandKind gives = CommandKind::kVelocity;  ///< What the actuator must accept.
+  CommandKind gives = CommandKind::kVelocity;  ///< The kind that the actuator must accept.
   std::uint32_t reserved = 0;
   UpdateFunction update = nullptr;
 };

@@ -7,13 +7,13 @@
 
 namespace rave {
 
-/// What a device is given when it is configured.
+/// Passed to a device when it is configured.
 struct HardwareDeviceSetup {
   RobotInfo robot;
   HostServices host;
   const ParamValue* params = nullptr;
   std::uint64_t param_count = 0;
-  /// Folder of the robot file: relative paths in parameters start there.
+  /// Folder of the robot file, the base of relative paths in parameters.
   const char* folder = "";
   std::uint64_t reserved = 0;
 
@@ -22,32 +22,32 @@ struct HardwareDeviceSetup {
   }
 };
 
-/// Something real that several sensors and actuators of one robot share: a serial line, a base
-/// with wheels and bumpers, a bus. One object per robot and entry of `devices:`. Sensors and
-/// actuators whose `device:` names it get a pointer to it in their setup; the host has checked that
-/// it is of the driver that they ask for (Description::device), out of the same plug-in, so they
-/// may cast it to its class.
+/// Hardware that several sensors and actuators of one robot share: a serial line, a base with
+/// wheels and bumpers, a bus. One object per robot and entry of `devices:`. Sensors and actuators
+/// whose `device:` names it get a pointer to it in their setup. The host has checked that it is an
+/// object of the driver in their Description::device, from the same plug-in, so they may cast it to
+/// its class.
 ///
-/// configure() comes once, before anything that uses the device is configured. open() comes before
+/// configure() is called once, before any user of the device is configured. open() is called before
 /// that of the first user, close() after that of the last; they alternate (a reset of the run
 /// closes and opens again).
 class HardwareDevice {
  public:
   virtual ~HardwareDevice() = default;
   virtual Status configure(const HardwareDeviceSetup& setup) = 0;
-  /// Starts the device's own thread. Errors keep the run from starting; what is lost later is told
-  /// by the sensors of the device (SampleSink::fail).
+  /// Starts the device's own thread. An error prevents the start of the run; later failures are
+  /// reported by the sensors of the device (SampleSink::fail).
   virtual Status open() = 0;
-  /// Leaves the hardware at rest, ends the thread and waits for it. Called also after errors.
+  /// Brings the hardware to rest, ends the thread and waits for it. Also called after errors.
   virtual void close() = 0;
-  /// What an experimenter should know of the device, as one JSON object (`{}` if nothing).
+  /// Statistics of the device for the results of a run, as one JSON object (`{}` if none).
   [[nodiscard]] virtual std::string report() const { return "{}"; }
 };
 
-/// The functions of a device as the host calls them; made by add_device().
+/// The function table of a device, as the host calls it; made by add_device().
 struct HardwareDeviceOps {
   InstanceOps instance;
-  /// The object as the base class that is handed to sensors and actuators.
+  /// The object as its base class, for sensors and actuators.
   HardwareDevice* (*base)(void* instance) = nullptr;
   int (*configure)(void* instance, const HardwareDeviceSetup* setup, ErrorText* error) = nullptr;
   int (*open)(void* instance, ErrorText* error) = nullptr;

@@ -7,10 +7,10 @@
 #include "rave/robot/message.hpp"
 #include "rave/robot/reading.hpp"
 
-// What a program keeps from start(): names that were looked up once.
+// Handles: names that a program looks up once, in start().
 namespace rave {
 
-/// Names one sensor of a kind; found by name once, used every step.
+/// A sensor of one kind of records; looked up by name once, used every step.
 template <class Record>
 class SensorHandle {
  public:
@@ -26,10 +26,10 @@ class SensorHandle {
   const SensorInfo* info_ = nullptr;
 };
 
-/// A range sensor: one float in metres per ray; +infinity is no return.
+/// A range sensor: one float in metres per ray; +infinity means no return.
 using RangesHandle = SensorHandle<float>;
 
-/// Names one controller.
+/// A controller; looked up by name once.
 class ControllerHandle {
  public:
   ControllerHandle() = default;
@@ -42,7 +42,7 @@ class ControllerHandle {
   bool valid_ = false;
 };
 
-/// Names one communicator.
+/// A communicator; looked up by name once.
 class CommunicatorHandle {
  public:
   CommunicatorHandle() = default;

@@ -10,42 +10,41 @@
 
 namespace rave {
 
-/// Where the thread of a hardware sensor puts its samples. Belongs to the host; one thread of the
-/// driver writes; valid from open() until close() has returned.
+/// Receives the samples of a hardware sensor. Owned by the host; written by one thread of the
+/// driver; valid from open() until close() has returned.
 class SampleSink {
  public:
-  /// Waits until simulation time `t` is due: at once in a stepped run, by the wall clock in a live
-  /// one. False: the sensor is being closed, end the thread.
+  /// Waits until simulation time `t`: returns at once in a stepped run, follows the wall clock in a
+  /// live one. False: the sensor is being closed, the thread must end.
   virtual bool wait_until(SimTime t) noexcept = 0;
-  /// Hands over `count` records that were true at `stamp`, which must not step back. In a stepped
-  /// run it waits for room; false: the sensor is being closed.
+  /// Passes on `count` records that were true at `stamp`, which must not decrease. In a stepped run
+  /// it waits for room. False: the sensor is being closed.
   virtual bool publish(SimTime stamp, const void* records, std::uint32_t count) noexcept = 0;
-  /// Promises that nothing with a stamp up to `t` will come any more. Stepped drivers must call it;
-  /// the end of a recording is `SimTime` of the largest value.
+  /// Promises that no sample with a stamp up to `t` will follow. Stepped drivers must call it; at
+  /// the end of a recording with the largest `SimTime`.
   virtual void complete_up_to(SimTime t) noexcept = 0;
-  /// Reports that the device is gone; `text` is copied.
+  /// Reports that the device is lost; copies `text`.
   virtual void fail(const char* text, std::uint64_t size) noexcept = 0;
-  /// Takes fail() back: the device is there again and samples will come. Live runs only: a stepped
-  /// driver runs ahead, so what it says of a loss is final.
+  /// Revokes fail(): the device is available again. Live runs only: a stepped driver runs ahead of
+  /// the run, so its fail() is final.
   virtual void recover() noexcept = 0;
-  /// The present moment of a live run, which a driver needs to turn its own clock into stamps. In a
-  /// stepped run it says nothing (the smallest SimTime): stamps come from the data there.
+  /// The current time of a live run, for drivers that convert their own clock to stamps. In a
+  /// stepped run it is the smallest SimTime, because stamps come from the data.
   [[nodiscard]] virtual SimTime now() const noexcept = 0;
 
  protected:
   ~SampleSink() = default;
 };
 
-/// What a hardware sensor is given when it is configured.
+/// Passed to a hardware sensor when it is configured.
 struct HardwareSetup {
   RobotInfo robot;
   HostServices host;
   const ParamValue* params = nullptr;
   std::uint64_t param_count = 0;
-  /// Folder of the robot file: relative paths in parameters start there.
+  /// Folder of the robot file, the base of relative paths in parameters.
   const char* folder = "";
-  /// What `device:` in the robot file names; null if it names nothing. Lives longer than the
-  /// instance.
+  /// The device that `device:` in the robot file names, or null. Outlives the instance.
   HardwareDevice* device = nullptr;
 
   [[nodiscard]] Params parameters() const noexcept {
@@ -53,15 +52,16 @@ struct HardwareSetup {
   }
 };
 
-/// What a hardware sensor says of itself once it knows its parameters. Pointers live as long as
-/// the instance.
+/// Properties of a hardware sensor that follow from its parameters. Pointers must be valid as long
+/// as the instance.
 struct HardwareDeclaration {
-  std::uint32_t capacity = 1;  ///< Records of one step at most.
+  std::uint32_t capacity = 1;  ///< Largest number of records in one step.
   DriverClock clock = DriverClock::kStepped;
-  /// 1: records of one step are put together (events); 0: the newest sample counts (states).
+  /// 1: all records of a step are collected (events); 0: the newest sample replaces older ones
+  /// (states).
   std::uint32_t collect = 0;
   std::uint32_t reserved = 0;
-  /// SampleTiming::kPeriodic: time between two samples while the device works; above 0.
+  /// With SampleTiming::kPeriodic: time between two samples of a working device; above 0.
   double period_s = 0;
   double range_min_m = 0;  ///< Ranges only, as in SensorInfo.
   double range_max_m = 0;
@@ -70,7 +70,7 @@ struct HardwareDeclaration {
 };
 
 /// A sensor of the real world, or a recording of one. One object per robot and sensor. configure()
-/// comes once; open() and close() alternate (a reset of the run closes and opens again).
+/// is called once; open() and close() alternate (a reset of the run closes and opens again).
 class HardwareSensor {
  public:
   virtual ~HardwareSensor() = default;
@@ -79,11 +79,11 @@ class HardwareSensor {
   virtual Status open(SampleSink& sink) = 0;
   /// Ends the thread and waits for it.
   virtual void close() = 0;
-  /// What an experimenter should know of the stream, as one JSON object (`{}` if nothing).
+  /// Statistics of the samples for the results of a run, as one JSON object (`{}` if none).
   [[nodiscard]] virtual std::string report() const { return "{}"; }
 };
 
-/// The functions of a real sensor as the host calls them; made by add_sensor().
+/// The function table of a real sensor, as the host calls it; made by add_sensor().
 struct HardwareSensorOps {
   InstanceOps instance;
   int (*configure)(void* instance, const HardwareSetup* setup, HardwareDeclaration* declaration,

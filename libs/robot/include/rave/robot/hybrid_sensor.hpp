@@ -6,13 +6,13 @@
 
 namespace rave {
 
-/// What a hybrid sensor is given when it starts. One object serves all robots that use the driver
-/// with the same parameters.
+/// Passed to a hybrid sensor when it starts. One object serves all robots with the same driver and
+/// parameters.
 struct HybridSetup {
   HostServices host;
   const ParamValue* params = nullptr;
   std::uint64_t param_count = 0;
-  /// What the two halves declare; of one kind, and for ranges with the same rays.
+  /// Properties of the two halves; of equal kind, and for ranges with equal rays.
   const SensorInfo* real = nullptr;
   const SensorInfo* imagined = nullptr;
 
@@ -21,8 +21,8 @@ struct HybridSetup {
   }
 };
 
-/// The two readings of one instant, and where the one reading of the program goes. `imagined` was
-/// evaluated at the stamp of `real` and at the pose that the robot had then.
+/// The readings of both halves at one time, and the reading for the program. `imagined` was
+/// evaluated at the stamp of `real`, for the robot's pose at that time.
 struct FuseItem {
   const SampleHeader* real = nullptr;
   const void* real_records = nullptr;
@@ -32,9 +32,9 @@ struct FuseItem {
   void* result_records = nullptr;  ///< Room for the capacity of the real half.
 };
 
-/// A sensor with a real and a virtual half: makes one reading of the two. Processing (noise,
-/// latency, filters of the sensor) comes once, after that. fuse() may run in several threads at
-/// once for different robots, so it is const.
+/// Fuses the readings of a real and a virtual half into one. Noise, latency and filters of the
+/// sensor are applied once, after fusion. Several threads may call fuse() at once for different
+/// robots, so it is const.
 class HybridSensor {
  public:
   virtual ~HybridSensor() = default;
@@ -42,11 +42,11 @@ class HybridSensor {
   virtual void fuse(const FuseItem& item) const = 0;
 };
 
-/// The functions of a rule of fusion as the host calls them; made by add_hybrid_sensor().
+/// The function table of a hybrid sensor, as the host calls it; made by add_hybrid_sensor().
 struct HybridSensorOps {
   InstanceOps instance;
   int (*start)(void* instance, const HybridSetup* setup, ErrorText* error) = nullptr;
-  /// 0, or 1 with `error` set.
+  /// Returns 0, or 1 with `error` set.
   int (*fuse)(const void* instance, const FuseItem* item, ErrorText* error) = nullptr;
 };
 

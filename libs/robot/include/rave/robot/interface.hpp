@@ -20,14 +20,14 @@
 
 namespace rave {
 
-/// What every driver interface is made of: plain structs and function pointers. A table of
-/// functions is made from the author's class by the templates beside each interface; they catch
-/// what the class throws, so no exception crosses the edge of a plug-in.
+/// The basis of all driver interfaces: plain structs and function pointers. The templates beside
+/// each interface make its function table from the author's class. They catch exceptions of the
+/// class, so none crosses the plug-in boundary.
 
-/// Text of a failure, filled by a plug-in and read by the host.
+/// The message of a failure, written by a plug-in and read by the host.
 struct ErrorText {
   char text[512] = {};
-  std::uint32_t slot = 0;  ///< Which instance of a batch failed.
+  std::uint32_t slot = 0;  ///< Index of the instance that failed, for calls with several.
   std::uint32_t reserved = 0;
 
   void set(std::string_view message) noexcept {
@@ -37,7 +37,7 @@ struct ErrorText {
   }
 };
 
-/// What a host does for a driver or program. Valid as long as the instance lives. `log` may be
+/// Services of the host for a driver or program. Valid as long as the instance lives. `log` may be
 /// called from any thread.
 struct HostServices {
   void* context = nullptr;
@@ -48,33 +48,37 @@ struct HostServices {
   }
 };
 
-/// Who an instance works for; fixed when the run starts. Pointers live as long as the instance.
+/// The robot that an instance belongs to; fixed when the run starts. Pointers are valid as long as
+/// the instance.
 struct RobotInfo {
   const char* name = "";
   const char* team = "";
   std::uint32_t id = 0;  ///< RobotId.
   std::uint32_t reserved = 0;
-  double radius_m = 0;     ///< Of the smallest disc about the robot's origin that holds its body.
-  std::uint64_t seed = 0;  ///< Of the run.
+  /// Radius of the smallest disc about the robot's origin that contains its body.
+  double radius_m = 0;
+  std::uint64_t seed = 0;  ///< Seed of the run.
 };
 
-/// Gives an instance new values of all its parameters while it runs; 1 with `error` set: refused,
-/// the old ones stay.
+/// Passes new values of all parameters to a running instance. Returns 0, or 1 with `error` set; the
+/// old values then stay in force.
 using UpdateFunction = int (*)(void* instance, const ParamValue* params, std::uint64_t count,
                                ErrorText* error);
 
-/// How to make instances in memory of the host, so that those of many robots lie side by side.
+/// Size, constructor and destructor of instances. They live in memory of the host, so that those of
+/// many robots are contiguous.
 struct InstanceOps {
   std::uint64_t size = 0;
   std::uint64_t alignment = 0;
-  /// Makes an instance at `where`; returns 0, or 1 with `error` set.
+  /// Constructs an instance at `where`; returns 0, or 1 with `error` set.
   int (*construct)(void* where, ErrorText* error) = nullptr;
   void (*destroy)(void* instance) = nullptr;
 };
 
 namespace detail {
 
-/// Runs `body`, which returns a Status, and turns failure or exception into an ErrorText.
+/// Runs `body`, which returns a Status. A failure or an exception is written to `error`. Returns 0
+/// or 1.
 template <class Body>
 int guarded(ErrorText* error, Body&& body) noexcept {
   try {
@@ -89,7 +93,7 @@ int guarded(ErrorText* error, Body&& body) noexcept {
   return 1;
 }
 
-/// close() of an instance that must not fail.
+/// Calls close() and ignores failures and exceptions.
 template <class T>
 void close_quietly(void* instance) noexcept {
   ErrorText ignored;
@@ -99,7 +103,7 @@ void close_quietly(void* instance) noexcept {
   });
 }
 
-/// Calls `take` with the text of an instance's report().
+/// Calls `take` with the text of an instance's report(); not at all if report() throws.
 template <class T>
 void hand_over_report(void* instance, void* context,
                       void (*take)(void* context, const char* text, std::uint64_t size)) noexcept {
@@ -135,7 +139,7 @@ constexpr UpdateFunction update_function() noexcept {
   };
 }
 
-/// The i-th of the instances of one class that lie side by side.
+/// The i-th of the instances of one class that are `stride` bytes apart.
 template <class T>
 T& instance_at(void* first, std::uint64_t stride, std::size_t i) noexcept {
   return *std::launder(reinterpret_cast<T*>(static_cast<std::byte*>(first) + stride * i));

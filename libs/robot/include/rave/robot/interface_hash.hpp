@@ -18,7 +18,7 @@
 
 namespace rave {
 
-/// Raised by hand when the meaning of the interface changes while its layout stays.
+/// Increased by hand when the meaning of the interface changes but its layout does not.
 inline constexpr std::uint64_t kRobotInterfaceVersion = 5;
 
 namespace detail {
@@ -30,7 +30,7 @@ constexpr std::uint64_t hash_layout(std::uint64_t version,
 }
 }  // namespace detail
 
-/// A number that changes with the layout of anything that crosses the plug-in interface.
+/// A number that depends on the layout of all types that cross the plug-in interface.
 constexpr std::uint64_t robot_interface_hash() noexcept {
   return detail::hash_layout(kRobotInterfaceVersion, {sizeof(DriverInfo),
                                                       offsetof(DriverInfo, param_count),

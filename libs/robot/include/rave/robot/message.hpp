@@ -10,14 +10,14 @@
 
 namespace rave {
 
-/// Whom a message is for.
+/// The kind of receivers of a message.
 enum class RecipientKind : std::uint32_t {
-  kEveryone = 0,  ///< All whose communicator of the same name is in reach.
+  kEveryone = 0,  ///< All robots in range with a communicator of the same name.
   kRobot = 1,     ///< One robot.
-  kTeam = 2,      ///< Those of the sender's team; nobody if it has none.
+  kTeam = 2,      ///< The robots of the sender's team; none if it has no team.
 };
 
-/// The address on a message.
+/// The address of a message.
 struct Recipient {
   RecipientKind kind = RecipientKind::kEveryone;
   std::uint32_t robot = std::numeric_limits<std::uint32_t>::max();  ///< RobotId, for kRobot.
@@ -30,35 +30,36 @@ struct Recipient {
   friend constexpr bool operator==(const Recipient&, const Recipient&) noexcept = default;
 };
 
-/// Stands before the bytes of one message, on its way out and in. No padding: its bits are part of
-/// the run hash.
+/// Precedes the bytes of a message in a mailbox. No padding: its bytes are part of the run hash.
 struct MessageHead {
-  /// When the program sent it, simulation time; of a message from another host, whose clock is
-  /// another, when it was heard.
+  /// Simulation time when the program sent it. For a message from another host, which has another
+  /// clock: the time when it was received.
   std::int64_t stamp_ns = 0;
-  /// RobotId of the sender; filled by the host. Senders that are no robots of the scenario are
-  /// numbered from the count of robots on, as they are first heard.
+  /// RobotId of the sender, set by the host. Senders outside of the scenario get numbers from the
+  /// number of robots on, in the order in which they are first heard.
   std::uint32_t from = 0;
-  std::uint32_t sequence = 0;  ///< Counts the messages of that communicator from 1; by the host.
+  /// Number of the message at its communicator, from 1; set by the host.
+  std::uint32_t sequence = 0;
   Recipient to;
-  std::uint32_t offset = 0;  ///< Of its bytes in the mailbox's data.
+  std::uint32_t offset = 0;  ///< Offset of its bytes in Mailbox::data.
   std::uint32_t size = 0;    ///< Bytes.
 };
 static_assert(sizeof(MessageHead) == 32);
 
-/// Messages of one communicator of one robot in one step, one direction; memory of the host.
+/// The messages of one communicator of one robot in one step and one direction; memory of the host.
 struct Mailbox {
   MessageHead* heads = nullptr;
   std::byte* data = nullptr;
   std::uint32_t max_messages = 0;
-  std::uint32_t max_bytes = 0;  ///< Of all messages together.
+  std::uint32_t max_bytes = 0;  ///< Limit for all messages together.
   std::uint32_t count = 0;
   std::uint32_t bytes = 0;
-  /// In: lost since the last decision for want of room here. Out: refused by put().
+  /// Incoming: messages lost since the last decision because the mailbox was full. Outgoing:
+  /// messages that put() refused.
   std::uint32_t dropped = 0;
   std::uint32_t reserved = 0;
 
-  /// Adds a message; false, counted in `dropped`, if there is no room.
+  /// Adds a message. Returns false and counts it in `dropped` if there is no room.
   bool put(const MessageHead& head, std::span<const std::byte> text) noexcept;
   void clear() noexcept { count = bytes = dropped = 0; }
   [[nodiscard]] std::span<const std::byte> bytes_of(const MessageHead& head) const noexcept {
@@ -68,16 +69,16 @@ struct Mailbox {
 
 /// Both directions of one communicator of one robot.
 struct CommunicatorView {
-  const Mailbox* in = nullptr;  ///< Arrived since the last decision.
+  const Mailbox* in = nullptr;  ///< Messages that arrived since the last decision.
   Mailbox* out = nullptr;
 };
 
-/// A communicator as the program sees it; fixed when the run starts.
+/// A communicator for its program; fixed when the run starts.
 struct CommunicatorInfo {
   const char* name = "";
-  std::uint32_t max_messages = 0;       ///< Per decision, each direction.
-  std::uint32_t max_bytes = 0;          ///< Per decision, each direction.
-  std::uint32_t max_message_bytes = 0;  ///< Of one message; a larger one is refused.
+  std::uint32_t max_messages = 0;       ///< Per decision and direction.
+  std::uint32_t max_bytes = 0;          ///< Per decision and direction.
+  std::uint32_t max_message_bytes = 0;  ///< Larger messages are refused.
   std::uint32_t reserved = 0;
 };
 

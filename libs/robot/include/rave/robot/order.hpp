@@ -10,24 +10,23 @@
 #include "rave/base/time.hpp"
 #include "rave/math/pose.hpp"
 
-// What people ask of a robot while it runs. A program that says what it takes, by a constant
-// `static constexpr OrderSet kTakes`, gets it with its percepts.
+// Orders: what user interfaces ask of a robot during a run. A program receives the kinds that its
+// constant `static constexpr OrderSet kTakes` lists, together with its percepts.
 namespace rave {
-/// What an order asks of a robot.
+/// The kind of an order.
 enum class OrderKind : std::uint32_t {
   kNone = 0,
-  kDrive = 1,   ///< A velocity. Never reaches a program, which is told by Percepts::is_driven().
-  kGoal = 2,    ///< A point to go to.
-  kPath = 3,    ///< A line to follow.
-  kCancel = 4,  ///< What was asked before counts no more.
-  kText = 5,    ///< Words.
-  kPlace = 6,   ///< The robot is put elsewhere. Never reaches a program.
+  kDrive = 1,   ///< A velocity. It bypasses the program; see Percepts::is_driven().
+  kGoal = 2,    ///< A point to drive to.
+  kPath = 3,    ///< A path to follow.
+  kCancel = 4,  ///< Cancels the previous goal or path.
+  kText = 5,    ///< A text.
+  kPlace = 6,   ///< A new pose for the robot. Not passed to programs.
 };
 
 /// `drive`, `goal`, `path`, `cancel`, `text` or `place`.
 [[nodiscard]] std::string_view to_string(OrderKind kind) noexcept;
-/// @{
-/// A set of kinds of orders, one bit each: `kTakesGoal | kTakesText`; has_order() asks for a bit.
+/// @{ A set of kinds of orders, one bit each: `kTakesGoal | kTakesText`. has_order() tests a bit.
 using OrderSet = std::uint32_t;
 [[nodiscard]] constexpr OrderSet order_bit(OrderKind kind) noexcept {
   return OrderSet{1} << static_cast<std::uint32_t>(kind);
@@ -40,12 +39,13 @@ inline constexpr OrderSet kTakesPath = order_bit(OrderKind::kPath);
 inline constexpr OrderSet kTakesText = order_bit(OrderKind::kText);
 /// @}
 inline constexpr std::size_t kMostOrderPoints = 1000;  ///< Of a path.
-inline constexpr std::size_t kMostOrderText = 1000;    ///< Bytes of UTF-8, of kText and of answers.
-inline constexpr std::size_t kMostOrderAuthor = 64;    ///< Bytes of the name of who asks.
-/// Orders that wait for one decision; of goal, path and cancel only the last one counts.
+inline constexpr std::size_t kMostOrderText = 1000;  ///< Bytes of UTF-8, for kText and for answers.
+inline constexpr std::size_t kMostOrderAuthor = 64;  ///< Bytes of the sender's name.
+/// The number of orders that can wait for one decision. Of goal, path and cancel only the last is
+/// kept.
 inline constexpr std::size_t kMostWaitingOrders = 8;
 
-/// One order as it crosses the interface. Programs use Order.
+/// One order in the plug-in interface. Programs use Order.
 struct OrderItem {
   OrderKind kind = OrderKind::kNone;
   std::uint32_t point_count = 0;
@@ -60,17 +60,18 @@ struct OrderItem {
   std::uint32_t reserved = 0;
 };
 
-/// One order as a program sees it. A view: valid during decide().
+/// One order for a program. A view: valid during decide().
 struct Order {
   OrderKind kind = OrderKind::kNone;
-  std::span<const Vec2> points_W;  ///< kGoal: one. kPath: 2 to kMostOrderPoints. World frame, m.
-  std::optional<double> yaw_rad;   ///< kGoal: which way to look there; none: as it comes.
-  double speed_mps = 0;            ///< kGoal, kPath: the largest; 0: as the robot likes.
-  std::string_view text;           ///< kText.
-  std::string_view by;             ///< Who asks; empty: the terminal of the machine.
+  /// kGoal: one point. kPath: 2 to kMostOrderPoints. World frame, m.
+  std::span<const Vec2> points_W;
+  std::optional<double> yaw_rad;  ///< kGoal: heading at the goal, world frame; empty: any.
+  double speed_mps = 0;           ///< kGoal, kPath: speed limit; 0: the program decides.
+  std::string_view text;          ///< kText.
+  std::string_view by;            ///< User name of the sender; empty: the terminal of the host.
 };
 
-/// Goes through the orders of a decision.
+/// Iterates over the orders of a decision.
 class OrderIterator {
  public:
   explicit OrderIterator(const OrderItem* item) noexcept : item_(item) {}
@@ -96,7 +97,7 @@ class OrderIterator {
   const OrderItem* item_;
 };
 
-/// The orders that came since the last decision: `for (const Order order : percepts.orders())`.
+/// The orders since the last decision: `for (const Order order : percepts.orders())`.
 class Orders {
  public:
   Orders(const OrderItem* items, std::uint32_t count) noexcept : items_(items), count_(count) {}
@@ -110,12 +111,12 @@ class Orders {
   std::uint32_t count_;
 };
 
-/// How a program answers people. Called from the thread of its decision alone; several robots
-/// decide at a time.
+/// Accepts answers of programs to users. Call it only from the thread of a decision; several robots
+/// may decide at once.
 struct AnswerService {
   void* context = nullptr;
-  /// Takes an answer; `done` is not 0 if the order under way is done with it. False: it is too
-  /// long, or the robot has said too much in this decision; then nothing of it is taken.
+  /// Sends an answer. `done` is not 0 if it completes the current order. False: the text is too
+  /// long, or the robot has sent too much in this decision; nothing is sent.
   bool (*say)(void* context, std::uint32_t robot, const char* text, std::uint64_t size,
               std::uint32_t done) = nullptr;
 };

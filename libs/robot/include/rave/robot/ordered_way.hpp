@@ -13,20 +13,20 @@
 
 namespace rave {
 
-/// The way that people asked a robot to go, for programs that take goals or paths: what came last
-/// counts until it is cancelled. A value; call update() once in each decision.
+/// The path that users ordered a robot to follow, for programs that take goals or paths. The last
+/// order counts until it is cancelled. A value; call update() once in each decision.
 class OrderedWay {
  public:
   enum class State : std::uint8_t {
-    kNone,     ///< Nobody asks: the program does what it does.
-    kGoing,    ///< To next().
-    kTurning,  ///< It is there, and has to look where it was told: turn_radps().
-    kThere,    ///< It stands there until it is asked for something else.
+    kNone,     ///< No order: the program follows its own task.
+    kGoing,    ///< On the way to next().
+    kTurning,  ///< At the end; turning to the ordered heading by turn_radps().
+    kThere,    ///< At the end; standing until the next order.
   };
 
-  /// Takes the orders of this decision and passes points that are nearer than `tolerance_m`. Says
-  /// when it is there, and that a cancel was heard. True: there is another way than before, or
-  /// another point of it.
+  /// Takes the orders of this decision and advances past points that are nearer than `tolerance_m`.
+  /// Sends an answer on arrival. Returns true if the path, its state or the next
+  /// point has changed.
   bool update(const Percepts& percepts, Commands& commands, double tolerance_m) {
     const State before = state_;
     const std::size_t point = next_;
@@ -44,15 +44,15 @@ class OrderedWay {
 
   [[nodiscard]] State state() const noexcept { return state_; }
   [[nodiscard]] bool asked() const noexcept { return state_ != State::kNone; }
-  /// The point to go to, world frame; while kGoing.
+  /// The next point, world frame; valid while kGoing.
   [[nodiscard]] Vec2 next() const noexcept { return points_W_[next_]; }
-  /// The least of this and what people allow.
+  /// The lower of `own_mps` and the ordered speed limit.
   [[nodiscard]] double speed_mps(double own_mps) const noexcept {
     return speed_mps_ > 0 ? std::min(speed_mps_, own_mps) : own_mps;
   }
-  /// What people allow; 0: as the robot likes.
+  /// The ordered speed limit; 0: none.
   [[nodiscard]] double asked_speed_mps() const noexcept { return speed_mps_; }
-  /// Turning rate while kTurning.
+  /// Turning rate for kTurning, at most `most_radps`.
   [[nodiscard]] double turn_radps(const PoseReading& pose, double most_radps) const noexcept {
     return std::clamp(2 * turn_left_rad(pose), -most_radps, most_radps);
   }

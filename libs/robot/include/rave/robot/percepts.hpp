@@ -14,13 +14,14 @@
 
 namespace rave {
 
-/// One sensor of one robot: the latest sample in memory of the host.
+/// The latest sample of one sensor of one robot, in memory of the host.
 struct SensorView {
   const SampleHeader* header = nullptr;
   const void* records = nullptr;
 };
 
-/// One decision of one robot, as it crosses the interface. Programs use Percepts and Commands.
+/// The data of one decision of one robot in the plug-in interface. Programs use Percepts and
+/// Commands.
 struct DecideItem {
   const SensorView* sensors = nullptr;              ///< In the order of ProgramSetup::sensors.
   Command* commands = nullptr;                      ///< In the order of ProgramSetup::controllers.
@@ -30,20 +31,20 @@ struct DecideItem {
   std::uint32_t decision = 0;  ///< Counts from 0.
   std::uint32_t robot = 0;
   std::uint64_t seed = 0;
-  const OrderItem* orders = nullptr;  ///< What people ask, since the last decision.
+  const OrderItem* orders = nullptr;  ///< Orders since the last decision.
   std::uint32_t order_count = 0;
-  std::uint32_t driven = 0;                ///< Not 0: somebody drives the robot.
-  const AnswerService* answers = nullptr;  ///< Null: nobody listens.
+  std::uint32_t driven = 0;                ///< Not 0: a user drives the robot.
+  const AnswerService* answers = nullptr;  ///< Null: answers are ignored.
 };
 
-/// One message as its receiver sees it. A view: valid during decide().
+/// One received message. A view: valid during decide().
 struct Message {
   std::uint32_t from = 0;  ///< RobotId of the sender.
-  SimTime stamp;           ///< When it was sent.
+  SimTime stamp;           ///< See MessageHead::stamp_ns.
   Recipient to;
   std::span<const std::byte> bytes;
 
-  /// The message as a plain struct; nothing if its size is another.
+  /// The message as a plain struct; empty if its size differs.
   template <class T>
   [[nodiscard]] std::optional<T> as() const noexcept {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -54,7 +55,7 @@ struct Message {
   }
 };
 
-/// Goes through the messages of a mailbox.
+/// Iterates over the messages of a mailbox.
 class MessageIterator {
  public:
   MessageIterator(const Mailbox& box, std::uint32_t i) noexcept : box_(&box), i_(i) {}
@@ -81,7 +82,7 @@ class Messages {
   explicit Messages(const Mailbox& box) noexcept : box_(&box) {}
   [[nodiscard]] std::size_t size() const noexcept { return box_->count; }
   [[nodiscard]] bool empty() const noexcept { return box_->count == 0; }
-  /// Lost since the last decision because the mailbox was full.
+  /// The number of messages lost since the last decision because the mailbox was full.
   [[nodiscard]] std::uint32_t dropped() const noexcept { return box_->dropped; }
   [[nodiscard]] MessageIterator begin() const noexcept { return {*box_, 0}; }
   [[nodiscard]] MessageIterator end() const noexcept { return {*box_, box_->count}; }
@@ -90,16 +91,16 @@ class Messages {
   const Mailbox* box_;
 };
 
-/// What a robot knows when it decides. A view: valid during decide().
+/// The knowledge of a robot at a decision. A view: valid during decide().
 class Percepts {
  public:
   explicit Percepts(const DecideItem& item) noexcept : item_(&item) {}
 
   [[nodiscard]] SimTime now() const noexcept { return {item_->now_ns}; }
-  /// Where the robot is told to be, world frame, with its covariance.
+  /// The reported pose, world frame, with its covariance.
   [[nodiscard]] const PoseReading& pose() const noexcept { return item_->pose; }
 
-  /// The records of the latest sample; empty if none has come yet.
+  /// The records of the latest sample; empty before the first.
   template <class Record>
   [[nodiscard]] std::span<const Record> operator[](SensorHandle<Record> sensor) const noexcept {
     const SensorView& view = item_->sensors[sensor.index()];
@@ -110,43 +111,43 @@ class Percepts {
   [[nodiscard]] const SampleHeader& header(SensorHandle<Record> sensor) const noexcept {
     return *item_->sensors[sensor.index()].header;
   }
-  /// Time since the latest sample was true; infinity if none has come yet.
+  /// Age of the latest sample in simulation time; infinity before the first.
   template <class Record>
   [[nodiscard]] double age_s(SensorHandle<Record> sensor) const noexcept {
     const SampleHeader& latest = header(sensor);
     return latest.sequence == 0 ? std::numeric_limits<double>::infinity()
                                 : Duration{item_->now_ns - latest.stamp_ns}.seconds();
   }
-  /// Whether the latest sample is older than the sensor's may be (SensorInfo::max_age_s), so that
-  /// it says nothing of the present: what it shows as free need not be.
+  /// Whether the latest sample is older than SensorInfo::max_age_s. It then says nothing about the
+  /// present: space that it shows as free may be occupied.
   template <class Record>
   [[nodiscard]] bool is_old(SensorHandle<Record> sensor) const noexcept {
     return age_s(sensor) > sensor.info().max_age_s;
   }
-  /// What has arrived since the last decision, in the order of arrival.
+  /// The messages received since the last decision, in the order of arrival.
   [[nodiscard]] Messages messages(CommunicatorHandle communicator) const noexcept {
     return Messages(*item_->communicators[communicator.index()].in);
   }
-  /// What people have asked of the robot since the last decision, of the kinds that the program
-  /// takes (its constant `kTakes`), in the order in which it counts.
+  /// The orders since the last decision of the kinds that the program takes (its constant
+  /// `kTakes`), in the order in which they apply.
   [[nodiscard]] Orders orders() const noexcept { return {item_->orders, item_->order_count}; }
-  /// Whether somebody drives the robot now: then what the program gives to controllers of the
-  /// actuator that is driven has no effect.
+  /// Whether a user drives the robot. Commands to controllers of the driven actuator then have no
+  /// effect.
   [[nodiscard]] bool is_driven() const noexcept { return item_->driven != 0; }
-  /// Random numbers of this decision: the same in every repetition of the run.
+  /// The random numbers for this decision; equal in every repetition of the run.
   [[nodiscard]] RandomStream random() const noexcept {
     return {item_->seed, item_->robot, kProgramDevice, item_->decision};
   }
 
-  /// The device number under which programs draw random numbers.
+  /// The device number of programs for random streams.
   static constexpr std::uint32_t kProgramDevice = 0xffff0000U;
 
  private:
   const DecideItem* item_;
 };
 
-/// Where a program puts its decision. A controller that is given nothing keeps its last command
-/// until its watchdog stops it.
+/// Receives the decision of a program. A controller without a new command keeps its last one until
+/// its watchdog stops it.
 class Commands {
  public:
   explicit Commands(const DecideItem& item) noexcept : item_(&item) {}
@@ -158,12 +159,12 @@ class Commands {
   void velocity(ControllerHandle controller, double v_mps, double w_radps) noexcept {
     set(controller, velocity_command(v_mps, w_radps));
   }
-  /// A point in the world frame to drive to; speed 0 leaves it to the controller.
+  /// A point in the world frame to drive to; speed 0: the default of the controller.
   void goal(ControllerHandle controller, Vec2 p_WG, double speed_mps = 0) noexcept {
     set(controller, goal_command(p_WG.x, p_WG.y, speed_mps));
   }
-  /// Sends a message. False if it is longer than the communicator takes or there is no room left
-  /// in this step; then nothing is sent.
+  /// Sends a message. False, and nothing is sent, if it exceeds the communicator's limit or there
+  /// is no room left in this step.
   bool send(CommunicatorHandle communicator, std::span<const std::byte> bytes,
             Recipient to = Recipient::everyone()) noexcept {
     if (bytes.size() > communicator.info().max_message_bytes) return false;
@@ -172,7 +173,8 @@ class Commands {
     head.to = to;
     return item_->communicators[communicator.index()].out->put(head, bytes);
   }
-  /// Sends one plain struct as its bytes. It must have no padding, whose bits would be chance.
+  /// Sends a plain struct as its bytes. The struct must have no padding, whose bytes would be
+  /// indeterminate.
   template <class T>
     requires(!std::is_convertible_v<const T&, std::span<const std::byte>>)
   bool send(CommunicatorHandle communicator, const T& message,
@@ -181,10 +183,10 @@ class Commands {
     const std::span<const std::byte> bytes = std::as_bytes(std::span<const T, 1>(&message, 1));
     return send(communicator, bytes, to);
   }
-  /// Says something to the people who look on: UTF-8, at most kMostOrderText bytes. False if it is
-  /// longer, or too much for one decision; then nothing is said.
+  /// Sends a text to users: UTF-8, at most kMostOrderText bytes. False, and nothing is sent, if it
+  /// is longer or the limit of this decision is reached.
   bool say(std::string_view text) noexcept { return answer(text, 0); }
-  /// The same, and the order under way is done.
+  /// Like say(), and reports the current order as completed.
   bool done(std::string_view text) noexcept { return answer(text, 1); }
 
  private:

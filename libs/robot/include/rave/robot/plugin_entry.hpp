@@ -17,17 +17,18 @@
 
 namespace rave {
 
-/// How an author describes a driver: `{.name = "wander", .version = "1.0", .summary = "...",
-/// .params = kParams}`. Everything must be constant for the life of the plug-in.
+/// The description of a driver by its author: `{.name = "wander", .version = "1.0", .summary =
+/// "...", .params = kParams}`. All texts and lists must be constants of the plug-in.
 struct Description {
   const char* name = "";
   const char* version = "1.0";
   const char* summary = "";
   std::span<const ParamSpec> params = {};
   DriverClock clock = DriverClock::kStepped;
-  /// Sensors and actuators: the device driver of this plug-in that `device:` must name.
+  /// Sensors and actuators: the device driver of this plug-in that `device:` must name; empty:
+  /// none.
   const char* device = "";
-  /// Sensors of the real world: when their samples come.
+  /// Hardware sensors: when their samples come.
   SampleTiming timing = SampleTiming::kUnknown;
 
   [[nodiscard]] DriverInfo info(DriverKind kind, std::uint32_t data_kind) const noexcept {
@@ -53,7 +54,7 @@ void add_program(RegistrySink& registry, const Description& description) {
   registry.add(description.info(DriverKind::kProgram, 0), &kOps);
 }
 
-/// Registers a controller: T::kAccepts and T::kGives say its command kinds.
+/// Registers a controller. T::kAccepts and T::kGives are its command kinds.
 template <class T>
 void add_controller(RegistrySink& registry, const Description& description) {
   static constexpr ControllerOps kOps = detail::controller_ops<T>();
@@ -61,7 +62,7 @@ void add_controller(RegistrySink& registry, const Description& description) {
                &kOps);
 }
 
-/// Registers the dynamics of a simulated actuator: T::kAccepts says its command kind.
+/// Registers a virtual actuator. T::kAccepts is its command kind.
 template <class T>
 void add_virtual_actuator(RegistrySink& registry, const Description& description) {
   static constexpr VirtualActuatorOps kOps = detail::virtual_actuator_ops<T>();
@@ -70,7 +71,7 @@ void add_virtual_actuator(RegistrySink& registry, const Description& description
       &kOps);
 }
 
-/// Registers an actuator of a real robot: T::kAccepts says its command kind.
+/// Registers a hardware actuator. T::kAccepts is its command kind.
 template <class T>
 void add_actuator(RegistrySink& registry, const Description& description) {
   static constexpr HardwareActuatorOps kOps = detail::hardware_actuator_ops<T>();
@@ -78,7 +79,7 @@ void add_actuator(RegistrySink& registry, const Description& description) {
                &kOps);
 }
 
-/// Registers a sensor of the real world: T::kReading says what it gives.
+/// Registers a hardware sensor. T::kReading is the kind of its records.
 template <class T>
 void add_sensor(RegistrySink& registry, const Description& description) {
   static constexpr HardwareSensorOps kOps = detail::hardware_sensor_ops<T>();
@@ -93,8 +94,7 @@ void add_device(RegistrySink& registry, const Description& description) {
   registry.add(description.info(DriverKind::kDevice, 0), &kOps);
 }
 
-/// Registers the rule that makes one reading of a real and a virtual one: T::kReading says of what
-/// kind.
+/// Registers a hybrid sensor: a rule that fuses a real and a virtual reading of kind T::kReading.
 template <class T>
 void add_hybrid_sensor(RegistrySink& registry, const Description& description) {
   static constexpr HybridSensorOps kOps = detail::hybrid_sensor_ops<T>();
@@ -118,9 +118,9 @@ void add_transmitter(RegistrySink& registry, const Description& description) {
 
 }  // namespace rave
 
-/// Stands once in every plug-in, before the body of the function that registers its drivers:
+/// Begins the function that registers the drivers of a plug-in; use it exactly once:
 /// `RAVE_PLUGIN("wander") { rave::add_program<Wander>(registry, {...}); }`. The text lists the
-/// names of all drivers inside, separated by blanks.
+/// names of all drivers, separated by blanks.
 #define RAVE_PLUGIN_WITH_STAMP_(stamp)                                                         \
   static void rave_register_drivers(::rave::RegistrySink& registry);                           \
   extern "C" {                                                                                 \

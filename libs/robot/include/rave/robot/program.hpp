@@ -10,20 +10,20 @@
 
 namespace rave {
 
-/// The one class that the author of a robot program writes. One object per robot; start() comes
-/// once before the first decide(); all calls of one object come from one thread at a time. A
-/// program sees readings and gives commands; nothing tells it what is real and what is virtual.
+/// The base class of a robot program, the one class that its author writes. One object per robot.
+/// start() is called once, before the first decide(); calls of one object never overlap. A program
+/// receives readings and gives commands; nothing tells it what is real and what is virtual.
 ///
-/// A program that takes orders of people says which, by a public constant of its class:
-/// `static constexpr OrderSet kTakes = kTakesGoal | kTakesText;`. See Percepts::orders().
+/// A program that takes orders of users lists their kinds in a public constant: `static constexpr
+/// OrderSet kTakes = kTakesGoal | kTakesText;`. See Percepts::orders().
 class DecisionProcess {
  public:
   virtual ~DecisionProcess() = default;
-  /// Looks up sensors and controllers. An error keeps the run from starting.
+  /// Looks up sensors and controllers. An error prevents the start of the run.
   virtual Status start(const Setup& setup) = 0;
   virtual void decide(const Percepts& percepts, Commands& commands) = 0;
-  /// Somebody changed parameters while the robot runs; comes between two decisions, with all of
-  /// them. An error refuses the change: the program goes on with the old ones.
+  /// New parameter values while the robot runs, called between two decisions with all parameters.
+  /// An error refuses the change; the old values stay in force.
   virtual Status parameters_changed(const Params& /*params*/) {
     return fail(ErrorCode::kInvalidArgument, "it takes no new parameters while it runs");
   }
@@ -33,12 +33,12 @@ class DecisionProcess {
 struct ProgramOps {
   InstanceOps instance;
   int (*start)(void* instance, const ProgramSetup* setup, ErrorText* error) = nullptr;
-  /// Decides for `count` robots whose instances lie side by side, `stride` bytes apart. Sets
-  /// `failed[i]` to 1 and `error` for instances that threw, and goes on with the others.
+  /// Decides for `count` robots whose instances are `stride` bytes apart. For instances that throw,
+  /// sets `failed[i]` to 1 and `error`, and continues with the others.
   void (*decide)(void* first, std::uint64_t stride, const DecideItem* items, std::uint64_t count,
                  std::uint8_t* failed, ErrorText* error) = nullptr;
   UpdateFunction update = nullptr;
-  OrderSet takes = 0;  ///< Orders that go to the program.
+  OrderSet takes = 0;  ///< Kinds of orders that are passed to the program.
   std::uint32_t reserved = 0;
 };
 

@@ -7,8 +7,8 @@
 
 namespace rave {
 
-/// The sender that a packet of rave/robot/radio_packet.hpp names, unchecked; 0 if there are too few
-/// bytes for one.
+/// The sender field of a packet of rave/robot/radio_packet.hpp, without validation; 0 if there are
+/// too few bytes.
 [[nodiscard]] std::uint32_t radio_sender(std::span<const std::byte> packet) noexcept;
 
 }  // namespace rave

@@ -17,12 +17,13 @@
 
 namespace rave {
 
-/// How simulation time runs in a live run. Called from any thread; must not call back a queue.
+/// Converts simulation time to wall time in a live run. Called from any thread; must not call a
+/// queue.
 class RunClock {
  public:
   [[nodiscard]] virtual SimTime now() const noexcept = 0;
-  /// When `t` is due: the same answer until clock_changed(); time_point::max() while the run is
-  /// paused.
+  /// The wall time at which `t` is due. It is constant until clock_changed(); time_point::max()
+  /// while the run is paused.
   [[nodiscard]] virtual std::chrono::steady_clock::time_point wall_time_of(
       SimTime t) const noexcept = 0;
 
@@ -30,16 +31,17 @@ class RunClock {
   ~RunClock() = default;
 };
 
-/// The host's side of a SampleSink: a bounded queue from the thread of one driver (the producer)
-/// to the engine (the consumer, one thread at a time). All memory is taken when it is made.
+/// The host's implementation of SampleSink: a bounded queue from the thread of one driver (the
+/// producer) to the engine (the consumer, one thread at a time). All memory is allocated by the
+/// constructor.
 ///
-/// Stepped: nothing is lost; publish() waits for room. Live: a full queue loses its oldest sample.
-/// What breaks the contract of SampleSink (a stamp that steps back or lies in time that was said to
-/// be complete, more records than fit) is dropped and counted, and complaint() describes the first.
+/// Stepped: no sample is lost; publish() waits for room. Live: a full queue loses its oldest
+/// sample. Samples that violate the contract of SampleSink (a stamp that decreases or lies in
+/// completed time, too many records) are dropped and counted; complaint() describes the first.
 class SampleQueue final : public SampleSink {
  public:
-  /// `max_records`: of one sample. `depth`: samples, at least 1. `live`: null in a stepped run;
-  /// otherwise must outlive the queue.
+  /// `max_records`: limit per sample. `depth`: limit of samples, at least 1. `live`: null in a
+  /// stepped run; otherwise must outlive the queue.
   SampleQueue(ReadingKind kind, std::uint32_t max_records, std::size_t depth, const RunClock* live);
   SampleQueue(const SampleQueue&) = delete;
   SampleQueue& operator=(const SampleQueue&) = delete;
@@ -56,42 +58,42 @@ class SampleQueue final : public SampleSink {
   // Consumer side.
   enum class Wait {
     kComplete,  ///< All samples with a stamp up to `t` are in the queue.
-    kFull,      ///< There may be more, but no room: take samples out, then call again.
-    kFailed,    ///< The driver failed, or the queue is closed, before `t` was complete.
+    kFull,      ///< The queue is full and more samples may follow: take some out, then call again.
+    kFailed,    ///< The driver failed or the queue was closed before `t` was complete.
     kTimeout,
   };
-  /// Stepped: waits until the producer has promised completeness up to `t` or shown it by a later
-  /// stamp. Live: never waits; kComplete unless the driver failed.
+  /// Stepped: waits until the producer has promised completeness up to `t`, or has published a
+  /// later stamp. Live: returns at once, with kComplete unless the driver failed.
   [[nodiscard]] Wait wait_complete(SimTime t, std::chrono::milliseconds limit);
 
-  /// Takes out the oldest sample if its stamp is at most `up_to`; false: there is none. `records`
-  /// has room for `max_records`. `header->sequence` counts published samples from 1, `dropped` the
-  /// records lost since the last call that gave one; `fresh` is 0.
+  /// Takes the oldest sample out if its stamp is at most `up_to`; false: there is none. `records`
+  /// must have room for `max_records`. `header->sequence` numbers published samples from 1;
+  /// `dropped` is the number of records lost since the last successful call; `fresh` is 0.
   [[nodiscard]] bool next(SimTime up_to, SampleHeader* header, void* records);
 
-  /// The newest sample that was taken in, whether next() has given it out or not; false: there is
-  /// none. `record` has room for one record and gets the first one of the sample. Any thread.
+  /// The newest published sample, also after next() has returned it; false: there is none. `record`
+  /// must have room for one record and receives the first of the sample. Any thread.
   [[nodiscard]] bool newest(SampleHeader* header, void* record) const;
 
-  /// Unblocks the producer; its calls return false from now on. Samples can still be taken out.
+  /// Unblocks the producer, whose calls return false from now on. Samples can still be taken out.
   /// Any thread.
   void close();
-  /// As new. The producer's thread must have ended.
+  /// Resets the queue to its initial state. The producer's thread must have ended.
   void reopen();
-  /// To be called when the run clock was paused, continued or changed its pace. Any thread.
+  /// Call it after the run clock was paused, resumed or changed its pace. Any thread.
   void clock_changed();
 
-  /// What the driver said in fail(); empty if it did not or has recovered. Any thread.
+  /// The text of the driver's fail(); empty if it has not failed or has recovered. Any thread.
   [[nodiscard]] std::string failure() const;
-  /// The first breach of the contract; empty if there was none. Any thread.
+  /// The first violation of the contract; empty if there was none. Any thread.
   [[nodiscard]] std::string complaint() const;
-  /// Whether failure() says something. Any thread.
+  /// Whether the driver has failed and not recovered. Any thread.
   [[nodiscard]] bool failed() const;
-  /// When the newest sample was taken in, by the wall clock; nothing if none was since the queue
-  /// was opened. Live. Any thread, no lock.
+  /// Wall time at which the newest sample was published; empty if there was none since the queue
+  /// was opened. Live runs. Any thread, without a lock.
   [[nodiscard]] std::optional<std::chrono::steady_clock::time_point> newest_arrival()
       const noexcept;
-  /// All samples lost since the queue was opened. Any thread.
+  /// The number of samples lost since the queue was opened. Any thread.
   [[nodiscard]] std::uint64_t dropped() const;
 
  private:
@@ -104,9 +106,9 @@ class SampleQueue final : public SampleSink {
   const std::size_t depth_;
   const RunClock* const live_;
   static constexpr std::int64_t kNever = INT64_MIN;
-  std::atomic<std::int64_t> arrival_ns_{kNever};  // of the newest sample, steady clock
+  std::atomic<std::int64_t> arrival_ns_{kNever};  // publication of the newest sample, steady clock
 
-  mutable std::mutex mutex_;             // guards everything below
+  mutable std::mutex mutex_;             // guards all members below
   std::condition_variable to_producer_;  // room, clock or close
   std::condition_variable to_consumer_;  // sample, completeness, failure or close
   std::vector<SampleHeader> headers_;    // a ring of depth_ slots
@@ -117,7 +119,7 @@ class SampleQueue final : public SampleSink {
   bool consumer_waits_ = false;
   bool closed_ = false;
   bool failed_ = false;
-  std::int64_t newest_ns_ = INT64_MIN;    // stamp of the last sample that was taken in
+  std::int64_t newest_ns_ = INT64_MIN;    // stamp of the newest published sample
   std::int64_t complete_ns_ = INT64_MIN;  // promised by the producer
   std::uint32_t sequence_ = 0;
   std::uint32_t dropped_since_next_ = 0;

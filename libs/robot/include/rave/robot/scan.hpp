@@ -8,38 +8,38 @@
 
 namespace rave {
 
-/// One return of a range sensor, in the robot's frame.
+/// One return of a range sensor, in the robot frame.
 struct RangeHit {
   Vec2 p_R;
-  double distance_m = 0;   ///< From the robot's origin.
-  double bearing_rad = 0;  ///< From the robot's origin, in (-pi, pi].
+  double distance_m = 0;   ///< Distance from the robot's origin.
+  double bearing_rad = 0;  ///< Direction from the robot's origin, in (-pi, pi].
 };
 
-/// One ray or cone of the latest samples, hit or not.
+/// One ray or cone of the latest samples, with or without a return.
 struct RangeBeam {
-  Vec2 origin_R;          ///< Where the sensor sits.
+  Vec2 origin_R;          ///< Position of the sensor.
   Vec2 direction_R;       ///< Unit vector of the axis.
-  double free_m = 0;      ///< Nothing nearer along the axis; the sensor's limit without a return.
-  double spread_rad = 0;  ///< Half the opening of a cone; 0 for a ray.
+  double free_m = 0;      ///< Free distance along the axis; without a return the sensor's limit.
+  double spread_rad = 0;  ///< Half the opening angle of a cone; 0 for a ray.
 };
 
-/// What all range sensors of a robot say together, in the robot's frame: the same for three sonars
-/// and for a laser. A ray gives one hit, a cone three (axis and both edges), because something
-/// stands somewhere on its arc. No returns and readings that are not numbers give none. Belongs to
-/// the program; update() allocates nothing.
+/// The readings of all range sensors of a robot combined, in the robot frame: sonars and lasers
+/// look alike. A ray gives one hit, a cone three (axis and both edges), because the obstacle may be
+/// anywhere on its arc. No returns and NaN give none. Owned by the program; update() does not
+/// allocate.
 class Scan {
  public:
   Scan() = default;
-  /// Takes every range sensor of the robot; none is no error, the scan is then always empty.
+  /// Uses every range sensor of the robot. Without any, the scan is always empty; that is no error.
   explicit Scan(const Setup& setup);
 
-  /// Reads the latest samples. Call it first in decide().
+  /// Reads the latest samples. Call it at the start of decide().
   void update(const Percepts& percepts);
 
   [[nodiscard]] std::span<const RangeHit> hits() const noexcept { return hits_; }
   [[nodiscard]] std::span<const RangeBeam> beams() const noexcept { return beams_; }
-  /// Whether any of the sensors has said nothing for longer than it may (Percepts::is_old): what
-  /// was free then need not be free now.
+  /// Whether the samples of any of the sensors are too old (Percepts::is_old): space that was free
+  /// may be occupied now.
   [[nodiscard]] bool is_old() const noexcept { return old_; }
   /// Distance from the robot's origin to the nearest hit with a bearing in [from_rad, to_rad];
   /// infinity if there is none.

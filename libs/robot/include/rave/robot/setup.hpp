@@ -12,7 +12,7 @@
 
 namespace rave {
 
-/// What a program is given when it starts, as it crosses the interface. Programs use Setup.
+/// The data for starting a program in the plug-in interface. Programs use Setup.
 struct ProgramSetup {
   RobotInfo robot;
   HostServices host;
@@ -25,13 +25,14 @@ struct ProgramSetup {
   double period_s = 0;
   const CommunicatorInfo* communicators = nullptr;
   std::uint64_t communicator_count = 0;
-  /// Names of all robots of the scenario; the index is the RobotId.
+  /// Names of all robots of the scenario, by RobotId.
   const char* const* robot_names = nullptr;
   std::uint64_t robot_count = 0;
 };
 
-/// What a program may ask when it starts: its robot's sensors, controllers and parameters. A copy
-/// is valid during the whole run. The object that start() is given ends with it: keep no address.
+/// Access to a robot's sensors, controllers and parameters for the start of its program. The
+/// argument of start() is valid during that call only, so do not keep its address; a copy is valid
+/// during the whole run.
 class Setup {
  public:
   explicit Setup(const ProgramSetup& raw) noexcept : raw_(&raw) {}
@@ -48,15 +49,16 @@ class Setup {
     return {raw_->sensors, raw_->sensor_count};
   }
 
-  /// The sensor `name` that gives `Record`s (float for ranges, Sighting, PoseReading, ...); with
-  /// an empty name the first one that does. Error: kNotFound, naming those there are.
+  /// The sensor `name` whose records are of type `Record` (float for ranges, Sighting, PoseReading,
+  /// ...); with an empty name the first such sensor. Error kNotFound lists the existing ones.
   template <class Record>
   [[nodiscard]] Result<SensorHandle<Record>> sensor(std::string_view name = {}) const {
     auto index = find_sensor(detail::kind_of<Record>(), name);
     if (!index) return tl::unexpected(index.error());
     return SensorHandle<Record>(*index, &raw_->sensors[*index]);
   }
-  /// All sensors that give `Record`s, none is no error: for programs that take any suite.
+  /// All sensors whose records are of type `Record`, possibly none; for programs that work with any
+  /// set of sensors.
   template <class Record>
   [[nodiscard]] std::vector<SensorHandle<Record>> all_sensors() const {
     std::vector<SensorHandle<Record>> found;
@@ -67,19 +69,19 @@ class Setup {
     }
     return found;
   }
-  /// The controller `name` that accepts `kind`; with an empty name the first one that does.
+  /// The controller `name` that accepts `kind`; with an empty name the first one. Error kNotFound.
   [[nodiscard]] Result<ControllerHandle> controller(CommandKind kind,
                                                     std::string_view name = {}) const;
 
-  /// The communicator `name`; with an empty name the first one.
+  /// The communicator `name`; with an empty name the first one. Error kNotFound.
   [[nodiscard]] Result<CommunicatorHandle> communicator(std::string_view name = {}) const;
-  /// The id of a robot of the scenario, for messages to it alone. Error: kNotFound.
+  /// The RobotId of a robot, to address messages to it. Error: kNotFound.
   [[nodiscard]] Result<std::uint32_t> robot_id(std::string_view name) const;
   [[nodiscard]] std::uint32_t own_id() const noexcept { return raw_->robot.id; }
-  /// How many robots the scenario has.
+  /// The number of robots in the scenario.
   [[nodiscard]] std::uint64_t robot_count() const noexcept { return raw_->robot_count; }
 
-  /// A line in the log of the run, marked with the robot's name. May be called at any time.
+  /// Writes a line to the log of the run, marked with the robot's name. May be called at any time.
   void log(std::string_view text) const noexcept { raw_->host.write(LogLevel::kInfo, text); }
 
  private:

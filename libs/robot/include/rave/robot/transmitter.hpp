@@ -7,55 +7,57 @@
 
 namespace rave {
 
-/// Where the thread of a transmitter puts what it hears. Belongs to the host; valid from open()
-/// until close() has returned. Any thread of the driver, and of the host in send().
+/// Receives packets from the thread of a transmitter. Owned by the host; valid from open() until
+/// close() has returned. Any thread of the driver, and the thread that calls send().
 class PacketSink {
  public:
-  /// Hands over one packet; the bytes are copied. A full queue loses its oldest packet, counted.
+  /// Passes on one packet; the bytes are copied. If the queue is full, its oldest packet is lost
+  /// and counted.
   virtual void receive(const std::byte* packet, std::uint64_t size) noexcept = 0;
-  /// Reports that the device is gone; `text` is copied.
+  /// Reports that the device is lost; copies `text`.
   virtual void fail(const char* text, std::uint64_t size) noexcept = 0;
-  /// The device is back after fail().
+  /// Revokes fail(): the device is available again.
   virtual void recover() noexcept = 0;
 
  protected:
   ~PacketSink() = default;
 };
 
-/// What a transmitter says of itself once it knows its parameters.
+/// Properties of a transmitter that follow from its parameters.
 struct TransmitterDeclaration {
-  /// 1: messages never leave the host, which carries them itself in simulation time; open(),
-  /// send() and close() are not called.
+  /// 1: messages stay in the host, which delivers them in simulation time; open(), send() and
+  /// close() are not called.
   std::uint32_t in_process = 0;
   std::uint32_t max_packet_bytes = 1400;
-  /// Bytes a second of all communicators together, which the host enforces before it calls send();
-  /// 0: no limit, or a device that keeps to one by itself.
+  /// Limit in bytes per second for all communicators together, which the host enforces before
+  /// send(); 0: no limit, or the device limits itself.
   double byte_rate = 0;
-  /// Of a device: only packets with this number are taken; radio_name_hash() of a name that those
-  /// who belong together share.
+  /// Devices only: packets with another number are ignored. Use radio_name_hash() of a name that is
+  /// common to all members of the network.
   std::uint32_t network = 0;
-  std::uint32_t boot = 0;  ///< Of a device: another number each time the program is started.
+  std::uint32_t boot = 0;  ///< Devices only: a number that differs after each start of the program.
 };
 
 /// A device that carries packets to and from other robots: a socket, a radio on a serial line. One
-/// object per robot and entry of `transmitters:`. send() is called from the engine's thread and
-/// must return at once: a slow line has a queue and a thread of its own.
+/// object per robot and entry of `transmitters:`. The engine's thread calls send(), which must
+/// return at once: a slow line needs a queue and a thread of its own.
 class Transmitter {
  public:
   virtual ~Transmitter() = default;
   virtual Status configure(const HardwareSetup& setup, TransmitterDeclaration& declaration) = 0;
-  /// Starts the driver's own thread, which writes to `sink`. An error keeps the run from starting.
+  /// Starts the driver's own thread, which writes to `sink`. An error prevents the start of the
+  /// run.
   virtual Status open(PacketSink& sink) = 0;
-  /// `packet` is one of rave/robot/radio_packet.hpp, a sequence of bytes for the device. An error
-  /// is counted: that packet is lost.
+  /// Sends one packet of rave/robot/radio_packet.hpp, which is opaque to the device. An error is
+  /// counted; the packet is lost.
   virtual Status send(std::span<const std::byte> packet) = 0;
   /// Ends the thread and waits for it.
   virtual void close() = 0;
-  /// What an experimenter should know of it, as one JSON object (`{}` if nothing).
+  /// Statistics of the device for the results of a run, as one JSON object (`{}` if none).
   [[nodiscard]] virtual std::string report() const { return "{}"; }
 };
 
-/// The functions of a transmitter as the host calls them; made by add_transmitter().
+/// The function table of a transmitter, as the host calls it; made by add_transmitter().
 struct TransmitterOps {
   InstanceOps instance;
   int (*configure)(void* instance, const HardwareSetup* setup, TransmitterDeclaration* declaration,

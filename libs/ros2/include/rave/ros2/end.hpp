@@ -10,10 +10,10 @@
 
 namespace rave::ros2 {
 
-/// A reader or writer of one topic, whatever its type. Owner: a Reader or a Writer.
+/// A reader or writer of one topic, independent of its type. Owner: a Reader or a Writer.
 class End {
  public:
-  /// `topic` is whole: `/cart/scan`. Errors: those of Participant::add_end().
+  /// `topic` is an absolute name: `/cart/scan`. Errors: those of Participant::add_end().
   [[nodiscard]] static Result<End> create(const Participant& participant,
                                           const dds_topic_descriptor_t& type,
                                           std::string_view topic, const bus::QosProfile& profile,
@@ -22,14 +22,14 @@ class End {
   End& operator=(End&& other) noexcept;
   ~End();
 
-  /// Of a writer. Error: kIo.
+  /// Writers only. Error: kIo.
   [[nodiscard]] Status write(const void* sample) const;
   [[nodiscard]] bool wait_until_there(Duration limit) const;
-  /// How many writers a reader knows now, or readers a writer.
+  /// The number of matched writers of a reader, or readers of a writer.
   [[nodiscard]] std::size_t matched() const;
-  /// As of bus::take_mismatch().
+  /// See bus::take_mismatch().
   [[nodiscard]] std::optional<std::string> take_mismatch() const;
-  /// As of Participant::explain_silence().
+  /// See Participant::explain_silence().
   [[nodiscard]] std::string explain_silence() const;
   [[nodiscard]] dds_entity_t handle() const noexcept { return entity_; }
   [[nodiscard]] const std::string& topic() const noexcept { return topic_; }

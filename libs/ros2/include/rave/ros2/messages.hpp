@@ -8,7 +8,7 @@
 #include "idl/ros2/sensor_msgs.h"
 #include "idl/ros2/tf2_msgs.h"
 
-/// The messages of schemas/idl/ros2 under the names that ROS 2 gives them.
+/// The messages of schemas/idl/ros2 under their ROS 2 names.
 namespace rave::ros2 {
 
 using Time = builtin_interfaces_msg_dds__Time_;
@@ -19,13 +19,13 @@ using Quaternion = geometry_msgs_msg_dds__Quaternion_;
 using Pose = geometry_msgs_msg_dds__Pose_;
 using TransformStamped = geometry_msgs_msg_dds__TransformStamped_;
 
-// Those that topics carry.
+// Messages that have topics.
 using String = std_msgs_msg_dds__String_;
 using PoseStamped = geometry_msgs_msg_dds__PoseStamped_;
 using Twist = geometry_msgs_msg_dds__Twist_;
 using TwistStamped = geometry_msgs_msg_dds__TwistStamped_;
 using LaserScan = sensor_msgs_msg_dds__LaserScan_;
-/// As it is written since 2023; who reads it takes a RangeReading, which both forms fit.
+/// The format written since 2023. To read, use RangeReading, which accepts both formats.
 using Range = sensor_msgs_msg_dds__Range_;
 using RangeReading = sensor_msgs_msg_dds__RangeBefore2023_;
 using Imu = sensor_msgs_msg_dds__Imu_;
@@ -35,7 +35,7 @@ using Odometry = nav_msgs_msg_dds__Odometry_;
 using TfMessage = tf2_msgs_msg_dds__TFMessage_;
 using Clock = rosgraph_msgs_msg_dds__Clock_;
 
-/// What Cyclone DDS needs to know of a message type.
+/// The descriptor of a message type for Cyclone DDS.
 template <class Message>
 [[nodiscard]] dds_topic_descriptor_t descriptor_of();
 

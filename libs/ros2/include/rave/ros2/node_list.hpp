@@ -12,20 +12,21 @@
 
 namespace rave::ros2 {
 
-/// How a participant tells others of its node. The distributions of ROS 2 write it in two forms of
-/// one name, and who reads the wrong one logs errors: all of a domain must be of one kind.
+/// The format in which a participant announces its node. The distributions of ROS 2 use two formats
+/// under one type name, and a process that reads the wrong one logs errors. So all of a domain must
+/// use the same.
 enum class NodeForm : std::uint8_t {
-  kNone,    ///< Not at all; topics are seen all the same.
+  kNone,    ///< No announcement; topics are visible all the same.
   kHumble,  ///< Humble and before: GIDs of 24 bytes.
   kIron,    ///< Iron (2023) and later: GIDs of 16 bytes.
 };
 
-/// Tells ROS 2 that a participant is a node and which readers and writers are its own, on the topic
-/// `ros_discovery_info`, as rmw_dds_common does it; without it `ros2 node list` shows nothing of
-/// us. Owner: a Participant. Any thread.
+/// Announces a participant as a ROS 2 node with its readers and writers, on the topic
+/// `ros_discovery_info`, like rmw_dds_common. Without it `ros2 node list` does not show the node.
+/// Owner: a Participant. Any thread.
 class NodeList {
  public:
-  /// `name`: a word; `name_space`: begins with a slash. Error: kIo.
+  /// `name`: a name without slashes; `name_space`: begins with a slash. Error: kIo.
   [[nodiscard]] static Result<std::unique_ptr<NodeList>> open(dds_entity_t participant,
                                                               NodeForm form, std::string name,
                                                               std::string name_space);
@@ -34,9 +35,9 @@ class NodeList {
   ~NodeList();
 
   void add(dds_entity_t end, bool reads);
-  /// Before the end is deleted.
+  /// Call it before the end is deleted.
   void remove(dds_entity_t end);
-  /// Tells others, if something has changed since it did the last time.
+  /// Publishes the announcement if it has changed since the last call.
   void announce();
 
  private:
@@ -60,7 +61,7 @@ class NodeList {
   std::string name_space_;
   dds_entity_t writer_ = 0;
 
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   std::vector<End> ends_;
   bool changed_ = true;
 };

@@ -16,44 +16,45 @@
 
 namespace rave::ros2 {
 
-/// Where the robots of ROS 2 are. A plain value; the defaults stay on this machine.
+/// The DDS network of ROS 2. A plain value; the defaults stay on this machine.
 struct Network {
-  /// Shown to others as the name of the participant.
+  /// The participant name shown to others.
   std::string name = "rave";
-  /// That of ROS_DOMAIN_ID: 0 to 230.
+  /// ROS_DOMAIN_ID: 0 to 230.
   std::uint32_t domain = 0;
-  std::string interface = "127.0.0.1";  ///< As of bus::BusConfig, like the next two.
+  std::string interface = "127.0.0.1";  ///< As in bus::BusConfig, like the next two.
   std::vector<std::string> peers;
   bus::Multicast multicast = bus::Multicast::kOff;
   NodeForm nodes = NodeForm::kIron;
-  /// The node that others see: a word, and a namespace such as `/cart`, or empty.
+  /// The name of the node, and a namespace such as `/cart`, or empty.
   std::string node = "rave";
   std::string node_namespace;
 };
 
-/// Somebody else's reader or writer, by the names of ROS 2.
+/// A reader or writer of another process, by the names of ROS 2.
 struct RemoteEnd {
   std::string topic;
   std::string type;
 };
 
-/// What ROS 2 asks of its readers and writers. A sensor's reader takes what comes, so it matches
-/// every writer; writers promise all, so they match every reader that does not want old samples.
+/// The QoS of readers and writers. Readers of sensor data are best effort, so they match every
+/// writer. Writers are reliable, so they match every reader that does not require old samples.
 inline constexpr bus::QosProfile kReadNewest{.reliable = false, .depth = 10};
 inline constexpr bus::QosProfile kReadMany{.reliable = false, .depth = 100};
 inline constexpr bus::QosProfile kReadKept{.durable = true, .depth = 100};
 inline constexpr bus::QosProfile kWrite{.depth = 10};
 inline constexpr bus::QosProfile kWriteKept{.durable = true, .depth = 1};
 
-/// A participant in a domain of ROS 2: default partition, no run. It has a domain of Cyclone DDS of
-/// its own, with its own settings, so a process may have a bus, and participants of several robots,
-/// whatever their interfaces. Each costs threads and ports: share one where robots share a network.
+/// A participant in a ROS 2 domain: default partition, no run. It has its own domain object of
+/// Cyclone DDS with its own settings, so a process may also have a bus, and participants for
+/// several robots with different interfaces. Each costs threads and ports: robots on one network
+/// should share one.
 ///
-/// Thread: readers and writers may be made and used in any one thread each; what this class itself
-/// does is safe in all. It must outlive what is made on it.
+/// Thread: a reader or writer is created and used in one thread; the functions of this class may be
+/// called from any. Destroy it after everything created on it.
 class Participant {
  public:
-  /// Errors: kInvalidArgument (a field of the network, no such interface), kIo.
+  /// Joins the domain. Errors: kInvalidArgument (a field of the network, no such interface), kIo.
   [[nodiscard]] static Result<std::unique_ptr<Participant>> open(const Network& network);
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
@@ -62,27 +63,28 @@ class Participant {
   [[nodiscard]] const Network& network() const noexcept { return network_; }
   [[nodiscard]] dds_entity_t handle() const noexcept { return participant_; }
 
-  /// Makes an end of a topic, whose name is whole (`/cart/scan`). Errors: kState (the topic exists
-  /// here with another type), kIo.
+  /// Creates an end of a topic with an absolute name (`/cart/scan`). Errors: kState (the topic
+  /// exists here with another type), kIo.
   [[nodiscard]] Result<dds_entity_t> add_end(const dds_topic_descriptor_t& type,
                                              std::string_view topic, const bus::QosProfile& profile,
                                              bool reads) const;
-  /// Deletes an end that add_end() made.
+  /// Deletes an end made by add_end().
   void remove_end(dds_entity_t end) const;
-  /// Tells others which ends there are, if they have changed; at the latest a moment after the last
-  /// of them was made, so that the tools of ROS 2 find all. Costs nothing otherwise.
+  /// Announces changes of this participant's ends to others. Call it at the latest shortly after
+  /// the last end was made, so that ROS 2 tools find all. No cost without changes.
   void announce() const;
 
-  /// What others write, or read, now.
+  /// The topics that others currently write, or read.
   [[nodiscard]] std::vector<RemoteEnd> others(bool writers) const;
-  /// For a Waiter: has something unseen when others() may have changed.
+  /// An entity for a Waiter that has unread samples when others() may have changed.
   [[nodiscard]] dds_entity_t news(bool writers) const noexcept {
     return writers ? seen_writers_ : seen_readers_;
   }
-  /// How many other participants there are.
+  /// The number of other participants.
   [[nodiscard]] std::size_t others_here() const;
-  /// For a user, why nothing comes from (or, `writers` false, goes to) a topic: another type there,
-  /// the same type elsewhere, or nobody at all. The type is that of the wire.
+  /// A message for users: why nothing comes from a topic (or, with `writers` false, nobody receives
+  /// it): the topic has another type, another topic has the type, or there is no other end. `type`
+  /// is the wire name.
   [[nodiscard]] std::string explain_silence(std::string_view topic, std::string_view type,
                                             bool writers) const;
 
@@ -92,7 +94,7 @@ class Participant {
 
   Network network_;
   std::unique_ptr<bus::CycloneLog> log_;
-  std::unique_ptr<NodeList> nodes_;  ///< Null: nobody is told.
+  std::unique_ptr<NodeList> nodes_;  ///< Null: no announcement.
   dds_entity_t domain_ = 0;
   dds_entity_t participant_ = 0;
   dds_entity_t seen_participants_ = 0;

@@ -14,14 +14,14 @@
 
 namespace rave::ros2 {
 
-/// Reads one topic of ROS 2. Must be gone before its participant. One thread at a time.
+/// Reads one topic of ROS 2. Destroy it before its participant. One thread at a time.
 template <class Message>
 class Reader {
  public:
-  /// A sender that never stops must not keep the receiver from everything else.
+  /// The limit per call, so that a sender that never stops cannot occupy the receiver's thread.
   static constexpr std::size_t kMostAtOnce = 1024;
 
-  /// `topic` is whole: `/cart/scan`. Errors: those of Participant::add_end().
+  /// `topic` is an absolute name: `/cart/scan`. Errors: those of Participant::add_end().
   [[nodiscard]] static Result<Reader> create(const Participant& participant, std::string_view topic,
                                              const bus::QosProfile& profile) {
     RAVE_TRY_ASSIGN(End end,
@@ -29,9 +29,9 @@ class Reader {
     return Reader(std::move(end));
   }
 
-  /// Calls `visit(const Message&)` for every sample that has come, oldest first. Samples are on
-  /// loan: valid during the call only. Those that validate() refuses are dropped and counted.
-  /// Returns how many were visited. The callback must not throw.
+  /// Calls `visit(const Message&)` for every received sample, oldest first. Samples are loans:
+  /// valid during the call only. Samples that validate() refuses are dropped and counted. Returns
+  /// the number of visited samples. The callback must not throw.
   template <class Visit>
   std::size_t take(Visit&& visit) {
     std::size_t visited = 0;
@@ -39,7 +39,7 @@ class Reader {
     for (std::size_t taken = 0; taken < kMostAtOnce; taken += bus::Loan::kBatch) {
       bus::take(handle(), loan);
       for (std::size_t i = 0; i < loan.size; ++i) {
-        // A writer that ends says so by a sample without values.
+        // The end of a writer arrives as a sample without values.
         if (!loan.infos[i].valid_data) continue;
         const auto& sample = *static_cast<const Message*>(loan.samples[i]);
         Status status = validate(sample);
@@ -62,17 +62,17 @@ class Reader {
     ++refused_;
     trouble_ = std::move(why.message);
   }
-  /// How many samples were refused, and why the last of them was.
+  /// The number of refused samples, and the reason of the last one.
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
   [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
-  /// How many writers are known now.
+  /// The number of matched writers.
   [[nodiscard]] std::size_t writers() const { return end_.matched(); }
-  /// As of bus::take_mismatch().
+  /// See bus::take_mismatch().
   [[nodiscard]] std::optional<std::string> take_mismatch() { return end_.take_mismatch(); }
-  /// As of Participant::explain_silence().
+  /// See Participant::explain_silence().
   [[nodiscard]] std::string explain_silence() const { return end_.explain_silence(); }
   [[nodiscard]] const std::string& topic() const noexcept { return end_.topic(); }
-  /// For a Waiter; the entity stays its own.
+  /// The DDS reader, for a Waiter. Still owned by this object.
   [[nodiscard]] dds_entity_t handle() const noexcept { return end_.handle(); }
 
  private:

@@ -5,8 +5,8 @@
 
 namespace rave::ros2 {
 
-/// What ROS 2 calls a version of a type (REP-2016): `RIHS01_` and a SHA-256 of its description,
-/// by the name that the type has on the wire; empty for a type that is not ours. Pure; any thread.
+/// The type hash of ROS 2 (REP-2016) for a type by its wire name: `RIHS01_` and the SHA-256 of its
+/// description; empty for unknown types. Pure; any thread.
 [[nodiscard]] std::string_view type_hash_of(std::string_view wire_type) noexcept;
 
 }  // namespace rave::ros2

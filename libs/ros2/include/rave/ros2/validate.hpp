@@ -8,7 +8,7 @@
 
 namespace rave::ros2 {
 
-// ROS 2 bounds nothing; these are what RAVE accepts of others.
+// ROS 2 defines no bounds. RAVE accepts messages up to these.
 inline constexpr std::uint32_t kMostBeams = 100'000;
 inline constexpr std::uint32_t kMostTransforms = 10'000;
 inline constexpr std::uint32_t kMostCells = 1'000;
@@ -17,10 +17,10 @@ inline constexpr std::size_t kLongestText = 1'000'000;
 inline constexpr double kMostMetres = 1e7;
 inline constexpr double kMostSpeed = 1e4;
 
-/// What makes a message unusable whoever looks at it: numbers that are not finite where ROS 2 gives
-/// that no meaning, or beyond any vehicle; quaternions without length; arrays that are too long or
-/// do not fit together; frames with control characters. Infinite and missing ranges are as REP-117
-/// has them, and pass. Error kInvalidArgument with field and value. Pure; any thread.
+/// Checks what any receiver can check: non-finite numbers where ROS 2 gives them no meaning;
+/// numbers too large for any vehicle; quaternions of length 0; arrays that are too long or of
+/// inconsistent length; frames with control characters. Infinite and NaN ranges are accepted as in
+/// REP-117. Error kInvalidArgument with field and value. Pure; any thread.
 [[nodiscard]] Status validate(const String& message);
 [[nodiscard]] Status validate(const PoseStamped& message);
 [[nodiscard]] Status validate(const Twist& message);

@@ -8,8 +8,8 @@
 
 namespace rave::ros2 {
 
-/// Lets a thread sleep until something has come to one of several readers. Must be gone before the
-/// participant. ring() and watch() may come from any thread, wait() from one.
+/// Blocks a thread until one of several readers has samples. Destroy it before the participant.
+/// ring() and watch() may be called from any thread, wait() from one.
 class Waiter {
  public:
   /// Error: kIo.
@@ -18,13 +18,13 @@ class Waiter {
   Waiter& operator=(Waiter&&) = delete;
   ~Waiter();
 
-  /// wait() ends as long as the reader has samples that nobody has looked at. What it gives is for
-  /// forget(); a reader that ends is forgotten by itself.
+  /// Adds a reader: wait() returns while it has unread samples. Pass the result to forget(); a
+  /// reader that is deleted is removed automatically.
   [[nodiscard]] Result<dds_entity_t> watch(dds_entity_t reader) const;
   void forget(dds_entity_t watched) const;
-  /// Ends the wait at hand, or the next one.
+  /// Ends the current wait, or else the next one.
   void ring() const noexcept;
-  /// Until a reader has something, ring(), or the time has passed.
+  /// Returns when a reader has samples, after ring(), or after `limit`.
   void wait(Duration limit) const;
 
  private:

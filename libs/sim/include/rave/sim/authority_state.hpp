@@ -12,33 +12,34 @@
 
 namespace rave::sim {
 
-/// What an authority knows beside the last WorldStep that it made. With both another one can go on
-/// in its place, to the bit.
+/// The state of a world authority besides the last WorldStep that it made. With both, another
+/// authority can continue, bit by bit.
 struct AuthorityState {
   static constexpr std::size_t kMostRefused = 64;
-  RunHash hash;                      ///< With what has been noted in the step of the world.
-  std::vector<Event> events;         ///< Noted so far in that step; their texts do not matter.
-  std::vector<RobotId> pinned;       ///< Who could not get out of a real robot's way; ascending.
-  std::vector<ResizedRobot> scales;  ///< Of all bodies that are not as the spec says; ascending.
-  std::uint64_t inputs = 0;          ///< How many have been asked for so far.
-  /// How many changes of obstacles were made before those of the world.
+  RunHash hash;               ///< Includes what was noted in the step of the world.
+  std::vector<Event> events;  ///< Events noted in that step so far; their texts are not used.
+  /// Simulated robots that cannot get out of a real robot's way; ascending.
+  std::vector<RobotId> pinned;
+  std::vector<ResizedRobot> scales;  ///< Scales of all bodies that differ from the spec; ascending.
+  std::uint64_t inputs = 0;          ///< Number of inputs so far.
+  /// Number of obstacle changes before those of the world.
   std::uint64_t obstacle_changes = 0;
-  /// What leads from the obstacles of the spec to those before the world, see ObstacleHistory.
-  /// Left out (empty although there were changes) where everybody knows them.
+  /// The changes from the obstacles of the spec to those before the world, see ObstacleHistory.
+  /// Omitted (empty although there were changes) where all hosts know them.
   std::vector<ObstacleChange> obstacles;
-  /// How many changes of the scenario could not be made in all steps so far, and the first of them:
+  /// Number of scenario changes that failed so far, and the first of them:
   /// EventKind::kChangeRefused, in order.
   std::uint64_t refused_count = 0;
   std::vector<Event> refused;
-  /// Contacts and pins of the step before that of the world, which is done: for hosts, so that
-  /// these are known when the authority is gone. Another one does not need them to go on.
+  /// Contacts and pins of the completed step before that of the world. Hosts use them if the
+  /// authority is lost; another authority does not need them.
   std::vector<Event> done;
 };
 
-/// The text of pins, EventKind::kPinned.
+/// The text of EventKind::kPinned.
 inline constexpr std::string_view kPinnedText = "cannot get out of the way";
 
-/// The event of a body that has another size from `step` on; `before`: its scale until then.
+/// The event of a body whose scale changes at `step`; `before`: its previous scale.
 [[nodiscard]] Event resized_event(std::uint64_t step, const ResizedRobot& robot, double before,
                                   bool by_hand);
 

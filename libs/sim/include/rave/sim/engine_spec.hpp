@@ -31,15 +31,16 @@
 
 namespace rave::sim {
 
-/// A program in a process of its own. One object per robot; begin() of many may come before their
-/// end(), so that they decide at the same time. After an error the program is not asked again.
+/// A decision process in an operating-system process of its own. One object per robot. begin() of
+/// many may be called before their end(), so that they decide in parallel. After an error the
+/// program is not called again.
 class ProgramProcess {
  public:
   virtual ~ProgramProcess() = default;
   virtual Status begin(const DecideItem& item) = 0;
   virtual Status end(const DecideItem& item) = 0;
-  /// New values of all parameters and a new radius of the body, between two decisions. An error:
-  /// the program refuses and goes on with the old ones.
+  /// New values of all parameters and a new radius of the body, between two decisions. An error
+  /// refuses the change; the old values stay in force.
   virtual Status update(std::span<const ParamValue> /*params*/, double /*radius_m*/) {
     return fail(ErrorCode::kInvalidArgument, "it takes no new parameters while it runs");
   }
@@ -55,22 +56,22 @@ struct DeviceSpec {
   plugin::ParamSet params;
 };
 
-/// What makes a hybrid of a real sensor: the virtual half, and the driver that makes one reading of
-/// both.
+/// The additional parts of a hybrid sensor: the virtual half, and the driver that fuses both
+/// halves.
 struct HybridSpec {
   const HybridSensorOps* ops = nullptr;
-  plugin::ParamSet params;  ///< Of the driver that fuses.
+  plugin::ParamSet params;  ///< Parameters of the driver that fuses.
   std::string real_driver;
-  NoiseSpec real_noise;  ///< Put on the real half alone, before fusion.
+  NoiseSpec real_noise;  ///< Noise of the real half, added before fusion.
   std::string virtual_driver;
   const VirtualSensorOps* virtual_ops = nullptr;
   plugin::ParamSet virtual_params;
-  NoiseSpec virtual_noise;  ///< Put on the virtual half alone, before fusion.
+  NoiseSpec virtual_noise;  ///< Noise of the virtual half, added before fusion.
 };
 
-/// One sensor of a type of robot. Exactly one of the two ops is set. With `hybrid` set it is that
-/// of the hardware, which with `params` is the real half; `layers` are those of the virtual half,
-/// and `driver` names the one that fuses.
+/// One sensor of a robot type. Exactly one of the two ops is set. With `hybrid`, hardware_ops and
+/// `params` are those of the real half, `layers` those of the virtual half, and `driver` names the
+/// driver that fuses.
 struct SensorSpec {
   std::string name;
   std::string driver;
@@ -84,21 +85,21 @@ struct SensorSpec {
   std::uint32_t period_steps = 1;
   std::uint32_t phase_steps = 0;
   LayerMask layers = kAllLayers;
-  /// Hardware: when its samples come, and the age after which it counts as lost, seconds. Not set:
-  /// see sensor_age.hpp.
+  /// Hardware: when its samples arrive, and the age in seconds after which it counts as lost.
+  /// Unset: see sensor_age.hpp.
   SampleTiming timing = SampleTiming::kUnknown;
   std::optional<double> max_age_s;
   ProcessingSpec processing;
   std::optional<HybridSpec> hybrid;
 
-  /// The driver that `hardware_ops` belong to.
+  /// Name of the driver of `hardware_ops`.
   [[nodiscard]] const std::string& hardware_driver() const noexcept {
     return hybrid ? hybrid->real_driver : driver;
   }
 };
 
-/// The virtual half of a hybrid sensor as a sensor by itself, for pictures: no device is needed.
-/// Any other sensor stays what it is.
+/// The virtual half of a hybrid sensor as a separate sensor without a device, for pictures. Other
+/// sensors are returned unchanged.
 [[nodiscard]] SensorSpec virtual_half_of(SensorSpec sensor);
 
 struct ControllerSpec {
@@ -108,7 +109,7 @@ struct ControllerSpec {
   plugin::ParamSet params;
   CommandKind accepts = CommandKind::kNone;
   std::uint32_t actuator = 0;  ///< Index into RobotType::actuators.
-  /// What may be changed while the run goes; lives as long as `ops`.
+  /// The parameters that may change during a run; valid as long as `ops`.
   std::span<const ParamSpec> param_specs;
 };
 
@@ -120,7 +121,7 @@ struct ActuatorSpec {
   const HardwareActuatorOps* hardware_ops = nullptr;
   std::optional<std::uint32_t> device;  ///< Hardware: index into RobotType::devices.
   plugin::ParamSet params;
-  /// What may be changed while the run goes; lives as long as `ops`.
+  /// The parameters that may change during a run; valid as long as `ops`.
   std::span<const ParamSpec> param_specs;
 };
 
@@ -130,19 +131,20 @@ struct ProgramSpec {
   plugin::ParamSet params;
   std::uint32_t period_steps = 1;
   std::uint32_t phase_steps = 0;
-  ProgramProcessFactory isolate;  ///< Set: each robot's program gets a process of its own.
-  /// What may be changed while the run goes; lives as long as `ops`.
+  /// If set, the program of each robot runs in a process of its own.
+  ProgramProcessFactory isolate;
+  /// The parameters that may change during a run; valid as long as `ops`.
   std::span<const ParamSpec> param_specs;
 
   /// The orders that the program accepts.
   [[nodiscard]] OrderSet takes() const { return ops == nullptr ? 0 : ops->takes; }
 };
 
-/// Robots that came from one file with the same variables: they share drivers and parameters.
+/// Robots from one file with equal variables: they share drivers and parameters.
 struct RobotType {
   std::string name;
-  std::string folder;     ///< Of the robot file; relative paths of drivers start there.
-  bool simulated = true;  ///< Has a true pose; otherwise only a reported one.
+  std::string folder;     ///< Folder of the robot file, the base of relative paths in parameters.
+  bool simulated = true;  ///< Whether it has a true pose; otherwise it has a reported pose only.
   std::vector<DeviceSpec> devices;
   std::vector<SensorSpec> sensors;
   std::vector<ControllerSpec> controllers;
@@ -150,15 +152,16 @@ struct RobotType {
   std::vector<TransmitterSpec> transmitters;
   std::vector<CommunicatorSpec> communicators;
   std::optional<ProgramSpec> program;
-  /// The sensor that says where the robot is; none: the truth (simulated robots only).
+  /// Index of the sensor that reports the pose; unset: the true pose (simulated robots only).
   std::optional<std::uint32_t> pose_from;
-  std::optional<Pose2> X_WM;  ///< Frame of that sensor; none: the start pose for odometry, else W.
+  std::optional<Pose2> X_WM;  ///< X_WM, the pose of that sensor's frame M; unset: the start pose
+                              ///< for odometry, else W.
   Duration staleness = from_seconds(0.5);  ///< A reported pose older than this is stale.
-  /// Limits below the program. A real robot that obeys has those of GuardSpec{} at least.
+  /// Limits of the guard. A real robot that executes commands has at least those of GuardSpec{}.
   std::optional<GuardSpec> guard;
 };
 
-/// How far the pose of a robot may jump in a hand-over; farther, and it is refused.
+/// The largest pose difference at which a hand-over is accepted.
 struct HandOverLimits {
   double within_m = 0.25;
   double within_rad = deg_to_rad(20);
@@ -168,18 +171,17 @@ struct RobotSpec {
   std::string name;
   std::string team;
   std::uint32_t type = 0;
-  Pose2 X_WR;  ///< Where a simulated robot starts.
-  /// Of an engine: `type` is the one that serves the robot now, `twin` the other.
+  Pose2 X_WR;  ///< Start pose of a simulated robot.
+  /// Index of another type whose sensors, actuators and devices may serve the robot instead. Its
+  /// sensors and actuators have the same names and kinds in the same order, and it has the same
+  /// controllers and program. No other robot may use either type.
   ///
-  /// Another type whose sensors, actuators and devices may serve the robot instead: sensors and
-  /// actuators of the same names and kinds in the same order, the same controllers and program.
-  /// Both types are this robot's alone.
+  /// In an engine `type` is always the active one, and `twin` the other.
   std::optional<std::uint32_t> twin = std::nullopt;
   HandOverLimits hand_over = {};
 };
 
-/// Everything an Engine is made from. Robots are in the order of their ids, which is also the order
-/// of `world.robots`.
+/// The complete input of an Engine. Robots are in the order of their ids, as in `world.robots`.
 struct EngineSpec {
   world::WorldModel world;
   std::vector<RobotType> types;
@@ -187,51 +189,51 @@ struct EngineSpec {
   Duration step = from_seconds(0.01);
   std::uint64_t seed = 1;
   unsigned threads = 1;
-  /// How far sample_at() and hybrid sensors can look back; zero if it is not needed. At least 1 s
-  /// if a robot has a hybrid sensor.
+  /// How far back sample_at() and hybrid sensors can look; zero if not needed. At least 1 s if a
+  /// robot has a hybrid sensor.
   Duration history = {};
   /// Wall clock of a live run; null for a stepped one. Not owned.
   const RunClock* live_clock = nullptr;
-  /// How often the guard of a real robot that obeys writes to its actuators in a live run, wall
-  /// time: above 0, and well below the watchdogs of drivers and devices.
+  /// Live runs: the period at which the guard of a real robot writes to its actuators, wall time:
+  /// above 0, and well below the watchdogs of drivers and devices.
   Duration guard_period = from_seconds(0.02);
-  /// Called each time that all is open but the sensors: a live run's clock starts here, so that
-  /// what it took to find the devices is no part of the run. May be empty.
+  /// Called whenever everything but the sensors is open. The clock of a live run starts here, so
+  /// that the time to open devices is not part of the run. May be empty.
   std::function<void()> on_ready;
-  /// One of several hosts: called in Engine::propose() when the step is done, before hardware is
-  /// asked for the next one. Here alone observers find what they find between two steps of an
-  /// engine that is alone. May be empty.
+  /// With several hosts: called in Engine::propose() when the step is complete, before hardware
+  /// samples for the next one are read. At this point observers see the state that they see between
+  /// two steps of a single engine. May be empty.
   std::function<void()> on_step_done;
-  /// How long a stepped hardware driver may take, wall time, before the run is given up.
+  /// Longest wall time for which a stepped hardware driver may block before the run is aborted.
   std::chrono::milliseconds host_timeout{10'000};
-  /// How long the end of an engine waits, wall time, for a driver that it closes (a second at most
-  /// for each after the first of them), and for those of a hand-over that are still under way. What
-  /// is not done then is left behind: the log is told which, and the thread, its plug-in and the
-  /// memory of the engine stay until the process ends.
+  /// Longest wall time that the destructor of an engine waits for drivers to close (after the
+  /// first, at most one second for each), and for unfinished hand-overs. Drivers that need longer
+  /// are abandoned: the log names them, and their threads, their plug-ins and the memory of the
+  /// engine stay until the process ends.
   std::chrono::milliseconds last_wait{5'000};
-  /// Called at such an end with an address within each of these drivers: its code must stay loaded
-  /// for as long as the process runs. Null: it does so anyway.
+  /// Called for each abandoned driver with an address of its code, which must stay loaded until the
+  /// process ends. Null: the code stays loaded anyway.
   void (*keep_loaded)(const void* within) = nullptr;
-  /// Changes of parameters that belong to the run, by step.
+  /// Changes of parameters that are part of the run, by step.
   std::vector<ScheduledChange> changes;
-  /// Obstacles that come, move and go as a part of the run, by step.
+  /// Changes of obstacles that are part of the run, by step.
   std::vector<ScheduledObstacle> obstacle_changes;
-  /// Robots that change their drivers as a part of the run, by step.
+  /// Hand-overs that are part of the run, by step.
   std::vector<ScheduledHandOver> hand_overs;
   /// Not owned; outlives the engine.
   LogSink* log = nullptr;
-  /// Set: phase_times() tells what the phases took. No part of any result.
+  /// If set, phase_times() measures the phases. Never affects results.
   PhaseClock phase_clock = nullptr;
-  /// Shares every loop among the threads, also where one of them would be done sooner: for tests
-  /// of what threads must not change.
+  /// Distributes every loop over the threads, even if that is slower; for tests that threads do not
+  /// change results.
   bool share_always = false;
-  /// Set: the engine is one of several hosts of a world and runs these robots alone (at least one,
-  /// each once). Types that no local robot is of need no function tables. Unless it is its own
-  /// authority, such a run is stepped, and transmitters work in process. Not set: all robots.
+  /// If set, the engine is one of several hosts and runs these robots only (at least one, without
+  /// duplicates). Types without local robots need no function tables. Such a run is stepped, and
+  /// transmitters work in process, unless own_authority is set. Unset: all robots.
   std::optional<std::vector<RobotId>> local;
-  /// With `local`: whoever calls propose() and apply() has a WorldAuthority of his own, in which
-  /// the robots of other hosts are put where they are said to be, so nobody waits for anybody. Such
-  /// a run may be live, and apply() takes in what hardware has said since propose().
+  /// With `local`: the caller of propose() and apply() has a WorldAuthority of its own, which
+  /// places the robots of other hosts at their reported poses, so that no host waits for another.
+  /// Such a run may be live; apply() then also reads the hardware samples since propose().
   bool own_authority = false;
 };
 

@@ -14,46 +14,46 @@ enum class EventKind : std::uint32_t {
   kContact = 1,         ///< A robot began to touch something.
   kPinned = 2,          ///< A simulated robot cannot get out of a real robot's way.
   kPoseStale = 3,       ///< A reported pose is older than its limit.
-  kPoseBack = 4,        ///< ... and came again.
+  kPoseBack = 4,        ///< A pose arrived again after kPoseStale.
   kProgramFailed = 5,   ///< A program threw, crashed or hung; its robot stops.
   kDriverFailed = 6,    ///< A driver threw or lost its device.
-  kDriverBack = 7,      ///< ... and its device works again.
+  kDriverBack = 7,      ///< A device works again after kDriverFailed.
   kGuardSlowed = 20,    ///< The guard began to slow a robot down.
-  kGuardStopped = 21,   ///< The guard began to make a robot stand that was told to move.
-  kStopped = 22,        ///< Somebody stopped a robot; latched.
-  kReleased = 23,       ///< ... and let it go again.
-  kArmed = 24,          ///< Somebody armed a robot.
+  kGuardStopped = 21,   ///< The guard stopped a robot that was commanded to move.
+  kStopped = 22,        ///< A stop request; latched.
+  kReleased = 23,       ///< A stop was released.
+  kArmed = 24,          ///< A robot was armed.
   kChanged = 25,        ///< Parameters of a robot were changed.
-  kChangeRefused = 26,  ///< A change of the scenario that could not be made.
-  kObstacleAdded = 27,  ///< `other` has come; no robot is concerned.
+  kChangeRefused = 26,  ///< A change of the scenario failed.
+  kObstacleAdded = 27,  ///< `other` was added; `robot` is none.
   kObstacleMoved = 28,
   kObstacleRemoved = 29,
-  kCaptured = 30,         ///< The host saw that a robot caught another; no part of the hash.
-  kHandedOver = 31,       ///< A robot has its other set of drivers from this step on.
-  kHandOverRefused = 32,  ///< ... or could not be given it; everything is as it was.
-  kShadowReset = 33,      ///< The host put a shadow where its robot is; no part of the hash.
-  kOrdered = 34,          ///< Somebody gave a robot an order, or it is done with one.
-  kSaid = 35,             ///< A program said something to people.
-  kPlaced = 36,           ///< Somebody put a simulated robot elsewhere.
-  kLease = 37,            ///< Who may give a robot orders now; by the host, no part of the hash.
+  kCaptured = 30,         ///< The host found that a robot caught another; not part of the hash.
+  kHandedOver = 31,       ///< The other set of drivers is active from this step on.
+  kHandOverRefused = 32,  ///< A hand-over was refused; nothing has changed.
+  kShadowReset = 33,      ///< The host moved a shadow to its robot; not part of the hash.
+  kOrdered = 34,          ///< A robot received an order, or completed one.
+  kSaid = 35,             ///< A program sent a text to users.
+  kPlaced = 36,           ///< A simulated robot was placed elsewhere.
+  kLease = 37,  ///< The holder of a command lease changed; made by the host, not part of the hash.
 };
 [[nodiscard]] std::string_view to_string(EventKind kind) noexcept;
 
-/// Whether events of this kind are of an obstacle and of no robot.
+/// Whether events of this kind concern an obstacle instead of a robot.
 [[nodiscard]] constexpr bool is_of_obstacle(EventKind kind) noexcept {
   return kind == EventKind::kObstacleAdded || kind == EventKind::kObstacleMoved ||
          kind == EventKind::kObstacleRemoved;
 }
 
-/// Something that happened to a robot in one step, or to the world.
+/// An event of one step: something happened to a robot or to the world.
 struct Event {
   std::uint64_t step = 0;
-  RobotId robot;  ///< None: it concerns the world.
+  RobotId robot;  ///< None: the event concerns the world.
   EventKind kind = EventKind::kContact;
-  BodyId other;      ///< Contacts and pins: with whom. Of obstacles: which one.
-  std::string text;  ///< For people. Not part of the run hash.
-  /// Guard: the GuardLimit. Of obstacles in real time over several hosts: which change it was, of
-  /// all in the run, as its manager counts them; 0: not known.
+  BodyId other;      ///< Contacts and pins: the other body. Obstacle events: the obstacle.
+  std::string text;  ///< Description for people. Not part of the run hash.
+  /// Guard: the GuardLimit. Obstacle events in real time with several hosts: number of the change
+  /// in the run, as the manager counts it; 0: unknown.
   std::uint32_t detail = 0;
 };
 

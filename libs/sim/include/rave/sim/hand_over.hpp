@@ -8,28 +8,28 @@
 
 namespace rave::sim {
 
-/// Which of the two sets of drivers of a robot (RobotSpec::twin).
+/// Selects one of the two sets of drivers of a robot (RobotSpec::twin).
 enum class DriverSet : std::uint8_t {
-  kFirst,  ///< RobotSpec::type: serves the robot when the run begins.
+  kFirst,  ///< RobotSpec::type, which is active at the start of the run.
   kTwin,   ///< RobotSpec::twin.
 };
 
-/// A hand-over that belongs to the run: begins before the step `step` senses.
+/// A hand-over that is part of the run. It begins before step `step` senses.
 struct ScheduledHandOver {
   std::uint64_t step = 0;
   RobotId robot;
   DriverSet to = DriverSet::kTwin;
 };
 
-/// How it stands with the hand-overs of a robot that has two sets of drivers.
+/// The hand-over state of a robot with two sets of drivers.
 struct HandOverState {
   DriverSet active = DriverSet::kFirst;
   bool under_way = false;
-  bool by_hand = false;              ///< While it is under way: somebody asked for it.
-  DriverSet to = DriverSet::kFirst;  ///< While it is under way: where it leads.
+  bool by_hand = false;              ///< If under_way: whether it was requested by hand.
+  DriverSet to = DriverSet::kFirst;  ///< If under_way: the target.
   std::uint32_t made = 0;
   std::uint32_t refused = 0;
-  std::string last;  ///< What the last one said, made or refused; empty before the first.
+  std::string last;  ///< Message of the last hand-over, made or refused; empty before the first.
 };
 
 }  // namespace rave::sim

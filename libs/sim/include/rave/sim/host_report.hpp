@@ -11,14 +11,14 @@
 
 namespace rave::sim {
 
-/// How it stands with a host.
+/// The state of a host.
 enum class HostState : std::uint8_t {
   kRuns,
-  kDone,    ///< It wants the run to end; set by who runs the engine.
-  kFailed,  ///< It cannot go on: HostReport::text says why.
+  kDone,    ///< The host requests the end of the run; set by the owner of the engine.
+  kFailed,  ///< The host cannot continue; HostReport::text gives the reason.
 };
 
-/// What simulated robots want to do in a step: body velocities that their actuators propose. One
+/// The motions that simulated robots propose in a step: body velocities of their actuators. One
 /// entry per robot in each array, robots ascending.
 struct Proposals {
   std::vector<std::uint32_t> robots;  ///< RobotId.
@@ -34,26 +34,26 @@ struct Proposals {
   }
 };
 
-/// The message of a host to the authority of its world, one per step: the host has done step
-/// `step` - 1 and is ready for `step`. In the first one, of step 0, nothing has been done yet.
-/// Doubles travel bit by bit. Frames: X_WR in the world frame, velocities in the body frame.
+/// The message of a host to the world authority, one per step: the host has completed step `step` -
+/// 1 and is ready for `step`. The first report is for step 0, with no step completed. Doubles are
+/// sent bit by bit. Frames: X_WR in the world frame, velocities in the body frame.
 struct HostReport {
   std::uint32_t host = 0;  ///< Number of the host, see WorldAuthority::create().
   std::uint64_t step = 0;
   HostState state = HostState::kRuns;
-  std::string text;  ///< For people; empty unless something is wrong.
-  /// Of step `step` - 1: what all simulated robots of the host propose. Empty for step 0.
+  std::string text;  ///< Problem description for people; usually empty.
+  /// Proposals of all simulated robots of the host in step `step` - 1. Empty for step 0.
   Proposals proposals;
   /// Messages that left robots of the host in step `step` - 1.
   SentPackets sent;
-  /// Of step `step`: all robots of the host that have a source of their pose, ascending.
+  /// Poses for step `step`: all robots of the host with a pose source, ascending.
   std::vector<PoseReport> poses;
   /// New samples of real robots since the last report, by (robot, stamp).
   std::vector<PoseSample> samples;
-  /// Inputs of the last WorldStep that the host could not carry out.
+  /// Inputs of the last WorldStep that the host had to refuse.
   std::vector<InputRefusal> refusals;
 
-  /// Drops all but the number of the host, and keeps the memory.
+  /// Resets all but the number of the host; keeps the allocated memory.
   void begin(std::uint64_t of_step) noexcept {
     step = of_step;
     state = HostState::kRuns;

@@ -12,30 +12,30 @@
 
 namespace rave::sim {
 
-/// A virtual sensor that belongs to no robot of a run: it looks at the world of the run from the
-/// place of a robot, and nothing in the run depends on it. Its readings are those of the driver,
-/// without noise and filters of a robot file. One thread.
+/// A virtual sensor outside of the run: it senses the world of the run from the pose of a robot,
+/// and the run does not depend on it. Its readings are those of the driver, without the noise and
+/// filters of a robot file. One thread.
 class LoneSensor {
  public:
-  /// So many readings in a sample, and so many rays, at most.
+  /// Upper limits of readings per sample and of rays.
   static constexpr std::uint32_t kMostRecords = 4096;
   static constexpr std::uint32_t kMostRays = 16'384;
 
-  /// `spec`: of a virtual sensor, whose driver stays loaded as long as this. `step_s`: of the run.
-  /// Errors: kInvalidArgument (not virtual, too many readings or rays), kPlugin (what the driver
-  /// says).
+  /// `spec`: a virtual sensor whose driver stays loaded as long as this object. `step_s`: step of
+  /// the run. Errors: kInvalidArgument (not virtual, too many readings or rays), kPlugin (error of
+  /// the driver).
   [[nodiscard]] static Result<std::unique_ptr<LoneSensor>> make(SensorSpec spec, double step_s);
   LoneSensor(const LoneSensor&) = delete;
   LoneSensor& operator=(const LoneSensor&) = delete;
   ~LoneSensor();
 
   [[nodiscard]] const SensorSpec& spec() const noexcept;
-  /// Valid as long as this.
+  /// Valid as long as this object.
   [[nodiscard]] const SensorInfo& info() const noexcept;
-  /// Senses the world from where `robot` is in it; if the robot is not there, nothing. `seed`: of
-  /// the run. Error kPlugin: the driver failed, and will not be asked again.
+  /// Senses the world from the pose of `robot`; no effect if the robot is absent. `seed`: seed of
+  /// the run. Error kPlugin: the driver failed and will not be called again.
   Status sample(const world::Snapshot& world, RobotId robot, std::uint64_t seed);
-  /// Of the last sample; sequence 0: there is none.
+  /// Header of the last sample; sequence 0: none.
   [[nodiscard]] const SampleHeader& header() const noexcept;
   [[nodiscard]] const void* records() const noexcept;
 

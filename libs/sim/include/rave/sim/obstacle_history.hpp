@@ -10,27 +10,28 @@
 
 namespace rave::sim {
 
-/// How the obstacles of a run came to stand where they stand, in as few changes as say it: an
-/// obstacle that moved a thousand times is there once. For whoever was not there. A value; one
+/// A minimal list of changes that leads from the initial obstacles of a run to the present ones: an
+/// obstacle that moved a thousand times has one entry. For processes that join later. A value; one
 /// owner thread.
 class ObstacleHistory {
  public:
   ObstacleHistory() = default;
-  /// `changes`: those of another history, which `count` changes had led to.
+  /// `changes`: those of another history, which stand for `count` changes.
   ObstacleHistory(const std::vector<ObstacleChange>& changes, std::uint64_t count);
 
-  /// A change that was made; it has its number. What was asked is not kept.
+  /// Adds a change that was made; its id is set. `asked` is not kept.
   void add(const ObstacleChange& change);
 
-  /// How many changes were made so far.
+  /// The number of changes so far.
   [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
-  /// Made one after the other in the world of the start, they lead to the same obstacles. Empty
-  /// only if there was no change.
+  /// Applied in order to the initial world, they lead to the present obstacles. Empty only if there
+  /// was no change.
   [[nodiscard]] const std::vector<ObstacleChange>& changes() const noexcept { return changes_; }
 
  private:
   std::vector<ObstacleChange> changes_;
-  std::map<std::uint32_t, std::size_t> entry_of_;  ///< By id: what says where it stands.
+  /// By obstacle id: index of the entry with its present pose.
+  std::map<std::uint32_t, std::size_t> entry_of_;
   std::uint64_t count_ = 0;
 };
 

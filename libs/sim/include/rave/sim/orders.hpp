@@ -9,14 +9,14 @@
 
 namespace rave::sim {
 
-/// Which orders robots of a type take as long as their drivers and programs work; see
-/// Engine::takes() for those of a robot now. A type without function tables takes fewer.
+/// The orders that robots of a type take while drivers and programs work; Engine::takes() gives the
+/// orders that a robot takes now. A type without function tables takes fewer.
 [[nodiscard]] OrderSet declared_orders(const RobotType& type) noexcept;
 
-/// An order for people: `goal 1.20, 3.40`.
+/// An order in words: `goal 1.20, 3.40`.
 [[nodiscard]] std::string order_text(const WorldInput& input);
 
-/// Why a path of so many points is not taken, in the same words wherever orders come in.
+/// The message that refuses a path with this number of points; the same for all sources of orders.
 [[nodiscard]] std::string path_size_text(std::size_t points);
 
 }  // namespace rave::sim

@@ -12,29 +12,29 @@
 
 namespace rave::sim {
 
-/// A new value of a parameter: of a flag 0 or 1, of a text or choice the text.
+/// A new value of a parameter: 0 or 1 for a flag, the text for a text or choice.
 using ParameterValue = std::variant<double, std::string, std::vector<double>>;
-/// As a person would write it.
+/// The value as written in a file.
 [[nodiscard]] std::string to_string(const ParameterValue& value);
 
-/// One parameter of a robot that runs, and what it becomes.
+/// A new value for one parameter of a running robot.
 struct ParameterChange {
   enum class Part : std::uint8_t { kProgram, kController, kActuator, kBody };
   Part part = Part::kProgram;
-  std::uint32_t index = 0;  ///< Of the controller or actuator in its RobotType.
+  std::uint32_t index = 0;  ///< Index of the controller or actuator in its RobotType.
   std::string name;
   ParameterValue value;
 };
 
-/// What the body of a simulated robot takes: `scale`, of its outline about the robot's origin, 1 as
-/// in its file. Heights, mountings of sensors and what drives it stay as they are.
+/// The parameters of a simulated robot's body: `scale` scales its outline about the robot's origin,
+/// 1 as in its file. Heights, mountings of sensors and actuators do not change.
 [[nodiscard]] std::span<const ParamSpec> body_params() noexcept;
 
-/// A change that belongs to the run: made before the step `step` senses.
+/// A change that is part of the run. It is made before step `step` senses.
 struct ScheduledChange {
   std::uint64_t step = 0;
   RobotId robot;
-  std::vector<ParameterChange> changes;  ///< All of them, or none.
+  std::vector<ParameterChange> changes;  ///< Applied all or none.
 };
 
 }  // namespace rave::sim

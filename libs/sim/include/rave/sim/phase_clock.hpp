@@ -8,7 +8,7 @@
 
 namespace rave::sim {
 
-/// The phases of a step, in their order. The radio works before and after decide.
+/// The phases of a step, in order. The radio works before and after decide.
 enum class Phase : std::uint8_t { kIngest, kSense, kRadio, kDecide, kAct, kResolve, kPublish };
 inline constexpr std::size_t kPhases = 7;
 
@@ -18,12 +18,11 @@ inline constexpr std::size_t kPhases = 7;
   return kNames[static_cast<std::size_t>(phase)];
 }
 
-/// Nanoseconds since some fixed moment, never decreasing. The engine has no clock of its own, since
-/// nothing in a run may depend on one; a benchmark lends it one to be told where the time goes.
+/// Returns nanoseconds of a monotonic clock. The engine has no clock of its own, because no result
+/// may depend on one; a benchmark supplies one to measure the phases.
 using PhaseClock = std::int64_t (*)() noexcept;
 
-/// What the steps of an engine took, by phase: nanoseconds of the clock, added up since the engine
-/// was made or reset.
+/// Total time of each phase in nanoseconds of the clock, since the engine was created or reset.
 struct PhaseTimes {
   std::array<std::int64_t, kPhases> ns{};
 
@@ -32,14 +31,14 @@ struct PhaseTimes {
   }
 };
 
-/// Notes the phases of one step as they end. Without a clock it does nothing.
+/// Measures the phases of one step. Without a clock it does nothing.
 class PhaseTimer {
  public:
-  /// The first phase begins now. `times` outlives the timer.
+  /// Begins the first phase. `times` must outlive the timer.
   PhaseTimer(PhaseClock clock, PhaseTimes& times) noexcept
       : clock_(clock), times_(&times), begin_ns_(clock == nullptr ? 0 : clock()) {}
 
-  /// A phase ends, and the next one begins.
+  /// Ends a phase and begins the next one.
   void ends(Phase phase) noexcept {
     if (clock_ == nullptr) return;
     const std::int64_t now_ns = clock_();

@@ -6,19 +6,19 @@
 
 namespace rave::sim {
 
-/// Where a robot that has a source of its pose (RobotType::pose_from) is reported at the beginning
-/// of a step, before that step senses. A real robot is put there, with that velocity, and is in the
-/// world as soon as the pose is known.
+/// The reported pose of a robot with a pose source (RobotType::pose_from) at the beginning of a
+/// step, before it senses. A real robot is placed there with that velocity; it is in the world from
+/// the first known pose on.
 struct PoseReport {
   RobotId robot;
   ReportedPose reported;
 };
 
-/// One sample of a robot's pose source that came with the step. The virtual halves of hybrid
-/// sensors look up in these where real robots were at the stamp of a scan.
+/// One sample of a robot's pose source. The virtual halves of hybrid sensors use them to find where
+/// real robots were at the stamp of a scan.
 struct PoseSample {
   RobotId robot;
-  SimTime stamp;  ///< Not after the step; each later than the robot's last one.
+  SimTime stamp;  ///< Not after the step, and later than the robot's last one.
   Pose2 X_WR;
 };
 

@@ -7,12 +7,12 @@
 
 namespace rave::sim {
 
-/// Where a robot is told to be.
+/// The pose of a robot according to its pose source.
 struct ReportedPose {
   PoseReading pose;  ///< In W.
   Twist2 velocity;   ///< Body frame.
   SimTime stamp;
-  bool known = false;  ///< False before the first.
+  bool known = false;  ///< False before the first pose.
   bool stale = false;
 };
 

@@ -10,40 +10,40 @@
 
 namespace rave {
 
-/// What a virtual sensor leaves to the engine. A sensor that declares a fan writes no loop of its
+/// A fan of rays that the engine casts for a virtual sensor. The driver then needs no loop of its
 /// own: the engine casts the rays of all robots in one batch.
 struct FanQuery {
-  /// Directions in the sensor frame, `ray_count` of them; they live as long as the instance.
+  /// Directions of the `ray_count` rays in the sensor frame; valid as long as the instance.
   const double* bearings_rad = nullptr;
   std::uint32_t ray_count = 0;
-  /// Each reading is the smallest of this many neighbouring rays: 1 for a laser, more for a cone.
+  /// Each reading is the minimum of this many neighbouring rays: 1 for a laser, more for a cone.
   std::uint32_t rays_per_reading = 1;
-  double range_min_m = 0;  ///< Nearer is read as range_min_m.
-  double range_max_m = 0;  ///< Farther is no return: +infinity.
+  double range_min_m = 0;  ///< Shorter distances read as range_min_m.
+  double range_max_m = 0;  ///< Longer distances are no return: +infinity.
 };
 
-/// What a virtual sensor says of itself once it knows its parameters.
+/// Properties of a virtual sensor that follow from its parameters.
 struct VirtualDeclaration {
-  std::uint32_t capacity = 1;  ///< Records at most; ignored with a fan (one per reading).
-  std::uint32_t uses_fan = 0;  ///< 1: `fan` is filled and sample() is never called.
+  std::uint32_t capacity = 1;  ///< Largest number of records; ignored with a fan (one per reading).
+  std::uint32_t uses_fan = 0;  ///< 1: `fan` is set and sample() is never called.
   FanQuery fan;
-  double cone_rad = 0;  ///< Opening of a cone, for SensorInfo.
-  /// For SensorInfo of ranges with a cone: directions of the readings; null: those of the fan.
+  double cone_rad = 0;  ///< Opening angle of a cone, for SensorInfo.
+  /// Directions of the readings of a cone sensor, for SensorInfo; null: those of the fan.
   const double* reading_bearings_rad = nullptr;
 };
 
-/// What a virtual sensor is given when it is configured. One object serves all robots that use the
-/// driver with the same parameters.
+/// Passed to a virtual sensor when it is configured. One object serves all robots with the same
+/// driver and parameters.
 struct VirtualSensorSetup {
   HostServices host;
   const ParamValue* params = nullptr;
   std::uint64_t param_count = 0;
-  LayerMask layers = kAllLayers;  ///< What the robot file lets the sensor see.
+  LayerMask layers = kAllLayers;  ///< Layers that the robot file lets the sensor sense.
   std::uint32_t reserved = 0;
   double period_s = 0;
   double z_m = 0;  ///< Mounting height.
-  /// The real half whose virtual half this is; null if the sensor is not hybrid. Valid during
-  /// configure().
+  /// The real half of the hybrid sensor that this is the virtual half of; otherwise null. Valid
+  /// during configure().
   const SensorInfo* real_half = nullptr;
 
   [[nodiscard]] Params parameters() const noexcept {
@@ -51,45 +51,44 @@ struct VirtualSensorSetup {
   }
 };
 
-/// One sample of one robot: where to look from and where to write.
+/// One sample of one robot: the pose to sense from and the memory to write to.
 struct SampleItem {
   RobotId robot;
   std::uint32_t device = 0;
   std::uint64_t seed = 0;
   std::uint32_t sequence = 0;  ///< Number of this sample, from 0.
   std::uint32_t capacity = 0;
-  Pose2 X_WR;  ///< Of the robot.
-  Pose2 X_WS;  ///< Of the sensor.
+  Pose2 X_WR;  ///< Pose of the robot.
+  Pose2 X_WS;  ///< Pose of the sensor.
   double z_m = 0;
-  double elapsed_s = 0;  ///< Since the last sample of this sensor (its period; 0 at first).
+  double elapsed_s = 0;  ///< Time since the last sample of this sensor (its period; 0 at first).
   SampleHeader* header = nullptr;  ///< The driver sets `count`; the engine sets the rest.
   void* records = nullptr;         ///< Room for `capacity` records.
-  /// `state_size` bytes that belong to this sensor of this robot, zero at the start and after a
-  /// reset.
+  /// `state_size` bytes of this sensor of this robot; zero at the start and after a reset.
   void* state = nullptr;
 
-  /// Random numbers of this sample. Noise configured in the robot file draws elsewhere.
+  /// The random numbers for this sample. Noise of the robot file uses another stream.
   [[nodiscard]] RandomStream random() const noexcept {
     return {seed, robot.value(), device, sequence};
   }
 };
 
-/// A sensor of the virtual world. configure() comes once; sample() may run in several threads at
-/// once for different robots, so it is const: what changes lives in SampleItem::state.
+/// A sensor of the virtual world. configure() is called once. Several threads may call sample() at
+/// once for different robots, so it is const; variable data is in SampleItem::state.
 class VirtualSensor {
  public:
   virtual ~VirtualSensor() = default;
   virtual Status configure(const VirtualSensorSetup& setup, VirtualDeclaration& declaration) = 0;
-  /// Fills the records of one robot. Not called for a sensor that declares a fan.
+  /// Writes the records of one robot. Not called for a sensor with a fan.
   virtual void sample(const WorldView& world, const SampleItem& item) const = 0;
 };
 
 struct VirtualSensorOps {
   InstanceOps instance;
-  std::uint64_t state_size = 0;  ///< Bytes of SampleItem::state.
+  std::uint64_t state_size = 0;  ///< Size of SampleItem::state.
   int (*configure)(void* instance, const VirtualSensorSetup* setup, VirtualDeclaration* declaration,
                    ErrorText* error) = nullptr;
-  /// Samples `count` robots. Sets `failed[i]` to 1 and `error` where the driver threw.
+  /// Samples `count` robots. Where the driver throws, sets `failed[i]` to 1 and `error`.
   void (*sample)(const void* instance, const WorldView* world, const SampleItem* items,
                  std::uint64_t count, std::uint8_t* failed, ErrorText* error) = nullptr;
 };
@@ -132,8 +131,8 @@ constexpr VirtualSensorOps virtual_sensor_ops() noexcept {
 }
 }  // namespace detail
 
-/// Registers a virtual sensor: T::kReading says what it gives; T::State, if it has one, is a
-/// trivially copyable struct kept per robot.
+/// Registers a virtual sensor. T::kReading is the kind of its records; the optional T::State is a
+/// trivially copyable struct that is kept per robot.
 template <class T>
 void add_virtual_sensor(RegistrySink& registry, const Description& description) {
   static constexpr VirtualSensorOps kOps = detail::virtual_sensor_ops<T>();
@@ -141,10 +140,10 @@ void add_virtual_sensor(RegistrySink& registry, const Description& description) 
       description.info(DriverKind::kVirtualSensor, static_cast<std::uint32_t>(T::kReading)), &kOps);
 }
 
-/// Raised by hand when the meaning of the virtual interface changes while its layout stays.
+/// Increased by hand when the meaning of the virtual interface changes but its layout does not.
 inline constexpr std::uint64_t kVirtualInterfaceVersion = 1;
 
-/// A number that changes with the layout of the virtual-driver interface.
+/// A number that depends on the layout of the virtual-driver interface.
 constexpr std::uint64_t virtual_interface_hash() noexcept {
   return detail::hash_layout(
       kVirtualInterfaceVersion,
@@ -155,7 +154,7 @@ constexpr std::uint64_t virtual_interface_hash() noexcept {
 
 }  // namespace rave
 
-/// As RAVE_PLUGIN, for plug-ins with virtual drivers.
+/// Like RAVE_PLUGIN, for plug-ins with virtual drivers.
 #define RAVE_VIRTUAL_PLUGIN(provides)                                                \
   RAVE_PLUGIN_WITH_STAMP_(::rave::plugin::make_stamp(::rave::robot_interface_hash(), \
                                                      ::rave::virtual_interface_hash(), provides))

@@ -13,59 +13,59 @@
 
 namespace rave::sim {
 
-/// Who asks something of a run.
+/// The origin of an input to a run.
 struct Author {
-  bool by_hand = true;  ///< Somebody, while it goes: the run is not the scenario's any more.
-  std::string name{};   ///< By hand: of the person; empty: whoever sits at the machine.
+  bool by_hand = true;  ///< Requested during the run, so the run is no longer the scenario's.
+  std::string name{};   ///< If by hand: name of the user; empty: the terminal of the host.
 
-  static const Author kRun;   ///< It belongs to the run, as what its scenario says.
-  static const Author kHand;  ///< Somebody without a name.
+  static const Author kRun;   ///< Part of the run, such as a change in its scenario.
+  static const Author kHand;  ///< By hand, without a name.
   friend bool operator==(const Author&, const Author&) = default;
 };
 inline const Author Author::kRun{false, {}};
 inline const Author Author::kHand{true, {}};
 
-/// `by hand`, or with the name of the person: `by hand: anna`.
+/// `by hand`, or with the name of the user: `by hand: anna`.
 [[nodiscard]] std::string by_hand_text(const Author& author);
-/// Whether the text of an event says that somebody asked for it by hand.
+/// Whether the text of an event contains by_hand_text().
 [[nodiscard]] bool says_by_hand(std::string_view text) noexcept;
 
-/// The details of an order; which of them count is said by the kind of the input.
+/// The details of an order; the kind of the input determines which members are used.
 struct OrderDetails {
   std::vector<Vec2> points_W;     ///< kGoal and kPlace: one. kPath: 2 to kMostOrderPoints. m.
-  std::optional<double> yaw_rad;  ///< kGoal, kPlace; none: as it comes.
-  double v_mps = 0;               ///< kDrive: forward.
-  double w_radps = 0;             ///< kDrive: to the left.
-  double speed_mps = 0;           ///< kGoal, kPath: the largest; 0: as the robot likes.
+  std::optional<double> yaw_rad;  ///< kGoal, kPlace: heading; empty: any.
+  double v_mps = 0;               ///< kDrive: forward speed.
+  double w_radps = 0;             ///< kDrive: turning rate, counter-clockwise.
+  double speed_mps = 0;           ///< kGoal, kPath: speed limit; 0: the robot decides.
   std::string text;               ///< kText.
   friend bool operator==(const OrderDetails&, const OrderDetails&) = default;
 };
 
-/// Something asked of a run between two steps, of its robots wherever they run or of its obstacles.
+/// A request that takes effect between two steps, for robots of any host or for obstacles.
 struct WorldInput {
-  /// kObstacle is the authority's own: it never reaches a host, see WorldStep::obstacles. kPlace
-  /// reaches hosts when the authority has done it.
+  /// kObstacle is handled by the authority and never reaches a host, see WorldStep::obstacles.
+  /// kPlace reaches hosts after the authority has done it.
   enum class Kind : std::uint8_t {
     kStop,
     kRelease,
     kArm,
     kChange,
     kObstacle,
-    kDrive,   ///< Drives a robot in the place of its program.
-    kGoal,    ///< A place to go to.
-    kPath,    ///< A line to follow.
-    kCancel,  ///< Ends what people have asked. Without a robot: of all.
-    kText,    ///< Words for the program.
-    kPlace,   ///< Puts a simulated robot elsewhere.
+    kDrive,   ///< Drives a robot instead of its program.
+    kGoal,    ///< A goal.
+    kPath,    ///< A path to follow.
+    kCancel,  ///< Cancels orders. Without a robot: all orders.
+    kText,    ///< A text for the program.
+    kPlace,   ///< Places a simulated robot elsewhere.
   };
-  /// Counts all inputs of a run from 1; given by the WorldAuthority.
+  /// Number of the input in the run, from 1; set by the WorldAuthority.
   std::uint64_t sequence = 0;
   Kind kind = Kind::kStop;
   Author author;
-  RobotId robot;  ///< None: all robots; kChange and orders but kCancel need one.
-  std::vector<ParameterChange> changes;    ///< Of kChange: all of them, or none.
-  std::optional<ObstacleChange> obstacle;  ///< Of kObstacle, which needs it.
-  OrderDetails order;                      ///< Of orders.
+  RobotId robot;  ///< None: all robots. Required for kChange and for orders except kCancel.
+  std::vector<ParameterChange> changes;    ///< kChange: applied all or none.
+  std::optional<ObstacleChange> obstacle;  ///< kObstacle: required.
+  OrderDetails order;                      ///< Used for orders.
 };
 
 /// Whether an input is an order: kDrive to kPlace.
@@ -73,10 +73,10 @@ struct WorldInput {
   return kind >= WorldInput::Kind::kDrive && kind <= WorldInput::Kind::kPlace;
 }
 
-/// Why an input was not carried out.
+/// Why an input was refused.
 struct InputRefusal {
-  std::uint64_t sequence = 0;  ///< Of the WorldInput.
-  std::string text;            ///< For people.
+  std::uint64_t sequence = 0;  ///< WorldInput::sequence.
+  std::string text;            ///< The reason, for people.
 };
 
 }  // namespace rave::sim

@@ -11,35 +11,35 @@
 
 namespace rave::web {
 
-/// A request as a handler sees it. Names of headers are in lower case.
+/// An HTTP request for a handler. Names of headers are in lower case.
 struct Request {
   std::string method;  ///< `GET`, `HEAD` or `POST`.
   std::string path;    ///< Decoded, absolute, without query, without `.` and `..`.
   std::map<std::string, std::string> query;
   std::map<std::string, std::string> headers;
   std::string body;
-  std::string peer;  ///< Address of the other end.
+  std::string peer;  ///< Address of the client.
 
-  /// A header; empty if it is missing.
+  /// The value of a header; empty if it is missing.
   [[nodiscard]] std::string_view header(std::string_view name) const;
-  /// A cookie; empty if it is missing.
+  /// The value of a cookie; empty if it is missing.
   [[nodiscard]] std::string cookie(std::string_view name) const;
 };
 
-/// What a handler answers.
+/// The response of a handler.
 struct Response {
   int status = 200;
   std::string type = "text/plain; charset=utf-8";
   std::shared_ptr<const std::string> body;  ///< Null: empty.
   std::vector<std::pair<std::string, std::string>> headers;
-  /// Instead of a body: this file, of which a piece at a time is read and sent, so that it may be
-  /// larger than the memory. What it grows by meanwhile is left out; where it cannot be read to its
-  /// end the connection is cut. Empty: the body.
+  /// A file to send instead of `body`. It is read and sent in pieces, so it may be larger than the
+  /// memory. Bytes appended meanwhile are not sent; if it cannot be read to its end, the connection
+  /// is closed. Empty: send `body`.
   std::filesystem::path file{};
 };
 
-/// The Content-Security-Policy of all responses: nothing but the server itself, and as ends of
-/// connections `others` (`wss://left.example:8090`).
+/// The Content-Security-Policy of all responses: it permits the server itself only, and connections
+/// to `others` (`wss://left.example:8090`).
 [[nodiscard]] std::string content_policy(std::span<const std::string> others = {});
 
 /// A response with a line of text.
@@ -48,12 +48,12 @@ struct Response {
 /// Decodes `%41` and, in queries, `+`. False if it is not valid or has a control character.
 [[nodiscard]] bool decode_percent(std::string_view text, bool plus_is_space, std::string& out);
 
-/// Splits a target (`/a/b?c=d`) into a safe path and its query. False: it is malformed, or leads
-/// out of the root.
+/// Splits a request target (`/a/b?c=d`) into a path without `..` and its query. False: it is
+/// malformed, or leads out of the root.
 [[nodiscard]] bool parse_target(std::string_view target, std::string& path,
                                 std::map<std::string, std::string>& query);
 
-/// Takes the body of a form apart (`application/x-www-form-urlencoded`). Of equal names the first
+/// Parses the body of a form (`application/x-www-form-urlencoded`). Of equal names the first
 /// counts. False: it is malformed, has control characters, is longer than 8 KiB or has more than 32
 /// fields.
 [[nodiscard]] bool parse_form(std::string_view body, std::map<std::string, std::string>& fields);

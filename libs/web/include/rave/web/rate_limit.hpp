@@ -9,16 +9,16 @@
 
 namespace rave::web {
 
-/// How often somebody may do something: `burst` at once, then `per_s`. One bucket of tokens for
-/// each name; what it takes in memory is bounded. One thread.
+/// Limits the rate of actions by name with token buckets: `burst` at once, then `per_s`. Memory is
+/// bounded. One thread.
 class RateLimit {
  public:
   using Clock = std::chrono::steady_clock;
   RateLimit(double per_s, double burst) : per_s_(per_s), burst_(burst) {}
 
-  /// Takes a token. False: there is none.
+  /// Takes a token of `name`. False: there is none.
   [[nodiscard]] bool take(std::string_view name, Clock::time_point now);
-  /// Whether there is one, without taking it.
+  /// Whether `name` has a token.
   [[nodiscard]] bool has(std::string_view name, Clock::time_point now) const;
   [[nodiscard]] std::size_t size() const noexcept { return buckets_.size(); }
 
@@ -35,11 +35,12 @@ class RateLimit {
   std::map<std::string, Bucket, std::less<>> buckets_;
 };
 
-/// What of an address stands for one subscriber: an address of IPv4, and of IPv6 the first 64 bits,
-/// within which one machine may take as many as it likes. An address that is none as it is.
+/// The part of an address that identifies a subscriber: the whole IPv4 address, or the first 64
+/// bits of an IPv6 address, since one machine may use any number of addresses below them. Text that
+/// is not an address is returned unchanged.
 [[nodiscard]] std::string network_of(const std::string& address);
 
-/// Whether an address is of this machine alone.
+/// Whether an address is a loopback address.
 [[nodiscard]] bool is_loopback(const std::string& address);
 
 }  // namespace rave::web

@@ -11,14 +11,15 @@
 
 namespace rave::web {
 
-/// The files of a folder, read once and kept in memory with a compressed form. Nothing else of the
-/// disk can be asked for, so no path leads out of the folder.
+/// The files of a folder, read once and kept in memory, also compressed. Requests never read the
+/// disk, so no path can lead out of the folder.
 class StaticFiles {
  public:
   /// Reads all files below `folder`, 64 MiB at most. Errors: kNotFound, kIo.
   [[nodiscard]] static Result<StaticFiles> load(const std::filesystem::path& folder);
 
-  /// `/` is `/index.html`. Files below `/assets/`, whose names have a hash, may be kept for ever.
+  /// Serves a file; `/` is `/index.html`. Files below `/assets/` have a hash in their names, so
+  /// browsers may cache them without limit.
   [[nodiscard]] Response serve(const Request& request) const;
 
  private:
@@ -26,7 +27,7 @@ class StaticFiles {
     std::string type;
     std::string tag;
     std::shared_ptr<const std::string> plain;
-    std::shared_ptr<const std::string> gzip;  ///< Null: compressing it gains nothing.
+    std::shared_ptr<const std::string> gzip;  ///< Null: compression does not make it smaller.
   };
   std::map<std::string, File, std::less<>> files_;
 };

@@ -21,8 +21,7 @@ enum class ShapeKind : std::uint8_t {
   kDisc,
 };
 
-/// One upright piece of a body: an outline in the plane, extended over a range of heights. The
-/// prism is the first kind of shape; the list is open for others.
+/// One upright prism of a body: an outline in the plane, extended over a range of heights.
 struct Shape {
   ShapeKind kind = ShapeKind::kDisc;
   std::optional<ConvexPolygon> polygon;  ///< Polygon: body frame.
@@ -31,52 +30,51 @@ struct Shape {
   double z0_m = 0;                       ///< Lowest height above the floor.
   double z1_m = 1;                       ///< Highest.
 
-  /// Of a polygon, counter-clockwise; empty for a disc.
+  /// The vertices of a polygon, counter-clockwise; empty for a disc.
   [[nodiscard]] std::span<const Vec2> vertices() const noexcept {
     return polygon ? polygon->vertices() : std::span<const Vec2>();
   }
 };
 
-/// Checks and orders the vertices of a polygon: counter-clockwise, convex pieces. A simple polygon
-/// that is not convex becomes several shapes. Errors: kInvalidArgument (self-crossing, fewer than
-/// three distinct vertices, not finite, z1 <= z0).
+/// Makes prisms from a simple polygon. Vertices may be clockwise; a concave polygon becomes several
+/// convex shapes. Errors: kInvalidArgument (self-crossing, fewer than three distinct vertices, not
+/// finite, z1 <= z0).
 [[nodiscard]] Result<std::vector<Shape>> make_prisms(std::span<const Vec2> outline, double z0_m,
                                                      double z1_m);
 [[nodiscard]] Result<Shape> make_disc(Vec2 centre, double radius_m, double z0_m, double z1_m);
 
-/// Something with a place: an obstacle or the body of a robot.
+/// An obstacle or the body of a robot.
 struct Body {
   std::string name;
   std::vector<Shape> shapes;
   Layer layer = Layer::kVirtualObstacles;
-  std::optional<std::int32_t> code;  ///< What a landmark camera reads on it.
+  std::optional<std::int32_t> code;  ///< The code that a landmark camera reads on it.
   double code_z0_m = 0;              ///< Height range of the printed code.
   double code_z1_m = 0;
-  std::string colour;  ///< `#rrggbb`, or empty for the kind's own.
+  std::string colour;  ///< `#rrggbb`; empty: the colour of its kind.
 
-  /// Radius of the smallest disc about the body's origin that holds all shapes.
+  /// Radius of the smallest disc about the body's origin that contains all shapes.
   [[nodiscard]] double radius_m() const noexcept;
 };
 
-/// The body with its outline scaled about its origin; heights stay. Errors: kInvalidArgument (too
-/// small or too large for shapes to keep their corners).
+/// A copy of the body with its outline scaled about its origin; heights do not change. Errors:
+/// kInvalidArgument (the scaled shapes are too small or too large).
 [[nodiscard]] Result<Body> scaled(const Body& body, double factor);
 
-/// An obstacle stands where its pose says.
+/// A body at a fixed pose.
 struct Obstacle {
   Body body;
   Pose2 X_WB;
-  bool removed = false;  ///< Stands nowhere any more; its number stays taken.
+  bool removed = false;  ///< Does not exist any more; its id is not reused.
 };
 
-/// Which bodies there are, and where obstacles stand now. Poses of robots live in Snapshot. Robots
-/// are in the order of their RobotId. Body ids: the obstacles of the start first, then the robots,
-/// then obstacles that came while the run went. So an id stays what it is whatever is added or
-/// removed, and none is given twice in a run.
+/// All bodies, and the present poses of obstacles. Poses of robots are in Snapshot. Robots are in
+/// the order of their RobotId. Body ids: the initial obstacles first, then the robots, then
+/// obstacles added during the run. So an id never changes and is never reused in a run.
 struct WorldModel {
-  std::vector<Obstacle> obstacles;  ///< Of the start; as many as ever while a run goes.
+  std::vector<Obstacle> obstacles;  ///< Initial obstacles; their number is constant during a run.
   std::vector<Body> robots;
-  std::vector<Obstacle> added;  ///< Later, in the order in which they came.
+  std::vector<Obstacle> added;  ///< Obstacles added during the run, in order.
 
   [[nodiscard]] std::uint32_t body_count() const noexcept {
     return static_cast<std::uint32_t>(obstacles.size() + robots.size() + added.size());
@@ -88,7 +86,7 @@ struct WorldModel {
   [[nodiscard]] bool is_robot(std::uint32_t id) const noexcept {
     return id >= obstacles.size() && id - obstacles.size() < robots.size();
   }
-  /// The obstacle of this id, a removed one too; null if it is a robot or nothing.
+  /// The obstacle with this id, also a removed one; null if the id is not an obstacle.
   [[nodiscard]] const Obstacle* obstacle(std::uint32_t id) const noexcept {
     if (id < obstacles.size()) return &obstacles[id];
     const std::size_t later = std::size_t{id} - obstacles.size() - robots.size();  // modulo 2^64
@@ -97,7 +95,7 @@ struct WorldModel {
   [[nodiscard]] Obstacle* obstacle(std::uint32_t id) noexcept {
     return const_cast<Obstacle*>(std::as_const(*this).obstacle(id));
   }
-  /// The id of obstacle number `index`, those of the start first.
+  /// The id of obstacle number `index`; the initial ones come first.
   [[nodiscard]] std::uint32_t obstacle_id(std::size_t index) const noexcept {
     return static_cast<std::uint32_t>(index < obstacles.size() ? index : index + robots.size());
   }

@@ -14,11 +14,11 @@
 
 namespace rave::world {
 
-/// A piece of a shape at its place in the world: what a query has to know before it looks at the
-/// shape itself. Small, so that the pieces of a neighbourhood fill few cache lines.
+/// A piece of a shape at its place in the world: the data that a query needs before it reads the
+/// shape itself. It is small, so that neighbouring pieces fill few cache lines.
 struct ShapePiece {
-  Vec2 centre_W;       ///< Of a disc that holds the piece; of the disc itself for kDisc.
-  float radius_m = 0;  ///< Of that disc.
+  Vec2 centre_W;       ///< Centre of a disc that contains the piece; for kDisc of the disc itself.
+  float radius_m = 0;  ///< Radius of that disc.
   float z0_m = 0;
   float z1_m = 0;
   std::uint32_t body = 0;
@@ -26,37 +26,38 @@ struct ShapePiece {
   std::uint32_t first_vertex = 0;
   std::uint8_t vertex_count = 0;  ///< 0: a disc.
   std::uint8_t layer = 0;         ///< The bit of rave::Layer.
-  /// Of the same shape; more than 1: a query may meet it again; 0: nowhere, the index leaves it
-  /// out.
+  /// Number of pieces of the same shape. More than 1: a query may visit the shape again. 0: the
+  /// body is absent, the index omits the piece.
   std::uint16_t pieces = 1;
-  std::uint32_t index = 0;  ///< Of this piece in Snapshot::pieces().
+  std::uint32_t index = 0;  ///< Index of this piece in Snapshot::pieces().
 
   [[nodiscard]] bool in_layers(LayerMask layers) const noexcept { return (layers & layer) != 0; }
   [[nodiscard]] bool at_height(float z_m) const noexcept { return z_m >= z0_m && z_m <= z1_m; }
 };
 static_assert(sizeof(ShapePiece) == 48);
 
-/// Lists of vertices end with so many more, so that they can be read in groups.
+/// Number of additional elements after lists of vertices, so that they can be read in groups.
 inline constexpr std::size_t kVertexPadding = 3;
-/// Columns of pieces end with so many that are nowhere, so that they can be read in groups.
+/// Number of additional, unreachable pieces after the columns, so that they can be read in groups.
 inline constexpr std::size_t kPiecePadding = 16;
 
-/// Where pieces are, one array for each number, relative to `origin`: for queries that look at
-/// several at once.
+/// The positions of pieces as one array per coordinate, relative to `origin`, for vector
+/// instructions.
 struct PieceColumns {
   const float* x_m = nullptr;
   const float* y_m = nullptr;
-  const float* reach_m = nullptr;  ///< Radius of the piece's disc, enlarged by what floats round.
-  Vec2 origin;                     ///< Of x_m and y_m, in W.
+  /// Radius of the piece's disc, enlarged by the rounding to float.
+  const float* reach_m = nullptr;
+  Vec2 origin;  ///< Origin of x_m and y_m, in W.
 };
 
-/// Pieces [begin, end) that lie side by side.
+/// The range [begin, end) of consecutive pieces.
 struct PieceRow {
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
 };
 
-/// Cells of a grid from one corner to the other, both included; none if y1 < y0.
+/// A rectangle of grid cells, both corners included; empty if y1 < y0.
 struct CellBlock {
   int x0 = 0;
   int x1 = -1;
@@ -64,15 +65,15 @@ struct CellBlock {
   int y1 = -1;
 };
 
-/// A uniform grid over pieces, sorted into cells by their centres (counting sort), each in one
-/// cell. Build once, then query from many threads. No allocation when rebuilt with no more pieces
-/// over no larger an area than before.
+/// A uniform grid over pieces. Each piece is in the cell of its centre (counting sort). Build it,
+/// then query it from any number of threads. Rebuilding does not allocate unless there are more
+/// pieces or a larger area than before.
 class ShapeGrid {
  public:
-  /// Cells are `cell_m` wide, or wider where the extent would need more than about 2^20 cells.
+  /// Cells are `cell_m` wide, or wider if the extent would need more than about 2^20 cells.
   void build(std::span<const ShapePiece> pieces, double cell_m);
 
-  /// The cells whose pieces could come within `radius_m` of `p`.
+  /// The cells with pieces that may come within `radius_m` of `p`.
   [[nodiscard]] CellBlock cells_near(Vec2 p, double radius_m) const noexcept {
     if (width_ == 0) return {};
     const double reach_m = radius_m + largest_m_;
@@ -80,7 +81,7 @@ class ShapeGrid {
             cell_of(p.y - reach_m - origin_.y, height_),
             cell_of(p.y + reach_m - origin_.y, height_)};
   }
-  /// The pieces in one row of a block, y0 <= y <= y1.
+  /// The pieces in row y of a block, y0 <= y <= y1.
   [[nodiscard]] PieceRow row_of(const CellBlock& block, int y) const noexcept {
     const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
     return {begin_[row + static_cast<std::size_t>(block.x0)],
@@ -110,10 +111,10 @@ class ShapeGrid {
     }
   }
 
-  /// Calls `visit(piece)` for each piece whose disc comes within `width_m` of the way from p along
-  /// `direction`, a unit vector, between `from_m` and `to_m`: row by row of the cells beside that
-  /// way (as the walk of J. Amanatides and A. Woo, Eurographics 1987, but of a ray that has a
-  /// width, since a piece lies in the cell of its centre alone).
+  /// Calls `visit(piece)` for each piece whose disc comes within `width_m` of the segment of the
+  /// ray from p along the unit vector `direction` between `from_m` and `to_m`. It walks the cells
+  /// beside the segment row by row, as J. Amanatides and A. Woo (Eurographics 1987), but for a ray
+  /// with a width, because a piece is only in the cell of its centre.
   template <class Visit>
   void for_each_along(Vec2 p, Vec2 direction, double from_m, double to_m, double width_m,
                       Visit&& visit) const {
@@ -121,7 +122,7 @@ class ShapeGrid {
     const double reach_m = largest_m_ + width_m;
     const Vec2 a = p + from_m * direction - origin_;
     const Vec2 b = p + to_m * direction - origin_;
-    const double per_m = 1 / (b.y - a.y);  // only asked for where the way rises
+    const double per_m = 1 / (b.y - a.y);  // used only if the segment crosses rows
     const int last_row = cell_of(std::max(a.y, b.y) + reach_m, height_);
     for (int y = cell_of(std::min(a.y, b.y) - reach_m, height_); y <= last_row; ++y) {
       const Span part = part_beside_row(a.y, b.y, per_m, y, reach_m);
@@ -140,9 +141,9 @@ class ShapeGrid {
       }
     }
   }
-  /// No piece is farther than this from p; 0 if there are none.
+  /// An upper bound of the distance from p to any piece; 0 if there are none.
   [[nodiscard]] double farthest_m(Vec2 p) const noexcept;
-  /// How many pieces there are on a square metre, and their mean radius.
+  /// Number of pieces per square metre, and their mean radius.
   [[nodiscard]] double pieces_per_m2() const noexcept { return pieces_per_m2_; }
   [[nodiscard]] double mean_radius_m() const noexcept { return mean_radius_m_; }
   [[nodiscard]] double largest_radius_m() const noexcept { return largest_m_; }
@@ -150,19 +151,19 @@ class ShapeGrid {
   [[nodiscard]] int rows() const noexcept { return height_; }
 
  private:
-  /// A part of the way from one point to another, each 0 to 1; nothing if first > last.
+  /// A part of a segment as fractions of its length, each 0 to 1; empty if first > last.
   struct Span {
     double first = 0;
     double last = 1;
   };
-  /// The part of a way, from and to these heights above the origin, that pieces with their centre
-  /// in a row can touch. `per_m`: 1 / (to - from).
+  /// The part of a segment between two heights above the origin that pieces with their centre in
+  /// row y can touch. `per_m`: 1 / (to - from).
   [[nodiscard]] Span part_beside_row(double from_m, double to_m, double per_m, int y,
                                      double reach_m) const noexcept {
-    // Of a way along the row all of it.
+    // A segment along the row: all of it.
     if (std::abs(to_m - from_m) <= reach_m) return {};
     const double low_m = y * cell_m_ - reach_m - from_m;
-    // The last row takes in what lies beyond it.
+    // The last row also contains everything beyond it.
     const double high_m = y + 1 == height_ ? std::numeric_limits<double>::infinity()
                                            : (y + 1) * cell_m_ + reach_m - from_m;
     const double first = low_m * per_m;
@@ -172,13 +173,13 @@ class ShapeGrid {
   }
 
   void fill_columns();
-  /// Where a piece goes: its cell, and how many pieces of that cell come before it.
+  /// Target of a piece in the sort: its cell, and its rank within that cell.
   struct Slot {
     std::uint32_t cell = 0;
     std::uint32_t rank = 0;
   };
 
-  /// Lays the cells over the pieces; false if there are none.
+  /// Chooses origin, size and number of cells; false if there are no pieces.
   bool lay_cells(std::span<const ShapePiece> pieces, double cell_m);
   [[nodiscard]] int cell_of(double offset_m, int count) const noexcept {
     const double cell = offset_m * cells_per_m_;
@@ -187,7 +188,7 @@ class ShapeGrid {
   }
 
   Vec2 origin_;
-  Vec2 size_;  ///< From the origin to the last centre.
+  Vec2 size_;  ///< Extent from the origin to the last centre.
   double cells_per_m_ = 1;
   double cell_m_ = 1;
   double largest_m_ = 0;
@@ -196,9 +197,9 @@ class ShapeGrid {
   int width_ = 0;
   int height_ = 0;
   std::vector<std::uint32_t> begin_;  ///< Per cell; one more at the end.
-  std::vector<Slot> slots_;           ///< Per piece, while it is built.
+  std::vector<Slot> slots_;           ///< Per piece, used while building.
   std::vector<ShapePiece> sorted_;
-  std::vector<float> x_m_;  ///< Of sorted_, from origin_ on; these three are padded.
+  std::vector<float> x_m_;  ///< Positions of sorted_, relative to origin_; these three are padded.
   std::vector<float> y_m_;
   std::vector<float> reach_m_;
 };
@@ -209,9 +210,9 @@ struct CoverDisc {
   double radius_m = 0;
 };
 
-/// Discs of at most about `largest_m` that together hold the shape: a long wall is cut into pieces,
-/// so that a query near one end does not meet what is at the other. At most 4096; beyond that they
-/// are larger. A disc is its own cover.
+/// Discs of at most about `largest_m` radius that together cover the shape. A long wall is covered
+/// by several, so that a query near one end does not find its other end. At most 4096 discs; larger
+/// ones if that is not enough. A disc is its own cover.
 [[nodiscard]] std::vector<CoverDisc> cover(const Shape& shape, double largest_m);
 
 }  // namespace rave::world

@@ -7,8 +7,8 @@
 
 namespace rave::world {
 
-/// Signed separation of two shapes at their poses; see rave/math/separation.hpp. Shapes whose
-/// heights do not overlap are infinitely far apart.
+/// Signed separation of two shapes at their poses; see rave/math/separation.hpp. Infinite for
+/// shapes whose height ranges do not overlap.
 [[nodiscard]] Separation separation(const Shape& a, const Pose2& X_WA, const Shape& b,
                                     const Pose2& X_WB) noexcept;
 
@@ -16,8 +16,8 @@ namespace rave::world {
 [[nodiscard]] Separation separation(const Body& a, const Pose2& X_WA, const Body& b,
                                     const Pose2& X_WB) noexcept;
 
-/// How far body `a` may move from X_WA until it comes within `limits.skin_m` of body `b`, which
-/// stands at X_WB; see rave/math/time_of_impact.hpp, whose rules hold for discs too.
+/// The part of its motion that body `a` can make from X_WA until it comes within `limits.skin_m` of
+/// body `b` at X_WB; see rave/math/time_of_impact.hpp, whose rules also apply to discs.
 [[nodiscard]] Impact time_of_impact(const Body& a, const Pose2& X_WA, const Motion2& motion_W,
                                     const Body& b, const Pose2& X_WB,
                                     const ImpactLimits& limits = {}) noexcept;

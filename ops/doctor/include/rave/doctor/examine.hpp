@@ -8,8 +8,8 @@
 
 namespace rave::doctor {
 
-/// All checks of a machine, and probes of each peer of `config` that is another machine. `config`
-/// need not be valid. Takes some seconds where peers do not answer.
+/// All checks of a machine, and probes of each peer of `config` on another machine. `config` need
+/// not be valid. Takes some seconds if peers do not answer.
 [[nodiscard]] Findings examine(const Machine& machine, const bus::BusConfig& config,
                                const About& here);
 

@@ -10,28 +10,29 @@ namespace rave::doctor {
 
 enum class Verdict : std::uint8_t {
   kGood,
-  kUnknown,  ///< It could not be looked at, and the text says why.
-  kAdvice,   ///< It works so, and would work better otherwise.
+  kUnknown,  ///< It could not be checked; the text gives the reason.
+  kAdvice,   ///< It works, but could be improved.
   kProblem,
 };
 
-/// One word in lower case, as in JSON.
+/// The name in lower case, as in JSON.
 [[nodiscard]] std::string_view to_string(Verdict verdict) noexcept;
 
-/// What one check found. A value.
+/// The result of one check. A value.
 struct Finding {
   std::string check;  ///< One word, such as `interface`.
   Verdict verdict = Verdict::kGood;
-  std::string what{};  ///< One line for people.
-  std::string mend{};  ///< The command that mends it, in one line; empty if nothing is to be done.
+  std::string what{};  ///< One line of description.
+  std::string mend{};  ///< The command that corrects the problem, in one line; empty if there is
+                       ///< nothing to do.
 };
 
 using Findings = std::vector<Finding>;
 
-/// Whether there is no problem.
+/// Whether no finding is a problem.
 [[nodiscard]] bool all_well(const Findings& findings) noexcept;
 
-/// All findings as one JSON object in a line; docs/how-to/two-machines.md has its keys.
+/// All findings as one JSON object in a line; docs/how-to/two-machines.md lists its keys.
 [[nodiscard]] std::string to_json(const Findings& findings);
 
 }  // namespace rave::doctor

@@ -14,49 +14,51 @@
 
 namespace rave::doctor {
 
-/// What became of the questions to the doctor of another machine.
+/// The result of probing the doctor of another machine.
 struct ProbeResult {
   enum class PortState : std::uint8_t {
-    kSilent,   ///< Nothing came back.
-    kRefused,  ///< The machine is there, and nobody listens.
-    kNoWay,    ///< The system knows no way there, or nobody has the address.
+    kSilent,   ///< No answer.
+    kRefused,  ///< The machine answers, but no process listens.
+    kNoWay,    ///< No route, or no machine has the address.
     kOpen,
   };
   std::string peer;  ///< Its address.
   PortState port = PortState::kSilent;
-  std::string why;                            ///< kNoWay: what the system says.
-  std::optional<std::uint32_t> other_domain;  ///< Where it answers instead.
+  std::string why;                            ///< kNoWay: the message of the system.
+  std::optional<std::uint32_t> other_domain;  ///< The domain in which it answers instead.
   About about;                                ///< kOpen.
-  std::optional<bus::ClockReading> clock;     ///< Its clock of day minus the one here.
-  bool discovery_open = false;                ///< The ports of a participant there answer.
+  /// Offset of its system clock: its clock minus the local one.
+  std::optional<bus::ClockReading> clock;
+  bool discovery_open = false;  ///< The ports of a participant there answer.
   bool data_open = false;
-  std::optional<bool> multicast_there;  ///< It hears the group; nothing: not tried.
-  std::optional<bool> multicast_back;   ///< What it sends to the group is heard here.
+  std::optional<bool> multicast_there;  ///< It receives the multicast group; empty: not tested.
+  /// Its multicast packets are received here; empty: not tested.
+  std::optional<bool> multicast_back;
   struct Size {
     std::size_t bytes = 0;
-    bool there = false;  ///< It arrived.
-    bool back = false;   ///< An answer as large did.
+    bool there = false;  ///< A packet of this size arrived.
+    bool back = false;   ///< An answer of this size arrived.
   };
   std::vector<Size> sizes;
 };
 
 struct ProbeOptions {
-  std::string address;  ///< Of the interface here, IPv4.
+  std::string address;  ///< IPv4 address of the local interface.
   std::uint32_t domain = 0;
   bool multicast = false;
-  int patience_ms = 300;  ///< How long one question waits for its answer; each is asked 3 times.
+  int patience_ms = 300;  ///< Timeout for the answer to one question; each is asked 3 times.
   std::function<std::int64_t()> clock = clock_of_day;
 };
 
-/// Probes another machine, whatever it finds there. Sends real packets, at most 1 MB in all, and
-/// takes some seconds where nobody answers.
+/// Probes another machine and collects all results, whatever fails. Sends real packets, at most 1
+/// MB in all, and takes some seconds if there is no answer.
 [[nodiscard]] ProbeResult probe_peer(const std::string& peer, const ProbeOptions& options);
 
-/// What it means. `here`: what this machine says of itself. Pure.
+/// The findings that follow from a result. `here`: the data of this machine. Pure.
 [[nodiscard]] Findings judge(const ProbeResult& result, const About& here);
 
-/// Whether a process called `participant` can be seen on the bus from here, where it should be, as
-/// `config` says. Joins the bus for a few seconds.
+/// Whether the participant `participant` can be discovered on the bus from here with `config`.
+/// Joins the bus for a few seconds.
 [[nodiscard]] Finding check_bus(const bus::BusConfig& config, const std::string& participant);
 
 }  // namespace rave::doctor

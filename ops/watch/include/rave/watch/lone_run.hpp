@@ -9,15 +9,15 @@
 
 namespace rave::watch {
 
-/// Looks on at a run of one process of this user on this machine, through its control socket. One
+/// Monitors a run with one process of this user on this machine, through its control socket. One
 /// owner thread.
 class LoneRun {
  public:
-  /// `name`: as of control::find_run().
+  /// `name`: see control::find_run().
   explicit LoneRun(std::string name) : name_(std::move(name)) {}
 
-  /// Asks the run. One that has ended meanwhile is shown as it was last, and gone. Errors: those of
-  /// control::ask() but kNotFound; kState (it has no socket any more and was never seen).
+  /// Queries the run. After its end it returns the last view, marked as gone. Errors: those of
+  /// control::ask() except kNotFound; kState (its socket is gone and it was never seen).
   [[nodiscard]] Result<RunView> look(bool with_robots);
 
  private:

@@ -16,41 +16,39 @@
 
 namespace rave::watch {
 
-/// A run that processes in the domain belong to.
+/// A run found in a domain.
 struct FoundRun {
   bus::RunId run;
-  std::vector<std::string> processes;  ///< As they call themselves; in order.
+  std::vector<std::string> processes;  ///< Their participant names, sorted.
 };
 
-/// Those for people, each with its first eight digits and its processes.
+/// A list of runs for people, each with its first eight digits and its processes.
 [[nodiscard]] std::string list_of(const std::vector<FoundRun>& runs);
 
-/// Whether one has found what one looks for, of the runs so far.
+/// Returns true to stop the search; argument: the runs found so far.
 using Enough = std::function<bool(const std::vector<FoundRun>&)>;
 
-/// Looks who is in the domain of `config`, whose run does not count, for `patience` or until it is
-/// `enough`, which is asked whenever somebody has come, in the caller's thread. Null: once somebody
-/// is found, until nobody new has come for a moment, which is quick and may miss who is slow. Runs
+/// Finds the runs in the domain of `config`, whose run is ignored. Searches for `patience`, or
+/// until `enough`, called in the caller's thread for each new process, returns true. If null, it
+/// stops when no new process has appeared for a moment, which is fast but may miss slow ones. Runs
 /// with more processes come first. Errors: those of bus::Bus::open().
 [[nodiscard]] Result<std::vector<FoundRun>> find_runs(bus::BusConfig config, Duration patience,
                                                       const Enough& enough = {},
                                                       const std::stop_token& stop = {});
 
-/// Whether a word is the whole name of a run, as given with --run, or its whole number.
+/// Whether a word is the full name of a run, as in --run, or its full number.
 [[nodiscard]] bool is_named(const bus::RunId& run, std::string_view word);
 
-/// The same, or the first digits of its number, at least four.
+/// Like is_named(), or the first digits of its number, at least four.
 [[nodiscard]] bool is_called(const bus::RunId& run, std::string_view word);
 
-/// The one of `found` that a word stands for: the first digits of its number (at least four), or a
-/// name that was given with --run; empty: the only one. Error kNotFound if it is none of them or
-/// there are several.
+/// The run of `found` that a word refers to: the first digits of its number (at least four), or a
+/// name as in --run; empty: the only one. Error kNotFound if none or several match.
 [[nodiscard]] Result<bus::RunId> choose_run(const std::vector<FoundRun>& found,
                                             std::string_view word);
 
-/// Looks on at one run on the bus. It reads only, asks no writer to send anything again, and no
-/// process of the run waits for it or takes notice of it. It may come and go at any time. One owner
-/// thread.
+/// Monitors one run on the bus. It only reads, never requests retransmissions, and no process of
+/// the run waits for it. It may join and leave at any time. One owner thread.
 class Observer {
  public:
   /// Errors: those of bus::Bus::open().
@@ -59,13 +57,13 @@ class Observer {
   Observer& operator=(const Observer&) = delete;
   ~Observer();
 
-  /// Takes in what comes for so long, or until a stop is requested, which any thread may do.
+  /// Receives data for `span`, or until a stop is requested, which any thread may do.
   void watch(Duration span, const std::stop_token& stop = {});
-  /// The run as it is now. `with_robots`: each robot, too.
+  /// The present view of the run. `with_robots`: include robots.
   [[nodiscard]] RunView view(bool with_robots) const;
-  /// Whether any process of the run has been heard of.
+  /// Whether any process of the run has been found.
   [[nodiscard]] bool knows_any() const;
-  /// Where it is on; for others of this thread that end before it.
+  /// The bus, for objects of this thread that end before it.
   [[nodiscard]] bus::Bus& bus() noexcept;
 
  private:

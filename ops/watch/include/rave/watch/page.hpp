@@ -11,14 +11,14 @@ namespace rave::watch {
 
 struct PageOptions {
   std::size_t width = 80;  ///< Columns of the terminal.
-  std::size_t height = 0;  ///< Lines; 0: as many as are needed.
-  bool colour = false;     ///< Escape codes for colours are welcome.
-  std::string keys{};      ///< What the last line says of keys; empty: nothing.
+  std::size_t height = 0;  ///< Number of lines; 0: no limit.
+  bool colour = false;     ///< Whether to use escape codes for colours.
+  std::string keys{};      ///< Key help for the last line; empty: none.
 };
 
-/// A run as lines of text, none wider than the page; what does not fit is left out: columns by
-/// their weight, then rows, of which it says how many. UTF-8; control characters of names are
-/// dropped, so no name can move the cursor. A line has no newline at its end.
+/// The view of a run as lines of text, not wider than the page. If it does not fit, columns are
+/// omitted by importance, then rows, whose number is shown. UTF-8; control characters in names are
+/// removed, so that no name can move the cursor. Lines have no newline.
 [[nodiscard]] std::vector<std::string> render_page(const RunView& view, const PageOptions& options);
 
 }  // namespace rave::watch

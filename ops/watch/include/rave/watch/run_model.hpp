@@ -13,21 +13,20 @@
 
 namespace rave::watch {
 
-/// How often something happens, by readings of a number that counts it. One owner thread.
+/// The rate of events, from readings of a counter. One owner thread.
 class Rate {
  public:
-  /// Readings of the last so many seconds count.
+  /// Length of the averaging window in seconds.
   static constexpr double kWindow_s = 5;
 
-  /// No two readings are kept that are nearer than this but the last: more would cost memory and
-  /// say nothing new.
+  /// Least distance of kept readings, except for the newest; bounds the memory.
   static constexpr std::int64_t kApart_ns = 100'000'000;
 
-  /// A number below the one before begins anew.
+  /// Adds a reading. A count below the previous one restarts the measurement.
   void add(std::int64_t now_ns, double count);
-  /// Per second; nothing before the second reading. Falls when no readings come.
+  /// Events per second; empty before the second reading. Decreases when no readings are added.
   [[nodiscard]] std::optional<double> at(std::int64_t now_ns) const;
-  /// How many readings are kept.
+  /// The number of kept readings.
   [[nodiscard]] std::size_t kept() const noexcept { return readings_.size(); }
 
  private:
@@ -38,39 +37,39 @@ class Rate {
   std::deque<Reading> readings_;
 };
 
-/// What an onlooker makes of the messages of one run. Moments are nanoseconds of one monotonic
-/// clock of the caller and do not go back. Samples must have passed bus::validate(). Holds what a
-/// table, a page or a window shows, and knows no bus. One owner thread.
+/// The state of a run, derived from its messages by a monitor, for a table, a page or a window.
+/// Independent of the bus. Times are nanoseconds of one monotonic clock of the caller and must not
+/// decrease. Samples must have passed bus::validate(). One owner thread.
 class RunModel {
  public:
   explicit RunModel(std::string run) : run_(std::move(run)) {}
 
-  /// A sample that has come. `delay_ns`: how long it was on its way, as the clocks of day say.
+  /// Processes a sample. `delay_ns`: its delay according to the system clocks.
   void hear(const bus::HostInfo& info);
   void hear(const bus::RunState& state, std::int64_t now_ns);
-  /// What a host says of the run; counts while no manager is heard.
+  /// Processes the run state of a host, which is used while there is no manager.
   void hear_word(const bus::RunState& state, std::int64_t now_ns);
   void hear(const bus::ProcessState& state, std::int64_t now_ns, std::int64_t delay_ns);
   void hear(const bus::HostState& state, std::int64_t now_ns, std::int64_t delay_ns);
   void hear(const bus::World& world, std::int64_t now_ns);
   void hear(const bus::RosterEntry& entry);
-  /// A process is gone.
+  /// A process was lost.
   void lose(std::uint64_t writer);
 
-  /// Whether anything is known but the run's number.
+  /// Whether anything is known besides the run's number.
   [[nodiscard]] bool knows_any() const noexcept {
     return !processes_.empty() || state_.has_value();
   }
   [[nodiscard]] RunView view(std::int64_t now_ns, bool with_robots) const;
 
  private:
-  /// A robot as its host describes it.
+  /// A robot according to its host.
   struct Described {
     std::string name;
     std::string team;
     bool simulated = true;
   };
-  /// What the manager says of a host.
+  /// A host according to the manager.
   struct Sight {
     std::string name;
     rave_wire_HostPhase phase{};
@@ -91,38 +90,38 @@ class RunModel {
     std::map<std::uint32_t, Sight> hosts;
   };
 
-  /// One start of one process.
+  /// One execution of one process.
   struct Process {
     bool introduced = false;
     bool gone = false;
-    std::uint64_t order = 0;  ///< Counts processes as they are heard of.
+    std::uint64_t order = 0;  ///< Order in which processes were found.
     std::uint32_t host = 0;   ///< kNone: the manager.
     std::string name;
     std::string machine;
     bool real_time = false;
     std::uint32_t robots = 0;
-    std::optional<bus::ProcessState> state;  ///< Its last.
-    std::optional<std::int64_t> heard_ns;    ///< Of `state`.
+    std::optional<bus::ProcessState> state;  ///< Its last one.
+    std::optional<std::int64_t> heard_ns;    ///< When `state` was received.
     std::optional<double> cores;
-    std::int64_t cores_from_ns = 0;  ///< What its `cores` are counted from: when it came,
-    std::int64_t cores_from = 0;     ///< and the time of cores that it said.
+    std::int64_t cores_from_ns = 0;  ///< Start of the measurement of `cores`: time ...
+    std::int64_t cores_from = 0;     ///< ... and CPU time at that moment.
     std::optional<std::int64_t> delay_ns;
     std::uint64_t lost = 0;
     Rate steps;
     Rate reports;  ///< Of all its robots together.
     double reported = 0;
     std::optional<std::int64_t> newest_stamp_ns;
-    std::optional<std::int64_t> reported_ns;    ///< When its last report came.
-    std::optional<std::int64_t> moved_ns;       ///< When it was in a new step.
-    std::map<std::uint32_t, Described> roster;  ///< Its robots, by number.
-    std::optional<State> word;                  ///< What it says of the run, if it is a host.
+    std::optional<std::int64_t> reported_ns;    ///< When its last report was received.
+    std::optional<std::int64_t> moved_ns;       ///< When it last began a new step.
+    std::map<std::uint32_t, Described> roster;  ///< Its robots, by id.
+    std::optional<State> word;                  ///< Its run state, if it is a host.
   };
-  /// A robot that was said to be somewhere.
+  /// A robot with a known pose.
   struct Robot {
-    std::uint32_t host = 0;  ///< If it has `reported`.
+    std::uint32_t host = 0;  ///< Its host, if `reported` is above 0.
     bool stale = false;
     std::uint64_t last_step = 0;
-    std::uint64_t least_gap = 0;  ///< Steps between two reports; 0: not known.
+    std::uint64_t least_gap = 0;  ///< Steps between two reports; 0: unknown.
     Rate reports;
     double reported = 0;
     std::optional<std::int64_t> stamp_ns;
@@ -130,14 +129,14 @@ class RunModel {
     double x_m = 0, y_m = 0, yaw_rad = 0, speed_mps = 0;
     std::optional<RobotReport> report;
   };
-  /// Who describes a robot.
+  /// A robot's description and the host that sent it.
   struct Told {
     std::uint32_t host = 0;
     const Described* robot = nullptr;
   };
 
   Process& process_of(std::uint64_t writer);
-  /// By number of the robot: what those say that serve the hosts.
+  /// By id of the robot: the descriptions of those that serve the hosts.
   [[nodiscard]] std::map<std::uint32_t, Told> roster(const std::set<std::uint32_t>& hosts) const;
   void tell_robots(const std::set<std::uint32_t>& hosts, RunView& view, std::int64_t now_ns) const;
   static void count_cores(Process& process, const bus::ProcessState& state, std::int64_t now_ns);
@@ -158,12 +157,12 @@ class RunModel {
   [[nodiscard]] std::string name_of(std::uint32_t host) const;
   [[nodiscard]] std::optional<double> asked_of(const Robot& robot) const;
   void tell_run(RunView& view, std::int64_t now_ns) const;
-  /// What those hosts say of the run that are heard.
+  /// The run states of the hosts that are present.
   struct Words {
-    const State* farthest = nullptr;  ///< Null: nobody has said anything.
+    const State* farthest = nullptr;  ///< Null: none.
     const State* waiting = nullptr;
     const State* over = nullptr;
-    bool here = false;  ///< Somebody goes on.
+    bool here = false;  ///< A host continues the run.
     bool manager_lost = false;
     std::optional<std::int64_t> newest_ns;  ///< Stamp of a robot.
   };
@@ -175,13 +174,13 @@ class RunModel {
   std::string run_;
   std::map<std::uint64_t, Process> processes_;  ///< By writer.
   std::uint64_t arrivals_ = 0;
-  /// Makes room for those who come; `but`: a process that is not to be forgotten.
+  /// Forgets descriptions of lost processes to make room; `but`: a process to keep.
   void forget_rosters_of_the_gone(std::uint64_t but);
 
-  std::size_t described_ = 0;  ///< Robots, of all processes.
+  std::size_t described_ = 0;  ///< Number of described robots, of all processes.
   std::optional<State> state_;
   Rate run_steps_;
-  std::map<std::uint32_t, Robot> robots_;  ///< By number.
+  std::map<std::uint32_t, Robot> robots_;  ///< By id.
   struct Worlds {
     std::uint64_t writer = 0;
     std::uint64_t number = 0;

@@ -9,13 +9,13 @@
 
 namespace rave::watch {
 
-/// How it stands with a process of a run.
+/// The state of a process of a run.
 enum class Standing : std::uint8_t {
-  kWaiting,  ///< It has not come yet, or is not let in yet.
+  kWaiting,  ///< Not present yet, or not admitted yet.
   kHere,
-  kLate,     ///< It is there, but has not said anything for too long.
-  kGone,     ///< It was there.
-  kDropped,  ///< It was there, and the run goes on without it for good.
+  kLate,     ///< Present, but silent for too long.
+  kGone,     ///< It has left.
+  kDropped,  ///< It has left, and the run continues without it permanently.
 };
 
 enum class Phase : std::uint8_t { kUnknown, kGathers, kGoes, kWaits, kPaused, kEnded, kFailed };
@@ -24,50 +24,50 @@ enum class Timing : std::uint8_t {
   kUnknown,
   kLockStep,
   kRealTime,
-  kAlone,  ///< One process; known through its control socket.
+  kAlone,  ///< One process, known through its control socket.
 };
 
-/// One word in lower case each, as in tables and JSON.
+/// The names in lower case, as in tables and JSON.
 [[nodiscard]] std::string_view to_string(Standing standing) noexcept;
 [[nodiscard]] std::string_view to_string(Phase phase) noexcept;
 [[nodiscard]] std::string_view to_string(Timing timing) noexcept;
 
-/// A process of a run as an onlooker knows it. What is not known is nothing.
+/// A process of a run as a monitor knows it. Unknown values are empty.
 struct HostView {
   std::string name;
   bool manager = false;
-  std::uint32_t number = 0;  ///< Of the host in the scenario; not of the manager.
+  std::uint32_t number = 0;  ///< Number of the host in the scenario; unused for the manager.
   std::string machine;
   Standing standing = Standing::kWaiting;
-  std::optional<std::uint32_t> process;  ///< As its machine numbers it.
+  std::optional<std::uint32_t> process;  ///< Process id on its machine.
   std::optional<std::uint32_t> robots;
-  std::optional<std::uint32_t> real_robots;  ///< Of these.
+  std::optional<std::uint32_t> real_robots;  ///< Number of real ones among them.
   std::optional<std::uint64_t> step;
-  /// In lock-step and alone: steps per second. In real time: reports per second and robot; of the
+  /// In lock-step and alone: steps per second. In real time: reports per second and robot; for the
   /// manager, worlds per second.
   std::optional<double> rate_hz;
-  std::optional<double> asked_rate_hz;  ///< What its files want; in real time only.
-  std::optional<double> age_s;    ///< Of the newest place of a robot; in lock-step: of its step.
-  std::optional<double> delay_s;  ///< From it to here, by the clocks of day of both machines.
-  std::optional<double> round_trip_s;    ///< To the manager and back.
+  std::optional<double> asked_rate_hz;  ///< Rate according to its files; real time only.
+  std::optional<double> age_s;    ///< Age of the newest pose of a robot; in lock-step: of its step.
+  std::optional<double> delay_s;  ///< Delay from it to here, by the system clocks of both machines.
+  std::optional<double> round_trip_s;    ///< Round-trip time to the manager.
   std::optional<double> offset_s;        ///< Clock of the manager minus its own.
-  std::optional<double> bound_s;         ///< Give or take this.
-  std::optional<std::uint64_t> lost;     ///< Messages that never came: from it to here, or to it.
-  std::optional<std::uint64_t> refused;  ///< Samples that it could not use.
-  std::optional<double> missed_pct;      ///< Share of its deadlines that it missed, if it has any.
-  std::optional<double> worst_late_s;    ///< How late a step was at most.
-  std::optional<double> behind_s;        ///< How late its last step was.
-  std::string late_phase;                ///< What takes the time of late steps; empty: nothing.
-  std::optional<double> cores;           ///< That it keeps busy.
+  std::optional<double> bound_s;         ///< Bound of the error of offset_s.
+  std::optional<std::uint64_t> lost;     ///< Messages lost on the way from it to here, or to it.
+  std::optional<std::uint64_t> refused;  ///< Samples that it refused.
+  std::optional<double> missed_pct;      ///< Percentage of missed deadlines, if it has any.
+  std::optional<double> worst_late_s;    ///< Largest delay of a step.
+  std::optional<double> behind_s;        ///< Delay of its last step.
+  std::string late_phase;                ///< Phase that causes late steps; empty: none.
+  std::optional<double> cores;           ///< Mean number of busy processor cores.
   std::optional<double> memory_mb;       ///< Resident, 10^6 bytes.
 };
 
-/// What a robot reports of itself, as its host says.
+/// The state of a robot according to its host.
 struct RobotReport {
   double x_m = 0, y_m = 0, yaw_rad = 0;  ///< World frame.
-  double variance_xy_m2 = 0;             ///< Of each of x and y.
+  double variance_xy_m2 = 0;             ///< Variance of x and of y.
   double variance_yaw_rad2 = 0;
-  bool known = false;  ///< There was a pose.
+  bool known = false;  ///< It has a pose.
   bool stale = false;
   bool stopped = false;
   bool armed = true;
@@ -77,9 +77,9 @@ struct RobotReport {
 
 struct RobotView {
   std::uint32_t number = 0;
-  std::string name;  ///< Empty if nobody has said it.
-  std::string team;  ///< The same; a robot need not have one.
-  std::string host;  ///< The same.
+  std::string name;  ///< Empty if unknown.
+  std::string team;  ///< Empty if unknown or without a team.
+  std::string host;  ///< Empty if unknown.
   std::optional<bool> simulated;
   bool stale = false;
   std::optional<double> age_s;
@@ -87,27 +87,28 @@ struct RobotView {
   std::optional<double> asked_rate_hz;
   std::optional<double> x_m, y_m, yaw_rad;  ///< World frame.
   std::optional<double> speed_mps;          ///< Forward positive.
-  /// Only where hosts say it: in lock-step, and in real time while somebody asks for it.
+  /// Only if its host publishes it: always in lock-step, on request in real time.
   std::optional<RobotReport> report;
 };
 
-/// A run as an onlooker knows it at one moment. A value.
+/// A run as a monitor knows it at one time. A value.
 struct RunView {
   std::string run;       ///< 32 hexadecimal digits, or the name at the control socket.
-  std::string scenario;  ///< Empty if nobody has said it.
+  std::string scenario;  ///< Empty if unknown.
   Timing timing = Timing::kUnknown;
   Phase phase = Phase::kUnknown;
   std::string text;  ///< What it waits for, or why it failed.
   std::optional<std::uint64_t> step;
-  std::optional<std::uint64_t> steps;  ///< In all.
-  std::optional<double> time_s;        ///< Of the run.
+  std::optional<std::uint64_t> steps;  ///< Total number.
+  std::optional<double> time_s;        ///< Time of the run.
   std::optional<double> duration_s;
-  std::optional<double> speed;    ///< Simulated seconds per second.
-  std::vector<HostView> hosts;    ///< The manager first, then by number.
-  std::vector<RobotView> robots;  ///< Stale ones and the oldest first; empty unless asked for.
+  std::optional<double> speed;  ///< Simulated seconds per second.
+  std::vector<HostView> hosts;  ///< The manager first, then by number.
+  /// Stale ones and those with the oldest data first; empty unless requested.
+  std::vector<RobotView> robots;
 };
 
-/// The view as one line of JSON with a newline at its end; docs/how-to/watch-a-run.md has its keys.
+/// The view as one line of JSON with a newline; docs/how-to/watch-a-run.md lists its keys.
 [[nodiscard]] std::string to_json(const RunView& view);
 
 }  // namespace rave::watch

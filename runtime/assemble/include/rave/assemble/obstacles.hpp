@@ -7,10 +7,10 @@
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/sim/engine_spec.hpp"
 
-// Obstacles as files and people describe them, made into those of the engine.
+// Conversion of obstacles in files to those of the engine.
 namespace rave::runtime {
 
-/// The shapes of one outline, placed at X_BO in its body.
+/// The shapes of one outline at pose X_BO in its body.
 [[nodiscard]] Result<std::vector<world::Shape>> shapes_of(const config::Outline& outline,
                                                           const Pose2& X_BO,
                                                           const config::HeightRange& z_m);
@@ -22,11 +22,11 @@ namespace rave::runtime {
 [[nodiscard]] sim::ObstacleChange move_of(const config::MoveObstacleFile& file);
 [[nodiscard]] sim::ObstacleChange removal(std::string name);
 
-/// The changes of obstacles in a scenario, by step. Errors: kNotFound (no such obstacle at any
+/// Adds the obstacle changes of a scenario, by step. Errors: kNotFound (no such obstacle at any
 /// time) and kInvalidArgument, with the place in the file.
 Status add_obstacle_changes(const config::ExpandedScenario& scenario, sim::EngineSpec& spec);
 
-/// Number, name, layer and place of all that stand, a line each.
+/// The id, name, layer and pose of each existing obstacle, one per line.
 [[nodiscard]] std::string list_obstacles(const world::WorldModel& world);
 
 }  // namespace rave::runtime

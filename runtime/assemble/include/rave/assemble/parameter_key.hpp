@@ -13,31 +13,31 @@
 
 namespace rave::runtime {
 
-/// The robot of a name. Error: kNotFound with the nearest name.
+/// The robot with this name. Error: kNotFound with the nearest name.
 [[nodiscard]] Result<RobotId> find_robot(const sim::EngineSpec& spec, std::string_view name);
 
-/// A change as people write it: `program.PARAM`, `controller.NAME.PARAM`, `actuator.NAME.PARAM` or
-/// `body.scale`, and the value as it would stand in a file. Errors: kNotFound with the nearest
-/// name, kInvalidArgument; at the place of the value if it has one.
+/// Parses a change: `program.PARAM`, `controller.NAME.PARAM`, `actuator.NAME.PARAM` or
+/// `body.scale`, and the value as in a file. Errors: kNotFound with the nearest name,
+/// kInvalidArgument; with the place of the value if it has one.
 [[nodiscard]] Result<sim::ParameterChange> parse_change(const sim::RobotType& type,
                                                         std::string_view key,
                                                         const config::RawNode& value);
 
-/// All keys that parse_change takes for a robot of this type.
+/// All keys that parse_change() accepts for a robot of this type.
 [[nodiscard]] std::vector<std::string> parameter_keys(const sim::RobotType& type);
 
-/// A parameter that parse_change takes, as its driver describes it.
+/// A parameter that parse_change() accepts, with the description of its driver.
 struct ChangeableParameter {
   std::string key;
-  const ParamSpec* spec = nullptr;  ///< Of the plug-in, which stays loaded as long as the type.
+  /// Part of the plug-in, which stays loaded as long as the type.
+  const ParamSpec* spec = nullptr;
 };
 [[nodiscard]] std::vector<ChangeableParameter> changeable_parameters(const sim::RobotType& type);
 
-/// The values of these parameters as text, by key: those that the files give to each robot of this
-/// type.
+/// The initial values of these parameters as text, by key; equal for all robots of this type.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> first_values(
     const sim::RobotType& type);
-/// The same of one robot that `engine` runs, as they are now.
+/// The current values for one robot of `engine`.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> present_values(
     const sim::Engine& engine, RobotId robot);
 

@@ -18,51 +18,52 @@ namespace rave::control {
 /// A process of a run on the bus.
 struct BusPeer {
   std::uint64_t writer = 0;
-  std::string name;      ///< That of its host in the scenario, or of the manager.
-  std::string machine;   ///< Where it runs, as that calls itself; may be empty.
-  bool manager = false;  ///< It is the environment manager of the run.
-  bool live = false;     ///< The run is in real time: hosts alone control their robots.
+  std::string name;      ///< Name of its host in the scenario, or of the manager.
+  std::string machine;   ///< Host name of its machine; may be empty.
+  bool manager = false;  ///< Whether it is the Environment Manager of the run.
+  bool live = false;     ///< Whether the run is in real time; then only hosts accept requests for
+                         ///< their robots.
 };
 
-/// What came of a request to one of several processes.
+/// The reply of one of several processes to a request.
 struct BusReply {
   BusPeer peer;
   Result<Answer> answer;
 };
 
-/// Asks the processes of a run on the bus, wherever they are. It takes no part in the run. One
-/// owner thread.
+/// Sends requests to the processes of a run over the bus. It is not part of the run. One owner
+/// thread.
 class BusRun {
  public:
-  /// So long an answer is waited for.
+  /// The default timeout for an answer.
   static constexpr Duration kPatience{5'000'000'000};
 
-  /// `config.run` is that of the run. `from`: who asks, for the logs of others; not empty. Errors:
-  /// those of bus::Bus::open().
+  /// `config.run` must be the id of the run. `from`: name of the sender for the logs of others; not
+  /// empty. Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<BusRun>> open(bus::BusConfig config,
                                                             std::string_view from);
   BusRun(const BusRun&) = delete;
   BusRun& operator=(const BusRun&) = delete;
   ~BusRun();
 
-  /// The process of this host; of the environment manager if `host` is empty. Waits for it up to
-  /// `patience`. Error kNotFound with those that are there, or with what keeps all from being
-  /// heard.
+  /// The process of this host; with an empty `host` that of the Environment Manager. Waits for up
+  /// to `patience`. Error kNotFound lists the processes found, or says what prevents communication.
   [[nodiscard]] Result<BusPeer> find(std::string_view host, Duration patience = kPatience);
-  /// All that are there: waits until for a moment nobody new has come, `patience` at most.
+  /// All processes of the run. Waits until no new one has appeared for a moment, at most
+  /// `patience`.
   [[nodiscard]] std::vector<BusPeer> all(Duration patience = kPatience);
 
-  /// Asks and waits for the answer. Errors: kTimeout (there was none), kState (the process is
-  /// gone), kInvalidArgument (what the bus does not carry), kParse.
+  /// Sends a request and waits for the answer. Errors: kTimeout (no answer), kState (the process is
+  /// gone), kInvalidArgument (a request that the bus does not carry), kParse.
   [[nodiscard]] Result<Answer> ask(const BusPeer& peer, const Request& request,
                                    Duration patience = kPatience);
 
-  /// Whether a process of a run of this scenario, which is empty as long as its manager has not
-  /// said it, is to be asked.
+  /// Selects the processes to ask. `scenario` is that of their run; empty until its manager has
+  /// announced it.
   using Meant = std::function<bool(const BusPeer&, const std::string& scenario)>;
-  /// Asks all that are meant, each as soon as it is found, and waits for none of them before it
-  /// asks another: until for a moment nobody new has come and all have answered, `patience` at
-  /// most. For requests with short answers. The errors of replies are those of ask().
+  /// Sends a request to all selected processes in parallel, each as soon as it is found. Returns
+  /// when no new process has appeared for a moment and all have answered, at most after `patience`.
+  /// For requests with short answers. The errors of replies are those of ask().
   [[nodiscard]] std::vector<BusReply> ask_each(const Request& request, const Meant& meant,
                                                Duration patience = kPatience);
 

@@ -7,8 +7,8 @@
 
 namespace rave::control {
 
-/// Asks a run by its name and waits for the answer. Errors: kNotFound (it is gone), kIo, kTimeout,
-/// kParse.
+/// Sends a request to a run on this machine, by name, and waits for the answer. Errors: kNotFound
+/// (it has ended), kIo, kTimeout, kParse.
 [[nodiscard]] Result<Answer> ask(const std::string& run, const Request& request);
 
 }  // namespace rave::control

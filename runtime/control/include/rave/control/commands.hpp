@@ -9,15 +9,15 @@
 
 namespace rave::control {
 
-/// Lets people drive robots of a process over the topic rave/command, as if each command had been
-/// said at its control socket: lease and rate are checked there. Of other kinds of commands nothing
-/// is taken. `scenario`: that of the run. `control` outlives what is returned, which waits for
-/// nothing.
+/// A handler of the topic rave/command that lets users drive the robots of a process. It treats
+/// each command like a request at the control socket, so lease and rate are checked there. Other
+/// kinds of commands are ignored. `scenario`: scenario of the run. `control` must outlive the
+/// handler, which does not block.
 [[nodiscard]] bus::OnCommand commands_of(runtime::RunControl& control,
                                          const config::ExpandedScenario& scenario);
 
-/// A drive as a command for the bus; run and writer are filled in by its writer. Not finite, or
-/// with a name that is too long: see bus::validate().
+/// A drive request as a command for the bus, without run and writer, which its Writer sets.
+/// bus::validate() refuses non-finite numbers and names that are too long.
 [[nodiscard]] bus::Command drive_command(const runtime::RunRequest& drive, std::uint32_t robot,
                                          std::uint64_t number);
 

@@ -8,18 +8,18 @@
 
 namespace rave::runtime {
 
-/// The dead-man's handle of robots that people drive: a drive that is not renewed ends. By wall
-/// time, which the caller gives, since the hand is on a stick of the real world. One thread.
+/// The dead-man's switch for robots that users drive: a drive command that is not renewed ends. It
+/// uses wall time, passed by the caller, because the user is in the real world. One thread.
 class DriveWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  /// A drive that is not renewed for so long becomes a zero velocity.
+  /// A drive command that was not renewed for this long becomes a zero velocity.
   static constexpr std::chrono::milliseconds kSilence{250};
 
-  /// Somebody drives, or renews that. True: it is another velocity than before, or the first.
+  /// Records or renews a drive command. Returns true if the velocity is new or has changed.
   bool driven(const std::string& robot, const std::string& by, double v_mps, double w_radps,
               Time now);
-  /// It is not driven any more, or has been made to stand.
+  /// The robot is no longer driven, or was stopped.
   void ended(const std::string& robot) { drives_.erase(robot); }
   void all_ended() { drives_.clear(); }
   [[nodiscard]] bool any() const noexcept { return !drives_.empty(); }
@@ -30,8 +30,8 @@ class DriveWatch {
     std::string by;
     friend bool operator==(const Silent&, const Silent&) = default;
   };
-  /// Those whose drivers have fallen silent while they moved: each is told once, counts as standing
-  /// from now on, and is renewed by the next driven().
+  /// Robots whose drive commands were not renewed while they moved. Each is returned once and then
+  /// counts as standing, until the next driven().
   [[nodiscard]] std::vector<Silent> take_silent(Time now);
 
  private:

@@ -12,75 +12,76 @@
 
 namespace rave::runtime {
 
-/// Who may give the robots of a process orders: one page of one person at a time each. Owned by
-/// the process that runs the robot, and kept by wall time, which the caller gives. One thread.
+/// The command leases of the robots of a process: each belongs to one page of one user at a time.
+/// Owned by the process that runs the robots. Uses wall time, passed by the caller. One thread.
 class HostLeases {
  public:
   using Clock = std::chrono::steady_clock;
   using Time = Clock::time_point;
-  /// A lease ends so long after the last drive, or its renewal, of a robot that was being driven;
+  /// The lease of a driven robot ends this long after the last drive command or renewal;
   static constexpr std::chrono::seconds kAfterDrive{3};
-  /// and so long after the last order otherwise.
+  /// otherwise it ends this long after the last order.
   static constexpr std::chrono::minutes kAfterOrder{10};
-  /// What the terminal of this machine is called where people read it.
+  /// The name of the local terminal in messages.
   static constexpr std::string_view kTerminal = "terminal";
 
   enum class Use {
-    kDrive,  ///< Takes the lease, and keeps it for kAfterDrive.
-    kOrder,  ///< Takes it, and keeps it for kAfterOrder.
-    kLook,   ///< Needs it if somebody has it, and takes none.
+    kDrive,  ///< Acquires the lease for kAfterDrive.
+    kOrder,  ///< Acquires it for kAfterOrder.
+    kLook,   ///< Fails if another holds the lease; does not acquire it.
   };
-  /// Who asks. Without a name it is the terminal, a super-user that takes a lease only to drive.
+  /// The sender of a request. An empty name means the local terminal, a super-user that acquires a
+  /// lease only to drive.
   struct Person {
     std::string_view name;
     bool overrides = false;
-    /// Which of the pages that the person has open; 0: none, as of a script.
+    /// Id of the user's page; 0: none, such as a script.
     std::uint64_t page = 0;
   };
-  /// What has become of the lease of a robot.
+  /// A change of a robot's lease.
   struct Change {
     std::string robot;
-    std::string before;  ///< Empty: nobody.
+    std::string before;  ///< The previous holder; empty: none.
     std::string after;
-    bool driven = false;   ///< It was being driven.
-    bool expired = false;  ///< Nobody asked for that.
+    bool driven = false;   ///< The robot was being driven.
+    bool expired = false;  ///< It expired, without a request.
     friend bool operator==(const Change&, const Change&) = default;
   };
 
-  /// Somebody gives an order. Error kState: another has the lease, who is named, or another page of
-  /// the same person.
+  /// Uses the lease for an order. Error kState: another user, who is named, or another page of the
+  /// same user holds it.
   Status use(const std::string& robot, const Person& person, Use how, Time now);
-  /// Takes the lease; who has it keeps it longer. Error kState: another has it, and neither `force`
-  /// nor the person's rights take it.
+  /// Acquires the lease; its holder extends it. Error kState: another holds it, and neither `force`
+  /// nor the user's rights override that.
   Result<std::string> take(const std::string& robot, const Person& person, bool force, Time now);
-  /// Gives it to `to`, or back if that is empty. To a person is to any page of theirs: the first
-  /// that uses it has it. To oneself is what a page does that goes: what it asked for goes on.
-  /// Errors: kState (another has it), kInvalidArgument (nobody has it, so nothing can be given
-  /// back).
+  /// Passes the lease to `to`, or returns it if that is empty. If passed to a user, the first of
+  /// their pages that uses it gets it. A page that closes passes it to its own user, so that its
+  /// orders continue. Errors: kState (another holds it), kInvalidArgument (nobody holds it, so it
+  /// cannot be returned).
   Result<std::string> give(const std::string& robot, const Person& person, const std::string& to,
                            Time now);
-  /// The robot is not driven any more, so the lease holds for kAfterOrder.
+  /// The robot is no longer driven, so the lease lasts for kAfterOrder.
   void drive_ended(const std::string& robot, Time now);
-  /// Ends the leases whose time is over.
+  /// Ends the expired leases.
   void expire(Time now);
-  /// Who has the lease of a robot; empty: nobody.
+  /// The holder of a robot's lease; empty: none.
   [[nodiscard]] const std::string& holder(const std::string& robot) const noexcept;
-  /// On which page; 0: on none in particular.
+  /// The page of the holder; 0: no particular one.
   [[nodiscard]] std::uint64_t page(const std::string& robot) const noexcept;
   [[nodiscard]] bool any() const noexcept { return !leases_.empty(); }
-  /// What happened since the last call, in order.
+  /// The changes since the last call, in order.
   [[nodiscard]] std::vector<Change> take_changes();
 
  private:
   struct Lease {
     std::string holder;
-    std::uint64_t page = 0;  ///< 0: whichever page of the holder uses it next.
+    std::uint64_t page = 0;  ///< 0: the next page of the holder that uses it.
     Time until;
     bool driven = false;
   };
   [[nodiscard]] const Lease* find(const std::string& robot) const noexcept;
   [[nodiscard]] static bool owns(const Lease& lease, const Person& person) noexcept;
-  /// Why a person has to leave the robot alone.
+  /// The error for a user who does not hold the lease.
   [[nodiscard]] static tl::unexpected<Error> refusal(const std::string& robot, const Lease& lease,
                                                      const Person& person);
   void set(const std::string& robot, const Person& holder, bool driven, Time now);
@@ -89,7 +90,7 @@ class HostLeases {
   std::vector<Change> changes_;
 };
 
-/// What has become of a lease, for people: `anna` drives.
+/// A change of a lease in words: `anna` drives.
 [[nodiscard]] std::string lease_text(const HostLeases::Change& change);
 
 }  // namespace rave::runtime

@@ -14,34 +14,34 @@
 
 namespace rave::runtime {
 
-/// Where orders of people come in: whether they may be given (lease, rate), and what ends them
-/// (dead-man's handle, the end of a lease). What it lets through becomes inputs of the run; it
-/// knows no engine. Wall time is the caller's. The thread of the run.
+/// The entry point for orders of users: it checks lease and rate, and ends orders (dead-man's
+/// switch, end of a lease). Accepted orders become inputs of the run; it does not know the engine.
+/// Wall time is passed by the caller. Thread: that of the run.
 class OrderDesk {
  public:
   using Time = HostLeases::Time;
-  /// Orders of one robot in a second of wall time, at most; as many may come at once.
+  /// Largest number of orders for one robot per second of wall time; also the burst limit.
   static constexpr double kMostInSecond = 100;
 
-  /// Makes an input of the run of a request.
+  /// Makes an input of the run from a request.
   using Give = std::function<Result<std::string>(const RunRequest&)>;
-  /// Whether somebody drives a robot now, as far as the run knows: a stop ends that.
+  /// Whether a user drives the robot according to the run; a stop ends that.
   using IsDriven = std::function<bool(const std::string& robot)>;
 
-  /// Whether a request concerns the desk: orders and leases, and a release and a
-  /// hand-over, which need the lease.
+  /// Whether a request must pass the desk: orders, leases, and releases and hand-overs, which need
+  /// the lease.
   [[nodiscard]] static bool is_for(RunRequest::Kind kind) noexcept;
-  /// Does such a request, or refuses it. The robot that it names exists.
+  /// Executes or refuses such a request. The robot that it names must exist.
   Result<std::string> serve(const RunRequest& request, const Give& give, const IsDriven& is_driven,
                             Time now);
-  /// Ends what nobody renews: gives its inputs to `give`. Costs nothing while nobody drives.
+  /// Ends orders that were not renewed, by inputs through `give`. No cost while nobody drives.
   void tick(const Give& give, Time now);
-  /// Whether something may end by itself.
+  /// Whether anything may expire.
   [[nodiscard]] bool waits() const noexcept { return leases_.any() || watch_.any(); }
   [[nodiscard]] const std::string& holder(const std::string& robot) const noexcept {
     return leases_.holder(robot);
   }
-  /// On which page of theirs; 0: on none in particular.
+  /// The page of the holder; 0: no particular one.
   [[nodiscard]] std::uint64_t page(const std::string& robot) const noexcept {
     return leases_.page(robot);
   }
@@ -58,13 +58,14 @@ class OrderDesk {
                             Time now);
   Result<std::string> drive(const RunRequest& request, const Give& give, const IsDriven& is_driven,
                             Time now);
-  /// What changed hands: the former holder drives no more.
+  /// Applies changes of leases: the previous holder stops driving.
   void follow_leases(const Give& give);
 
   HostLeases leases_;
   DriveWatch watch_;
   std::map<std::string, Bucket, std::less<>> rates_;
-  std::map<std::string, std::string, std::less<>> ordered_;  ///< By robot: who gave its order.
+  /// By robot: who gave its present order.
+  std::map<std::string, std::string, std::less<>> ordered_;
   std::vector<HostLeases::Change> told_;
 };
 

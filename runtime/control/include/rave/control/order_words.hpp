@@ -11,12 +11,10 @@
 #include "rave/sim/engine_spec.hpp"
 #include "rave/sim/world_input.hpp"
 
-/// Orders in the three forms that they have: as a request, as an input of a run, and as the text of
-/// a recording.
+/// Orders in their three forms: as a request, as an input of a run, and as the text of a recording.
 namespace rave::runtime {
 
-/// Whether a path has a number of points that is taken, everywhere: 2 to kMostOrderPoints. Error:
-/// kInvalidArgument.
+/// Checks the number of points of a path: 2 to kMostOrderPoints. Error: kInvalidArgument.
 [[nodiscard]] Status check_path_size(std::size_t points);
 
 /// Whether a request is an order: kDrive to kPlace.
@@ -24,23 +22,24 @@ namespace rave::runtime {
   return kind >= RunRequest::Kind::kDrive && kind <= RunRequest::Kind::kPlace;
 }
 
-/// An order as an input of the run, with its author. Errors: kNotFound (no such robot),
+/// Converts a request to an input of the run, with its author. Errors: kNotFound (no such robot),
 /// kInvalidArgument (it names none).
 [[nodiscard]] Result<sim::WorldInput> order_input(const sim::EngineSpec& spec,
                                                   const RunRequest& request);
-/// The same back.
+/// The inverse of order_input().
 [[nodiscard]] RunRequest order_request(const sim::EngineSpec& spec, const sim::WorldInput& input);
 
-/// The words of the orders that a robot takes, such as `goal`; written anew when they change.
+/// Writes the names of the orders that a robot takes, such as `goal`; rewrites them only if they
+/// changed.
 void write_takes(OrderSet set, std::vector<std::string>& words);
 
-/// What somebody is told whose order was taken.
+/// The answer to an accepted order.
 [[nodiscard]] std::string order_answer(const RunRequest& request);
 
-/// The details of an order in one line, as a recording has them: `points 1.5 2 yaw 0.5 speed 0.2`,
-/// `v 0.3 w -0.1`, or the text of kText. Numbers come back bit by bit.
+/// The details of an order in one line, as in a recording: `points 1.5 2 yaw 0.5 speed 0.2`, `v 0.3
+/// w -0.1`, or the text of kText. Numbers are restored bit by bit.
 [[nodiscard]] std::string order_words(const RunRequest& request);
-/// Puts them back into a request of a known kind. Error: kParse.
+/// Parses order_words() into a request of a known kind. Error: kParse.
 Status read_order_words(std::string_view words, RunRequest& request);
 
 }  // namespace rave::runtime

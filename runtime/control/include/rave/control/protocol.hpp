@@ -10,14 +10,14 @@
 #include "rave/base/result.hpp"
 #include "rave/control/run_control.hpp"
 
-// What is said over the socket of a run: one JSON object in a line each way. See
+// The protocol of the control socket: one JSON object per line and direction. See
 // docs/reference/control-socket.md.
 namespace rave::control {
 
 inline constexpr std::size_t kMaxLineBytes = 65'536;
 inline constexpr std::size_t kMaxAnswerBytes = 16U << 20U;
 
-/// One question to a run.
+/// One request to a run.
 struct Request {
   enum class What : std::uint8_t {
     kStatus,
@@ -46,14 +46,14 @@ struct Request {
     kChat,
   };
   What what = What::kStatus;
-  std::string robot;        ///< kStop, kRelease, kArm, kResetShadow: empty: all; kSet, kHandOver.
-  std::string key;          ///< kSet; kRemove: the name of an obstacle.
-  std::string value;        ///< kSet; kHandOver; kAdd and kMove: YAML, see runtime::RunRequest.
+  std::string robot;  ///< kStop, kRelease, kArm, kResetShadow: empty: all robots; kSet, kHandOver.
+  std::string key;    ///< kSet; kRemove: the name of an obstacle.
+  std::string value;  ///< kSet; kHandOver; kAdd and kMove: YAML, see runtime::RunRequest.
   std::uint64_t count = 1;  ///< kStep: 1 to 1e9.
-  // Orders and leases, see runtime::RunRequest. All finite.
-  std::string by = {};     ///< Also of what changes something: who asks.
-  bool overrides = false;  ///< The same: a super-user asks.
-  std::uint64_t page = 0;  ///< The same: on which of their pages; 0: on none.
+  // Orders and leases, see runtime::RunRequest. All numbers are finite.
+  std::string by = {};     ///< The sender; also for requests that change something.
+  bool overrides = false;  ///< Whether the sender is a super-user.
+  std::uint64_t page = 0;  ///< The sender's page; 0: none.
   std::vector<Vec2> points = {};
   std::optional<double> yaw_rad = std::nullopt;
   double v_mps = 0;
@@ -62,24 +62,24 @@ struct Request {
   friend bool operator==(const Request&, const Request&) = default;
 };
 
-/// A request to a run, as it is said; not kStatus and what holds a run.
+/// A run request in the form of the protocol; not for kStatus and requests that pause or end a run.
 [[nodiscard]] Request request_of(const runtime::RunRequest& request);
-/// The same back.
+/// The inverse of request_of().
 [[nodiscard]] runtime::RunRequest run_request(const Request& request);
 
-/// Why a line of more than kMaxLineBytes is not read.
+/// The error for a line of more than kMaxLineBytes.
 [[nodiscard]] std::string too_long_text();
 
-/// Reads a line without its end. Strict: an object with `rave: 1`, a `do` that is known and the
-/// keys that go with it, each of its type and once. Errors: kParse, kInvalidArgument.
+/// Parses a line without its newline. Strict: an object with `rave: 1`, a known `do`, and the keys
+/// that belong to it, each once and of its type. Errors: kParse, kInvalidArgument.
 [[nodiscard]] Result<Request> parse_request(std::string_view line);
-/// The line, with its end, that parse_request reads back as an equal value.
+/// The line with its newline; parse_request() gives an equal value.
 [[nodiscard]] std::string write_request(const Request& request);
 
-/// What a run answers.
+/// The answer of a run.
 struct Answer {
   bool good = false;
-  std::string text;           ///< What was done, or what is wrong.
+  std::string text;           ///< The result, or the error.
   runtime::RunStatus status;  ///< With a scenario if the request was kStatus.
 };
 

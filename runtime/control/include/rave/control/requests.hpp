@@ -6,13 +6,13 @@
 
 namespace rave::runtime {
 
-/// Does what somebody asks of a run, between two steps. Returns what was done, for people.
+/// Executes a request between two steps. Returns a description of what was done.
 [[nodiscard]] Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request);
 
-/// Which robots there are and whether they may move.
+/// Updates the robots of a status and whether they may move.
 void refresh_status(const sim::Engine& engine, RunStatus& status);
 
-/// Real robots that stand until somebody arms them, as `a, b and c`; empty: none.
+/// Names of the real robots that wait to be armed, as `a, b and c`; empty: none.
 [[nodiscard]] std::string unarmed_robots(const sim::Engine& engine);
 
 }  // namespace rave::runtime

@@ -20,84 +20,85 @@
 
 namespace rave::runtime {
 
-/// What somebody asks of a run between two of its steps.
+/// A request that takes effect between two steps of a run.
 struct RunRequest {
   enum class Kind : std::uint8_t {
     kStop,
     kRelease,
     kArm,
     kSet,
-    kAdd,     ///< An obstacle.
-    kMove,    ///< The same.
-    kRemove,  ///< The same.
-    kList,    ///< Which obstacles there are; changes nothing.
+    kAdd,     ///< Adds an obstacle.
+    kMove,    ///< Moves an obstacle.
+    kRemove,  ///< Removes an obstacle.
+    kList,    ///< Lists the obstacles; changes nothing.
     kHandOver,
-    kResetShadow,  ///< Of one robot, or of all.
-    // Orders; each needs a robot, and a person needs its lease.
-    kDrive,   ///< A velocity, in the place of what the program gives to velocity controllers.
-    kGoal,    ///< A place to go to.
-    kPath,    ///< A line to follow.
-    kCancel,  ///< Ends the order under way. Without a robot: of all robots.
-    kText,    ///< Words for the program.
-    kPlace,   ///< Puts a simulated robot elsewhere.
-    // Leases; each needs a robot.
+    kResetShadow,  ///< For one robot or for all.
+    // Orders. Each needs a robot, and a user needs its lease.
+    kDrive,   ///< A velocity, instead of the program's commands to velocity controllers.
+    kGoal,    ///< A goal.
+    kPath,    ///< A path to follow.
+    kCancel,  ///< Ends the current order. Without a robot: of all robots.
+    kText,    ///< A text for the program.
+    kPlace,   ///< Places a simulated robot elsewhere.
+    // Leases. Each needs a robot.
     kTake,
     kGive,
-    /// Something was said that belongs into the record: `chat_line()`. No input of the run.
+    /// Adds a chat message to the recording: `chat_line()`. Not an input of the run.
     kChat,
   };
   Kind kind = Kind::kStop;
-  std::string robot;  ///< Empty: all of them, except of orders and leases.
-  /// kSet: such as `program.max_speed_mps`. kRemove: the name of the obstacle.
+  std::string robot;  ///< Empty: all robots, except for orders and leases.
+  /// kSet: the parameter, such as `program.max_speed_mps`. kRemove: the name of the obstacle.
   std::string key = {};
-  /// kHandOver: `real`, `simulated`, `first` or `twin`. kSet: as in a file. kAdd, kMove: YAML, an
-  /// entry of `obstacles:`, or of `move_obstacle:`. kText: the text, at most 1000 bytes of UTF-8.
-  /// kGive: the new holder; empty: nobody. kTake: empty (refused with the name of the holder if
-  /// somebody else has the lease) or `force` (takes it, and the former holder is told).
+  /// kHandOver: `real`, `simulated`, `first` or `twin`. kSet: the value as in a file. kAdd, kMove:
+  /// YAML, an entry of `obstacles:`, or of `move_obstacle:`. kText: the text, at most 1000 bytes of
+  /// UTF-8. kGive: the new holder; empty: none. kTake: empty (refused with the name of the holder
+  /// if another user has the lease) or `force` (takes it over and notifies the previous holder).
   std::string value = {};
-  /// Who asks: the name of a person. Empty: the terminal of this machine, a super-user.
+  /// Name of the user who sent it. Empty: the local terminal, a super-user.
   std::string by = {};
-  /// Asked by a super-user, who needs no lease for a release and may take one without asking.
+  /// The sender is a super-user, who needs no lease for a release and may take over a lease.
   bool overrides = false;
-  /// On which of the pages that the person has open; 0: on none, as a script. Of leases alone.
+  /// Id of the sender's page; 0: none, such as a script. For leases only.
   std::uint64_t page = 0;
   std::vector<Vec2> points = {};  ///< kGoal, kPlace: one. kPath: 2 to 1000. World frame, m.
-  std::optional<double> yaw_rad = std::nullopt;  ///< kGoal, kPlace: none: as it comes.
-  double v_mps = 0;                              ///< kDrive: forward.
-  double w_radps = 0;                            ///< kDrive: to the left.
-  double speed_mps = 0;                          ///< kGoal, kPath: 0: as the robot likes.
+  std::optional<double> yaw_rad = std::nullopt;  ///< kGoal, kPlace: heading; empty: any.
+  double v_mps = 0;                              ///< kDrive: forward speed.
+  double w_radps = 0;                            ///< kDrive: turning rate, counter-clockwise.
+  double speed_mps = 0;  ///< kGoal, kPath: speed limit; 0: the robot decides.
 };
 
-/// `stop`, `release`, `arm`, `set`, `add`, `move`, `remove`, `list`, `hand_over`, `reset_shadow`,
-/// `drive`, `goal`, `path`, `cancel`, `text`, `place`, `take` or `give`; and back, nothing for any
-/// other word.
+/// The name of a kind: `stop`, `release`, `arm`, `set`, `add`, `move`, `remove`, `list`,
+/// `hand_over`, `reset_shadow`, `drive`, `goal`, `path`, `cancel`, `text`, `place`, `take` or
+/// `give`; and the inverse, empty for any other word.
 [[nodiscard]] std::string_view to_string(RunRequest::Kind kind) noexcept;
 [[nodiscard]] std::optional<RunRequest::Kind> request_kind(std::string_view word) noexcept;
 
-/// What can be seen of a run from outside.
+/// The state of a run for observers.
 struct RunStatus {
-  /// How it stands with a robot that has two sets of drivers; sim::HandOverState.
+  /// The hand-over state of a robot with two sets of drivers; see sim::HandOverState.
   struct HandOver {
     bool under_way = false;
     std::uint32_t made = 0;
     std::uint32_t refused = 0;
     std::string last;
-    double x_m = 0;  ///< Where the robot is, which the drivers that it is given have to say too.
+    double x_m = 0;  ///< Present pose of the robot. A hand-over requires that the other drivers
+                     ///< report it too.
     double y_m = 0;
     double yaw_rad = 0;
     friend bool operator==(const HandOver&, const HandOver&) = default;
   };
-  /// How far a real robot and its shadow are from each other.
+  /// The difference between a real robot and its shadow.
   struct Shadow {
     struct Reading {
       std::string sensor;
-      std::string unit;  ///< `m` or `share`.
+      std::string unit;  ///< `m`, or `share` for a fraction.
       double last = 0;
       double most = 0;
       friend bool operator==(const Reading&, const Reading&) = default;
     };
     bool running = false;
-    double since_s = 0;  ///< When it was put where the robot was.
+    double since_s = 0;  ///< Simulation time of its last reset to the robot's pose.
     double m = 0;
     double rad = 0;
     double most_m = 0;
@@ -112,78 +113,80 @@ struct RunStatus {
     bool stopped = false;
     std::optional<HandOver> hand_over = std::nullopt;
     std::optional<Shadow> shadow = std::nullopt;
-    std::string lease = {};               ///< Who drives it; empty: nobody.
-    std::uint64_t lease_page = 0;         ///< On which page of theirs; 0: on none in particular.
-    std::vector<std::string> takes = {};  ///< Of `drive`, `goal`, `path`, `text`, `place`.
-    /// The order under way, for people, such as `goal 1.20, 3.40`; empty: none.
+    std::string lease = {};        ///< Holder of the command lease; empty: none.
+    std::uint64_t lease_page = 0;  ///< Page of the holder; 0: no particular one.
+    /// Kinds of orders: some of `drive`, `goal`, `path`, `text`, `place`.
+    std::vector<std::string> takes = {};
+    /// The current order in words, such as `goal 1.20, 3.40`; empty: none.
     std::string order = {};
   };
   std::string scenario;
   double sim_s = 0;
   double duration_s = 0;
-  double pace = 1;  ///< Simulated seconds per second; 0: as fast as it can.
+  double pace = 1;  ///< Simulated seconds per second; 0: no limit.
   bool live = false;
   bool paused = false;
-  /// A host that goes as its environment manager says, which alone can hold it.
+  /// A host that follows its Environment Manager; only the latter can pause it.
   bool follows = false;
-  std::string waits_for;  ///< Hosts without which it does not go on; empty: none.
-  /// How a run with a pace keeps its deadlines.
+  std::string waits_for;  ///< Hosts that the run waits for; empty: none.
+  /// Missed deadlines of a run with a pace.
   struct Lateness {
-    std::uint64_t deadlines = 0;  ///< That have passed.
+    std::uint64_t deadlines = 0;  ///< Number of passed deadlines.
     std::uint64_t missed = 0;
     double worst_s = 0;
-    double behind_s = 0;  ///< How late its last step was.
-    std::string phase;    ///< Most to blame; empty: nothing was missed.
+    double behind_s = 0;  ///< Delay of the last step.
+    std::string phase;    ///< Phase that caused most of the misses; empty: nothing was missed.
     friend bool operator==(const Lateness&, const Lateness&) = default;
   };
   std::vector<Robot> robots;
-  std::optional<Lateness> lateness = std::nullopt;  ///< None: it has no pace.
+  std::optional<Lateness> lateness = std::nullopt;  ///< Empty: the run has no pace.
 };
 
-/// The handle on a run while it goes: pause, single steps, end, requests. May be used from any
-/// thread; stop() also from a signal handler. Outlives the run.
+/// Controls a run in progress: pause, single steps, end, requests. Thread-safe; stop() may also be
+/// called from a signal handler. Must outlive the run.
 class RunControl {
  public:
-  /// Ends the run before its next step; its results are written. Async-signal-safe.
+  /// Ends the run before its next step; results are still written. Async-signal-safe.
   void stop() noexcept { stop_.store(true); }
-  /// The same for all processes of the run, if this is its environment manager in real time: else
-  /// that leaves the hosts to their run.
+  /// Ends all processes of the run. Only for an Environment Manager in real time: stop() alone lets
+  /// its hosts continue.
   void end_run() noexcept {
     everybody_.store(true);
     stop();
   }
-  /// Holds the run before its next step. A live run cannot be held: the world outside goes on.
+  /// Pauses the run before its next step. A live run cannot be paused, because the real world
+  /// continues.
   void pause();
-  /// Lets a paused run go on.
+  /// Resumes a paused run.
   void resume();
-  /// Does `count` steps of a paused run, which then is paused again.
+  /// Executes `count` steps of a paused run, which then is paused again.
   void step(std::uint64_t count = 1);
 
-  /// Another pace from the next step on, of a run that has one process and is not live: simulated
-  /// seconds per second, 0: as fast as it can.
+  /// Sets the pace from the next step on, for a run with one process that is not live: simulated
+  /// seconds per second, 0: no limit.
   void set_pace(double factor);
 
-  /// What the pace is, or will be with the next step.
+  /// The pace, including a change that is still to take effect.
   [[nodiscard]] double pace() const;
   [[nodiscard]] bool stopping() const noexcept { return stop_.load(); }
   [[nodiscard]] bool ends_everybody() const noexcept { return everybody_.load(); }
   [[nodiscard]] bool paused() const;
 
-  /// Makes robots stand until they are released; lets them go; arms them; changes a parameter or
-  /// an obstacle.
-  /// Waits until the run has done it, which is before its next step, also while it is paused.
-  /// Returns what was done, for people. Errors: kNotFound and kInvalidArgument (what the run says),
-  /// kState (no run is under way), kTimeout (it has not come to it in `patience`; it will).
+  /// Executes a request and waits until the run has done so, which is before its next step, also
+  /// while it is paused. Returns a description of what was done. Errors: kNotFound and
+  /// kInvalidArgument (those of the run), kState (no run in progress), kTimeout (not executed
+  /// within `patience`; it will be later).
   Result<std::string> ask(RunRequest request,
                           std::chrono::milliseconds patience = std::chrono::seconds(10));
-  /// The same without waiting: the answer comes when the run has done it. Error kState.
+  /// Like ask(), without waiting: the future is set when the run has executed the request. Error
+  /// kState.
   Result<std::future<Result<std::string>>> post(RunRequest request);
-  /// What the run looks like now; without a scenario before it has begun and when it has ended.
+  /// The present state; without a scenario before the run has begun and after it has ended.
   [[nodiscard]] RunStatus status() const;
 
-  // For the run.
-  /// Something that was asked and is not answered yet. The asker waits for answer(), which may be
-  /// called once; who is never answered is told that the run has ended.
+  // The functions below are for the run.
+  /// A request that is not answered yet. answer() may be called once; the destructor answers that
+  /// the run has ended.
   class Asked {
    public:
     Asked(RunRequest request, std::promise<Result<std::string>> promise,
@@ -193,7 +196,7 @@ class RunControl {
     Asked& operator=(Asked&& other) noexcept;
     ~Asked();
     [[nodiscard]] const RunRequest& request() const noexcept { return request_; }
-    /// When it was asked.
+    /// Time of the request.
     [[nodiscard]] std::chrono::steady_clock::time_point since() const noexcept { return since_; }
     void answer(Result<std::string> text);
 
@@ -203,31 +206,31 @@ class RunControl {
     std::chrono::steady_clock::time_point since_;
     bool open_ = true;
   };
-  /// What set_pace() asked for since the last call.
+  /// The argument of set_pace() since the last call, if any.
   [[nodiscard]] std::optional<double> take_pace();
-  /// All that was asked since the last call, in order, for a run that answers later.
+  /// All requests since the last call, in order, for a run that answers later.
   [[nodiscard]] std::vector<Asked> take();
-  /// Wakes who waits for something else, with the next request since take().
+  /// Signals the next request after take(), to wake a thread that waits for something else.
   [[nodiscard]] std::stop_token asked() const;
-  /// Whether a step may be done now; counts the single steps of a run that is held.
+  /// Whether a step may be computed now; counts the single steps of a paused run.
   [[nodiscard]] bool may_step();
   using Serve = std::function<Result<std::string>(const RunRequest&)>;
-  /// Requests are taken from here on.
+  /// Requests are accepted from now on.
   void begin(RunStatus status);
-  /// Answers what was asked, in order; `robots` brings the status up to date when something was.
+  /// Executes the pending requests in order; if there were any, `refresh` updates the status.
   void serve(const Serve& serve, const std::function<void(RunStatus&)>& refresh);
-  /// Keeps what was said for who writes the record, where the run itself writes none.
+  /// Keeps a chat message for the process that writes the recording, if that is not the run itself.
   void keep_said(RunRequest chat);
   [[nodiscard]] std::vector<RunRequest> take_said();
-  /// Brings the status up to date though nothing was asked.
+  /// Updates the status without a request.
   void refresh(const std::function<void(RunStatus&)>& refresh);
-  /// Says for which hosts the run waits, in its status.
+  /// Sets the hosts that the run waits for, in its status.
   void set_waits_for(std::string hosts);
   void set_time(double sim_s) noexcept { sim_s_.store(sim_s); }
-  /// No more requests; those that wait get an error.
+  /// Accepts no more requests; pending ones get an error.
   void end();
-  /// Waits until a step may be done, serving requests, and calling `held` now and then meanwhile;
-  /// false: the run is to end.
+  /// Waits until a step may be computed. Meanwhile executes requests and calls `held` repeatedly.
+  /// Returns false if the run must end.
   bool wait_for_turn(const std::function<void()>& serve = {},
                      const std::function<void()>& held = {});
 
@@ -248,10 +251,10 @@ class RunControl {
   std::condition_variable changed_;
   bool paused_ = false;
   bool running_ = false;
-  std::uint64_t steps_ = 0;  ///< Single steps still to be done.
+  std::uint64_t steps_ = 0;  ///< Number of single steps to execute.
   std::deque<Pending> pending_;
   std::vector<RunRequest> said_;
-  std::stop_source wake_;  ///< Of asked().
+  std::stop_source wake_;  ///< The source of asked().
   RunStatus status_;
 };
 

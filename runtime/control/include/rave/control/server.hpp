@@ -9,11 +9,11 @@
 
 namespace rave::control {
 
-/// Lets other terminals of the same user control a run, over a Unix domain socket, in a thread of
-/// its own from start() until it is destroyed.
+/// The control socket: a Unix domain socket through which the same user controls a run from other
+/// terminals. It has a thread of its own from start() to destruction.
 class Server {
  public:
-  /// `control` outlives the server. Errors: what keeps the socket from being opened.
+  /// `control` must outlive the server. Errors: the socket cannot be opened.
   [[nodiscard]] static Result<std::unique_ptr<Server>> start(const std::string& run,
                                                              runtime::RunControl& control);
   Server(const Server&) = delete;

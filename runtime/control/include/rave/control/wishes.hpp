@@ -6,8 +6,8 @@
 
 namespace rave::control {
 
-/// Lets a process do what it is asked on the bus as if it had been asked at its control socket: the
-/// same lines, the same answers. `control` outlives what is returned, which waits for nothing and
+/// A handler of the bus requests of a process. It treats them like requests at the control socket:
+/// the same lines, the same answers. `control` must outlive the handler, which does not block and
 /// may be called in the thread of the run.
 [[nodiscard]] bus::BeginWish wishes_of(runtime::RunControl& control);
 

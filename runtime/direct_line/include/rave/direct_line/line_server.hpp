@@ -16,47 +16,48 @@ namespace rave::direct_line {
 
 struct LineOptions {
   std::string address = "127.0.0.1";
-  std::uint16_t port = 0;             ///< 0: any.
-  std::filesystem::path certificate;  ///< With `key`: TLS. Needed on all addresses but loopback.
+  std::uint16_t port = 0;  ///< 0: a free port.
+  /// If set with `key`: TLS. Required on all addresses but loopback.
+  std::filesystem::path certificate;
   std::filesystem::path key;
-  std::string run;   ///< What tickets have to say.
-  std::string host;  ///< The same.
+  std::string run;   ///< The run that tickets must name.
+  std::string host;  ///< The host that tickets must name.
   PublicKey signer{};
-  LogSink* log = nullptr;  ///< Not owned; outlives the server. Null: nobody is told.
-  /// Milliseconds since 1970, null: the clock of the day. For tests.
+  LogSink* log = nullptr;  ///< Not owned; must outlive the server. May be null.
+  /// Returns milliseconds since 1970; empty: the system clock. For tests.
   std::function<std::int64_t()> clock_ms{};
 };
 
-/// What a line server has done so far.
+/// Counters of a line server.
 struct LineCounts {
   std::uint64_t welcomed = 0;
-  std::uint64_t refused_lines = 0;   ///< No ticket, or none that holds here.
-  std::uint64_t refused_orders = 0;  ///< That the ticket does not cover, or no orders at all.
-  std::uint64_t orders = 0;          ///< Given to the run.
-  std::uint64_t withdrawn = 0;       ///< Lines that a withdrawal has ended.
-  std::size_t open = 0;              ///< With a ticket.
+  std::uint64_t refused_lines = 0;   ///< Without a ticket that is valid here.
+  std::uint64_t refused_orders = 0;  ///< Not covered by the ticket, or not an order.
+  std::uint64_t orders = 0;          ///< Passed to the run.
+  std::uint64_t withdrawn = 0;       ///< Lines ended by a withdrawal.
+  std::size_t open = 0;              ///< Open lines with a valid ticket.
 };
 
-/// The direct line of a host: pages with a ticket of the GUI Server give orders over a WebSocket
-/// (`/ws`, subprotocol `rave.line.1`), straight to the run of this process. It neither knows nor
-/// needs the GUI Server while it goes. A thread of its own.
+/// The direct line of a host: pages with a ticket of the GUI Server send orders over a WebSocket
+/// (`/ws`, subprotocol `rave.line.1`) directly to the run of this process. It does not need the GUI
+/// Server to be reachable. Runs in a thread of its own.
 class LineServer {
  public:
-  /// `control`: of the run; outlives the server. Errors: kInvalidArgument (another address than
+  /// `control`: of the run; must outlive the server. Errors: kInvalidArgument (another address than
   /// loopback without TLS) and those of web::Server::start().
   [[nodiscard]] static Result<std::unique_ptr<LineServer>> start(const LineOptions& options,
                                                                  runtime::RunControl& control);
   LineServer(const LineServer&) = delete;
   LineServer& operator=(const LineServer&) = delete;
-  /// Robots that are driven stand first.
+  /// Stops robots that are driven, then closes.
   ~LineServer();
 
-  /// Where pages reach it: `ws://127.0.0.1:8090/ws`, with TLS `wss://` and the first name of the
+  /// The address for pages: `ws://127.0.0.1:8090/ws`, with TLS `wss://` and the first name in the
   /// certificate. Any thread.
   [[nodiscard]] std::string url() const;
   [[nodiscard]] std::uint16_t port() const noexcept;
-  /// A signed withdrawal (see ticket.hpp): tickets with a lower epoch end, and their lines. What
-  /// the GUI Server has not signed is logged and forgotten. Any thread; soon.
+  /// Processes a signed withdrawal (see ticket.hpp): tickets with a lower epoch and their lines
+  /// end. A text with an invalid signature is logged and ignored. Asynchronous. Any thread.
   void withdraw(std::string signed_text);
   /// Waits for the thread of the server. Any other thread.
   [[nodiscard]] LineCounts counts() const;

@@ -13,44 +13,46 @@
 
 namespace rave::direct_line {
 
-/// The direct line of one host, as the GUI Server tells pages.
+/// The direct line of one host, for pages.
 struct HostLine {
   std::string host;
   std::string url;
-  std::vector<std::string> robots;  ///< All of the host.
+  std::vector<std::string> robots;  ///< All robots of the host.
   friend bool operator==(const HostLine&, const HostLine&) = default;
 };
 
-/// The hosts of a run that have a direct line. Any thread.
+/// The direct lines of a run. Any thread.
 class Lines {
  public:
   virtual ~Lines() = default;
-  /// As tickets call the run.
+  /// The name of the run in tickets.
   [[nodiscard]] virtual std::string run() const = 0;
   [[nodiscard]] virtual std::vector<HostLine> hosts() const = 0;
-  /// Tells all hosts, those that come later included. `signed_text`: see sign_withdrawal().
+  /// Sends a withdrawal to all hosts, including those that start later. `signed_text`: see
+  /// sign_withdrawal().
   virtual void withdraw(const std::string& user, const std::string& signed_text) = 0;
 };
 
-/// The line of a run of this process. `server` outlives it.
+/// The line of a run in this process. `server` must outlive it.
 [[nodiscard]] std::unique_ptr<Lines> lines_here(LineServer& server, std::string run, HostLine line);
 
-/// Those of a run on a bus, in a thread of its own: hosts tell where they are on `rave/line`, and
-/// are told on `rave/withdrawal`. `robots_of`: the robots of a host by its name, empty if the run
-/// has no such host; called in that thread. Errors: those of bus::Bus::open().
+/// The lines of a run on a bus, in a thread of its own: hosts announce them on `rave/line` and
+/// receive withdrawals on `rave/withdrawal`. `robots_of` returns the robots of a host by its name,
+/// empty for an unknown host; it is called in that thread. Errors: those of bus::Bus::open().
 [[nodiscard]] Result<std::unique_ptr<Lines>> lines_on_bus(
     bus::BusConfig bus, std::function<std::vector<std::string>(const std::string&)> robots_of);
 
-/// As the line of the environment manager is called. In lock-step orders go there, and in real time
-/// to each host.
+/// The host name of the Environment Manager's line. In lock-step orders go to it; in real time they
+/// go to each host.
 inline constexpr const char* kManagerHost = "environment manager";
 
-/// What a process does on the bus for its line, in a thread of its own: once the run is there, it
-/// tells where the line is, if this process takes the orders, and passes on withdrawals.
+/// Announces the line of a process on the bus and receives withdrawals, in a thread of its own. The
+/// announcement begins with the run, if this process accepts orders.
 class LineBeacon {
  public:
   /// `host`: its name in the scenario, or kManagerHost. `control`: of the run of this process. The
-  /// last three outlive it. A bus that cannot be opened is a warning in the log: the run goes on.
+  /// last three arguments must outlive the beacon. If the bus cannot be opened, it logs a warning
+  /// and the run continues.
   [[nodiscard]] static std::unique_ptr<LineBeacon> start(bus::BusConfig bus,
                                                          const std::string& host,
                                                          LineServer& server,

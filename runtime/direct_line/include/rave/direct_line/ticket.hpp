@@ -9,29 +9,28 @@
 
 #include "rave/base/result.hpp"
 
-// What the GUI Server signs, so that hosts believe it: tickets of pages, and withdrawals of them.
-// Both are text: two parts of base64url, JSON and an Ed25519 signature, with a dot between. Values
-// and pure functions; any thread. Moments are seconds or milliseconds since 1970, and are given.
+// Texts signed by the GUI Server for hosts: tickets of pages, and withdrawals of tickets. Each is
+// JSON and an Ed25519 signature, both in base64url, separated by a dot. Values and pure functions;
+// any thread. Times are in seconds or milliseconds since 1970 and are passed by the caller.
 namespace rave::direct_line {
 
-/// How long a ticket is good for. A page asks for the next one at half of it.
+/// Validity of a ticket. A page requests the next one after half of it.
 inline constexpr std::int64_t kTicketLife_s = 3600;
-/// So far may the clocks of server and host be apart.
+/// Largest accepted difference between the clocks of server and host.
 inline constexpr std::int64_t kClockSlack_s = 30;
-/// Longest text of a ticket: room for some 5000 robots by name.
+/// Longest text of a ticket in bytes; enough for about 5000 robots by name.
 inline constexpr std::size_t kLongestTicket = std::size_t{240} << 10U;
 
 using PublicKey = std::array<unsigned char, 32>;
 
-/// Both halves of the key of a GUI Server. The secret half never leaves its process but by
-/// write_key_files().
+/// The key pair of a GUI Server. The secret half leaves the process only by write_key_files().
 struct SigningKey {
   PublicKey open{};
   std::array<unsigned char, 64> secret{};
 };
 [[nodiscard]] SigningKey new_signing_key();
 
-/// Some robots of a host, or all of them.
+/// A set of robots of a host.
 struct RobotSet {
   bool all = false;
   std::set<std::string, std::less<>> names;  ///< Empty if `all`.
@@ -41,36 +40,37 @@ struct RobotSet {
   friend bool operator==(const RobotSet&, const RobotSet&) = default;
 };
 
-/// What one person may do at one host, for a page that has a key.
+/// The rights of one user at one host, for a page with a certain key.
 struct Ticket {
-  std::string run;   ///< As its processes call it.
-  std::string host;  ///< Its name in the scenario.
+  std::string run;   ///< The run, by the name that its processes use.
+  std::string host;  ///< Name of the host in the scenario.
   std::string user;
   std::string role;    ///< `commander` or `super_user`.
-  std::string origin;  ///< Of the page, such as `https://lab.example:8080`.
-  RobotSet orders;     ///< That may be ordered about.
+  std::string origin;  ///< Origin of the page, such as `https://lab.example:8080`.
+  RobotSet orders;     ///< Robots that the user may give orders.
   RobotSet stops;
   RobotSet releases;
-  std::string page_key;     ///< 65 bytes: a point of P-256, not compressed.
-  std::uint64_t epoch = 0;  ///< Below that of a withdrawal for this person: not good any more.
+  std::string page_key;  ///< 65 bytes: an uncompressed point of P-256.
+  /// The ticket is invalid if this is below the epoch of a withdrawal for the user.
+  std::uint64_t epoch = 0;
   std::int64_t expires_s = 0;
-  std::string nonce;  ///< Random; of two lines with the same ticket the newer one stays.
+  std::string nonce;  ///< Random; of two lines with the same ticket only the newer stays open.
 
   friend bool operator==(const Ticket&, const Ticket&) = default;
 };
 
-/// The number by which leases know a page: of its key, or of another secret that it alone has.
+/// The id of a page for leases: a hash of its key, or of another secret that only the page has.
 /// Never 0.
 [[nodiscard]] std::uint64_t page_number(std::string_view key);
 
 [[nodiscard]] std::string sign_ticket(const Ticket& ticket, const SigningKey& key);
 
-/// Errors: kParse (it is none, or too long), kState (another key has signed it, or it has expired,
-/// or lasts longer than a ticket may).
+/// Checks and decodes a ticket. Errors: kParse (not a ticket, or too long), kState (signed by
+/// another key, expired, or valid for too long).
 [[nodiscard]] Result<Ticket> verify_ticket(std::string_view text, const PublicKey& key,
                                            std::int64_t now_s);
 
-/// Tickets of a person with a lower epoch are not good any more.
+/// Declares all tickets of a user with a lower epoch invalid.
 struct Withdrawal {
   std::string run;
   std::string user;

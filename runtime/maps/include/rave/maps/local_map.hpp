@@ -13,26 +13,26 @@
 
 namespace rave::maps {
 
-/// The occupancy grid of one robot, from all of its range sensors and its reported pose: what the
-/// robot itself could know. It lies around the place where the robot was when it was begun; what is
-/// outside is left out. Cells are 0.05 m for sensors of up to 8 m, and 0.1 m beyond. Of a cone the
-/// axis counts. A beam without return counts as free over half of its range: farther away a surface
-/// may reflect too little. One thread.
+/// The occupancy grid of one robot from all its range sensors and its reported pose: only what the
+/// robot itself could know. It is centred on the pose of the robot at creation; readings outside
+/// are ignored. Cells are 0.05 m for sensors of up to 8 m, and 0.1 m beyond. For a cone the axis is
+/// used. A beam without return marks half of its range as free, because a surface farther away may
+/// reflect too little. One thread.
 class LocalMap {
  public:
   /// Cells along each side.
   static constexpr int kCells = 512;
 
-  /// Whether the robot runs at this engine, has a range sensor whose directions are known, and has
-  /// said where it is.
+  /// Whether this engine runs the robot, and it has a range sensor with known directions and a
+  /// known reported pose.
   [[nodiscard]] static bool possible(const sim::Engine& engine, RobotId robot);
-  /// A programmer's mistake unless possible().
+  /// Precondition: possible().
   LocalMap(const sim::Engine& engine, RobotId robot);
 
   [[nodiscard]] RobotId robot() const noexcept { return robot_; }
-  /// A step is done: takes new readings in.
+  /// Adds the new readings of a completed step.
   void follow(const sim::Engine& engine);
-  /// Puts the tiles behind `tiles` that changed since the last call, lowest row first.
+  /// Appends to `tiles` the tiles that changed since the last call, lowest row first.
   void put_changed(std::vector<MapTile>& tiles);
 
  private:
@@ -54,12 +54,12 @@ class LocalMap {
   std::string name_;
   MapFrame frame_;
   estimate::OccupancyGrid grid_;
-  std::vector<std::uint32_t> sensors_;    ///< Indices of those that are used.
-  std::vector<std::uint32_t> sequences_;  ///< Of each: of the sample that was taken in last.
+  std::vector<std::uint32_t> sensors_;    ///< Indices of the sensors used.
+  std::vector<std::uint32_t> sequences_;  ///< For each: sequence of its last sample in the map.
   std::vector<double> bearings_rad_;      ///< Memory of add().
-  std::deque<PoseAt> poses_;              ///< The last ones, oldest first.
+  std::deque<PoseAt> poses_;              ///< The last poses, oldest first.
   std::int64_t newest_ns_ = 0;
-  /// What may have changed since the last put_changed(), in tiles; empty if the first is larger.
+  /// The tiles that may have changed since the last put_changed(); empty if the first is larger.
   std::int64_t column0_ = 0, column1_ = -1, row0_ = 0, row1_ = -1;
   std::vector<Told> told_;  ///< By row and column.
 };

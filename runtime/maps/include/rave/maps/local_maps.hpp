@@ -11,26 +11,26 @@
 
 namespace rave::maps {
 
-/// The local maps of the robots of one host. A map is begun when somebody first asks for it, and is
-/// then kept up to date until the run is over, so that it is whole when it is looked at again; only
-/// if there is no room, one that nobody asks for makes place for another.
-/// Without one nothing is computed. The thread of the run.
+/// The local maps of the robots of one host. A map is created when first requested and kept up to
+/// date until the end of the run, so that it is complete whenever it is viewed. Only if there is no
+/// room, a map without requests is replaced. Without maps there is no cost. Thread: that of the
+/// run.
 class LocalMaps {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Each takes 3 MB, and some time of each step in which its robot senses.
+  /// Each map takes 3 MB, and time in each step in which its robot senses.
   static constexpr std::size_t kMost = 16;
-  /// Between two times at which tiles are given.
+  /// Time between two sets of tiles.
   static constexpr std::chrono::milliseconds kInterval{500};
 
-  /// `robots`: all that are asked for now. Begins their maps, as far as they are possible and there
-  /// is room. To be called again as long as they are asked for: a robot may not have said yet where
-  /// it is.
+  /// `robots`: all that are requested now. Creates their maps, as far as possible and as far as
+  /// there is room. Call it again while requests last: a robot may not have reported a pose yet.
   void ask(const sim::Engine& engine, std::span<const std::uint32_t> robots);
-  /// A step is done.
+  /// Adds the readings of a completed step.
   void after_step(const sim::Engine& engine);
-  /// Tiles that changed, if it is time; empty otherwise. `slower`: so many times rarer, at least 1.
+  /// The changed tiles, if they are due; empty otherwise. `slower`: factor of the interval, at
+  /// least 1.
   [[nodiscard]] std::vector<MapTile> changed(Clock::time_point now, int slower);
   [[nodiscard]] bool empty() const noexcept { return maps_.empty(); }
   [[nodiscard]] std::size_t count() const noexcept { return maps_.size(); }

@@ -6,10 +6,10 @@
 
 namespace rave::maps {
 
-/// The message of a tile. It shows the cells of `tile`, which has to live as long as it is used.
+/// The bus message of a tile. It borrows the cells of `tile`, which must outlive it.
 [[nodiscard]] bus::MapTile message_of(MapTile& tile);
 
-/// The tile of a message that was validated.
+/// The tile of a validated message.
 [[nodiscard]] MapTile tile_of(const bus::MapTile& message);
 
 }  // namespace rave::maps

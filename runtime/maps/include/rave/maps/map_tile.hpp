@@ -11,22 +11,23 @@
 
 namespace rave::maps {
 
-/// Cells along each side of a tile, but for those at the right and upper edge of a map.
+/// Cells along each side of a tile; fewer at the right and upper edge of a map.
 inline constexpr std::uint32_t kTileCells = 64;
-/// The value of a cell of which nothing is known; others are percent, 0 to 100.
+/// The value of an unknown cell; others are percent, 0 to 100.
 inline constexpr std::uint8_t kUnknown = 255;
-/// A map of no robot: a global one.
+/// The robot of a global map.
 inline constexpr std::uint32_t kNoRobot = 0xffffffff;
 
-/// Where the cells of a map lie in the world: cell (0, 0) has its lower left corner at the origin,
-/// columns go along x, rows along y.
+/// The cells of a map in the world frame: the lower left corner of cell (0, 0) is the origin,
+/// columns run along x, rows along y.
 struct MapFrame {
   double resolution_m = 0.1;
   Vec2 origin_W;
   std::uint32_t columns = 0;
   std::uint32_t rows = 0;
 
-  /// Cells along a side of tile `tile`, of so many `cells` of the map; 0: there is no such tile.
+  /// Number of cells along a side of tile `tile`, if the map has `cells` in that direction; 0: no
+  /// such tile.
   [[nodiscard]] static constexpr std::uint32_t side(std::uint32_t cells,
                                                     std::uint32_t tile) noexcept {
     const std::uint64_t first = std::uint64_t{tile} * kTileCells;
@@ -39,16 +40,16 @@ struct MapFrame {
   }
 };
 
-/// A piece of a map, complete in itself: of several of one place the newest counts. A value.
+/// A self-contained part of a map. For tiles of one place, the newest counts. A value.
 struct MapTile {
-  std::string source;              ///< Name of the robot, or of a global map.
-  std::uint32_t robot = kNoRobot;  ///< Whose local map it is; its index in the roster.
-  MapFrame frame;                  ///< Of the whole map.
-  std::uint32_t column = 0;        ///< Of the tile, in tiles.
+  std::string source;              ///< Name of the robot or of the global map.
+  std::uint32_t robot = kNoRobot;  ///< For a local map: index of its robot in the roster.
+  MapFrame frame;                  ///< Frame of the whole map.
+  std::uint32_t column = 0;        ///< Position of the tile, in tiles.
   std::uint32_t row = 0;
-  std::uint32_t revision = 0;  ///< Of this tile at who made it, from 1.
-  SimTime stamp;               ///< Of the newest reading that is in it.
-  /// Row by row, probability of "occupied" in percent, or kUnknown.
+  std::uint32_t revision = 0;  ///< Counts the versions of this tile at its sender, from 1.
+  SimTime stamp;               ///< Stamp of the newest reading in it.
+  /// Row by row, probability that a cell is occupied in percent, or kUnknown.
   std::vector<std::uint8_t> cells;
 };
 

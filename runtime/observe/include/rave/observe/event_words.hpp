@@ -6,10 +6,9 @@
 
 #include "rave/observe/kinds.hpp"
 
-/// How events are told to people.
 namespace rave::runtime {
 
-/// The robot that it concerns, or `world`.
+/// The name of the robot of an event, or `world`.
 [[nodiscard]] inline std::string_view subject_of(const sim::EngineSpec& spec,
                                                  const sim::Event& event) noexcept {
   return event.robot.valid() ? std::string_view(spec.robots[event.robot.value()].name) : "world";

@@ -10,15 +10,15 @@
 
 namespace rave::runtime {
 
-/// What the bodies of a run are called and how they look. Those of the start are fixed then.
+/// Names, kinds and colours of the bodies of a run.
 class BodyKinds {
  public:
-  /// `robot_words`: the free word of each robot, such as `hunter`; empty for none.
+  /// `robot_words`: the `kind` of each robot in the scenario, such as `hunter`; empty for none.
   BodyKinds(const sim::EngineSpec& spec, const std::vector<std::string>& robot_words);
 
-  /// Obstacles that came since; call it before asking for them.
+  /// Adds new obstacles of the world; call it before querying them.
   void learn(const world::WorldModel& world);
-  /// Robots that were handed over in the last step are another kind now.
+  /// Updates the kinds of robots that were handed over in the last step.
   void follow(const sim::Engine& engine);
 
   /// `real`, `simulated`, `landmark`, `mapped_wall` or `virtual_obstacle`.
@@ -35,7 +35,7 @@ class BodyKinds {
   [[nodiscard]] std::uint32_t count() const noexcept {
     return static_cast<std::uint32_t>(words_.size());
   }
-  /// Another number whenever a body came or became another kind.
+  /// Changes whenever a body was added or changed its kind.
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
  private:
@@ -44,7 +44,7 @@ class BodyKinds {
   void set_reality(RobotId robot, bool simulated);
 
   std::uint32_t first_robot_ = 0;
-  std::uint32_t first_added_ = 0;  ///< Behind the robots.
+  std::uint32_t first_added_ = 0;  ///< The id after the robots.
   std::uint64_t revision_ = 0;
   std::vector<std::string_view> words_;
   std::vector<report::Kind> kinds_;

@@ -12,46 +12,47 @@ namespace rave::runtime {
 
 class BodyKinds;
 
-/// A run before its first step, as observers get it. Views; they hold during the call alone.
+/// A run before its first step, for observers. Views; valid during the call only.
 struct RunView {
   const sim::Engine& engine;
-  const BodyKinds& kinds;            ///< Stays as long as the run.
-  const record::RunInfo& info;       ///< Robots, and sensors of those that run here.
-  const record::StringMap& hybrids;  ///< `robot/sensor` of hybrid sensors, and of what they are.
-  bool live = false;                 ///< In real time: it cannot be held.
+  const BodyKinds& kinds;       ///< Valid as long as the run.
+  const record::RunInfo& info;  ///< Robots, and sensors of the robots that run here.
+  /// Hybrid sensors: `robot/sensor` to a description of the parts.
+  const record::StringMap& hybrids;
+  bool live = false;  ///< In real time, so it cannot be paused.
 };
 
-/// A step that is done, as observers get it. Views; they hold during the call alone.
+/// A completed step, for observers. Views; valid during the call only.
 struct StepView {
-  // Implicit, since most observers need nothing else.
+  // Implicit, because most observers need the engine only.
   StepView(sim::Engine& of, std::span<const sim::Event> others = {},  // NOLINT(*-explicit-*)
            bool is_late = false)
       : engine(of), beside(others), late(is_late) {}
 
-  sim::Engine& engine;                 ///< Its snapshot shows the world as that step sensed it.
-  std::span<const sim::Event> beside;  ///< Of obstacles, where the engine is one of several hosts.
-  bool late;                           ///< Steps come late: who can do with less does less.
+  sim::Engine& engine;                 ///< Its snapshot is the world that the step sensed.
+  std::span<const sim::Event> beside;  ///< Obstacle events, if the engine is one of several hosts.
+  bool late;  ///< Steps are late: observers should reduce their work if they can.
 };
 
-/// Looks at a run, alike in one process, in lock-step and in real time. It may ask the engine about
-/// the past, but changes nothing that the run depends on. All calls come from the thread of the
-/// run, which waits for them: what takes long belongs elsewhere.
+/// Observes a run, in the same way in one process, in lock-step and in real time. It may query the
+/// engine's history, but must not change anything that the run depends on. All calls come from the
+/// thread of the run, which waits for them; do long work elsewhere.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
-  /// The run is there, its first step is not done. Errors keep it from starting.
+  /// Called when the run is ready, before its first step. An error prevents the start.
   virtual Status run_begins(const RunView& /*run*/) { return {}; }
-  /// A step has just been done.
+  /// Called after each step.
   virtual void after_step(const StepView& step) = 0;
-  /// The run is held: the last step stands. Called now and then until it goes on.
+  /// Called repeatedly while the run is paused, with the state of the last step.
   virtual void held(const sim::Engine& /*engine*/) {}
-  /// What it found in the last step, for log and recording.
+  /// Events that the observer found in the last step, for log and recording.
   [[nodiscard]] virtual std::span<const sim::Event> events() const noexcept { return {}; }
-  /// Puts what it measured in the last step into the recording.
+  /// Adds its measurements of the last step to the recording.
   virtual void record(record::RunRecorder& /*recorder*/) const {}
 };
 
-/// What happened, for people, behind the kind of the event: `with NAME`, or a sentence.
+/// The event in words, after the name of its kind: `with NAME`, or a sentence.
 [[nodiscard]] std::string words_of(const BodyKinds& kinds, const sim::Event& event);
 
 }  // namespace rave::runtime

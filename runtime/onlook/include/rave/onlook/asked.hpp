@@ -10,22 +10,23 @@
 
 namespace rave::onlook {
 
-/// A look holds so long after it has come.
+/// How long a request of a monitor (`Look`) stays valid.
 inline constexpr std::chrono::seconds kLookHolds{2};
 
-/// A sensor by its robot and its index among those of the robot.
+/// A sensor: robot and index among the sensors of that robot.
 struct LookedAt {
   std::uint32_t robot = 0;
   std::uint32_t sensor = 0;
   friend auto operator<=>(const LookedAt&, const LookedAt&) = default;
 };
 
-/// What somebody who looks on asks for.
+/// The data that a monitor requests.
 struct Asked {
-  bool robots = false;                ///< What robots report of themselves, and contacts.
-  bool parts = false;                 ///< Also the halves of hybrid sensors.
-  std::vector<LookedAt> sensors;      ///< Ascending, without repetitions.
-  std::vector<std::uint32_t> maps{};  ///< Robots whose local maps; the same.
+  bool robots = false;            ///< Robot states and contacts.
+  bool parts = false;             ///< Also the halves of hybrid sensors.
+  std::vector<LookedAt> sensors;  ///< Ascending, without duplicates.
+  /// Robots whose local maps are requested; ascending, without duplicates.
+  std::vector<std::uint32_t> maps{};
   std::vector<probe::Asked> probes{};
   friend bool operator==(const Asked&, const Asked&) = default;
 };

@@ -9,14 +9,15 @@
 
 namespace rave::onlook {
 
-/// In the place of a sensor's index: the velocities that a robot is told. No robot has as many
+/// Used instead of a sensor index to request the velocity commands of a robot. No robot has as many
 /// sensors.
 inline constexpr std::uint32_t kCommandsOf = 0xefff;
 inline constexpr std::uint32_t kCommandFields = 4;
 
-/// What was asked of a robot, by its program or by whoever drives it: forward, m/s, and to the
-/// left, rad/s; then what its actuator was told, behind controllers and guard. NaN: no velocity.
-/// Nothing for a robot of another host or without a controller and actuator of velocities.
+/// The velocity commanded by the program or by the user who drives the robot: forward (m/s) and
+/// counter-clockwise (rad/s); then the velocity passed to the actuator, after controllers and
+/// guard. NaN: no velocity. Empty for a robot of another host, or without a velocity controller and
+/// actuator.
 [[nodiscard]] std::optional<std::array<float, kCommandFields>> command_row(
     const sim::Engine& engine, RobotId robot);
 

@@ -19,10 +19,10 @@
 
 namespace rave::onlook {
 
-/// A reading as rows of numbers, one row after the other.
+/// A reading as rows of numbers, row by row.
 struct HeardReading {
   LookedAt sensor;
-  std::uint8_t part = 0;  ///< 0 what the program got, 1 the real half, 2 the virtual half.
+  std::uint8_t part = 0;  ///< 0: for the program, 1: real half, 2: virtual half.
   double stamp_s = 0;
   std::uint32_t rows = 0;
   std::uint32_t fields = 0;
@@ -31,21 +31,21 @@ struct HeardReading {
 
 struct HeardEvent {
   double t_s = 0;
-  RobotId robot;  ///< None: it concerns the world.
+  RobotId robot;  ///< None: the event concerns the world.
   sim::EventKind kind = sim::EventKind::kContact;
   std::string text;  ///< Without control characters.
 };
 
-/// How an obstacle stands that is not as at the start.
+/// The state of an obstacle that differs from its initial one.
 struct HeardObstacle {
   std::uint32_t id = 0;
   bool removed = false;
-  /// An addition at its present place, or of one of the start where it was moved to.
+  /// An addition at the present pose, or a move if it is an initial obstacle.
   sim::ObstacleChange stands;
 };
 
-/// The end of somebody who looks on: says what it looks at, and hears what hosts tell. No host
-/// waits for it. Must be gone before its bus; thread: that of the bus.
+/// The monitor's side of observation: requests data and receives it from hosts, which never wait
+/// for it. Destroy it before its bus; thread: that of the bus.
 class Listener {
  public:
   using Clock = std::chrono::steady_clock;
@@ -53,26 +53,26 @@ class Listener {
   /// Errors: those of bus::Writer::create() and bus::Reader::create().
   [[nodiscard]] static Result<Listener> create(bus::Bus& bus);
 
-  /// What it looks at from now on; to be called often, since hosts forget it. Of more sensors than
-  /// rave_wire_kMaxLookedAt the first ones count.
+  /// Sets the requested data. Call it often, because requests expire at the hosts. At most
+  /// rave_wire_kMaxLookedAt sensors; further ones are ignored.
   void look(const Asked& asked);
-  /// Takes in what has come.
+  /// Receives the samples that have arrived.
   void hear();
 
-  /// The newest of each sensor and part that was looked at and is not too old.
+  /// The newest reading of each requested sensor and part, unless too old.
   [[nodiscard]] const std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t>,
                                HeardReading>&
   readings() const noexcept {
     return readings_;
   }
-  /// What happened, in order of time, since the last call; what concerns the world once, however
-  /// many hosts tell it.
+  /// Events since the last call, in order of time. Events of the world appear once, even if several
+  /// hosts report them.
   [[nodiscard]] std::vector<HeardEvent> take_events();
-  /// Obstacles that changed since the last call, each as it stands now.
+  /// Obstacles that changed since the last call, with their present states.
   [[nodiscard]] std::vector<HeardObstacle> take_obstacles();
-  /// Tiles of maps that came since the last call, also of global maps, for which nobody asks.
+  /// Map tiles received since the last call, including those of global maps, which need no request.
   [[nodiscard]] std::vector<maps::MapTile> take_tiles() { return std::exchange(tiles_, {}); }
-  /// A run begins anew in which obstacles are as at the start.
+  /// Clears all; for a new run with initial obstacles.
   void forget();
 
  private:
@@ -106,7 +106,7 @@ class Listener {
   std::vector<rave_wire_LookedAt> sensors_;
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t>, HeardReading> readings_;
   std::vector<HeardEvent> events_;
-  std::map<std::string, Told> told_;                  ///< Of the world, by what was said.
+  std::map<std::string, Told> told_;                  ///< Events of the world, by their text.
   std::map<std::uint32_t, std::uint64_t> revisions_;  ///< By obstacle.
   std::vector<HeardObstacle> obstacles_;
   std::vector<maps::MapTile> tiles_;

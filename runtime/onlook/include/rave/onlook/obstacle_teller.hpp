@@ -10,16 +10,17 @@
 
 namespace rave::onlook {
 
-/// Tells which obstacles are not as at the start (topic rave/last_obstacle), where no manager tells
-/// the host: in lock-step, and in real time without one. All hosts of a run say the same with the
-/// same revisions. Must be gone before its bus; thread: that of the bus.
+/// Publishes the obstacles that differ from their initial state (topic rave/last_obstacle). Used
+/// where no manager publishes them for the host: in lock-step, and in real time without a manager.
+/// All hosts of a run publish the same data with the same revisions. Destroy it before its bus;
+/// thread: that of the bus.
 class ObstacleTeller {
  public:
   explicit ObstacleTeller(bus::Writer<bus::LastObstacle> writer) : writer_(std::move(writer)) {}
 
-  /// Before the first step: the obstacles of the start.
+  /// Call it before the first step, with the initial obstacles.
   void begin(const sim::EngineSpec& spec);
-  /// A step is done, in which the engine had events of obstacles, or others `beside` it.
+  /// Call it after a step with obstacle events of the engine, or with others in `beside`.
   void after_step(const sim::Engine& engine, std::span<const sim::Event> beside);
 
  private:
@@ -32,7 +33,7 @@ class ObstacleTeller {
 
   bus::Writer<bus::LastObstacle> writer_;
   std::vector<Start> start_;     ///< Ascending.
-  std::uint64_t next_step_ = 0;  ///< The one that follows the last that was seen.
+  std::uint64_t next_step_ = 0;  ///< The step after the last one seen.
 };
 
 }  // namespace rave::onlook

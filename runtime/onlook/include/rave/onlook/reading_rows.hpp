@@ -11,15 +11,15 @@
 
 namespace rave::onlook {
 
-/// What the numbers of a row are, such as `range [m]`; of kValues none, since only its driver
-/// knows.
+/// Names and units of the numbers of a row, such as `range [m]`; empty for kValues, which only its
+/// driver can interpret.
 [[nodiscard]] std::vector<std::string> fields_of(ReadingKind kind);
 
-/// How many numbers a row has; 0 of kNone.
+/// Number of values per row; 0 for kNone.
 [[nodiscard]] std::uint32_t field_count(ReadingKind kind) noexcept;
 
-/// Puts the records of a reading behind `values` as rows of numbers, and returns how many rows.
-/// `count`: records. Too few bytes: what is whole of them.
+/// Appends the records of a reading to `values` as rows; returns the number of rows. `count`:
+/// number of records. If there are too few bytes, only complete records are used.
 std::uint32_t add_rows(ReadingKind kind, std::uint32_t count, std::span<const std::byte> records,
                        std::vector<float>& values);
 

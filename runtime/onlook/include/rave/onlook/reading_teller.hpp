@@ -14,13 +14,13 @@
 
 namespace rave::onlook {
 
-/// Tells the readings of sensors of one host that are asked for (topic rave/readings): those that
-/// are new, and once a second all of them. Must be gone before its bus; thread: that of the bus.
+/// Publishes the requested sensor readings of one host (topic rave/readings): new ones as they
+/// come, and all once a second. Destroy it before its bus; thread: that of the bus.
 class ReadingTeller {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Between two samples.
+  /// Time between two samples.
   static constexpr std::chrono::milliseconds kInterval{33};
   static constexpr std::chrono::seconds kAgain{1};
 
@@ -28,11 +28,11 @@ class ReadingTeller {
   ReadingTeller(bus::Writer<bus::Readings> writer, std::uint32_t host)
       : writer_(std::move(writer)), host_(host) {}
 
-  /// Another number of sensors, or others, are asked for: all are told with the next sample.
+  /// Call it when the requested sensors change: the next sample contains all of them.
   void begin_again() noexcept { again_at_ = {}; }
-  /// Sends what is due. Sensors of other hosts and numbers that do not exist are left out. Waits
-  /// for nobody. `slower`: so many times rarer than usual, at least 1.
-  /// Probes sense the world of the last step for that.
+  /// Sends the readings that are due. Sensors of other hosts and unknown ids are ignored. Does not
+  /// block. `slower`: factor of the interval, at least 1. Probes sense the world of the last step
+  /// when called.
   void tell(const sim::Engine& engine, const Asked& asked, probe::Probes& probes,
             Clock::time_point now, int slower);
 
@@ -47,7 +47,7 @@ class ReadingTeller {
   std::uint64_t number_ = 0;
   Clock::time_point next_{};
   Clock::time_point again_at_{};
-  /// By robot, sensor and part: the number of the sample that was told.
+  /// By robot, sensor and part: sequence of the last published sample.
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t>, std::uint32_t> told_;
   std::vector<rave_wire_Reading> readings_;
   std::vector<float> values_;

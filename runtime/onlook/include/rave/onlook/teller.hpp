@@ -21,39 +21,40 @@
 
 namespace rave::onlook {
 
-/// A host's end of what those who look on get: it hears what they look at, and tells readings,
-/// events, obstacles and local maps. What robots and programs do does not depend on it, and it
-/// waits for nobody. While nobody looks it tells of rare events and of obstacles, for those who
-/// come later. Must be gone before its bus; thread: that of the bus.
+/// The host's side of observation: receives requests of monitors and publishes readings, events,
+/// obstacles and local maps. Robots and programs do not depend on it, and it does not block.
+/// Without requests it publishes only rare events and obstacles, for monitors that start later.
+/// Destroy it before its bus; thread: that of the bus.
 class Teller {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// More contacts of one step are counted and not told.
+  /// Limit of published contacts per step; further ones are only counted.
   static constexpr std::size_t kMostContacts = 100;
 
   struct Options {
-    std::uint32_t host = 0;  ///< Its number in the scenario.
-    bool obstacles = true;   ///< Nobody else on this bus tells of them for this host.
-    /// An event for people, behind its kind. Null: its text.
+    std::uint32_t host = 0;  ///< Number of the host in the scenario.
+    /// Whether to publish obstacles: nobody else on this bus does it for this host.
+    bool obstacles = true;
+    /// The description of an event, after the name of its kind. Empty: its text.
     std::function<std::string(const sim::Event&)> words = {};
-    /// Where the drivers of probes are found; outlives the teller. Null: there are no probes.
+    /// Source of the drivers of probes; must outlive the teller. Null: no probes.
     plugin::Catalogue* catalogue = nullptr;
   };
   /// Errors: those of bus::Writer::create() and bus::Reader::create().
   [[nodiscard]] static Result<Teller> create(bus::Bus& bus, Options options);
 
-  /// The engine is there, its first step is not done.
+  /// Call it before the first step.
   void begin(const sim::EngineSpec& spec) {
     if (obstacles_) obstacles_->begin(spec);
   }
-  /// A step is done, in which `events` happened, and `beside` the engine others. `late`: steps come
-  /// late, so less is told.
+  /// Call it after each step. `beside`: events that the engine does not have. `late`: steps are
+  /// late, so less is published.
   void after_step(const sim::Engine& engine, std::span<const sim::Event> beside, bool late);
-  /// The run is held: the last step stands.
+  /// Call it while the run is paused.
   void held(const sim::Engine& engine);
 
-  /// Whether somebody wants to know what robots report, as far as was heard until the last step.
+  /// Whether a monitor requests robot states, as of the last step.
   [[nodiscard]] bool robots_asked() const noexcept { return asked_.robots; }
 
  private:
@@ -86,10 +87,10 @@ class Teller {
   maps::LocalMaps maps_;
   probe::Probes probes_;
   std::optional<ObstacleTeller> obstacles_;
-  std::map<std::uint64_t, Look> heard_;  ///< By who looks.
-  Asked asked_;                          ///< By all together.
+  std::map<std::uint64_t, Look> heard_;  ///< By monitor.
+  Asked asked_;                          ///< Union of all requests.
   Clock::time_point next_hearing_{};
-  std::uint64_t number_ = 0;  ///< Of samples of events.
+  std::uint64_t number_ = 0;  ///< Number of event samples.
   std::vector<rave_wire_RunEvent> told_;
   std::uint32_t left_out_ = 0;
 };

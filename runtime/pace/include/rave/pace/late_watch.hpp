@@ -16,31 +16,31 @@
 
 namespace rave::runtime {
 
-/// Keeps count of how late the steps of a run come, tells the log when that begins and ends, and
-/// whoever looks on. Belongs to the thread of the run.
+/// Counts missed deadlines of a run. Logs the beginning and end of lateness and shows it in the
+/// status. Belongs to the thread of the run.
 class LateWatch {
  public:
   using Clock = Lateness::Clock;
 
-  /// `period`: as of Lateness. `control` may be null; neither is owned.
+  /// `period`: as in Lateness. `control` may be null. Neither it nor `log` is owned.
   LateWatch(Clock::duration period, LogSink& log, RunControl* control);
 
-  /// To be told what the loop does.
+  /// The counter, to which the loop reports its activities.
   [[nodiscard]] Lateness& count() noexcept { return lateness_; }
-  /// How old the moment is that the step under way is for.
+  /// How old the time of the current step is.
   [[nodiscard]] Duration age() const noexcept;
-  /// What happened in a step: counts real robots that stand since the world that they drive in is
-  /// too old. `world_age`: how much of that others are to blame for.
+  /// Counts real robots that stop because their world is too old. `world_age`: the part of that age
+  /// that other processes caused.
   void look(const sim::EngineSpec& spec, std::span<const sim::Event> events, Duration world_age);
-  /// A step is done.
+  /// Call it after each step.
   void step_done();
-  /// The loop ends; `last`: when its last step is due. The log is told what was missed.
+  /// Call it at the end of the loop; `last`: due time of the last step. Logs the missed deadlines.
   void end(Clock::time_point last);
 
-  /// The last step was late: what only serves to look at can wait.
+  /// Whether the last step was late; work for display only can then wait.
   [[nodiscard]] bool behind() const noexcept { return behind_; }
   [[nodiscard]] const LatenessFacts& facts() const noexcept { return lateness_.facts(); }
-  /// The same for those who look on; none without a pace.
+  /// The counts for the status of the run; empty without a pace.
   [[nodiscard]] std::optional<RunStatus::Lateness> status() const;
 
  private:
@@ -51,13 +51,13 @@ class LateWatch {
   RunControl* control_;
   Lateness lateness_;
   bool behind_ = false;
-  bool told_ = false;  ///< The log knows that steps come late.
+  bool told_ = false;  ///< Whether lateness has been logged.
   Clock::duration last_{};
   Clock::time_point next_status_{};
 };
 
-/// Why a run by the wall clock is not whole: it missed a larger share of its deadlines than
-/// `most_pct`, or real robots were stopped. Empty: neither.
+/// Why a run by the wall clock is not complete: it missed more than `most_pct` percent of its
+/// deadlines, or real robots were stopped. Empty: neither.
 [[nodiscard]] std::vector<std::string> lateness_problems(const LatenessFacts& facts,
                                                          double most_pct);
 

@@ -12,8 +12,8 @@
 
 namespace rave::runtime {
 
-/// Says so when a step does not come to its end: a driver or program inside this process that never
-/// returns cannot be stopped, but it need not be a riddle. Has a thread of its own.
+/// Logs a warning when a step does not end: a driver or program inside this process that never
+/// returns cannot be stopped, but the user should know. Has a thread of its own.
 class StallWatch {
  public:
   explicit StallWatch(LogSink* log);

@@ -10,34 +10,34 @@
 
 namespace rave::runtime {
 
-/// Between two messages about how far a run has come.
+/// Time between two progress messages.
 inline constexpr auto kProgressInterval = std::chrono::milliseconds(100);
 
-/// The clock of PhaseTimes, so that a late step can say what it took.
+/// The clock of PhaseTimes, so that the phases of late steps can be measured.
 inline std::int64_t steady_ns() noexcept {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
              std::chrono::steady_clock::now().time_since_epoch())
       .count();
 }
 
-/// Ties simulation time to the clock on the wall. Written by one thread before the run starts, read
-/// by any afterwards.
+/// Converts between simulation time and wall time. Written by one thread before the run starts,
+/// read by any afterwards.
 class WallPace final : public RunClock {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `factor`: simulated seconds per second; 0: as fast as it can.
+  /// `factor`: simulated seconds per second; 0: no limit.
   explicit WallPace(double factor) : factor_(factor) {}
 
   void set_factor(double factor) noexcept { factor_ = factor; }
-  /// The same of a run under way, of which `now` is the time.
+  /// Changes the factor of a run in progress, whose time is `now`.
   void change_factor(double factor, SimTime now) noexcept {
     factor_ = factor;
     begin_.store(Clock::now());
     begin_.store(begin_.load() - (wall_time_of(now) - begin_.load()));
   }
   void start() noexcept { begin_.store(Clock::now()); }
-  /// Simulation time is 0 at `begin`, which may be past or to come.
+  /// Sets the wall time of simulation time 0, in the past or future.
   void start_at(Clock::time_point begin) noexcept { begin_.store(begin); }
 
   [[nodiscard]] SimTime now() const noexcept override {
@@ -51,16 +51,16 @@ class WallPace final : public RunClock {
            std::chrono::nanoseconds(static_cast<std::int64_t>(static_cast<double>(t.ns) / factor));
   }
 
-  /// Wall time that a step of the run takes; 0 when there is no pace.
+  /// Wall time of one step; 0 without a pace.
   [[nodiscard]] Clock::duration period_of(Duration step) const noexcept {
     return factor_ == 0 ? Clock::duration() : wall_time_of({step.ns}) - wall_time_of({});
   }
 
-  /// Time that a stepped run was held for does not count.
+  /// Excludes the duration of a pause of a stepped run.
   void shift(Clock::duration held) noexcept { begin_.store(begin_.load() + held); }
 
-  /// Sleeps until `t` is due, looking now and then whether the run is to end and calling `look`; at
-  /// once when there is no pace.
+  /// Sleeps until `t` is due. Meanwhile checks for the end of the run and calls `look`. Returns at
+  /// once without a pace.
   template <class Look>
   void wait_for(SimTime t, const RunControl* control, Look&& look) const {
     if (factor_ == 0) return;

@@ -10,13 +10,12 @@
 
 namespace rave::probe {
 
-/// So long the block of a probe is at most, bytes.
+/// Largest size of the block of a probe in bytes.
 inline constexpr std::size_t kLongestBlock = 2048;
 
-/// The sensor that an entry of `sensors:` of a robot file describes, if that is a virtual one with
-/// nothing but a name, a driver, a place, layers and parameters. `block`: YAML, from anybody.
-/// Errors: kParse and kInvalidArgument with what was expected, kNotFound (no such driver; the
-/// nearest name).
+/// Parses the sensor of a probe: an entry of `sensors:` of a robot file with a virtual driver and
+/// nothing but name, driver, mount, layers and parameters. `block`: untrusted YAML. Errors: kParse
+/// and kInvalidArgument with what was expected, kNotFound (no such driver; with the nearest name).
 [[nodiscard]] Result<sim::SensorSpec> read_block(std::string_view block,
                                                  plugin::Catalogue& catalogue);
 

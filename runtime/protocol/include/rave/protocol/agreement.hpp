@@ -7,11 +7,11 @@
 
 namespace rave::runtime {
 
-/// A number of what the processes of a run must agree on: of all that the scenario says but its
-/// pace, its threads and what to do about lost hosts.
+/// A hash of everything that the processes of a run must agree on: the scenario except its pace,
+/// its threads and its policy for lost hosts.
 [[nodiscard]] std::uint64_t shared_number(const config::ExpandedScenario& scenario);
 
-/// What else they must have in common: the interface of plug-ins.
+/// A hash of the plug-in interface, on which they must agree too.
 [[nodiscard]] std::uint64_t interface_stamp();
 
 }  // namespace rave::runtime

@@ -18,34 +18,33 @@
 
 namespace rave::lock_step {
 
-/// No host knows more of its robots than this, in bytes.
+/// Limit of the findings of one host, in bytes.
 inline constexpr std::uint64_t kMostFindings =
     std::uint64_t{rave_wire_kMaxFindingsPart} * rave_wire_kMaxFindingsParts;
 
-/// How long a host waits until a manager has them, once it has written its own files. A manager
-/// waits for hosts that are still there for 20 s from the end of the run on.
+/// How long a host waits until a manager has received its findings, after it has written its own
+/// files. A manager waits for present hosts for 20 s from the end of the run.
 inline constexpr Duration kFindingsPatience{10'000'000'000};
 
-/// What one process knows of its run when that is over: bytes for the results of the whole.
+/// The results of one process of a run after its end, as bytes for the results of the whole run.
 struct Findings {
   std::uint64_t writer = 0;
-  std::uint32_t host = 0;  ///< Its number in the scenario.
+  std::uint32_t host = 0;  ///< Number of the host in the scenario.
   std::vector<std::byte> bytes;
 };
 
-/// A host's end of the topic rave/findings. Must be gone before its bus; thread: that of the bus.
+/// The host's side of the topic rave/findings. Destroy it before its bus; thread: that of the bus.
 class FindingsSender {
  public:
   /// Errors: those of bus::Writer::create().
   [[nodiscard]] static Result<FindingsSender> create(bus::Bus& bus);
 
-  /// Sends what this process knows, and waits until all managers that are there have got it, but
-  /// not for longer than `patience`. Once. Errors: kInvalidArgument (nothing, or more than
-  /// kMostFindings), kTimeout (who listens does not keep up), kState
-  /// (nobody listens, or whoever did is gone).
+  /// Sends the findings once, and waits until all present managers have acknowledged them, at most
+  /// for `patience`. Errors: kInvalidArgument (empty, or more than kMostFindings), kTimeout (a
+  /// receiver does not keep up), kState (no receiver, or it has left).
   [[nodiscard]] Status send(std::uint32_t host, std::span<const std::byte> bytes,
                             Duration patience);
-  /// How many managers are known to listen.
+  /// The number of managers that listen.
   [[nodiscard]] std::size_t readers() const { return writer_.readers(); }
 
  private:
@@ -54,16 +53,16 @@ class FindingsSender {
   bus::Writer<bus::FindingsPart> writer_;
 };
 
-/// Puts parts together again. Knows nothing of the bus.
+/// Assembles findings from their parts. Independent of the bus.
 class FindingsParts {
  public:
-  /// Takes in a part that has passed validate(); twice is once, and behind the last is nothing.
-  /// Errors: kInvalidArgument (it contradicts an earlier one of the same process), kParse (all are
-  /// there and are not what was sent; what that process sends is dropped from then on).
+  /// Adds a part that has passed validate(). Duplicates and out-of-range parts are ignored. Errors:
+  /// kInvalidArgument (it contradicts an earlier part of the same process), kParse (all parts are
+  /// present but the checksum does not match; further parts of that process are dropped).
   [[nodiscard]] Status add(const bus::FindingsPart& part);
-  /// Whether all parts of a process have come and are right, or never will be.
+  /// Whether the findings of a process are complete, or can never be.
   [[nodiscard]] bool done_with(std::uint64_t writer) const { return done_.contains(writer); }
-  /// What is whole, in the order in which it became so; each once.
+  /// The completed findings, in order of completion; each is returned once.
   [[nodiscard]] std::vector<Findings> hand_out();
 
  private:
@@ -80,15 +79,15 @@ class FindingsParts {
   std::vector<Findings> whole_;
 };
 
-/// A manager's end. Must be gone before its bus; thread: that of the bus.
+/// The manager's side. Destroy it before its bus; thread: that of the bus.
 class FindingsCollector {
  public:
   /// Errors: those of bus::Reader::create().
   [[nodiscard]] static Result<FindingsCollector> create(bus::Bus& bus);
   [[nodiscard]] Status wake(bus::WaitSet& waits) { return waits.add(reader_); }
 
-  /// Takes in what has come; parts of a process of which `sat(writer, host)` does not say that it
-  /// had the place of this host are refused.
+  /// Receives parts. Those of a process for which `sat(writer, host)` is false, because it did not
+  /// have the place of this host, are refused.
   void take(const std::function<bool(std::uint64_t, std::uint32_t)>& sat);
   [[nodiscard]] bool done_with(std::uint64_t writer) const { return parts_.done_with(writer); }
   [[nodiscard]] std::vector<Findings> hand_out() { return parts_.hand_out(); }

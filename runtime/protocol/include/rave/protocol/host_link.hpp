@@ -27,104 +27,104 @@
 
 namespace rave::real_time {
 
-/// A host's end of a run in real time: it tells where its robots are and what they say, hears of
-/// the robots of others, and shares the time of the run. Belongs to one thread.
+/// A host's connection to a run in real time: it publishes the states and messages of its robots,
+/// receives those of other robots, and synchronises to the time of the run. Belongs to one thread.
 class HostLink {
  public:
   struct Options {
     bus::BusConfig bus;
     lock_step::Identity self;
-    /// The run has an environment manager, whose clock is that of the run. Without one the time of
-    /// each host is its own.
+    /// The run has an Environment Manager, whose clock is the clock of the run. Without one each
+    /// host has its own time.
     bool managed = true;
-    bool sees = true;   ///< A robot here has use of where the others are.
-    bool talks = true;  ///< A robot here has communicators.
-    /// By robot, the number of its host; of a run in which a robot has two sets of drivers. Empty:
+    bool sees = true;   ///< A local robot needs the poses of others.
+    bool talks = true;  ///< A local robot has communicators.
+    /// By robot, the number of its host; for runs in which a robot has two sets of drivers. Empty:
     /// none has.
     std::vector<std::uint32_t> host_of = {};
-    Duration world_period = from_seconds(0.1);  ///< At which worlds should come.
-    /// Before the start, without an environment manager for longer than this the run has ended for
-    /// this host; 0: it waits without limit.
+    Duration world_period = from_seconds(0.1);  ///< Expected period of world messages.
+    /// Before the start: without an Environment Manager for longer than this, the run ends for this
+    /// host; 0: no limit.
     Duration manager_patience{};
     LogSink* log = nullptr;  ///< Not owned; may be null.
-    /// What is done with what others ask on the bus, inside the calls of this object; may be empty.
+    /// Handles bus requests of others, inside calls of this object; may be empty.
     bus::BeginWish begin_wish = {};
-    bus::OnCommand on_command = {};  ///< The same of commands, which nobody answers.
+    /// Handles bus commands of others, likewise; they get no answer.
+    bus::OnCommand on_command = {};
   };
-  /// Goes on the bus. `world` hears of other robots and what they say, inside the calls of this
-  /// object; not owned. Errors: those of bus::Bus::open().
+  /// Joins the bus. `world` receives the data of other robots inside calls of this object; not
+  /// owned. Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<HostLink>> open(Options options, LiveWorld& world);
   HostLink(const HostLink&) = delete;
   HostLink& operator=(const HostLink&) = delete;
   ~HostLink();
 
-  /// How the run goes, for those who look on; it says nothing before it was told of the scenario.
+  /// The state of the run for monitors; not published before its scenario was set.
   [[nodiscard]] lock_step::HostWord& word() noexcept;
-  /// Where it is on; for others of this thread that end before it.
+  /// The bus, for objects of this thread that end before it.
   [[nodiscard]] bus::Bus& bus() noexcept;
-  /// What is told of the robots of this host, which nobody in the run waits for.
+  /// The roster of this host's robots; nothing in the run waits for it.
   [[nodiscard]] lock_step::Roster& roster() noexcept;
 
-  /// Waits until the run has a time, all obstacles and, if it sees, a first world; from then on
-  /// zero() stands.
-  /// `stopping` is asked ten times a second. False: somebody wants to stop. The log is told for
-  /// whom it waits. Errors: kState (this host is served by another process, or the manager does not
-  /// fit).
+  /// Waits until the run has a time, all obstacles are known and, with `sees`, a first world has
+  /// arrived; zero() is then constant. `stopping` is called ten times a second. False: `stopping`
+  /// returned true. Logs what it waits for. Errors: kState (another process serves this host, or
+  /// the manager is incompatible).
   [[nodiscard]] Result<bool> await_start(const std::function<bool()>& stopping);
-  /// When the run is 0, by the clock of this process. It does not change any more: what is learned
-  /// of the manager's clock later is put on the stamps of messages alone.
+  /// Time 0 of the run in the clock of this process. It does not change any more; later clock
+  /// corrections apply only to the stamps of messages.
   [[nodiscard]] std::chrono::steady_clock::time_point zero() const noexcept;
-  /// Where worlds before the start showed robots that run here: an earlier process of this host
-  /// left them there.
+  /// Poses of this host's robots in worlds before the start: where an earlier process of this host
+  /// left them.
   [[nodiscard]] std::span<const RobotSight> starts() const noexcept;
 
-  /// Sleeps until `due`, hearing what comes meanwhile; at least once, also if that is past. Returns
-  /// early if the run has ended.
+  /// Receives messages until `due`, at least once even if that is past. Returns early if the run
+  /// has ended.
   void listen_until(std::chrono::steady_clock::time_point due);
-  /// Tells those who look on how many robots of this host are real now, after a hand-over.
+  /// Publishes the number of this host's real robots, after a hand-over.
   void count_real(std::uint32_t robots) noexcept;
-  /// Tells where robots of this engine are, as its last step sensed; those without a pose are left
-  /// out. Nothing for an empty list. `reports`: somebody looks on, and is told what they report.
+  /// Publishes the states of robots as of the engine's last step; robots without a pose are
+  /// omitted. No effect for an empty list. `reports`: include the reported poses, for a monitor
+  /// that requests them.
   void tell(const sim::Engine& engine, std::span<const RobotId> robots, bool reports = false);
-  /// Sends what robots here said in a step, of each as much as its TalkLimit lets pass. Waits for
-  /// nobody.
+  /// Sends the messages of local robots in a step, each within its TalkLimit. Does not block.
   void send(const sim::SentPackets& sent);
-  /// Who has exceeded it since the last call; each robot once in a run.
+  /// Robots that exceeded their TalkLimit since the last call; each once per run.
   [[nodiscard]] std::vector<RobotId> take_flooders();
 
-  /// How this host keeps its deadlines, for those who look on.
+  /// Publishes this host's missed deadlines, for monitors.
   void note_lateness(lock_step::Pulse::Lateness lateness);
 
-  /// The last step has the obstacles of LiveWorld::shown_revision() around its robots; the manager
-  /// is told when that is more than before.
+  /// The last step showed local robots the obstacles up to LiveWorld::shown_revision(). The manager
+  /// is told if that has increased.
   void obstacles_shown();
 
-  /// Sends what this host knows of the run to the environment manager, once, when the run is over
-  /// for it: waits until that has it, ten seconds at most. Nothing without a manager, or before the
+  /// Sends the findings of this host to the Environment Manager once, at the end of the run, and
+  /// waits for the acknowledgement, ten seconds at most. No effect without a manager, or before the
   /// start. Errors: those of lock_step::FindingsSender::send().
   [[nodiscard]] Status deliver(std::span<const std::byte> findings);
 
-  /// What hosts have said of theirs since the last call; see Options::host_of.
+  /// Changes of realities that hosts published since the last call; see Options::host_of.
   [[nodiscard]] std::vector<RobotReality> take_realities();
 
-  /// For how long no world has come; 0 if it does not see.
+  /// Time since the last world message; 0 without `sees`.
   [[nodiscard]] Duration world_age() const;
-  /// What of the manager's clock is known: that clock minus the one here.
+  /// The offset of the manager's clock: that clock minus the local one; empty if unknown.
   [[nodiscard]] std::optional<bus::ClockReading> clock() const;
-  /// What the manager says of the end of the run; nothing before.
+  /// The end of the run according to the manager; empty before.
   struct Ending {
     bool good = false;
     std::string text;
   };
   [[nodiscard]] const std::optional<Ending>& ending() const noexcept;
-  /// How many messages of robots here were dropped since they had exceeded it.
+  /// The number of local messages dropped because their robots exceeded the TalkLimit.
   [[nodiscard]] std::uint64_t withheld_packets() const noexcept;
-  /// How many messages of robots here were dropped since some other process does not keep up.
+  /// The number of local messages dropped because another process does not keep up.
   [[nodiscard]] std::uint64_t unsent_packets() const noexcept;
-  /// How many messages of robots of other hosts were on the bus and did not get here.
+  /// The number of messages of other hosts' robots that were lost on the bus.
   [[nodiscard]] std::uint64_t lost_packets() const noexcept;
-  /// How many worlds have come, and how often they failed to for longer than three periods and half
-  /// a second.
+  /// The number of received worlds, and how often none arrived for longer than three periods and
+  /// half a second.
   [[nodiscard]] std::uint64_t worlds() const noexcept;
   [[nodiscard]] std::uint64_t losses() const noexcept;
 

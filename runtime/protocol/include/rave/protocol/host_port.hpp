@@ -23,26 +23,27 @@
 
 namespace rave::lock_step {
 
-/// A host's end of a run in lock-step: it sends reports to the environment manager, whoever and
-/// wherever that is, and gets the world. Belongs to one thread.
+/// A host's connection to a run in lock-step: it sends reports to the Environment Manager, wherever
+/// that is, and receives the world. Belongs to one thread.
 class HostPort {
  public:
   enum class Answer : std::uint8_t {
-    kWorld,  ///< `world` is that of the reported step; or of a later one, if the run went on alone.
-    kStopped,  ///< Somebody here wants to stop.
-    kEnded,    ///< The run has ended; ending() says how.
+    kWorld,    ///< `world` is that of the reported step, or of a later one if the run continued
+               ///< without this host.
+    kStopped,  ///< `stopping` returned true.
+    kEnded,    ///< The run has ended; see ending().
   };
 
-  /// Without an environment manager for longer than this the run has ended for a host.
+  /// How long a host waits without an Environment Manager before the run ends for it.
   struct Patience {
-    Duration usual;  ///< 0: it waits without limit.
-    /// When it is missed after this process stood still for longer than half its lease, and the run
-    /// did not wait; 0: as usual.
+    Duration usual;  ///< 0: no limit.
+    /// Used after this process was unable to run for longer than half its lease, unless the run
+    /// waits for it; 0: as usual.
     Duration after_standstill;
   };
 
-  /// Goes on the bus. `log` is not owned and may be null. `begin_wish`, called in exchange(): what
-  /// is done with what others ask on the bus; may be empty. Errors: those of bus::Bus::open().
+  /// Joins the bus. `log` is not owned and may be null. `begin_wish` handles bus requests of
+  /// others, inside exchange(); may be empty. Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<HostPort>> open(const bus::BusConfig& bus,
                                                               Identity identity, LogSink* log,
                                                               Patience patience = {},
@@ -51,43 +52,43 @@ class HostPort {
   HostPort& operator=(const HostPort&) = delete;
   ~HostPort();
 
-  /// Sends a report, again and again until it is answered, and waits for the answer; `stopping` is
-  /// asked ten times a second. `world` is the last answer until it becomes the next one: it is
-  /// handed to an environment manager that was started anew, which goes on from there. While nobody
-  /// answers, the log is told for whom all wait. Errors: kState (this host is served by another
-  /// process already; the manager has another scenario or interface), kInvalidArgument (the report
-  /// is larger than what the bus carries).
+  /// Sends a report repeatedly until it is answered. `stopping` is called ten times a second.
+  /// `world` must be the last answer, and receives the new one. If the Environment Manager was
+  /// restarted, it gets the last answer, to continue from there. While there is no answer, the log
+  /// names the hosts that all wait for. Errors: kState (another process already serves this host;
+  /// the manager has another scenario or interface), kInvalidArgument (the report is larger than
+  /// the bus can carry).
   [[nodiscard]] Result<Answer> exchange(const sim::HostReport& report, std::uint64_t hash,
                                         sim::WorldStep& world,
                                         const std::function<bool()>& stopping);
-  /// Says where robots of this host are and what they report, for those who look on: 30 times a
-  /// second at most, and while somebody reads it. Nobody in the run does.
+  /// Publishes the states of this host's robots for monitors: at most 30 times a second, and only
+  /// while somebody reads it. No process of the run does.
   void show(const sim::Engine& engine, std::span<const RobotId> robots);
-  /// How the run goes, for those who look on; it says nothing before it was told of the scenario.
+  /// The state of the run for monitors; not published before its scenario was set.
   [[nodiscard]] HostWord& word() noexcept;
-  /// Where it is on; for others of this thread that end before it.
+  /// The bus, for objects of this thread that end before it.
   [[nodiscard]] bus::Bus& bus() noexcept;
-  /// What is told of the robots of this host, which nobody in the run waits for.
+  /// The roster of this host's robots; nothing in the run waits for it.
   [[nodiscard]] Roster& roster() noexcept;
-  /// What the authority knew beside the last world, with the obstacles of before only if this host
-  /// had missed some.
+  /// The state of the authority for the last world. It includes earlier obstacle changes only if
+  /// this host had missed some.
   [[nodiscard]] const sim::AuthorityState& authority() const noexcept;
-  /// Whether another authority than the first has answered: the one that is there at the end has
-  /// not seen all of the run.
+  /// Whether the authority has changed during the run, so that the present one has not seen all of
+  /// it.
   [[nodiscard]] bool changed_hands() const noexcept;
-  /// After kEnded: whether the run ended as it should, and what its manager says of it.
+  /// After kEnded: whether the run was complete, and a message of its manager.
   struct Ending {
     bool good = false;
     std::string text;
   };
   [[nodiscard]] const Ending& ending() const noexcept;
 
-  /// Sends a last report without waiting for an answer: `state` says that this host is done or has
-  /// failed.
+  /// Sends a last report without waiting for an answer; its `state` says that this host is done or
+  /// has failed.
   void farewell(const sim::HostReport& report, std::uint64_t hash);
 
-  /// Sends what this host knows of the run to the environment manager, once, when the run is over
-  /// for it: waits until that has it, ten seconds at most. Nothing for a host that never took part.
+  /// Sends the findings of this host to the Environment Manager once, at the end of the run, and
+  /// waits for the acknowledgement, ten seconds at most. No effect for a host that never took part.
   /// Errors: those of FindingsSender::send().
   [[nodiscard]] Status deliver(std::span<const std::byte> findings);
 

@@ -11,30 +11,29 @@
 
 namespace rave::lock_step {
 
-/// Tells those who look on how the run goes as this host knows it (topic rave/host_run), five times
-/// a second while somebody reads it. No process of the run does. Must be gone before its bus;
-/// thread: that of the bus.
+/// Publishes the state of the run as this host knows it (topic rave/host_run), five times a second
+/// while somebody reads it. Only monitors do. Destroy it before its bus; thread: that of the bus.
 class HostWord {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// What a host knows of the run at one moment.
+  /// The state of the run for this host.
   struct Facts {
     rave_wire_RunPhase phase = rave_wire_RUN_GATHERS;
     std::uint64_t step = 0;
     std::string_view text{};  ///< What it waits for, or how the run ended.
-    bool managed = true;      ///< The run has an environment manager,
+    bool managed = true;      ///< The run has an Environment Manager; manager_here: it is present.
     bool manager_here = false;
   };
 
   /// `host`: its number in the scenario. Errors: those of bus::Writer::create().
   [[nodiscard]] static Result<HostWord> create(bus::Bus& bus, std::uint32_t host, std::string name);
 
-  /// What the scenario says of the run.
+  /// Sets the properties of the run from its scenario.
   void describe(std::string scenario, std::uint64_t steps, double step_s);
-  /// To be called often: writes when it is time.
+  /// Call it often; it publishes when due.
   void tell(const Facts& facts);
-  /// The last word, at once.
+  /// Publishes the end of the run at once.
   void tell_end(bool good, std::uint64_t step, std::string_view text);
 
  private:

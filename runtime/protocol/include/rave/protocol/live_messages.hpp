@@ -12,20 +12,20 @@ namespace rave::real_time {
 
 using lock_step::RobotColumns;
 
-/// The robot at a place of a message, which has passed bus::validate(). `shift` is put on its
-/// stamp.
+/// Decodes the robot at an index of a message that has passed bus::validate(). `shift` is added to
+/// its stamp.
 [[nodiscard]] RobotSight read_robot(const rave_wire_PlanarRobots& robots, std::size_t index,
                                     Duration shift);
 
-/// How an obstacle stands, as the bus carries it. Errors: kInvalidArgument, see
-/// lock_step::read_obstacle(). The sample has passed bus::validate().
+/// Decodes an obstacle of a sample that has passed bus::validate(). Errors: kInvalidArgument, see
+/// lock_step::read_obstacle().
 [[nodiscard]] Result<ObstacleSight> read_obstacle(const bus::Obstacle& sample);
 
-/// A message of a robot as a packet that borrows `bytes`; `shift` is put on its stamp.
+/// Encodes a message of a robot; the packet borrows `bytes`. `shift` is added to its stamp.
 [[nodiscard]] bus::Packet packet_of(const sim::SentPacket& sent, std::span<const std::byte> bytes,
                                     std::uint64_t number, Duration shift);
-/// And back; its bytes are those of the payload, and it left its robot when it was sent. The packet
-/// has passed bus::validate().
+/// The inverse of packet_of(), without the payload. The message counts as complete at its stamp.
+/// The packet must have passed bus::validate().
 [[nodiscard]] sim::SentPacket read_packet(const bus::Packet& packet, Duration shift);
 [[nodiscard]] std::span<const std::byte> payload_of(const bus::Packet& packet) noexcept;
 

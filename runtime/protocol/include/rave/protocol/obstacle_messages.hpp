@@ -12,11 +12,12 @@
 
 namespace rave::lock_step {
 
-/// Changes of obstacles, in memory that a bus message borrows. One owner thread.
+/// Converts obstacle changes to wire structs, which borrow memory of this object. One owner thread.
 class ObstacleParts {
  public:
-  /// Holds until the next call. Errors: kInvalidArgument, what the bus cannot carry: too many, a
-  /// name, colour or text that is too long, more shapes or corners than the wire types allow.
+  /// Valid until the next call. Errors kInvalidArgument: more than the bus can carry, namely too
+  /// many changes, a name, colour or text that is too long, or more shapes or corners than the wire
+  /// types permit.
   Status fill(std::span<const sim::ObstacleChange> changes);
   [[nodiscard]] std::vector<rave_wire_ObstacleChange>& changes() noexcept { return changes_; }
 
@@ -31,19 +32,19 @@ class ObstacleParts {
   std::deque<Body> bodies_;
 };
 
-/// And back, to the bit. Errors: kInvalidArgument with the field: a polygon that is not convex, not
-/// counterclockwise or has corners on one line, an unknown number. The change has passed
-/// bus::validate().
+/// The inverse of fill(), bit by bit. Errors: kInvalidArgument with the field: a polygon that is
+/// not convex, not counter-clockwise or has collinear corners, an unknown number. The change must
+/// have passed bus::validate().
 [[nodiscard]] Result<sim::ObstacleChange> read_obstacle(const rave_wire_ObstacleChange& wire);
 
-/// How many bytes of a message a change takes, roughly and rather more than less.
+/// An upper estimate of the size of a change in a message, in bytes.
 [[nodiscard]] std::size_t wire_bytes(const sim::ObstacleChange& change) noexcept;
 
-/// Most bytes of all obstacles that are not as at the start: whoever comes late is told of them in
-/// one message, of which the bus carries 16 MiB.
+/// Limit in bytes of all obstacles that differ from their initial state: a process that joins late
+/// gets them in one message, of which the bus carries 16 MiB.
 inline constexpr std::size_t kMostObstacleBytes = 8U << 20U;
 
-/// Whether the bus can carry a change, and others would read the same. Errors: kInvalidArgument.
+/// Checks that the bus can carry a change without loss. Errors: kInvalidArgument.
 [[nodiscard]] Status check_fits(const sim::ObstacleChange& change);
 
 }  // namespace rave::lock_step

@@ -11,36 +11,36 @@
 
 namespace rave::lock_step {
 
-/// Tells those who look on how a process of a run fares (topic rave/process). Must be gone before
+/// Publishes the state of a process of a run for monitors (topic rave/process). Destroy it before
 /// its bus; thread: that of the bus.
 class Pulse {
  public:
-  /// How it keeps the deadlines of its steps, if these are by the clock on the wall.
+  /// Missed deadlines, if its steps follow the wall clock.
   struct Lateness {
-    std::uint64_t deadlines = 0;  ///< That have passed.
+    std::uint64_t deadlines = 0;  ///< Number of passed deadlines.
     std::uint64_t missed = 0;
     std::int64_t worst_ns = 0;
-    std::int64_t behind_ns = 0;  ///< How late its last step was.
-    std::string phase;           ///< Most to blame; empty: nothing was missed.
+    std::int64_t behind_ns = 0;  ///< Delay of the last step.
+    std::string phase;  ///< Phase that caused most of the misses; empty: nothing was missed.
   };
-  /// What the process knows of itself.
+  /// The state of the process.
   struct Facts {
     std::uint64_t step = 0;
-    std::uint64_t missed = 0;         ///< Worlds that never came.
-    std::int64_t round_trip_ns = -1;  ///< To the manager and back; -1: not known.
+    std::uint64_t missed = 0;         ///< World messages that never arrived.
+    std::int64_t round_trip_ns = -1;  ///< Round-trip time to the manager; -1: unknown.
     Lateness lateness{};
   };
 
   static constexpr std::chrono::nanoseconds kPeriod{std::chrono::seconds(1)};
 
-  /// `period`: between two beats that nothing hurries. Errors: those of bus::Writer::create().
+  /// `period`: time between two messages without a change. Errors: those of bus::Writer::create().
   [[nodiscard]] static Result<Pulse> create(bus::Bus& bus, const Identity& self,
                                             std::chrono::nanoseconds period = kPeriod);
 
-  /// To be called often: sends the facts once in a period, and otherwise only reads the clock.
+  /// Call it often: it publishes once per period, and otherwise only reads the clock.
   void beat(const Facts& facts);
-  /// So many of its robots are real now: told with the next beat, which does not wait for its
-  /// period to be over.
+  /// Sets the number of its real robots, which is published with the next beat() without waiting
+  /// for the period.
   void count_real(std::uint32_t robots) noexcept;
 
  private:

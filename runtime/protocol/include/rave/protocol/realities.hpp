@@ -12,14 +12,14 @@
 
 namespace rave::real_time {
 
-/// Whether its real or its simulated drivers serve a robot that has both.
+/// Which drivers are active for a robot that has both real and simulated ones.
 struct RobotReality {
   RobotId robot;
   bool simulated = true;
 };
 
-/// Hears from the roster (topic rave/roster) which drivers serve robots of other hosts. Must be
-/// gone before its bus; thread: that of the bus.
+/// Receives from the roster (topic rave/roster) which drivers are active for robots of other hosts.
+/// Destroy it before its bus; thread: that of the bus.
 class Realities {
  public:
   /// `host_of`: by robot, the number of its host in the scenario. Errors: those of
@@ -27,15 +27,15 @@ class Realities {
   [[nodiscard]] static Result<Realities> create(bus::Bus& bus, std::uint32_t own_host,
                                                 std::vector<std::uint32_t> host_of);
 
-  /// Takes in what others say. Who speaks of a robot that its host does not run is refused, and
-  /// told once as an event of the bus.
+  /// Receives the pending samples. A sample about a robot of another host than its sender's is
+  /// refused; the first one is reported as an event of the bus.
   void hear();
-  /// Takes in what was heard, as hear() does with each sample of the topic.
+  /// Processes one sample, as hear() does for each.
   void hear(const bus::RosterEntry& entry);
-  /// A process is gone, with what it said.
+  /// Forgets the samples of a process that was lost.
   void lose(std::uint64_t writer);
-  /// What is otherwise than at the last call; ascending. Of several processes that speak for a
-  /// host, such as one that was started by mistake, the one counts that was heard first.
+  /// The changes since the last call, ascending. If several processes speak for a host, such as one
+  /// that was started by mistake, the first one counts.
   [[nodiscard]] std::vector<RobotReality> take();
 
  private:
@@ -46,14 +46,14 @@ class Realities {
   std::uint32_t own_host_;
   std::vector<std::uint32_t> host_of_;
   bus::Reader<bus::RosterEntry> reader_;
-  /// What one process said of its robots: which are simulated.
+  /// The samples of one process: which of its robots are simulated.
   struct Book {
     std::uint64_t writer = 0;
     std::uint32_t host = 0;
     std::map<RobotId, bool> said;
   };
-  std::vector<Book> books_;        ///< In the order in which they were begun.
-  std::map<RobotId, bool> shown_;  ///< As handed out last.
+  std::vector<Book> books_;        ///< In order of creation.
+  std::map<RobotId, bool> shown_;  ///< The state at the last take().
   bool refused_ = false;
 };
 

@@ -12,24 +12,24 @@
 
 namespace rave::lock_step {
 
-/// Where a robot was, as its own host said.
+/// The pose of a robot according to its own host.
 struct RobotSight {
   RobotId robot;
-  SimTime stamp;    ///< By the clock of the engine that shall know it.
+  SimTime stamp;    ///< In the clock of the engine that receives it.
   Pose2 X_WR;       ///< Finite.
   Twist2 velocity;  ///< Body frame; finite.
 };
 
-/// Robots in the plane, in the columns that a message borrows. One owner thread.
+/// Robot states as columns, which a message borrows. One owner thread.
 class RobotColumns {
  public:
   void clear() noexcept;
-  /// Behind those with lower numbers. Stamps by the clock of the run.
+  /// Adds a robot; ids must ascend. Stamps are in the clock of the run.
   void add(const RobotSight& sight);
-  /// The same of a robot of an engine that is somewhere: where it is sensed. `shift` is put on its
-  /// stamp.
+  /// Adds a robot of an engine that has a pose: the pose at which it is sensed. `shift` is added to
+  /// its stamp.
   void add(const sim::Engine& engine, RobotId robot, Duration shift);
-  /// The message holds until this object changes.
+  /// Makes the message refer to the columns; valid until this object changes.
   void lend(rave_wire_PlanarRobots& robots) noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return id_.size(); }
 
@@ -39,19 +39,19 @@ class RobotColumns {
   std::vector<std::int64_t> stamp_ns_;
 };
 
-/// What robots report of themselves, for those who look on; in the columns that a message borrows.
-/// One owner thread.
+/// The states that robots report, for monitors, as columns, which a message borrows. One owner
+/// thread.
 class ReportColumns {
  public:
-  /// A contact is told when it begins; so long it counts as going on.
+  /// How long after its beginning a contact counts as lasting.
   static constexpr double kTouch_s = 0.5;
 
-  /// After each step whose contacts may matter later.
+  /// Call it after each step, also if nothing is published, so that contacts are not missed.
   void note_contacts(const sim::Engine& engine);
   void clear() noexcept;
-  /// Behind those with lower numbers; a robot of this engine.
+  /// Adds a robot of this engine; ids must ascend.
   void add(const sim::Engine& engine, RobotId robot);
-  /// The message holds until this object changes.
+  /// Makes the message refer to the columns; valid until this object changes.
   void lend(rave_wire_RobotReports& reports) noexcept;
 
  private:

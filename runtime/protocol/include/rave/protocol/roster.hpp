@@ -18,12 +18,12 @@ namespace rave::lock_step {
 /// Parameters of a robot by name, as text.
 using NamedValues = std::vector<std::pair<std::string, std::string>>;
 
-/// A robot as a message that borrows memory of this object. One owner thread.
+/// The description of a robot as a message that borrows memory of this object. One owner thread.
 class RobotDescription {
  public:
-  /// Holds until the next call; revision and host are the caller's. What the bus has no room for
-  /// is left out: shapes, sensors and parameters beyond the bounds of the wire type, the ends of
-  /// long texts. Values are on one line.
+  /// Valid until the next call; the caller sets revision and host. What exceeds the wire type is
+  /// omitted: further shapes, sensors and parameters, and the ends of long texts. Values are
+  /// written in one line.
   bus::RosterEntry& fill(const sim::EngineSpec& spec, RobotId robot, const NamedValues& parameters);
 
  private:
@@ -38,24 +38,24 @@ class RobotDescription {
   std::vector<rave_wire_Parameter> parameters_;
 };
 
-/// A host describes its robots to the others (topic rave/roster): each once, and again when
-/// something of it has changed. Must be gone before its bus; thread: that of the bus.
+/// Publishes the descriptions of a host's robots (topic rave/roster): each once, and again after a
+/// change. Destroy it before its bus; thread: that of the bus.
 class Roster {
  public:
   /// `host`: its number in the scenario. Errors: those of bus::Writer::create().
   [[nodiscard]] static Result<Roster> create(bus::Bus& bus, std::uint32_t host);
 
-  /// A robot of this host is new, or has changed.
+  /// Marks a robot of this host as new or changed.
   void note(RobotId robot) { due_.insert(robot.value()); }
   void note(std::span<const RobotId> robots) {
     for (const RobotId robot : robots) note(robot);
   }
-  /// Whether anything is to be told.
+  /// Whether any robot is marked.
   [[nodiscard]] bool due() const noexcept { return !due_.empty(); }
 
-  /// Tells what was noted, as it is now. Waits for nobody: what does not get through, since a
-  /// reader does not keep up, stays due. `parameters_of` is asked for each robot. Error
-  /// kInvalidArgument: some robot cannot be described; it is left out.
+  /// Publishes the marked robots in their present state. Does not block: a robot whose sample is
+  /// not accepted, because a reader does not keep up, stays marked. `parameters_of` is called for
+  /// each robot. Error kInvalidArgument: a robot cannot be described and is omitted.
   Status tell(const sim::EngineSpec& spec,
               const std::function<NamedValues(RobotId)>& parameters_of);
 
@@ -65,7 +65,7 @@ class Roster {
 
   bus::Writer<bus::RosterEntry> writer_;
   std::uint32_t host_;
-  std::uint64_t revision_ = 0;  ///< Of all entries of this process.
+  std::uint64_t revision_ = 0;  ///< Counts all entries of this process.
   std::set<std::uint32_t> due_;
   RobotDescription description_;
 };

@@ -9,27 +9,28 @@
 
 namespace rave::real_time {
 
-/// The time of a run by the clock of this process: how long ago it was 0 by the clock of the
-/// environment manager, as far as one can know. Times named local are those of the monotonic clock
-/// of this machine, in nanoseconds. A value; one owner thread.
+/// The time of a run in the clock of this process, estimated from the clock of the Environment
+/// Manager. Local times are those of the monotonic clock of this machine, in nanoseconds. A value;
+/// one owner thread.
 class SharedTime {
  public:
-  /// The run has no manager: it is 0 at `local_ns`, for this process alone.
+  /// For a run without a manager: sets time 0, for this process only.
   void begin_alone(std::int64_t local_ns);
-  /// An answer of a manager: the exchange, whether the run has begun for it and where it is 0 by
-  /// its clock. Of another manager than before it counts from when that one has begun. Error
-  /// kInvalidArgument: the exchange cannot be; then nothing has changed.
+  /// Adds an answer of a manager: the clock exchange, whether the run has begun, and its time 0 in
+  /// the manager's clock. An answer of another manager counts once its run has begun. Error
+  /// kInvalidArgument: an impossible exchange; nothing changes.
   Status hear(std::uint64_t manager, const bus::ClockExchange& exchange, bool begun,
               std::int64_t zero_ns);
 
-  /// Whether the run has begun, or is about to.
+  /// Whether the run has begun or its start time is set.
   [[nodiscard]] bool known() const noexcept { return known_; }
-  /// How often the manager has answered.
+  /// The number of answers of the manager.
   [[nodiscard]] std::uint64_t answers() const noexcept { return answers_; }
-  /// Local time at which the run is 0; changes a little as more is known. Needs known().
+  /// Local time at which the run is at 0; improves slightly with each answer. Precondition:
+  /// known().
   [[nodiscard]] std::int64_t zero_ns() const noexcept { return zero_ns_; }
   [[nodiscard]] SimTime at(std::int64_t local_ns) const noexcept { return {local_ns - zero_ns_}; }
-  /// Where the clock of the manager stands; nothing without an answer in the last ten seconds.
+  /// The offset of the manager's clock; empty without an answer in the last ten seconds.
   [[nodiscard]] std::optional<bus::ClockReading> reading(std::int64_t local_ns) const {
     return offset_.at(local_ns);
   }

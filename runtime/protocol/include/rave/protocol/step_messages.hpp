@@ -14,19 +14,19 @@
 
 namespace rave::lock_step {
 
-/// Memory for what a bus message of messages between robots points to.
+/// Memory that bus messages refer to.
 struct WireParts {
   std::vector<rave_wire_PoseReport> poses;
   std::vector<rave_wire_PoseSample> samples;
   std::vector<rave_wire_SentPacket> packets;
 };
 
-/// Makes a bus message of a host's report. One owner thread.
+/// Encodes the report of a host as a bus message. One owner thread.
 class ReportMessage {
  public:
-  /// The message borrows from `report` and from this object: it holds until either changes.
-  /// `epoch`: of the authority that is answered, 0 if none has spoken. `hash`: of what the host did
-  /// in the steps that are done.
+  /// The message borrows from `report` and from this object: valid until either changes. `epoch`:
+  /// that of the authority that is answered, 0 if none. `hash`: hash of the completed steps of this
+  /// host.
   [[nodiscard]] bus::HostReport& fill(const sim::HostReport& report, std::uint64_t epoch,
                                       std::uint64_t hash);
 
@@ -36,16 +36,16 @@ class ReportMessage {
   std::vector<rave_wire_InputRefusal> refusals_;
 };
 
-/// Makes a bus message of a step of the world. One owner thread.
+/// Encodes a step of the world as a bus message. One owner thread.
 class WorldMessage {
  public:
-  /// As ReportMessage::fill(). Errors: kInvalidArgument, an input that the bus cannot carry: a name
-  /// longer than 128 bytes, a text longer than 1024, a list of more than 1024 numbers; what
-  /// ObstacleParts::fill() says.
+  /// Like ReportMessage::fill(). Errors: kInvalidArgument: an input that the bus cannot carry (a
+  /// name longer than 128 bytes, a text longer than 1024, a list of more than 1024 numbers); those
+  /// of ObstacleParts::fill().
   [[nodiscard]] Result<bus::LastWorld*> fill(const sim::WorldStep& world,
                                              const sim::AuthorityState& authority,
                                              std::uint64_t epoch);
-  /// Says for whom the message is: by number of the host the process that runs it, 0 for nobody.
+  /// Sets the receivers: for each host the writer id of its process, 0: none.
   void address(std::span<const std::uint64_t> hosts);
 
  private:
@@ -69,15 +69,15 @@ class WorldMessage {
   std::vector<std::vector<rave_wire_OrderPoint>> points_;  ///< By input.
 };
 
-/// Whether the bus can carry what is asked; error as of WorldMessage::fill().
+/// Checks that the bus can carry an input; errors as in WorldMessage::fill().
 [[nodiscard]] Status check_fits(const sim::WorldInput& input);
 
-/// What a message says, with the memory of `report` used again. Whether it is what the authority
-/// needs is for WorldAuthority::step() to say. The message has passed bus::validate().
+/// Decodes a message that has passed bus::validate(). Reuses the memory of `report`.
+/// WorldAuthority::step() checks whether it fits the run.
 void read(const bus::HostReport& message, sim::HostReport& report);
-/// The same for a step of the world, which Engine::apply() judges, and what its authority knows
-/// beside. Errors: kInvalidArgument (an input or a part of a robot that does not exist, an event of
-/// no robot that is not of the world, an obstacle that nobody can build).
+/// Decodes a step of the world, which Engine::apply() checks, and the state of its authority.
+/// Errors: kInvalidArgument (an unknown kind of input or part of a robot, an event without a robot
+/// that does not concern the world, an invalid obstacle).
 [[nodiscard]] Status read(const bus::WorldStep& message, sim::WorldStep& world,
                           sim::AuthorityState& authority);
 

@@ -8,10 +8,10 @@
 
 namespace rave::real_time {
 
-/// How much one robot may say to other hosts: so much in each step, and what it did not use of that
-/// up to a burst. It is far more than a program says with the usual mailboxes, and keeps one that
-/// floods from the time and memory of all others. Whoever receives allows `kOnReception` times as
-/// much: what left in order arrives in bunches. One owner thread.
+/// A token bucket that limits the messages of one robot to other hosts: an allowance per step,
+/// which accumulates up to a burst. It is far more than a program sends with usual mailboxes, and
+/// protects the time and memory of all others from a robot that floods. Receivers allow
+/// `kOnReception` times as much, because messages arrive in bursts. One owner thread.
 class TalkLimit {
  public:
   static constexpr std::uint32_t kMessagesPerStep = 64;
@@ -22,19 +22,19 @@ class TalkLimit {
 
   explicit TalkLimit(std::uint32_t times = 1) noexcept : times_(times) {}
 
-  /// Whether a message of so many bytes may pass; if so it is counted.
+  /// Whether a message of this size may pass; if so, it is counted.
   [[nodiscard]] bool take(std::size_t bytes) noexcept {
     if (messages_ == 0 || bytes > bytes_) return false;
     --messages_;
     bytes_ -= bytes;
     return true;
   }
-  /// The next step begins.
+  /// Begins the next step.
   void step() noexcept {
     messages_ = std::min(times_ * kMessagesAtOnce, messages_ + times_ * kMessagesPerStep);
     bytes_ = std::min(times_ * kBytesAtOnce, bytes_ + times_ * kBytesPerStep);
   }
-  /// True the first time: somebody has to be told of a robot that exceeds it, once.
+  /// True on the first call only: a robot that exceeds the limit is reported once.
   [[nodiscard]] bool name() noexcept { return !std::exchange(named_, true); }
 
  private:

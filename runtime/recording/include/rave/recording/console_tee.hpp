@@ -10,8 +10,8 @@
 
 namespace rave::runtime {
 
-/// Sends messages on to the sink of the run and, once there is one, into its record. What comes
-/// before is kept for it. Any thread.
+/// Forwards log messages to the sink of the run and to its recording. Messages before the recording
+/// is opened are kept for it. Any thread.
 class ConsoleTee final : public LogSink {
  public:
   explicit ConsoleTee(LogSink* next) : next_(next) {}
@@ -26,7 +26,7 @@ class ConsoleTee final : public LogSink {
     }
   }
 
-  /// From now on lines go to `recorder`, until it is detached by null.
+  /// Sets the recorder for further messages; null detaches it.
   void attach(record::RunRecorder* recorder) {
     const std::lock_guard lock(mutex_);
     recorder_ = recorder;

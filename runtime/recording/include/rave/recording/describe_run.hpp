@@ -7,10 +7,10 @@
 
 namespace rave::runtime {
 
-/// What is known of a run before anything of it is opened.
+/// The description of a run, available before its devices are opened.
 struct DescribedRun {
-  record::RunInfo info;  ///< All robots and sensors; what only open devices know, ranges, is 0.
-  record::StringMap hybrids;  ///< As of RunView.
+  record::RunInfo info;       ///< All robots and sensors; ranges that only open devices know are 0.
+  record::StringMap hybrids;  ///< See RunView.
 };
 
 [[nodiscard]] DescribedRun describe_run(const BuiltScenario& built);

@@ -8,20 +8,20 @@
 
 namespace rave::runtime {
 
-/// Puts the real and the virtual part of every reading of hybrid sensors into the record, beside
-/// the result that the program got. Of several readings in one step those of the newest, as with
-/// results. Looks at hybrid sensors only, so other runs pay nothing.
+/// Records the real and the virtual half of every reading of hybrid sensors, in addition to the
+/// fused result. Of several readings in one step it records the newest, like for results. No cost
+/// for runs without hybrid sensors.
 class PartKeeper {
  public:
   explicit PartKeeper(const sim::EngineSpec& spec);
 
-  /// Which sensors are hybrids and of what, by `robot/sensor` (metadata `rave.hybrid`).
-  /// `all`: of robots that run elsewhere, too.
+  /// The hybrid sensors, `robot/sensor` to a description of the parts (metadata `rave.hybrid`).
+  /// `all`: include robots that run elsewhere.
   [[nodiscard]] static record::StringMap describe(const sim::EngineSpec& spec, bool all = false);
-  /// A robot has its other set of drivers: `spec` is that of the engine from now on. Readings of a
-  /// sensor go on counting, so what was kept is not kept again.
+  /// Call it after a hand-over with the engine's spec. Sequence numbers of a sensor continue, so
+  /// nothing is recorded twice.
   void follow(const sim::EngineSpec& spec);
-  /// After a step of the engine, between begin_step() and end_step() of the recorder.
+  /// Call it after a step, between begin_step() and end_step() of the recorder.
   void keep(const sim::Engine& engine, record::RunRecorder& recorder);
 
  private:
@@ -29,7 +29,7 @@ class PartKeeper {
     RobotId robot;
     std::uint32_t sensor = 0;
     ReadingKind kind = ReadingKind::kNone;
-    std::uint32_t seen = 0;  ///< Sequence of the last reading that was kept.
+    std::uint32_t seen = 0;  ///< Sequence of the last recorded reading.
   };
   std::vector<Hybrid> hybrids_;
 };

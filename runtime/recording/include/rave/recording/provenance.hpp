@@ -10,20 +10,19 @@
 #include "rave/plugin/catalogue.hpp"
 #include "rave/sim/engine.hpp"
 
-// What a run came from beside its scenario, so that somebody else can tell whether they have the
-// same.
+// The inputs of a run besides its scenario, so that others can check whether they have the same.
 namespace rave::runtime {
 
 /// SHA-256 of a file's content as 64 hexadecimal digits. Errors: kNotFound, kIo.
 [[nodiscard]] Result<std::string> sha256_of_file(const std::filesystem::path& path);
 
-/// Files that a run reads beside those that its expanded scenario holds: maps with their images,
-/// and the recordings that sensors name in their reports (`folder` and `file`). Absolute path to
-/// SHA-256. What cannot be read is left out: it did not keep the run from starting.
+/// Files that a run reads in addition to its expanded scenario: maps with their images, and the
+/// recordings that sensors name in their reports (`folder` and `file`). Absolute path to SHA-256.
+/// Unreadable files are omitted, because they did not prevent the start.
 [[nodiscard]] std::map<std::string, std::string> input_files(
     const config::ExpandedScenario& scenario, const sim::Engine& engine);
 
-/// Of RAVE, and of each driver and program that takes part in this process: `rave`, `driver NAME`,
+/// The versions of RAVE and of each driver and program used in this process: `rave`, `driver NAME`,
 /// `program NAME`.
 [[nodiscard]] std::map<std::string, std::string> versions_of(const sim::EngineSpec& spec,
                                                              plugin::Catalogue& catalogue);

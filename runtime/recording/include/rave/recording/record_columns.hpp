@@ -9,23 +9,23 @@
 
 namespace rave::runtime {
 
-/// Robots of one group that follow one another, in the group and in the scenario.
+/// Robots with consecutive ids that are also consecutive in their group.
 struct RobotRow {
   std::uint32_t first_member = 0;
   std::uint32_t robots = 0;
   RobotId first;
 };
 
-/// Looks at all robots of one type after a step, column by column, and records what is new: what
-/// all robots of a row have in common is written as one block.
+/// Records the new data of all robots of one type after a step, column by column. Equal data of
+/// consecutive robots is written as one block.
 class RecordColumns {
  public:
   RecordColumns(const sim::Engine& engine, std::uint32_t group);
 
   void keep_percepts(const sim::Engine& engine, record::RunRecorder& recorder);
-  /// Those of the last step.
+  /// The commands of the last step.
   void keep_commands(const sim::Engine& engine, record::RunRecorder& recorder) const;
-  /// Those that changed.
+  /// The actuator commands that changed.
   void keep_actuators(const sim::Engine& engine, record::RunRecorder& recorder);
 
  private:
@@ -33,7 +33,7 @@ class RecordColumns {
   struct Sensor {
     std::uint8_t kind = 0;
     std::uint32_t record_bytes = 0;
-    std::vector<std::uint32_t> seen;  ///< Sequences of the last samples that were kept, by member.
+    std::vector<std::uint32_t> seen;  ///< Sequences of the last recorded samples, by member.
   };
 
   void keep_row(const RobotRow& row, const sim::SampleColumns& samples, std::uint32_t sensor,
@@ -46,10 +46,10 @@ class RecordColumns {
   std::vector<RobotRow> rows_;
   std::vector<Sensor> sensors_;
   std::uint32_t controllers_ = 0;
-  std::vector<std::vector<Command>> told_;  ///< By actuator and member: the last one kept.
+  std::vector<std::vector<Command>> told_;  ///< By actuator and member: the last recorded command.
 };
 
-/// The rows of robots of which consecutive ids lie side by side, in their order.
+/// Splits members into rows with consecutive ids, in order.
 [[nodiscard]] std::vector<RobotRow> rows_of(std::span<const RobotId> members);
 
 }  // namespace rave::runtime

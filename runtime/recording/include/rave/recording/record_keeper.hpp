@@ -16,17 +16,18 @@
 
 namespace rave::runtime {
 
-/// Writes the record of a run: every percept as the program got it, every command, pose and event.
+/// Records a run: every percept as the program received it, every command, pose and event.
 class RecordKeeper final : public RunObserver {
  public:
-  /// What the record says of its run beside RunInfo.
+  /// Properties of the recording besides RunInfo.
   struct About {
     record::StringMap hybrids;  ///< PartKeeper::describe().
-    bool hashed = true;         ///< A lock-step run, whose hash is kept of each step.
-    std::string host{};         ///< Of one of several: its name.
-    record::StringMap hosts{};  ///< ... and which robots each of them runs.
+    bool hashed = true;         ///< A lock-step run, so the hash of each step is recorded.
+    std::string host{};         ///< Name of the host, if it is one of several.
+    record::StringMap hosts{};  ///< The robots of each host, if there are several.
   };
-  /// Begins the file. `log` hears of a full disk, once; the run goes on without a record then.
+  /// Creates the file. A full disk is logged once in `log`; the run then continues without a
+  /// recording.
   [[nodiscard]] static Result<std::unique_ptr<RecordKeeper>> open(const std::filesystem::path& path,
                                                                   const sim::Engine& engine,
                                                                   const BodyKinds& kinds,
@@ -35,28 +36,28 @@ class RecordKeeper final : public RunObserver {
 
   void after_step(const StepView& step) override;
 
-  /// Events of the last step that observers found.
+  /// Records events of the last step that observers found.
   void keep(std::span<const sim::Event> events);
 
-  /// What was asked of the run and counts from this step on.
+  /// Records a request that takes effect at this step.
   void keep(const RunRequest& request, std::uint64_t step);
 
-  /// What was said before this step; a kChat.
+  /// Records a chat message (kChat) before this step.
   void say(const RunRequest& chat, std::uint64_t step);
 
   [[nodiscard]] record::RunRecorder& recorder() noexcept { return recorder_; }
 
-  /// Closes the file. `hash`: none for a live run. Errors: what kept it from being written.
+  /// Closes the file. `hash`: empty for a live run. Errors: a failed write.
   Status end(std::optional<std::uint64_t> hash) { return recorder_.end(hash); }
 
  private:
   RecordKeeper(record::RunRecorder recorder, const sim::Engine& engine, const BodyKinds& kinds,
                bool hashed);
-  /// Robots that were handed over in the last step are told otherwise where they are.
+  /// Updates the kind of pose of robots that were handed over in the last step.
   void follow(const sim::Engine& engine);
   void keep_poses(const sim::Engine& engine);
   void keep_pose(const sim::Engine& engine, RobotId robot);
-  /// Robots [begin, end), which were all told their true pose.
+  /// Records robots [begin, end), whose reported pose is the true one.
   void keep_row(const sim::Engine& engine, std::uint32_t begin, std::uint32_t end);
 
   record::RunRecorder recorder_;
@@ -64,20 +65,19 @@ class RecordKeeper final : public RunObserver {
   const BodyKinds* kinds_;
   std::vector<RecordColumns> groups_;
   std::vector<std::uint8_t> told_truth_;  ///< By robot: simulated, without a pose source.
-  bool with_real_ = false;                ///< There are real robots, which others make way for.
+  bool with_real_ = false;  ///< There are real robots, which push simulated ones aside.
   bool hashed_;
 };
 
-/// Writes what was said before this step; a kChat.
+/// Records a chat message (kChat) before this step.
 void record_chat(const RunRequest& chat, std::uint64_t step, record::RunRecorder& recorder);
 
-/// What an engine knows for the beginning of a record: start, seed, step, all robots, and the
-/// sensors of those that run here.
+/// The RunInfo of an engine: seed, step, all robots, and the sensors of the robots that run here.
 [[nodiscard]] record::RunInfo info_of(const sim::Engine& engine, const BodyKinds& kinds);
-/// The same without sensors.
+/// The RunInfo of a spec, without sensors.
 [[nodiscard]] record::RunInfo info_of(const sim::EngineSpec& spec, const BodyKinds& kinds);
 
-/// Writes events of the present step, in the words of people.
+/// Records events of the current step with descriptions for people.
 void record_events(const BodyKinds& kinds, std::span<const sim::Event> events,
                    record::RunRecorder& recorder);
 

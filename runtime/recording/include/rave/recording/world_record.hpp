@@ -12,22 +12,22 @@
 
 namespace rave::runtime {
 
-/// Which robots each host of a scenario runs, for the records of its processes.
+/// The robots of each host of a scenario, for the recordings of its processes.
 [[nodiscard]] Result<record::StringMap> hosts_for_record(const config::ExpandedScenario& scenario);
 
-/// The record of what only the authority of a shared world knows: contacts, changes of the world,
-/// and its part of the hash. Beside the records of the hosts it makes that of the whole run.
+/// The recording of the world authority: contacts, changes of the world, and its part of the hash.
+/// Together with the recordings of the hosts it gives the recording of the whole run.
 class WorldRecord {
  public:
-  /// `log` hears of a full disk. Errors: as RunRecorder::open().
+  /// A full disk is logged in `log`. Errors: those of RunRecorder::open().
   [[nodiscard]] static Result<std::unique_ptr<WorldRecord>> begin(
       const std::filesystem::path& path, const config::ExpandedScenario& scenario,
       const sim::EngineSpec& spec, const BodyKinds& kinds, LogSink* log);
 
-  /// A step is done. That it could not be written is told by end().
+  /// Records a step. end() reports a failed write.
   void step(std::uint64_t step, const BodyKinds& kinds, std::span<const sim::Event> events,
             std::uint64_t hash);
-  /// What was said before this step; a kChat.
+  /// Records a chat message (kChat) before this step.
   void say(const RunRequest& chat, std::uint64_t step);
   Status end(std::uint64_t hash) { return recorder_.end(hash); }
 

@@ -13,24 +13,26 @@
 
 namespace rave::runtime {
 
-/// What a recorded robot is compared with.
+/// Options for measure_gap().
 struct GapOptions {
-  std::string robot;           ///< Its name in the record; empty: the only one.
-  std::filesystem::path twin;  ///< Robot file with a simulated actuator; empty: the robot's own.
-  std::string commands;        ///< A velocity sensor that tells the commands; empty: those that
-                               ///< reached the actuator.
+  std::string robot;           ///< Name of the robot in the recording; empty: the only one.
+  std::filesystem::path twin;  ///< Robot file with a simulated actuator; empty: that of the robot.
+  std::string commands;        ///< Velocity sensor that provides the commands; empty: the recorded
+                               ///< commands to the actuator.
   bool truth = false;          ///< Compare with the true pose of a simulated robot.
-  double window_s = 10;        ///< Of the windows that start anew; above 0.
+  /// Length of the windows; the twin is placed anew at the start of each; above 0.
+  double window_s = 10;
 };
 
-/// How far robot and twin are from each other.
+/// The difference between robot and twin at one time.
 struct GapAt {
-  double after_s = 0;  ///< Since the twin was put where the robot was.
+  double after_s = 0;  ///< Time since the twin was placed at the robot's pose.
   double metres = 0;
-  double degrees = 0;  ///< Of heading, 0 to 180.
+  double degrees = 0;  ///< Difference of heading, 0 to 180.
 };
 
-/// Middle and near-worst of windows; nothing if there are none. Percentiles by nearest rank.
+/// Median and 95th percentile of the differences at the end of windows, by nearest rank; empty
+/// without windows.
 struct GapWindows {
   double window_s = 0;
   std::size_t count = 0;
@@ -43,30 +45,32 @@ struct GapWindows {
 struct GapReport {
   std::string robot;
   std::string twin;      ///< Driver of the simulated actuator, and the file it came from.
-  std::string commands;  ///< Where the commands came from.
-  std::string pose;      ///< Where the robot's pose came from.
-  double start_s = 0;    ///< Of the record: the first pose.
+  std::string commands;  ///< Source of the commands.
+  std::string pose;      ///< Source of the robot's poses.
+  double start_s = 0;    ///< Time of the first pose in the recording.
   double duration_s = 0;
-  double driven_m = 0;       ///< By the twin.
-  std::vector<GapAt> after;  ///< 10, 30 and 60 s, as far as they fit, and the end.
-  GapAt largest;             ///< Greatest distance, with when; `degrees` is that moment's.
-  double largest_deg = 0;    ///< Greatest difference of heading, whenever.
+  double driven_m = 0;       ///< Distance driven by the twin.
+  std::vector<GapAt> after;  ///< At 10, 30 and 60 s, if the drive is long enough, and at the end.
+  GapAt largest;  ///< Largest distance, and its time; `degrees` is the difference of heading at
+                  ///< that time.
+  double largest_deg = 0;  ///< Largest difference of heading at any time.
   double rms_m = 0;
   double rms_deg = 0;
   GapWindows windows;
-  std::size_t steps = 0;  ///< Of the drive; the robot's pose is known in those of `points`.
+  /// Number of steps of the drive; `points` has those with a known pose of the robot.
+  std::size_t steps = 0;
   struct Point {
     SimTime time;
-    Pose2 X_WR;  ///< Of the robot.
-    Pose2 X_WT;  ///< Of the twin.
+    Pose2 X_WR;  ///< Pose of the robot.
+    Pose2 X_WT;  ///< Pose of the twin.
   };
-  std::vector<Point> points;  ///< Each step in which the robot's pose is known.
+  std::vector<Point> points;  ///< One per step with a known pose of the robot.
 };
 
-/// Puts the simulated twin of a recorded robot where the robot was first known to be, gives it the
-/// recorded commands at their times and compares where the two are. The twin drives in an empty
-/// world with the step of the record. Errors: kNotFound (robot, sensor), kInvalidArgument (no twin,
-/// no commands, fewer than two poses), those of reading the files.
+/// Measures the difference between a recorded robot and its simulation. The simulated twin starts
+/// at the first known pose of the robot and receives the recorded commands at their times, in an
+/// empty world with the step of the recording. Errors: kNotFound (robot, sensor), kInvalidArgument
+/// (no twin, no commands, fewer than two poses), those of reading the files.
 [[nodiscard]] Result<GapReport> measure_gap(const std::filesystem::path& record,
                                             plugin::Catalogue& catalogue,
                                             const GapOptions& options);

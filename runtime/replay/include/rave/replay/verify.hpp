@@ -18,45 +18,46 @@ namespace rave::runtime {
 
 struct VerifyOptions {
   std::filesystem::path program_runner;  ///< The executable for isolated programs.
-  unsigned threads = 0;                  ///< 0: as many as the recorded run had.
+  unsigned threads = 0;                  ///< 0: as many as in the recorded run.
   LogSink* log = nullptr;                ///< Not owned; outlives the call.
   /// Called in the calling thread about ten times a second of wall time; may be empty.
   std::function<void(const report::Progress&)> on_progress;
-  RunControl* control = nullptr;  ///< Ends it from elsewhere; may be null. Not owned.
+  RunControl* control = nullptr;  ///< Ends it from another thread; may be null. Not owned.
 };
 
-/// Where two runs part: the first item of the first step that is not the same to the bit.
+/// The first difference between two runs: the first item of the first step that is not
+/// bit-identical.
 struct RunDifference {
   std::uint64_t step = 0;
   double time_s = 0;
-  std::string robot;    ///< Empty: it concerns the run.
+  std::string robot;    ///< Empty: it concerns the whole run.
   std::string channel;  ///< `pose`, `sensor laser`, `command of drive`, `event`, ...
-  std::string text;     ///< What was recorded and what is now.
+  std::string text;     ///< The recorded and the present value.
 };
 
 struct VerifyOutcome {
-  /// Why the record cannot be verified: it is of a live run. Empty if it can.
+  /// Why the recording cannot be verified: it is of a live run. Otherwise empty.
   std::string live_reason;
-  std::vector<std::string> missing;  ///< Input files that are not there; nothing was run then.
-  std::vector<std::string> notes;  ///< Input files and versions that differ, a record that is cut.
-  std::uint64_t steps = 0;         ///< Done again.
+  std::vector<std::string> missing;  ///< Missing input files; if there are any, nothing was run.
+  std::vector<std::string> notes;  ///< Changed input files and versions, or a truncated recording.
+  std::uint64_t steps = 0;         ///< Number of repeated steps.
   std::uint64_t recorded_steps = 0;
-  std::uint64_t messages = 0;  ///< Compared.
+  std::uint64_t messages = 0;  ///< Number of compared messages.
   std::optional<std::uint64_t> recorded_hash;
-  std::optional<std::uint64_t> hash;  ///< Set if all recorded steps were done.
+  std::optional<std::uint64_t> hash;  ///< Set if all recorded steps were repeated.
   std::optional<RunDifference> difference;
-  bool ended_early = false;  ///< Somebody stopped it.
+  bool ended_early = false;  ///< Stopped through `control`.
 
   [[nodiscard]] bool same() const noexcept {
     return live_reason.empty() && missing.empty() && !difference && !ended_early;
   }
 };
 
-/// Runs the scenario inside a record again, as it says (of a host of several in lock-step: its
-/// robots in one engine, the others in another), and compares every pose, percept, command,
-/// actuator command, radio packet and event with those of the record, and the run hash after each
-/// step. Stops behind the first step that differs. Writes only a temporary file. Errors: the record
-/// cannot be read, or the scenario cannot be run here.
+/// Repeats the run of a recording with the scenario in it. The recording of one lock-step host of
+/// several is repeated with its robots in one engine and the others in another. Compares every
+/// pose, percept, command, actuator command, radio packet and event with the recording, and the run
+/// hash after each step. Stops after the first step that differs. Writes only a temporary file.
+/// Errors: the recording cannot be read, or the scenario cannot be run here.
 [[nodiscard]] Result<VerifyOutcome> verify(const std::filesystem::path& record,
                                            plugin::Catalogue& catalogue,
                                            const VerifyOptions& options);

@@ -10,35 +10,35 @@
 
 namespace rave::runtime {
 
-/// Sees when a predator comes near enough to a prey. Each prey is caught once. Where robots are is
-/// what others sense: the truth of simulated, the reported pose of real ones.
+/// Detects when a predator comes near enough to a prey. Each prey is caught once. It uses the poses
+/// that others sense: true ones of simulated robots, reported ones of real robots.
 class CaptureWatch final : public RunObserver {
  public:
   CaptureWatch(const config::CaptureCheckFile& check, const config::ExpandedScenario& scenario);
 
   void after_step(const StepView& step) override;
-  /// The same without an engine: the world as that step senses it.
+  /// Like after_step(), without an engine: `world` as that step senses it.
   void look(const world::Snapshot& world, std::uint64_t step);
-  /// As if the last look had not been: that step was never done.
+  /// Undoes the last look(), because its step was not completed.
   void forget_last_look();
 
   [[nodiscard]] CaptureFacts facts() const;
-  /// Those of the last step, as events of it.
+  /// The captures of the last step.
   [[nodiscard]] std::span<const sim::Event> events() const noexcept override { return events_; }
-  /// Whether the run is to end now.
+  /// Whether a capture ends the run now.
   [[nodiscard]] bool ends_run() const noexcept { return check_.end_run && !captures_.empty(); }
 
  private:
   config::CaptureCheckFile check_;
   std::vector<RobotId> predators_;
-  std::vector<RobotId> prey_;  ///< Those that are still free.
+  std::vector<RobotId> prey_;  ///< Those not caught yet.
   std::vector<Capture> captures_;
   std::vector<sim::Event> events_;
-  double closest_m_;         ///< Between the outlines; infinite before the first step.
-  double closest_before_m_;  ///< ... the last look.
+  double closest_m_;         ///< Distance between the outlines; infinite before the first step.
+  double closest_before_m_;  ///< closest_m_ before the last look.
 };
 
-/// No limit, or a capture in time.
+/// True if the check sets no limit, or the capture was in time.
 [[nodiscard]] bool holds(const config::CaptureCheckFile& check, const CaptureFacts& facts);
 
 }  // namespace rave::runtime

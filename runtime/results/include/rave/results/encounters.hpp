@@ -13,9 +13,9 @@
 
 namespace rave::runtime {
 
-/// Keeps the closest approach of each kind of pair, such as `real-simulated`. Bodies farther apart
-/// than its reach never count. Of robots of several hosts, each pair is its host's whose id is
-/// lower.
+/// Finds the closest approach of each kind of pair of bodies, such as `real-simulated`. Pairs
+/// farther apart than its reach are ignored. With several hosts, a pair belongs to the host of the
+/// robot with the lower id.
 class Encounters final : public RunObserver {
  public:
   Encounters(const BodyKinds& kinds, const sim::EngineSpec& spec);
@@ -23,13 +23,13 @@ class Encounters final : public RunObserver {
   void after_step(const StepView& step) override;
 
   [[nodiscard]] std::map<std::string, Encounter> closest() const;
-  /// `real-simulated 0.42 m` of the closest of all robot pairs; empty if there was none.
+  /// The closest of all pairs of robots, such as `real-simulated 0.42 m`; empty if there was none.
   [[nodiscard]] std::string headline() const;
 
   static constexpr double kReach_m = 2.0;
 
  private:
-  /// The closest of one kind of pair so far.
+  /// The closest pair of one kind so far.
   struct Kind {
     std::string_view a;
     std::string_view b;
@@ -44,8 +44,8 @@ class Encounters final : public RunObserver {
   std::uint64_t every_ = 1;
   std::vector<double> radius_m_;
   std::vector<std::uint32_t> found_;
-  std::vector<Kind> kinds_of_pairs_;  ///< A handful; all that there can be.
-  std::uint64_t foreseen_ = 0;        ///< Revision of the kinds of bodies that they are for.
+  std::vector<Kind> kinds_of_pairs_;  ///< All possible kinds of pairs; a few.
+  std::uint64_t foreseen_ = 0;        ///< BodyKinds::revision() for which they were made.
   double reach_now_m_ = kReach_m;
 };
 

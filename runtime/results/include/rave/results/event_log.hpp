@@ -11,11 +11,11 @@
 
 namespace rave::runtime {
 
-/// Tells the log of events of the last step, contacts excepted, and adds them to `all`.
+/// Logs the events of the last step, except contacts, and appends them to `all`.
 void tell_events(const sim::Engine& engine, std::span<const sim::Event> events, LogSink* log,
                  std::vector<sim::Event>& all);
 
-/// All events of a run, one per line, for people.
+/// All events of a run as text, one per line.
 [[nodiscard]] std::string events_log(const sim::EngineSpec& spec, const BodyKinds& kinds,
                                      const std::vector<sim::Event>& events);
 

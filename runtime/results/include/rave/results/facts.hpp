@@ -13,33 +13,33 @@
 #include "rave/sim/event.hpp"
 #include "rave/sim/radio.hpp"
 
-// What is known of a run when it is over, as plain values that can be kept in a file: of all of it
-// in one process, of the robots of one host, or of the motion of all. The results are made of these
-// alone, so that a run of several processes has those of one.
+// The facts of a run after its end, as plain values that can be stored in a file: of the whole run
+// in one process, of the robots of one host, or of the motion of all. Results are computed from
+// facts only, so a run of several processes has the same results as one of a single process.
 namespace rave::runtime {
 
-/// The nearest that a pair of bodies of two kinds came.
+/// The closest approach of two bodies.
 struct Encounter {
-  double gap_m = 0;      ///< Between their outlines; negative if they overlapped.
-  double centres_m = 0;  ///< Between their origins.
+  double gap_m = 0;      ///< Distance between their outlines; negative if they overlapped.
+  double centres_m = 0;  ///< Distance between their origins.
   double time_s = 0;
   std::uint32_t a = 0;  ///< Body ids; `a` is a robot.
   std::uint32_t b = 0;
 };
 
-/// One robot that caught another.
+/// A capture.
 struct Capture {
   RobotId predator;
   RobotId prey;
   double time_s = 0;
-  double gap_m = 0;  ///< Between the outlines, when it was noticed.
+  double gap_m = 0;  ///< Distance between the outlines when it was detected.
 };
 
-/// How many real sightings the virtual camera confirms.
+/// Counts of real sightings compared with the virtual camera.
 struct SightingTally {
-  std::uint64_t total = 0;    ///< With a code that the world knows.
-  std::uint64_t within = 0;   ///< Of these: range and bearing agree.
-  std::uint64_t unknown = 0;  ///< With a code that the world does not know.
+  std::uint64_t total = 0;    ///< Sightings with a known code.
+  std::uint64_t within = 0;   ///< Those whose range and bearing agree.
+  std::uint64_t unknown = 0;  ///< Sightings with an unknown code.
 
   [[nodiscard]] double within_pct() const noexcept {
     return total == 0 ? 0 : 100.0 * static_cast<double>(within) / static_cast<double>(total);
@@ -52,9 +52,9 @@ struct SightingTally {
   }
 };
 
-/// What the check of the sightings saw.
+/// The result of the sightings check.
 struct SightingFacts {
-  std::map<std::string, SightingTally> by_robot;  ///< By name.
+  std::map<std::string, SightingTally> by_robot;  ///< By name of the robot.
   std::map<std::int32_t, std::uint64_t> unknown_codes;
 
   [[nodiscard]] SightingTally all() const noexcept {
@@ -64,26 +64,28 @@ struct SightingFacts {
   }
 };
 
-/// How near a robot came to a place where it was to come.
+/// The closest approach of a robot to its goal in an arrivals check.
 struct ArrivalFacts {
-  bool known = false;  ///< It was known where it was.
+  bool known = false;  ///< Whether its pose was ever known.
   double nearest_m = 0;
-  std::optional<double> time_s;  ///< When it was there, if it was.
+  std::optional<double> time_s;  ///< Time of its arrival; empty: it did not arrive.
 };
 
-/// What the checks of touches and arrivals saw, in the order of the scenario.
+/// The data of the checks of touches and arrivals, in the order of the scenario.
 struct GoalFacts {
-  /// By entry of `touches`: how often its sensor began to touch; 0 of those that count events.
+  /// By entry of `touches`: number of contacts that its sensor reported; 0 for entries that count
+  /// events.
   std::vector<std::uint64_t> touches;
-  /// By entry of `touches`: robots whose sensor never gave a reading, by number.
+  /// By entry of `touches`: ids of the robots whose sensor never gave a reading.
   std::vector<std::vector<std::uint32_t>> silent;
   std::vector<ArrivalFacts> arrivals;  ///< By entry of `arrivals`, then by robot.
 };
 
-/// What the check of captures saw.
+/// The data of the capture check.
 struct CaptureFacts {
   std::vector<Capture> captures;
-  std::optional<double> closest_m;  ///< The least gap; none: predator and prey were never there.
+  std::optional<double> closest_m;  ///< Least distance of the outlines; empty: predator and prey
+                                    ///< were never both present.
 };
 
 /// One robot at the end of the run.
@@ -92,7 +94,7 @@ struct RobotFacts {
   std::string program;
   std::uint64_t commands = 0;
   bool obeys = false;
-  bool known = false;  ///< Where it is.
+  bool known = false;  ///< Whether its pose is known.
   bool stale = false;
   double x_m = 0;
   double y_m = 0;
@@ -101,7 +103,7 @@ struct RobotFacts {
   double way_m = 0;
 };
 
-/// What a device, the driver of a real sensor or a transmitter says of itself.
+/// The report() of a device, a real sensor or a transmitter.
 struct InstrumentFacts {
   std::uint32_t robot = 0;
   std::string name;
@@ -115,16 +117,16 @@ struct TrackFacts {
   report::PictureTrack track;
 };
 
-/// One robot at the frozen instant.
+/// One robot at the time of the picture.
 struct InstantRobot {
   std::uint32_t robot = 0;
   std::vector<report::PictureRobot> bodies;
   std::vector<report::PictureHit> hits;
 };
 
-/// A sighting of the last moments before the frozen instant.
+/// A sighting shortly before the time of the picture.
 struct InstantSighting {
-  std::uint64_t step = 0;  ///< In which this robot saw this first.
+  std::uint64_t step = 0;  ///< The step of this sighting.
   std::uint32_t robot = 0;
   report::PictureSighting shown;
 };
@@ -135,50 +137,52 @@ struct InstantFacts {
   std::vector<InstantSighting> sightings;
 };
 
-/// How far the shadow of a robot was from it, see Shadows.
+/// The difference between a robot and its shadow, see Shadows.
 struct ShadowFacts {
   std::uint32_t robot = 0;
   std::string report;  ///< A JSON object, for result.json.
 };
 
-/// What a host saw of all robots, for who knows of the end of the run alone, see WorldAccount.
+/// What a host received about all robots; used if the manager has not seen the whole run, see
+/// WorldAccount.
 struct WorldFacts {
-  std::uint64_t first_step = 0;  ///< From this step on ...
-  std::uint64_t next_step = 0;   ///< ... up to that before this one.
+  std::uint64_t first_step = 0;  ///< The first step that it covers.
+  std::uint64_t next_step = 0;   ///< The step after the last one that it covers.
   std::vector<sim::Event> events;
-  std::optional<CaptureFacts> capture;  ///< None: there is no such check.
+  std::optional<CaptureFacts> capture;  ///< Empty: the scenario has no such check.
 };
 
 struct RunFacts {
-  std::uint64_t first_step = 0;  ///< Of one that came later.
-  std::uint64_t steps = 0;       ///< The step that would have come next.
-  bool has_world = false;        ///< Contacts of all robots are among the events.
-  /// From this step on they and captures are known; above 0: to a manager that took the place of
-  /// another, in a run of which no host saw all. Of who puts the results together; in no file.
+  std::uint64_t first_step = 0;  ///< Above 0 for a host that joined late.
+  std::uint64_t steps = 0;       ///< The number of the next step.
+  bool has_world = false;        ///< Whether the events include the contacts of all robots.
+  /// The first step with known contacts and captures. Above 0 if the manager was replaced during
+  /// the run and no host has seen all of it. Set by the process that computes the results; not
+  /// stored in a file.
   std::uint64_t world_from = 0;
   std::vector<std::string> problems;
-  std::vector<sim::Event> events;  ///< By step; in a step by robot, captures last.
-  std::vector<RobotFacts> robots;  ///< By robot; the same of the following three.
+  std::vector<sim::Event> events;  ///< By step, then by robot; captures last in their step.
+  std::vector<RobotFacts> robots;  ///< By robot, like the following three.
   std::vector<InstrumentFacts> devices;
   std::vector<InstrumentFacts> streams;
   std::vector<InstrumentFacts> transmitters;
   sim::RadioCounts radio;
   std::uint64_t inputs_by_hand = 0;
-  LatenessFacts lateness;  ///< Of a run with a pace; of several processes the sum.
+  LatenessFacts lateness;  ///< For a run with a pace; with several processes the sum.
   std::map<std::string, std::map<std::string, std::uint64_t>> hits;
   std::map<std::string, Encounter> closest;
   std::optional<SightingFacts> sightings;
   GoalFacts goals;
   std::optional<CaptureFacts> capture;
-  std::vector<TrackFacts> tracks;  ///< By robot, odometry alone behind all others.
+  std::vector<TrackFacts> tracks;  ///< By robot; tracks from odometry alone come last.
   std::optional<InstantFacts> instant;
   std::vector<ShadowFacts> shadows;  ///< By robot.
-  /// Of a host during whose run the manager was replaced.
+  /// Set by a host during whose run the manager was replaced.
   std::optional<WorldFacts> world;
 };
 
-/// Adds what another process knows of the same run. In any order the same comes of it, if no robot
-/// is in two of them; of one that is, the latter counts.
+/// Adds the facts of another process of the same run. The order of merging does not matter, unless
+/// a robot is in two of them; then the later one counts.
 void merge(RunFacts from, RunFacts& into);
 
 }  // namespace rave::runtime

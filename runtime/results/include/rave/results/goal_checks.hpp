@@ -11,35 +11,36 @@
 
 namespace rave::runtime {
 
-/// How one check of a scenario went, for people and for result.json.
+/// The result of one check of a scenario, for people and for result.json.
 struct CheckResult {
   std::string name;  ///< `touches of rover`
   std::string text;  ///< `2, expected at most 0`
   bool holds = false;
-  bool made = true;  ///< False: nobody knows, since a part of the run left nothing here.
+  /// False: it could not be evaluated, because facts of some robots are missing.
+  bool made = true;
 };
 
-/// What a scenario wants its robots to do: come to places, and not touch things.
+/// The checks of touches and arrivals of a scenario.
 class GoalChecks final : public RunObserver {
  public:
   GoalChecks(const config::ExpandedScenario& scenario, const sim::EngineSpec& spec);
 
   void after_step(const StepView& step) override;
 
-  /// Of robots that run here.
+  /// The facts of the robots that run here.
   [[nodiscard]] GoalFacts facts() const;
 
  private:
-  /// A contact sensor of one robot, and whether it said that it touches.
+  /// The contact sensor of one robot and its last state.
   struct Feeler {
     RobotId robot;
     std::uint32_t sensor = 0;
     bool touching = false;
-    bool here = false;   ///< It runs in this process.
+    bool here = false;   ///< The robot runs in this process.
     bool heard = false;  ///< It has given a reading.
   };
   struct Touches {
-    std::vector<Feeler> feelers;  ///< Empty: events count.
+    std::vector<Feeler> feelers;  ///< Empty: contact events are counted.
     std::uint64_t count = 0;
   };
   struct Arrival {
@@ -53,8 +54,8 @@ class GoalChecks final : public RunObserver {
   std::vector<Arrival> arrivals_;
 };
 
-/// One for each entry of `checks: touches:` and, by robot, of `checks: arrivals:`, in that order.
-/// `lost`: by robot, 1 where nothing is known of it; empty: all is known.
+/// The results for each entry of `checks: touches:`, then for each robot of each entry of `checks:
+/// arrivals:`. `lost`: by robot, 1 if its facts are missing; empty: none is missing.
 [[nodiscard]] std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
                                                     const sim::EngineSpec& spec,
                                                     const RunFacts& facts,

@@ -13,18 +13,20 @@
 
 namespace rave::runtime {
 
-/// Counts what the rays of virtual range sensors met, for real and for simulated robots apart.
+/// Counts the kinds of bodies that the rays of virtual range sensors hit, separately for real and
+/// simulated robots.
 class HitCounter final : public RunObserver {
  public:
   explicit HitCounter(const BodyKinds& kinds) : kinds_(&kinds) {}
 
   void after_step(const StepView& step) override;
 
-  /// By who looks (`real`, `simulated`) and what was met (a word of BodyKinds, or `nothing`).
+  /// Counts by the kind of the sensing robot (`real`, `simulated`) and of the body that was hit (a
+  /// word of BodyKinds, or `nothing`).
   [[nodiscard]] std::map<std::string, std::map<std::string, std::uint64_t>> counts() const;
 
  private:
-  /// Where the counts of those who look are, by the address of the word.
+  /// The counters for one kind of robots, found by the address of the word.
   struct Counters {
     std::string_view who;
     std::vector<std::pair<const char*, std::uint64_t*>> known{};

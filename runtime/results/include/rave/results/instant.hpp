@@ -10,7 +10,7 @@
 
 namespace rave::runtime {
 
-/// Freezes one instant of the run for the picture: robots, laser hits and real sightings of robots
+/// Records one time of the run for the picture: robots, laser hits and real sightings of the robots
 /// that run here.
 class InstantKeeper final : public RunObserver {
  public:
@@ -30,11 +30,11 @@ class InstantKeeper final : public RunObserver {
   const BodyKinds* kinds_;
   double instant_s_;
   std::optional<InstantFacts> instant_;
-  std::vector<InstantSighting> sightings_;  ///< Of the last moments before the instant.
+  std::vector<InstantSighting> sightings_;  ///< Shortly before the time of the picture.
   std::vector<std::pair<std::uint32_t, std::int32_t>> seen_;  ///< Robot and code of each.
 };
 
-/// The outline of a shape as a polygon in W; a disc becomes one of 32 corners.
+/// The outline of a shape as a polygon in W; a disc becomes one with 32 corners.
 [[nodiscard]] std::vector<Vec2> outline_of(const world::Shape& shape, const Pose2& X_WB);
 
 }  // namespace rave::runtime

@@ -7,7 +7,7 @@
 
 namespace rave::runtime {
 
-/// How a run kept its deadlines, for result.json; null of one without a pace.
+/// The missed deadlines of a run for result.json; null for a run without a pace.
 [[nodiscard]] nlohmann::ordered_json lateness_json(const LatenessFacts& facts);
 
 }  // namespace rave::runtime

@@ -17,7 +17,7 @@
 
 namespace rave::runtime {
 
-/// All who look at a run for its results.
+/// All observers that collect the facts of a run.
 struct Observers {
   BodyKinds kinds;
   TrackRecorder tracks;
@@ -26,26 +26,26 @@ struct Observers {
   GoalChecks goals;
   std::optional<SightingCheck> sightings;
   std::optional<InstantKeeper> instant;
-  std::optional<CaptureWatch> capture;  ///< Only where all robots are.
+  std::optional<CaptureWatch> capture;  ///< Only if this process has all robots.
 
-  /// `spec`: of the engine that is looked at. `with_tracks`: where robots were is kept, for the
-  /// picture. Refers to the engine's and to itself.
+  /// `spec`: that of the engine. `with_tracks`: record the tracks for the picture. Keeps references
+  /// to the engine's data and to its own members.
   Observers(const config::ExpandedScenario& scenario, const std::vector<std::string>& robot_kinds,
             const sim::EngineSpec& spec, bool with_tracks);
   Observers(const Observers&) = delete;
   Observers& operator=(const Observers&) = delete;
 
   void after_step(const StepView& step);
-  /// What they found in the last step.
+  /// The events that they found in the last step.
   [[nodiscard]] std::span<const sim::Event> events() const noexcept {
     return capture ? capture->events() : std::span<const sim::Event>();
   }
 };
 
-/// What observers need of the past: set before the scenario is built.
+/// Extends the history of a scenario to what observers need; call it before building the scenario.
 void keep_history_for_observers(config::ScenarioFile& scenario);
 
-/// What is known of the robots that run here when all steps are done, but for events and problems.
+/// The facts of the robots that run here after the last step, without events and problems.
 [[nodiscard]] RunFacts gather(const Observers& observers, const sim::Engine& engine);
 
 }  // namespace rave::runtime

@@ -13,45 +13,48 @@
 
 namespace rave::runtime {
 
-/// Where what one host knows of a run comes from.
+/// The origin of the facts of one host.
 struct HostShare {
   std::string name;
-  std::vector<std::string> folders;  ///< Of each time that it was started; empty: elsewhere.
-  bool found = false;                ///< It left what it knows.
-  std::optional<double> offset_s;    ///< Of its clock, of runs in real time.
-  std::optional<double> bound_s;     ///< How far that may be off.
-  std::optional<bool> heard;         ///< It was there at some time, in real time.
+  /// One per start of the host; empty: it runs on another machine.
+  std::vector<std::string> folders;
+  bool found = false;              ///< Its facts were found.
+  std::optional<double> offset_s;  ///< Clock offset, in runs in real time.
+  std::optional<double> bound_s;   ///< Bound of the error of offset_s.
+  std::optional<bool> heard;       ///< Whether it was ever present, in runs in real time.
   std::optional<std::uint64_t> losses;
 };
 
-/// Everything that is known of a run when it has ended.
+/// All inputs of the results of a run after its end.
 struct Findings {
   const config::ExpandedScenario& scenario;
-  const sim::EngineSpec& spec;  ///< Its world as it was at the end.
+  const sim::EngineSpec& spec;  ///< Its world is that at the end.
   const BodyKinds& kinds;
   const std::string& live_reason;
   const RunFacts& facts;
   double wall_s = 0;
   std::optional<std::uint64_t> hash{};
   bool ended_early = false;
-  std::vector<std::uint8_t> lost{};       ///< By robot, 1: nothing is known of it. Empty: of none.
-  std::vector<HostShare> hosts{};         ///< Of a run of several.
-  std::optional<std::uint64_t> worlds{};  ///< Of one in real time: that the manager sent.
-  std::optional<std::uint64_t> states{};  ///< ... and that it got.
+  /// By robot, 1: no facts. Empty: facts of all robots are known.
+  std::vector<std::uint8_t> lost{};
+  std::vector<HostShare> hosts{};         ///< For a run with several hosts.
+  std::optional<std::uint64_t> worlds{};  ///< In real time: number of worlds that the manager sent.
+  /// In real time: number of states that the manager received.
+  std::optional<std::uint64_t> states{};
   std::optional<SharedEdits> edits{};
 
   [[nodiscard]] bool any_lost() const noexcept;
-  /// Simulated time that was run through.
+  /// Simulated time of the run.
   [[nodiscard]] double done_s() const noexcept;
   [[nodiscard]] std::size_t real_robots() const;
   [[nodiscard]] std::size_t count(sim::EventKind kind) const;
 };
 
-/// What the guards did, by robot: `slowed by fence` and how often.
+/// How often guards acted, by robot and action, such as `slowed by fence`.
 using GuardCounts = std::map<std::string, std::map<std::string, std::size_t>>;
 [[nodiscard]] GuardCounts guard_counts(const Findings& findings);
 
-/// What the run amounts to: whole or not, checks, hash.
+/// Evaluates the run: completeness, checks, hash.
 [[nodiscard]] RunOutcome judge(const Findings& findings);
 
 /// Why there is no run hash; empty if there is one.
@@ -66,7 +69,8 @@ using GuardCounts = std::map<std::string, std::map<std::string, std::size_t>>;
 /// The picture of the run.
 [[nodiscard]] report::Picture make_picture(const Findings& findings, const RunOutcome& outcome);
 
-/// Judges, and writes result.json, summary.txt, events.log and, if wanted, the pictures.
+/// Evaluates the run and writes result.json, summary.txt, events.log and, if requested, the
+/// pictures.
 [[nodiscard]] Result<RunOutcome> write_results(const Findings& findings,
                                                const std::filesystem::path& folder, bool picture);
 

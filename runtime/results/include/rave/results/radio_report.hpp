@@ -13,14 +13,14 @@ namespace rave::runtime {
 /// Whether any robot of the run has a communicator.
 [[nodiscard]] bool has_radio(const sim::EngineSpec& spec);
 
-/// `radio` of result.json: what became of all messages.
+/// `radio` of result.json: counts of all messages.
 [[nodiscard]] nlohmann::ordered_json radio_json(const sim::RadioCounts& counts);
 
-/// Its `transmitters`: what the drivers say of themselves.
+/// `transmitters` of result.json: the reports of the drivers.
 [[nodiscard]] nlohmann::ordered_json transmitters_json(
     const sim::EngineSpec& spec, const std::vector<InstrumentFacts>& transmitters);
 
-/// One line for the summary.
+/// A line about messages for the summary.
 [[nodiscard]] std::string radio_line(const sim::RadioCounts& counts);
 
 }  // namespace rave::runtime

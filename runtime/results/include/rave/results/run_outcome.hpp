@@ -6,15 +6,17 @@
 
 namespace rave::runtime {
 
-/// How a run ended. What it found lies in `output`: result.json, summary.txt, picture.svg,
-/// picture.png, events.log, run.mcap (everything that happened), scenario.yaml (with all defaults).
+/// The outcome of a run. Its files are in `output`: result.json, summary.txt, picture.svg,
+/// picture.png, events.log, run.mcap (the recording), scenario.yaml (with all defaults).
 struct RunOutcome {
-  bool whole = false;                 ///< Ran to its end without losing a driver or a program.
-  bool checks_hold = true;            ///< All checks of the scenario were made and hold.
-  bool checks_fail = false;           ///< One was made and does not hold.
-  std::vector<std::string> problems;  ///< One sentence each for why not; empty if all is well.
-  std::string hash;                   ///< 16 hexadecimal digits; empty for a live run.
-  std::string summary;                ///< The table for a terminal, without colours.
+  bool whole = false;  ///< Whether the run is complete: it reached its end with all drivers and
+                       ///< programs working.
+  bool checks_hold = true;   ///< All checks of the scenario were evaluated and hold.
+  bool checks_fail = false;  ///< At least one was evaluated and does not hold.
+  /// Reasons why the run is not complete, one sentence each; empty if it is.
+  std::vector<std::string> problems;
+  std::string hash;     ///< 16 hexadecimal digits; empty for a live run.
+  std::string summary;  ///< The table for the terminal, without colours.
 };
 
 }  // namespace rave::runtime

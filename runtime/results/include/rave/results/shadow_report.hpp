@@ -8,7 +8,8 @@
 
 namespace rave::runtime {
 
-/// `shadows` of result.json. What is no JSON object, as it may come from elsewhere, is left out.
+/// `shadows` of result.json. Reports that are not JSON objects are omitted, because they may come
+/// from other hosts.
 [[nodiscard]] nlohmann::ordered_json shadows_json(const std::vector<ShadowFacts>& shadows);
 
 }  // namespace rave::runtime

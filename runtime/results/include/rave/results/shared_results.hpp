@@ -21,74 +21,76 @@ namespace rave::runtime {
 
 struct RunRequest;
 
-/// What is known of a host when a run of several is over.
+/// What is known of one host after a run with several.
 struct SharedHost {
   std::string name;
-  /// Where it left what it knows, in the order in which it was started; empty: it is elsewhere.
+  /// Its result folders, one per start; empty: it runs on another machine.
   std::vector<std::filesystem::path> folders;
-  /// What its processes have sent of what they know: the same bytes as lie in its folders, wherever
-  /// these are.
+  /// The facts that its processes have sent: the same bytes as in its folders.
   std::vector<std::vector<std::byte>> findings;
-  bool awaited = false;  ///< They were waited for.
-  // Of a run in real time:
-  std::optional<double> offset_s;  ///< Of its clock against that of the manager.
+  bool awaited = false;  ///< The run has waited for its facts.
+  // In real time:
+  std::optional<double> offset_s;  ///< Offset of its clock relative to the manager's.
   std::optional<double> bound_s;
-  std::optional<bool> heard;  ///< It was there at some time.
+  std::optional<bool> heard;  ///< It was present at some time.
   std::optional<std::uint64_t> losses;
 };
 
-/// Obstacles that were changed by hand in real time, and how soon all hosts had them.
+/// Obstacle changes by hand in real time, and their delay until all hosts had them.
 struct SharedEdits {
   std::uint64_t made = 0;
-  std::uint64_t confirmed = 0;  ///< By all hosts that were there.
-  double slowest_s = 0;         ///< Of those; from the request to the last answer.
+  std::uint64_t confirmed = 0;  ///< Confirmed by all present hosts.
+  /// Longest delay of a confirmed change, from the request to the last confirmation.
+  double slowest_s = 0;
   double sum_s = 0;
 };
 
-/// How a run of several hosts ended.
+/// The end of a run with several hosts.
 struct SharedEnd {
   std::optional<std::uint64_t> hash;
   std::uint64_t steps = 0;
   double wall_s = 0;
   std::vector<std::string> problems;
-  LatenessFacts lateness;         ///< Of its manager, in lock-step.
-  std::vector<SharedHost> hosts;  ///< As planned; all of them.
-  // Of a run in real time: what the manager sent and got.
+  LatenessFacts lateness;         ///< Of the manager, in lock-step.
+  std::vector<SharedHost> hosts;  ///< All planned hosts, in order.
+  // In real time: numbers of worlds sent and states received by the manager.
   std::optional<std::uint64_t> worlds;
   std::optional<std::uint64_t> states;
   std::optional<SharedEdits> edits;
-  std::vector<sim::Event> events;  ///< What it saw and no host did.
+  std::vector<sim::Event> events;  ///< Events that only the manager has.
 };
 
-/// Makes of what the hosts of a run left, and of what its manager saw, the results that the run has
-/// in one process: result.json, summary.txt, events.log, the pictures and the verdicts of its
-/// checks. What needs a host that left nothing is said to be not made. Belongs to one thread.
+/// Computes the results of a run with several hosts from the facts of its hosts and the data of its
+/// manager. They equal those of a run in one process: result.json, summary.txt, events.log, the
+/// pictures and the verdicts of its checks. Checks that need a host without facts are reported as
+/// not evaluated. Belongs to one thread.
 class SharedResults {
  public:
   struct Options {
-    std::filesystem::path folder;  ///< There; files of an earlier run are replaced.
+    std::filesystem::path folder;  ///< Must exist; files of an earlier run are replaced.
     bool picture = true;
-    bool record = true;      ///< Of a run in lock-step: write world.mcap.
-    LogSink* log = nullptr;  ///< Not owned; outlives this.
+    bool record = true;      ///< In lock-step: write world.mcap.
+    LogSink* log = nullptr;  ///< Not owned; must outlive this object.
   };
-  /// `built`: the whole world; copied. Errors: those of the record.
+  /// `built`: the whole world; copied. Errors: those of creating the recording.
   [[nodiscard]] static Result<std::unique_ptr<SharedResults>> begin(
       const config::ExpandedScenario& scenario, const BuiltScenario& built, Options options);
   SharedResults(const SharedResults&) = delete;
   SharedResults& operator=(const SharedResults&) = delete;
   ~SharedResults();
 
-  /// In lock-step: the authority has made another world. True: a check ends the run with it.
+  /// In lock-step: call it when the authority has made a world. Returns true if a check ends the
+  /// run.
   bool after_step(const sim::WorldAuthority& authority);
-  /// What people said since the last step; a kChat. For the record.
+  /// Records a chat message (kChat) since the last step.
   void say(const RunRequest& chat);
-  /// ... and makes none any more.
+  /// In lock-step: call it after the last world.
   void at_end(const sim::WorldAuthority& authority);
 
-  /// In real time: the world that the manager had at the end.
+  /// In real time: sets the manager's world at the end.
   void learn(const world::WorldModel& world);
 
-  /// Once, when all hosts that will have ended. Errors: kIo.
+  /// Writes the results. Call it once, when all hosts have ended or are given up. Errors: kIo.
   [[nodiscard]] Result<RunOutcome> write(const SharedEnd& end);
 
  private:

@@ -11,14 +11,14 @@
 
 namespace rave::runtime {
 
-/// How long a sighting waits for poses of the real robots that are newer than it; where none come,
-/// the last one holds.
+/// How long a sighting waits for newer poses of the real robots; if none arrive, the last ones are
+/// used.
 inline constexpr Duration kLongestWaitForPoses = from_seconds(0.8);
 
-/// The independent witness: every sighting of a robot's real camera is compared with what the
-/// virtual camera on the same robot says at that very instant. It is compared when poses from
-/// before and after it are known, so that the step of the run is no part of the result; those of
-/// the last moments of a run, of which that cannot be said, are not compared.
+/// An independent test of poses: compares every sighting of a robot's real camera with the reading
+/// of a virtual camera on the same robot at the same time. A sighting is compared when poses from
+/// before and after it are known, so the result does not depend on the step of the run. Sightings
+/// at the end of a run without later poses are not compared.
 class SightingCheck final : public RunObserver {
  public:
   SightingCheck(const config::SightingsCheckFile& file, const sim::EngineSpec& spec);
@@ -46,21 +46,22 @@ class SightingCheck final : public RunObserver {
   config::SightingsCheckFile limits_;
   std::vector<Pair> pairs_;
   std::set<std::int32_t> known_codes_;
-  std::size_t known_added_ = 0;  ///< Of the obstacles that came while the run went.
+  /// Number of obstacles added during the run that are in known_codes_.
+  std::size_t known_added_ = 0;
   std::vector<Waiting> waiting_;
-  std::vector<Sighting> twin_;  ///< What the virtual camera reads, reused.
+  std::vector<Sighting> twin_;  ///< Readings of the virtual camera; memory reused.
   SightingFacts facts_;
 };
 
-/// How many sightings count: all with known codes, and those with unknown ones that are too many
-/// to be misread.
+/// The number of sightings that count: all with known codes, and those with unknown codes beyond
+/// the permitted number of misreadings.
 [[nodiscard]] std::uint64_t counted(const config::SightingsCheckFile& limits,
                                     const SightingTally& all);
 
-/// Share of those that agree; 0 if there are none.
+/// Percentage of the counted sightings that agree; 0 if there are none.
 [[nodiscard]] double within_pct(const config::SightingsCheckFile& limits, const SightingTally& all);
 
-/// Whether enough was seen, and of that enough agrees.
+/// Whether there are enough sightings, and enough of them agree.
 [[nodiscard]] bool holds(const config::SightingsCheckFile& limits, const SightingTally& all);
 
 }  // namespace rave::runtime

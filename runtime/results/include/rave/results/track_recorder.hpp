@@ -12,36 +12,35 @@
 
 namespace rave::runtime {
 
-/// Keeps where each robot was, thinned to what a picture can show, with the gaps of its pose source
-/// and, for real robots, the track that their commanded velocity alone would give.
+/// Records the track of each robot, thinned to the resolution of a picture, with the gaps of its
+/// pose source and, for real robots, the track integrated from their commanded velocity.
 class TrackRecorder final : public RunObserver {
  public:
   struct Wish {
-    double duration_s = 0;        ///< Of the run.
-    std::string odometry_sensor;  ///< Whose velocity is integrated; empty for none.
-    bool tracks = true;           ///< False: only the length of each way is wanted.
+    double duration_s = 0;        ///< Duration of the run.
+    std::string odometry_sensor;  ///< Sensor whose velocity is integrated; empty for none.
+    bool tracks = true;           ///< False: record only the travelled distance.
   };
-  /// `spec.local` says which robots run here.
+  /// `spec.local` lists the robots that run here.
   TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec, const Wish& wish);
 
-  /// Of a step that comes late only one point in ten is kept: a picture can do with less.
+  /// If steps are late, only one point in ten is kept.
   void after_step(const StepView& step) override;
-  /// Of robots that run here: one track each, then the odometry-only ones; none if none are wanted.
+  /// Of the robots that run here: one track each, then those from odometry; none if not requested.
   [[nodiscard]] std::vector<TrackFacts> facts() const;
 
-  /// Where a robot that something tells its pose was said to be in the last step; null: it is told
-  /// the truth.
+  /// Reported pose of a robot with a pose source in the last step; null if it uses the true pose.
   [[nodiscard]] const sim::ReportedPose* reported(RobotId robot) const noexcept {
     return told_[robot.value()] != 0 ? &reported_[robot.value()] : nullptr;
   }
 
-  /// Length of the way of each robot, metres, by RobotId.
+  /// Travelled distance of each robot in metres, by RobotId.
   [[nodiscard]] const std::vector<double>& way_m() const noexcept { return way_m_; }
 
  private:
   struct Odometry {
     std::uint32_t sensor = 0;
-    std::optional<Pose2> X_WR;  ///< None until the robot has a pose.
+    std::optional<Pose2> X_WR;  ///< Empty until the robot has a pose.
   };
   void follow_pose(const sim::Engine& engine, std::uint32_t robot, bool keep);
   void follow_odometry(const sim::Engine& engine, std::uint32_t robot, bool keep);
@@ -51,8 +50,8 @@ class TrackRecorder final : public RunObserver {
   std::vector<report::PictureTrack> poses_;
   std::vector<report::PictureTrack> odometry_tracks_;
   std::vector<std::optional<Odometry>> odometry_;
-  std::vector<std::uint8_t> here_;  ///< By robot: it runs here.
-  std::vector<std::uint8_t> told_;  ///< ... and something tells it where it is.
+  std::vector<std::uint8_t> here_;  ///< By robot: whether it runs here.
+  std::vector<std::uint8_t> told_;  ///< By robot: whether it runs here and has a pose source.
   std::vector<sim::ReportedPose> reported_;
   std::vector<std::optional<Pose2>> last_;
   std::vector<double> way_m_;

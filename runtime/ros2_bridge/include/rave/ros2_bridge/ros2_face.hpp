@@ -14,15 +14,15 @@
 
 namespace rave::runtime {
 
-/// Shows the robots whose file says `ros2: true` to ROS 2, with one participant for all of them:
-/// their readings, transforms, description, and the time of the run, which all stamps are of. One
-/// of several hosts shows its own robots, and the time if the first of all robots that are shown is
-/// among them: a clock must have one writer, and so all hosts agree on it without a word.
-/// docs/reference/ros2.md has the table of topics.
+/// Publishes the robots with `ros2: true` to ROS 2, with one participant for all of them: readings,
+/// transforms, description, and the time of the run, which all stamps refer to. One of several
+/// hosts publishes its own robots. /clock must have one writer: the host of the first published
+/// robot, which every host can determine without communication. docs/reference/ros2.md lists the
+/// topics.
 class Ros2Face final : public RunObserver {
  public:
-  /// Null if no robot of this process wants it. `host`: its name, empty if it is alone. Errors:
-  /// those of ros2::Participant::open().
+  /// Returns null if no robot of this process has `ros2: true`. `host`: its name, empty if it is
+  /// alone. Errors: those of ros2::Participant::open().
   [[nodiscard]] static Result<std::unique_ptr<Ros2Face>> open(
       const config::ExpandedScenario& scenario, const sim::Engine& engine,
       const std::string& host = {});
@@ -35,20 +35,20 @@ class Ros2Face final : public RunObserver {
                                  ros2::Writer<ros2::BatteryState>, ros2::Writer<ros2::NavSatFix>>;
 
   struct Sensor {
-    std::uint32_t index = 0;    ///< Of the robot's type.
-    std::uint32_t written = 0;  ///< Sequence of the newest sample that has gone out.
+    std::uint32_t index = 0;    ///< Index in the robot's type.
+    std::uint32_t written = 0;  ///< Sequence of the last published sample.
     Ros2Reading reading;
     AnyWriter writer;
-    Pose2 X_WM;  ///< Of poses: the frame that they are in.
+    Pose2 X_WM;  ///< For poses: their frame M.
   };
   struct Robot {
     RobotId id;
-    std::string prefix;  ///< Of its frames: its name and a slash.
+    std::string prefix;  ///< Prefix of its frames: its name and a slash.
     std::string odom_frame;
     std::string base_frame;
     std::vector<Sensor> sensors;
-    std::optional<std::uint32_t> odometry;  ///< The first sensor of that kind.
-    Ros2Reading own;  ///< Odometry out of its reported pose, if it has no such sensor.
+    std::optional<std::uint32_t> odometry;  ///< Index of the first odometry sensor.
+    Ros2Reading own;  ///< Odometry from its reported pose, if it has no such sensor.
     std::optional<ros2::Writer<ros2::Odometry>> own_writer;
     std::optional<ros2::Writer<ros2::String>> description;
   };
@@ -65,8 +65,8 @@ class Ros2Face final : public RunObserver {
   void write_transforms(const sim::Engine& engine);
 
   std::unique_ptr<ros2::Participant> participant_;
-  std::optional<GeoFrame> earth_;                   ///< Unset: nobody knows where the world lies.
-  std::optional<ros2::Writer<ros2::Clock>> clock_;  ///< Unset: another host has the time.
+  std::optional<GeoFrame> earth_;  ///< Empty: the position on the earth is unknown.
+  std::optional<ros2::Writer<ros2::Clock>> clock_;  ///< Empty: another host publishes the time.
   std::optional<ros2::Writer<ros2::TfMessage>> tf_;
   std::optional<ros2::Writer<ros2::TfMessage>> tf_static_;
   std::vector<Robot> robots_;

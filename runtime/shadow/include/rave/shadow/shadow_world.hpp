@@ -12,31 +12,30 @@
 
 namespace rave::runtime {
 
-/// A world like that of a run, in which the simulated twin of one robot is in the place of the
-/// robot: it meets obstacles and all others where the run has them, and nobody in the run notices.
-/// It is moved by what the run tells the robot's actuators. Belongs to one thread.
+/// A copy of a run's world in which the simulated twin of one robot replaces the robot. It meets
+/// obstacles and other robots at their poses in the run, but the run does not notice it. It
+/// receives the commands to the robot's actuators. Belongs to one thread.
 class ShadowWorld {
  public:
-  /// `engine`: of the run, before its first step; nothing of it is kept. `simulated`: the type of
-  /// the twin. Errors: kInvalidArgument (the twin has hardware of its own), whatever its drivers
-  /// say.
+  /// `engine`: of the run, before its first step; not referred to later. `simulated`: the type of
+  /// the twin. Errors: kInvalidArgument (the twin has hardware of its own), those of its drivers.
   [[nodiscard]] static Result<std::unique_ptr<ShadowWorld>> create(const sim::Engine& engine,
                                                                    RobotId robot,
                                                                    sim::RobotType simulated,
                                                                    LogSink* log);
 
-  /// Does the step that `engine` has just done; the first one may be a later one than 0. `beside`:
-  /// events of obstacles that the engine of one of several hosts has not itself. `start`: the twin
-  /// is put there. `driven`: it is told what the robot is told from this step on; else it is told
-  /// to stand. Errors: those of sim::Engine; then no step can follow.
+  /// Computes the step that `engine` has just completed; the first one may be later than 0.
+  /// `beside`: obstacle events that the engine of one of several hosts does not have. `start`:
+  /// places the twin there. `driven`: whether the twin receives the robot's commands from this step
+  /// on; otherwise it stands. Errors: those of sim::Engine; no step may follow then.
   Status step(const sim::Engine& engine, std::span<const sim::Event> beside,
               std::optional<Pose2> start, bool driven);
 
-  /// Of the twin; nothing if that is longer ago than a second or has not come.
+  /// Pose of the twin at `stamp`; empty if that is more than a second ago or in the future.
   [[nodiscard]] std::optional<Pose2> pose_at(SimTime stamp) const;
-  /// Where the twin is in the step that was done.
+  /// Pose of the twin in the last step.
   [[nodiscard]] Pose2 pose() const noexcept { return engine_->snapshot().pose(robot_); }
-  /// In which the twin has the number of the robot.
+  /// The engine in which the twin has the id of the robot.
   [[nodiscard]] sim::Engine& engine() noexcept { return *engine_; }
 
  private:
@@ -51,7 +50,7 @@ class ShadowWorld {
 
   RobotId robot_;
   LogSink* log_;
-  std::shared_ptr<Orders> orders_;  ///< The program of the twin reads them.
+  std::shared_ptr<Orders> orders_;  ///< Shared with the program of the twin, which reads them.
   std::unique_ptr<sim::Engine> engine_;
   std::unique_ptr<sim::WorldAuthority> authority_;
   sim::HostReport own_;

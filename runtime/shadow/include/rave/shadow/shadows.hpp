@@ -16,42 +16,44 @@
 
 namespace rave::runtime {
 
-/// How the readings of one sensor of robot and shadow differ, since the shadow was put down.
+/// The difference between the readings of one sensor of robot and shadow, since the last reset of
+/// the shadow.
 struct ShadowReading {
   std::string sensor;
-  /// `m`: mean absolute difference of the ranges of one scan that both have; of odometry, how far
-  /// the ways differ. `share`: of the readings of contact that differ. Empty: not compared.
+  /// `m`: mean absolute difference of the ranges that both scans have; for odometry, the difference
+  /// of the travelled paths. `share`: fraction of the contact readings that differ. Empty: not
+  /// compared.
   std::string_view unit;
   double last = 0;
   double most = 0;
   std::uint64_t compared = 0;
 };
 
-/// How far a robot and its shadow are from each other.
+/// The difference between a robot and its shadow.
 struct ShadowDifference {
-  bool running = false;  ///< The robot is real now, and known to be somewhere.
-  SimTime since;         ///< When the shadow was put where the robot was.
+  bool running = false;  ///< The robot is real now and its pose is known.
+  SimTime since;         ///< Time of the last reset of the shadow to the robot's pose.
   double m = 0;
   double rad = 0;              ///< 0 to pi.
-  std::uint64_t compared = 0;  ///< Poses; with 0 nothing is known of the distances.
+  std::uint64_t compared = 0;  ///< Number of compared poses; with 0 the distances are unknown.
   double most_m = 0;
   double most_rad = 0;
   std::vector<ShadowReading> readings;  ///< By sensor.
 };
 
-/// Runs the shadows of a run beside it and measures how far they are from their robots. No part of
-/// the run: nothing in it depends on them.
+/// Runs the shadows of a run and measures their difference from the robots. The run does not depend
+/// on them.
 class Shadows final : public RunObserver {
  public:
   struct Moment {
-    double time_s = 0;   ///< Of the run.
-    double after_s = 0;  ///< Since the shadow was put down.
+    double time_s = 0;   ///< Time of the run.
+    double after_s = 0;  ///< Time since the last reset of the shadow.
     double m = 0;
     double rad = 0;
   };
 
-  /// Null if no robot that runs here has a shadow. `engine`: before its first step. Errors: those
-  /// of ShadowWorld.
+  /// Returns null if no robot that runs here has a shadow. `engine`: before its first step. Errors:
+  /// those of ShadowWorld.
   [[nodiscard]] static Result<std::unique_ptr<Shadows>> create(
       const config::ExpandedScenario& scenario, plugin::Catalogue& catalogue,
       const sim::Engine& engine, LogSink* log);
@@ -60,8 +62,8 @@ class Shadows final : public RunObserver {
   void record(record::RunRecorder& recorder) const override;
   [[nodiscard]] std::span<const sim::Event> events() const noexcept override { return events_; }
 
-  /// Puts the shadow of a robot, or of all with an empty name, where the robot is, with the next
-  /// step. Errors: kNotFound.
+  /// Places the shadow of a robot (of all robots if the name is empty) at the robot's pose in the
+  /// next step. Errors: kNotFound.
   Result<std::string> reset(std::string_view robot);
   void refresh(RunStatus& status) const;
   /// Of each robot that has a shadow here, by robot.
@@ -71,20 +73,20 @@ class Shadows final : public RunObserver {
   struct Shadow {
     RobotId robot;
     std::string name;
-    std::unique_ptr<ShadowWorld> world;  ///< Null since it failed.
+    std::unique_ptr<ShadowWorld> world;  ///< Null after a failure.
     ShadowDifference now;
-    double ever_m = 0;  ///< Largest of all times that it was put down.
+    double ever_m = 0;  ///< Largest value over all resets.
     double ever_rad = 0;
     std::uint64_t ever_compared = 0;
     std::uint32_t starts = 0;
     bool reset_asked = false;
     bool fresh = false;  ///< The last step compared something.
     SimTime compared_at;
-    Pose2 X_WR;  ///< As compared last.
+    Pose2 X_WR;  ///< Poses of the last comparison.
     Pose2 X_WS;
     std::vector<std::uint32_t> seen;  ///< By sensor: sequence of the last reading.
-    std::vector<Pose2> odometry_R;    ///< By sensor: where the robot's began ...
-    std::vector<Pose2> odometry_S;    ///< ... and the shadow's.
+    std::vector<Pose2> odometry_R;    ///< By sensor: first odometry pose of the robot ...
+    std::vector<Pose2> odometry_S;    ///< ... and of the shadow.
     std::vector<Moment> moments;
     double moment_every_s = 1;
     double next_moment_s = 0;

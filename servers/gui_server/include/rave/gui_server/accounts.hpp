@@ -14,26 +14,28 @@
 #include "rave/base/result.hpp"
 #include "rave/gui_server/person.hpp"
 
-// Who may come in, as the file `accounts` of a private folder. Passwords are kept as Argon2id;
-// secrets of links and sessions, which are random, as a plain hash. Moments are seconds since 1970.
+// The user accounts of a server, in the file `accounts` of a private folder. Passwords are stored
+// as Argon2id; the secrets of links and sessions, which are random, as a plain hash. Times are
+// seconds since 1970.
 namespace rave::gui_server {
 
 struct Account {
   Person person;
-  std::string password;     ///< As libsodium writes it; empty: came in by a link and has none.
-  bool disabled = false;    ///< Keeps the name and cannot come in.
-  std::int64_t seen_s = 0;  ///< When their last page went, or they came in; 0: never.
+  /// In the format of libsodium; empty: joined by a link without a password.
+  std::string password;
+  bool disabled = false;    ///< Cannot sign in; the name stays reserved.
+  std::int64_t seen_s = 0;  ///< When their last page was closed, or they signed in; 0: never.
 };
 
 struct Invitation {
   std::string hash;
   Role role = Role::kObserver;
   Teams teams;
-  int uses = 1;  ///< That are left.
+  int uses = 1;  ///< Remaining uses.
   std::int64_t until_s = 0;
-  std::string by;  ///< Who made it.
+  std::string by;  ///< Name of its creator.
 
-  /// Names it to people. Nobody can reckon the secret from it.
+  /// An id to show to people. The secret cannot be derived from it.
   [[nodiscard]] std::string id() const { return hash.substr(0, 16); }
 };
 
@@ -49,92 +51,99 @@ struct AccountsFile {
   std::vector<SessionEntry> sessions;
 };
 
-/// Reads the file. Strict: error kParse at the line of whatever it does not know. Sessions of
-/// nobody, as they are left by a line that was removed by hand, are dropped.
+/// Parses the file. Strict: error kParse with the line of anything unknown. Sessions without an
+/// account, left when a line was removed by hand, are dropped.
 [[nodiscard]] Result<AccountsFile> parse_accounts(std::string_view text,
                                                   std::string_view file_name);
 [[nodiscard]] std::string write_accounts(const AccountsFile& accounts);
 
-/// Whether somebody can have that name: 1 to 32 letters, digits, `-`, `_`, `.` and `@`, the first a
-/// letter or digit. Error kInvalidArgument.
+/// Checks a user name: 1 to 32 letters, digits, `-`, `_`, `.` and `@`, the first a letter or digit.
+/// Error kInvalidArgument.
 [[nodiscard]] Status check_user_name(std::string_view name);
-/// Whether it is long enough (10 characters) and not absurdly long. Error kInvalidArgument.
+/// Checks the length of a password: at least 10 characters, and an upper limit. Error
+/// kInvalidArgument.
 [[nodiscard]] Status check_password(std::string_view password);
 
 /// The accounts of a server. Any thread; several processes may use the same folder. add(), join()
-/// and sign_in() take a tenth of a second for the password, so they are nothing for the thread of a
-/// server.
+/// and sign_in() take a tenth of a second for the password hash, so do not call them in the thread
+/// of a server.
 class Accounts {
  public:
   using Clock = std::function<std::int64_t()>;
   static constexpr std::int64_t kSessionLife_s = 7 * 86'400;
 
-  /// Makes the folder (0700) if it is missing. Errors: kState (others can read it), kIo, kParse.
-  /// `clock`: null for the one on the wall.
+  /// Opens the folder, or creates it (0700). Errors: kState (others can read it), kIo, kParse.
+  /// `clock`: null for the system clock.
   [[nodiscard]] static Result<std::unique_ptr<Accounts>> open(const std::filesystem::path& folder,
                                                               Clock clock = nullptr);
-  /// The user's own: `rave/gui` in XDG_STATE_HOME or ~/.local/state.
+  /// The user's default folder: `rave/gui` in XDG_STATE_HOME or ~/.local/state.
   [[nodiscard]] static std::filesystem::path usual_folder();
 
   [[nodiscard]] const std::filesystem::path& folder() const noexcept { return folder_; }
-  /// Takes in what another process has written; quick if nothing was. Errors: kIo, kParse; then
-  /// what was known stays.
+  /// Reads changes of other processes; fast if there are none. Errors: kIo, kParse; the previous
+  /// state is kept then.
   [[nodiscard]] Status refresh();
   [[nodiscard]] AccountsFile state() const;
-  /// Another number whenever the file is another. Quick.
+  /// Changes whenever the file changes. Fast.
   [[nodiscard]] std::uint64_t revision() const;
 
-  // Each is in the file when it returns. Errors of all: kIo, kParse (the file), and as named.
+  // The following functions return after the file is written. Errors of all: kIo, kParse (the
+  // file), and as named.
 
-  /// Errors: kInvalidArgument (the name, also if it differs in capitals alone, or the password).
+  /// Adds an account. Errors: kInvalidArgument (an invalid name, one that differs from another only
+  /// in case, or an invalid password).
   [[nodiscard]] Status add(const Person& person, std::string_view password);
-  /// Ends the sessions too. Error kNotFound, with the nearest name.
+  /// Removes an account and ends its sessions. Error kNotFound, with the nearest name.
   [[nodiscard]] Status remove(std::string_view name);
-  /// The secret of a link. `uses` 1 to 1000, `days` 1 to 365; else error kInvalidArgument.
+  /// Creates an invitation and returns the secret of its link. Error kInvalidArgument unless `uses`
+  /// is 1 to 1000 and `days` 1 to 365.
   [[nodiscard]] Result<std::string> invite(Role role, const Teams& teams, int uses, int days,
                                            std::string_view by);
-  /// Gives somebody another role and other teams. Errors: kNotFound; kState: no super-user who can
+  /// Changes the role and teams of an account. Errors: kNotFound; kState: no super-user who can
   /// sign in would be left.
   [[nodiscard]] Status change_person(const Person& person);
-  /// Disables an account, which ends its sessions, or enables it again. Errors: as change_person().
+  /// Disables an account, which ends its sessions, or enables it again. Errors: those of
+  /// change_person().
   [[nodiscard]] Status set_disabled(std::string_view name, bool disabled);
-  /// How many there were. A guest without a password goes with them. Error kNotFound.
+  /// Ends the sessions of an account; returns their number. The account of a guest without a
+  /// password is removed too. Error kNotFound.
   [[nodiscard]] Result<std::size_t> end_sessions(std::string_view name);
-  /// Takes back the invitation of an id and returns what it was. Error kNotFound.
+  /// Revokes the invitation with this id and returns it. Error kNotFound.
   [[nodiscard]] Result<Invitation> withdraw(std::string_view id);
-  /// Somebody was here until now. Writes nothing if that was told within ten seconds.
+  /// Records that a user was present until now. Does nothing if the last record is less than ten
+  /// seconds old.
   [[nodiscard]] Status note_seen(std::string_view name);
-  /// Takes back all invitations; how many there were.
+  /// Revokes all invitations; returns their number.
   [[nodiscard]] Result<std::size_t> revoke_invitations();
-  /// Makes an account by an invitation and begins a session, whose secret it returns. Without a
-  /// password the account lasts as long as the session. Errors: kState (the invitation is not
-  /// known, used up or too old), kInvalidArgument.
+  /// Creates an account by an invitation and begins a session, whose secret it returns. Without a
+  /// password the account lasts as long as the session. Errors: kState (the invitation is unknown,
+  /// used up or expired), kInvalidArgument.
   [[nodiscard]] Result<std::string> join(std::string_view secret, const std::string& name,
                                          std::string_view password);
-  /// Begins a session and returns its secret. Error kState: the name or the password is wrong;
-  /// which of them, neither the text nor the time says; or both are right and the account is
-  /// disabled.
+  /// Begins a session and returns its secret. Error kState: a wrong name or password (neither the
+  /// message nor the duration reveals which), or a disabled account if both are right.
   [[nodiscard]] Result<std::string> sign_in(std::string_view name, std::string_view password);
   [[nodiscard]] Status sign_out(std::string_view session);
-  /// Whose session it is. Quick.
+  /// The user of a session. Fast.
   [[nodiscard]] std::optional<Person> who(std::string_view session) const;
-  /// Whether somebody is called so. Quick.
+  /// Whether an account has this name. Fast.
   [[nodiscard]] bool has(std::string_view name) const;
-  /// Whether an invitation can be used. Quick.
+  /// Whether an invitation is valid. Fast.
   [[nodiscard]] bool knows_invitation(std::string_view secret) const;
 
  private:
   Accounts(std::filesystem::path folder, Clock clock);
-  /// Reads, changes and writes while no other process does.
+  /// Reads, changes and writes the file under a lock against other processes.
   [[nodiscard]] Status change(const std::function<Status(AccountsFile&)>& how);
   [[nodiscard]] Status read_if_changed();
   [[nodiscard]] Status write(const AccountsFile& changed);
 
   std::filesystem::path folder_;
   Clock clock_;
-  std::mutex file_mutex_;     ///< Held while the disk is waited for; taken before `mutex_`.
-  std::string stamp_;         ///< Of the file that was read: it is never written in place.
-  mutable std::mutex mutex_;  ///< Of `state_`; never held for long.
+  std::mutex file_mutex_;  ///< Held during disk access; locked before `mutex_`.
+  /// Identifies the file that was read; the file is replaced, never written in place.
+  std::string stamp_;
+  mutable std::mutex mutex_;  ///< Guards `state_`; never held for long.
   AccountsFile state_;
   std::uint64_t revision_ = 0;  ///< Guarded by `mutex_`.
 };

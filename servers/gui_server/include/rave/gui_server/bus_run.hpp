@@ -12,14 +12,14 @@
 
 namespace rave::gui_server {
 
-/// A run of several processes, for pages: joins its bus as an onlooker, so that no process of the
-/// run waits for it or takes notice of it. It may come and go, and so may they.
+/// A source for a run with several processes: joins its bus as a monitor, so that no process of the
+/// run waits for it. It may join and leave at any time, as may they.
 ///
-/// `built`: of the scenario, for what robots look like; nothing of it is kept. `bus`: that of the
-/// run. `described`: the plug-ins of the run, for the thread of the server; null: nobody tries
-/// virtual sensors. `control`: of its environment manager in lock-step, if that is in this process;
-/// it outlives the source. Null: robots are stopped over the bus, and nobody here can hold the run.
-/// Errors: those of bus::Bus::open().
+/// `built`: of the scenario, for the appearance of robots; not referred to later. `bus`: that of
+/// the run. `described`: the plug-ins of the run, for the thread of the server; null: no probes.
+/// `control`: of the run's Environment Manager in lock-step, if it is in this process; must outlive
+/// the source. Null: robots are stopped over the bus, and pages cannot pause the run. Errors: those
+/// of bus::Bus::open().
 [[nodiscard]] Result<std::shared_ptr<Source>> watch_run(
     const config::ExpandedScenario& scenario, const runtime::BuiltScenario& built,
     bus::BusConfig bus, std::unique_ptr<plugin::Catalogue> described,

@@ -10,49 +10,50 @@
 #include "rave/control/run_control.hpp"
 #include "rave/math/pose.hpp"
 
-// What people ask of robots and of obstacles. Plain values; SI units, frame W, angles in radians.
+// Requests of users for robots and obstacles. Plain values; SI units, frame W, angles in radians.
 namespace rave::gui_server {
 
-/// So many robots are meant by one message, at most.
+/// Largest number of robots in one message.
 inline constexpr std::size_t kMostCommanded = 2000;
-/// So long a text to a robot or a person is, bytes of UTF-8.
+/// Largest size of a text to a robot or a user, bytes of UTF-8.
 inline constexpr std::size_t kLongestText = 1000;
 
-/// Who asks, as the run names them.
+/// The sender of a request, as the run names it.
 struct Author {
   std::string name;
   bool overrides = false;  ///< A super-user, who needs no lease.
-  std::uint64_t page = 0;  ///< Which of their pages: these do not share leases. Not 0 for a page.
+  std::uint64_t page = 0;  ///< Id of the sender's page, because pages of a user do not share
+                           ///< leases; not 0 for a page.
   friend bool operator==(const Author&, const Author&) = default;
 };
 
-/// One request of a person. Which members count depends on the kind.
+/// One request of a user. The kind determines which members are used.
 struct CommandMessage {
   enum class Kind : std::uint8_t {
     kDrive,        ///< `v_mps` and `w_radps`, for 250 ms.
     kGoal,         ///< `points`: one for all, or one for each robot; `yaw_rad`, `speed_mps`.
     kPath,         ///< `points`, `speed_mps`.
-    kCancel,       ///< What is under way.
+    kCancel,       ///< Cancels the current order.
     kText,         ///< `value`.
     kPlace,        ///< `points`: one for each robot; `yaw_rad`.
-    kTake,         ///< The lease; `value`: empty, or `force`.
-    kGive,         ///< The lease; `value`: to whom, or empty: back.
-    kSet,          ///< The parameter `key` becomes `value`.
-    kAdd,          ///< An obstacle; `value`: YAML.
-    kMove,         ///< The same; `key`: its name.
-    kRemove,       ///< The obstacle `key`.
-    kHandOver,     ///< To the drivers `value`: `real`, `simulated`, `first` or `twin`.
-    kResetShadow,  ///< Puts the simulated twin where the robot is.
+    kTake,         ///< Takes the lease; `value`: empty, or `force`.
+    kGive,         ///< Gives the lease; `value`: the receiver, or empty to return it.
+    kSet,          ///< Sets the parameter `key` to `value`.
+    kAdd,          ///< Adds an obstacle; `value`: YAML.
+    kMove,         ///< Moves an obstacle; `key`: its name; `value`: YAML.
+    kRemove,       ///< Removes the obstacle `key`.
+    kHandOver,     ///< Hands over to the drivers `value`: `real`, `simulated`, `first` or `twin`.
+    kResetShadow,  ///< Places the shadow at the robot's pose.
   };
   Kind kind = Kind::kDrive;
-  std::uint32_t request = 0;  ///< The page's number for it, which the answer has.
+  std::uint32_t request = 0;  ///< Number chosen by the page; repeated in the answer.
   std::vector<std::uint32_t>
-      slots;  ///< 1 to kMostCommanded, without repetitions; of obstacles none.
+      slots;  ///< Robots: 1 to kMostCommanded, without duplicates; empty for obstacles.
   std::vector<Vec2> points;
   std::optional<double> yaw_rad{};
   double v_mps = 0;
-  double w_radps = 0;    ///< To the left.
-  double speed_mps = 0;  ///< 0: as the robot likes.
+  double w_radps = 0;    ///< Counter-clockwise.
+  double speed_mps = 0;  ///< 0: the robot decides.
   std::string key;
   std::string value;
 
@@ -65,23 +66,23 @@ struct CommandMessage {
   friend bool operator==(const CommandMessage&, const CommandMessage&) = default;
 };
 
-/// `drive`, `goal` and so on, as messages and answers say it.
+/// The name of a kind in messages and answers, such as `drive` or `goal`.
 [[nodiscard]] std::string_view to_string(CommandMessage::Kind kind) noexcept;
 
-/// Who drives a robot, and what people may ask of it.
+/// The lease of a robot, and the orders that it takes.
 struct DriveState {
   std::uint32_t slot = 0;
-  std::string lease;               ///< Who drives it; empty: nobody.
-  std::vector<std::string> takes;  ///< Of drive, goal, path, text, place.
-  std::string order;       ///< What is under way, such as `goal 1.20, 3.40`; empty: nothing.
-  std::uint64_t page = 0;  ///< On which of their pages it is driven; 0: on none in particular.
-  /// Of a robot with two sets of drivers: how hand-overs stand, without its place, and whether the
-  /// simulated one serves.
+  std::string lease;               ///< Holder of the lease; empty: none.
+  std::vector<std::string> takes;  ///< Some of drive, goal, path, text, place.
+  std::string order;               ///< The current order, such as `goal 1.20, 3.40`; empty: none.
+  std::uint64_t page = 0;          ///< Page of the holder; 0: no particular one.
+  /// For a robot with two sets of drivers: the state of hand-overs, without the pose, and whether
+  /// the simulated set is active.
   std::optional<runtime::RunStatus::HandOver> hand_over = std::nullopt;
   bool simulated = true;
   std::optional<runtime::RunStatus::Shadow> shadow = std::nullopt;  ///< Rounded.
 
-  /// Whether it is this page that drives it.
+  /// Whether the lease belongs to this author's page.
   [[nodiscard]] bool is_of(const Author& author) const {
     return !lease.empty() && lease == author.name && (page == 0 || page == author.page);
   }

@@ -13,14 +13,14 @@
 
 namespace rave::gui_server {
 
-/// A run of this process, for pages: an observer of the run, and the source that shows what the
-/// observer hands over. The run never waits for the pages.
+/// Shows a run of this process in pages: an observer of the run, and a source with the data of the
+/// observer. The run never waits for pages.
 class LiveRun {
  public:
-  /// `control` is that of the run: what pages ask for goes there. `ready` gets the source when the
-  /// run is there, in the thread of the run. Both outlive the run.
-  /// `catalogue`: of the run, outlives it; `described`: another one of the same plug-ins, for the
-  /// thread of the server. With a null one nobody tries virtual sensors.
+  /// `control`: of the run; it receives the requests of pages. `ready` is called with the source
+  /// when the run is ready, in the thread of the run. Both must outlive the run. `catalogue`: of
+  /// the run, must outlive it; `described`: a second catalogue of the same plug-ins, for the thread
+  /// of the server; null: no probes.
   LiveRun(const config::ExpandedScenario& scenario, runtime::RunControl& control,
           plugin::Catalogue& catalogue, std::unique_ptr<plugin::Catalogue> described,
           std::function<void(std::shared_ptr<Source>)> ready);
@@ -28,9 +28,9 @@ class LiveRun {
   LiveRun& operator=(const LiveRun&) = delete;
   ~LiveRun();
 
-  /// For RunOptions::observers.
+  /// The observer, for RunOptions::observers.
   [[nodiscard]] runtime::RunObserver& observer() noexcept;
-  /// The run is over: pages say so, with the reason. Any thread.
+  /// Shows in pages that the run has ended, with the reason. Any thread.
   void end(std::string reason);
 
  private:

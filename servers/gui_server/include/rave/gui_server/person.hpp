@@ -11,14 +11,14 @@
 
 namespace rave::gui_server {
 
-/// Each may do what the one before it may, and more.
+/// The roles of users; each includes the rights of the previous one.
 enum class Role : std::uint8_t { kObserver, kCommander, kSuperUser };
 
 [[nodiscard]] std::string_view to_string(Role role) noexcept;
-/// Of `observer`, `commander` and `super_user`.
+/// Parses `observer`, `commander` or `super_user`; empty for any other word.
 [[nodiscard]] std::optional<Role> role_named(std::string_view word) noexcept;
 
-/// Teams that somebody belongs to.
+/// The teams of a user.
 struct Teams {
   bool all = true;
   std::set<std::string, std::less<>> names;  ///< Empty if `all`.
@@ -29,10 +29,10 @@ struct Teams {
   friend bool operator==(const Teams&, const Teams&) = default;
 };
 
-/// The reverse of Teams::text(). Error kParse: an empty name, or one with a control character.
+/// The inverse of Teams::text(). Error kParse: an empty name, or one with a control character.
 [[nodiscard]] Result<Teams> parse_teams(std::string_view text);
 
-/// Who looks.
+/// A user.
 struct Person {
   std::string name;
   Role role = Role::kObserver;

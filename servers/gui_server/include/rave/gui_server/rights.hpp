@@ -12,78 +12,81 @@
 #include "rave/base/result.hpp"
 #include "rave/gui_server/person.hpp"
 
-// Who may see and do what: one table, which the documentation prints. Plain values, no threads.
+// Rights: which data a user may see and which requests a user may send. One table, which the
+// documentation prints. Plain values, no threads.
 namespace rave::gui_server {
 
-/// A class of information, or of requests, that is given or withheld as a whole.
+/// A class of data or requests that rights refer to.
 enum class InfoClass : std::uint8_t {
-  kPose,         ///< That a robot is there, and where it says it is.
-  kTruePose,     ///< Where it is.
-  kReadings,     ///< What its program is given.
-  kHybridParts,  ///< The halves of its hybrid sensors.
+  kPose,         ///< Presence and reported poses of robots.
+  kTruePose,     ///< True poses of robots.
+  kReadings,     ///< Readings of sensors, as programs receive them.
+  kHybridParts,  ///< Halves of hybrid sensors.
   kObstacles,    ///< Virtual obstacles.
   kGoals,
   kMaps,
   kChat,
   kLog,
   kVideo,
-  kRecording,   ///< The file of the run as a whole.
+  kRecording,   ///< The whole recording file.
   kStop,        ///< Stopping robots.
   kRelease,     ///< Releasing robots that were stopped.
-  kRunControl,  ///< Pause, step, resume and pace of a run that goes on.
-  kCommand,     ///< Driving robots, sending them somewhere, telling and setting them something.
-  kEdit,        ///< Adding and moving virtual obstacles, and placing simulated robots.
-  kProbe,       ///< Trying virtual sensors.
+  kRunControl,  ///< Pause, step, resume and pace of a run in progress.
+  kCommand,     ///< Orders to robots, and changes of their parameters.
+  kEdit,        ///< Adding and moving virtual obstacles; placing simulated robots.
+  kProbe,       ///< Probes: trying virtual sensors.
 };
 inline constexpr std::size_t kInfoClasses = 17;
 
 [[nodiscard]] std::string_view to_string(InfoClass what) noexcept;
 [[nodiscard]] std::optional<InfoClass> class_named(std::string_view word) noexcept;
 
-/// Of which robots.
+/// The robots that a right covers.
 struct Reach {
   enum class Kind : std::uint8_t { kNone, kOwn, kAll, kTeams } kind = Kind::kNone;
-  std::set<std::string, std::less<>> teams;  ///< Of kTeams.
+  std::set<std::string, std::less<>> teams;  ///< Used with kTeams.
 
   [[nodiscard]] bool covers(std::string_view team, const Teams& own) const;
-  /// Robots of every team, those to come included.
+  /// Whether it covers robots of every team, future ones included.
   [[nodiscard]] bool covers_all(const Teams& own) const;
   friend bool operator==(const Reach&, const Reach&) = default;
 };
 
-/// `none`, `own`, `all`, or for kTeams nothing.
+/// `none`, `own` or `all`; empty for kTeams.
 [[nodiscard]] std::string_view to_string(Reach::Kind kind) noexcept;
 
-/// A change of the table: of a role or of a user. Without a reach a role has again what the
-/// scenario says, and a user what the role has.
+/// A change of the table for a role or a user. Without a reach, a role returns to the scenario's
+/// rights, and a user to those of the role.
 struct RightChange {
-  std::optional<Role> role{};  ///< Nothing: of `user`.
+  std::optional<Role> role{};  ///< Empty: the change is for `user`.
   std::string user{};
   InfoClass what = InfoClass::kPose;
   std::optional<Reach> reach{};
   friend bool operator==(const RightChange&, const RightChange&) = default;
 };
 
-/// The table. A super-user may everything, always: who could be locked out could not mend it.
+/// The table of rights. A super-user always has all rights; otherwise a locked-out one could not
+/// correct the table.
 class Rights {
  public:
-  /// The usual rights.
+  /// The default rights.
   Rights();
 
-  /// Error kInvalidArgument: of a super-user.
+  /// Sets a right of a role. Error kInvalidArgument: super-user.
   [[nodiscard]] Status set(Role role, InfoClass what, Reach reach);
-  /// Of one user, whatever the role; nothing: as the role again. Of a super-user it has no effect.
+  /// Sets a right of one user, independent of the role; empty `reach`: that of the role again. No
+  /// effect for a super-user.
   void set_user(const std::string& user, InfoClass what, std::optional<Reach> reach);
 
   [[nodiscard]] const Reach& of(Role role, InfoClass what) const;
   [[nodiscard]] const Reach& of(const Person& person, InfoClass what) const;
   using Row = std::map<InfoClass, Reach>;
-  /// Users with rights of their own.
+  /// Users with individual rights.
   [[nodiscard]] const std::map<std::string, Row, std::less<>>& users() const noexcept {
     return users_;
   }
 
-  /// The usual rights as a table of Markdown, for the documentation.
+  /// The default rights as a Markdown table, for the documentation.
   [[nodiscard]] static std::string usual_table();
 
  private:

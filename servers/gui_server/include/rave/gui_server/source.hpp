@@ -19,30 +19,30 @@
 #include "rave/maps/map_tile.hpp"
 #include "rave/probe/probes.hpp"
 
-// What the GUI Server shows comes from a source: a recording, or a run. Plain values; SI units,
-// frame W, angles in radians, times in seconds of the run.
+// A source provides what the GUI Server shows: a recording, or a run. Plain values; SI units, frame
+// W, angles in radians, times in seconds of the run.
 namespace rave::gui_server {
 
-/// A page draws trails of so many seconds; it gets what it has not seen of them at this spacing.
+/// A page draws trails of this many seconds; missing poses are sent with this spacing.
 inline constexpr double kPast_s = 20;
 inline constexpr double kPastSpacing_s = 0.2;
-/// A contact is told when it begins; so long it counts as going on.
+/// How long after its beginning a contact counts as lasting.
 inline constexpr double kTouch_s = 0.5;
 
-/// A panel that the scenario brings along, as a file that the page loads.
+/// A panel that the scenario supplies, as a file that the page loads.
 struct PageComponent {
-  std::string name;  ///< Of the file, without folder and ending.
+  std::string name;  ///< File name without folder and extension.
   std::filesystem::path file;
-  std::set<Role> roles;  ///< Who gets it, beside super-users.
+  std::set<Role> roles;  ///< The roles that get it, besides super-users.
 
   [[nodiscard]] bool is_for(Role role) const {
     return role == Role::kSuperUser || roles.contains(role);
   }
 };
 
-/// What the run is called and where it comes from.
+/// The name and origin of a run.
 struct RunAbout {
-  bool live = false;  ///< It goes on; otherwise this is its recording.
+  bool live = false;  ///< In progress; otherwise a recording.
   std::string name;
   std::string started;  ///< ISO 8601; empty if unknown.
   double step_s = 0;
@@ -55,13 +55,13 @@ struct RunAbout {
   double begin_s = 0;
   double end_s = 0;
   double duration_s = 0;
-  /// Orders may go through the server where a page has no direct line to a host.
+  /// Orders may go through the server if there is no direct line to a host.
   bool relay = false;
   std::vector<PageComponent> components;
-  Rights rights;  ///< The usual ones, with what the scenario changes.
+  Rights rights;  ///< The default rights with the changes of the scenario.
 };
 
-/// Bits of RobotState::flags, as they go into a pose frame.
+/// Bits of RobotState::flags, as in pose frames.
 enum RobotFlag : std::uint16_t {
   kKnown = 1,
   kStale = 2,
@@ -76,16 +76,17 @@ struct RobotState {
   double x_m = 0;
   double y_m = 0;
   double yaw_rad = 0;
-  double speed_mps = 0;  ///< Over ground, forward positive.
+  double speed_mps = 0;  ///< Over ground; forward is positive.
   std::uint16_t flags = 0;
-  /// Of the reported pose: of each of x and y, and of the heading. 0: not known. Live runs alone.
+  /// Variance of the reported pose: of x and y, and of the heading. 0: unknown. Live runs only.
   float variance_xy_m2 = 0;
   float variance_yaw_rad2 = 0;
 };
 
-/// Where all robots are at one moment; by index of the roster.
+/// The states of all robots at one time, by index of the roster.
 struct PosesAt {
-  std::uint32_t serial = 0;  ///< Of a picture that several pages share; 0: it is of one page alone.
+  /// Serial number of a picture that several pages share; 0: for one page only.
+  std::uint32_t serial = 0;
   double time_s = 0;
   std::uint64_t step = 0;
   std::vector<RobotState> robots;
@@ -95,32 +96,32 @@ struct PosesAt {
 struct ReadingAt {
   std::uint32_t slot = 0;
   std::uint32_t sensor = 0;
-  std::uint8_t part = 0;  ///< 0 what the program got, 1 real half, 2 virtual half.
+  std::uint8_t part = 0;  ///< 0: for the program, 1: real half, 2: virtual half.
   double stamp_s = 0;
   std::uint32_t rows = 0;
   std::uint32_t fields = 0;
   std::vector<float> values;
 };
 
-/// A sensor that somebody looks at.
+/// A sensor that a page shows.
 struct LookedAt {
   std::uint32_t slot = 0;
   std::uint32_t sensor = 0;
   friend auto operator<=>(const LookedAt&, const LookedAt&) = default;
 };
 
-/// Something that a person said, as a record has it.
+/// A chat message in a recording.
 struct ChatText {
-  std::uint64_t number = 0;  ///< From 1 on.
-  double t_s = 0;            ///< Of the run.
+  std::uint64_t number = 0;  ///< From 1.
+  double t_s = 0;            ///< Time of the run.
   std::string from;
   std::string role;  ///< `observer`, `commander` or `super_user`.
   std::string to;    ///< `all`, `role`, `user`, `team` or `robot`.
-  std::string name;  ///< Of whom `to` says.
+  std::string name;  ///< Name of the receiver, of the kind `to`.
   std::string text;
 };
 
-/// Something that happened, as the log shows it; repetitions folded.
+/// An event of the log, with repetitions combined.
 struct LogEvent {
   double t_s = 0;
   double until_s = 0;
@@ -131,41 +132,41 @@ struct LogEvent {
   std::vector<std::uint32_t> slots;
 };
 
-/// One viewer's place in time. One thread.
+/// The position of one page in time. One thread.
 class Cursor {
  public:
   virtual ~Cursor() = default;
-  /// Goes to the newest state at or before `time_s`, forwards or backwards. Errors: kIo, kParse
-  /// (a damaged piece; going elsewhere may work).
+  /// Moves to the newest state at or before `time_s`, forwards or backwards. Errors: kIo, kParse
+  /// (damaged data; other times may still work).
   [[nodiscard]] virtual Status go_to(double time_s) = 0;
   [[nodiscard]] virtual const PosesAt& poses() const noexcept = 0;
-  /// The newest readings of `sensors` at this moment.
+  /// The newest readings of `sensors` at this time.
   [[nodiscard]] virtual std::vector<ReadingAt> readings(std::span<const LookedAt> sensors,
                                                         bool parts) = 0;
-  /// The message `scene_change` that leads from the bodies of the start, or of the last call, to
-  /// those of this moment; empty: nothing changed, or they are those of the source for everybody.
+  /// The message `scene_change` from the initial bodies, or those of the last call, to those of
+  /// this time. Empty: nothing changed, or the source provides bodies for all pages together.
   [[nodiscard]] virtual std::string take_bodies() { return {}; }
 };
 
-/// Where a page is in the time of a run, and what that time does.
+/// The time that a page shows, and its progress.
 struct PlayState {
   enum class Kind : std::uint8_t { kRunning, kPaused, kWaiting, kEnded } kind = Kind::kRunning;
   double now_s = 0;
-  double begin_s = 0;     ///< Earliest moment that can be shown.
-  double end_s = 0;       ///< Latest moment that is known.
-  double duration_s = 0;  ///< Planned.
-  double pace = 1;        ///< What was asked for; 0: as fast as it goes.
-  double speed = 0;       ///< Seconds of the run per second on the wall.
-  std::string reason{};   ///< Of kWaiting and kEnded.
+  double begin_s = 0;     ///< Earliest time that can be shown.
+  double end_s = 0;       ///< Latest known time.
+  double duration_s = 0;  ///< Planned duration.
+  double pace = 1;        ///< Requested pace; 0: no limit.
+  double speed = 0;       ///< Seconds of the run per second of wall time.
+  std::string reason{};   ///< Reason for kWaiting and kEnded.
   /// Changes with each new picture; equal ones need not be sent again.
   std::uint64_t picture = 0;
-  bool jumped = false;  ///< The page has no past to draw trails with.
+  bool jumped = false;  ///< The page has no past poses for trails.
 };
 
-/// What a page asks of the time of a run.
+/// A request of a page to control time.
 struct TransportMessage {
   enum class Do : std::uint8_t { kPlay, kPause, kStep, kSeek, kPace } what = Do::kPlay;
-  double value = 0;  ///< Finite. kStep: how many; kSeek: seconds of the run; kPace: factor.
+  double value = 0;  ///< Finite. kStep: number of steps; kSeek: seconds of the run; kPace: factor.
 };
 
 /// The time of one page: its own in a recording, that of the run in a live one. One thread.
@@ -173,27 +174,28 @@ class Playhead {
  public:
   using Clock = std::chrono::steady_clock;
   virtual ~Playhead() = default;
-  /// Returns why not; empty: it is done.
+  /// Executes a request. Returns the reason if refused; empty if done.
   virtual std::string take(const TransportMessage& transport, Clock::time_point now) = 0;
   virtual PlayState look(Clock::time_point now) = 0;
 };
 
-/// What pages may ask for, by the words of the messages (`play`, `stop` ...), and why not.
+/// The requests that pages may send, by their names in messages (`play`, `stop` ...), and reasons
+/// why others are refused.
 struct Powers {
   std::vector<std::string> may;
   std::map<std::string, std::string> why_not;
 };
 
-/// What is asked of robots.
+/// A request to stop or release robots.
 struct HaltMessage {
-  bool stop = true;                  ///< Otherwise: release.
+  bool stop = true;                  ///< True: stop; false: release.
   std::vector<std::uint32_t> slots;  ///< Empty: all robots.
 };
 
-/// A map that can be looked at: the local one of a robot, or a global one.
+/// A map that can be shown: the local map of a robot, or a global one.
 struct MapName {
-  std::uint32_t slot = maps::kNoRobot;  ///< Of the robot.
-  std::string name;                     ///< Of the robot, or of the global map.
+  std::uint32_t slot = maps::kNoRobot;  ///< Index of the robot.
+  std::string name;                     ///< Name of the robot or of the global map.
 
   [[nodiscard]] bool global() const noexcept { return slot == maps::kNoRobot; }
   friend auto operator<=>(const MapName&, const MapName&) = default;
@@ -201,50 +203,51 @@ struct MapName {
 
 /// A piece of a map.
 struct TileShown {
-  std::uint64_t revision = 0;  ///< Another number whenever it changed, of all tiles of a source.
+  std::uint64_t revision = 0;  ///< Changes with every change; unique over all tiles of a source.
   SimTime stamp;
   std::vector<std::uint8_t> cells;  ///< As in maps::MapTile.
 };
 
-/// A map as it is known at present.
+/// The present content of a map.
 struct MapShown {
   maps::MapFrame frame;
-  SimTime stamp;  ///< Of the newest reading in it.
-  /// By row and column of the tile; where nothing is known there is none.
+  SimTime stamp;  ///< Stamp of the newest reading in it.
+  /// By row and column of the tile; unknown tiles are missing.
   std::map<std::pair<std::uint32_t, std::uint32_t>, TileShown> tiles;
 };
 
-/// A virtual sensor that somebody wants to try on a robot.
+/// A request to try a virtual sensor on a robot.
 struct ProbeWish {
   std::uint32_t slot = 0;
   std::string name;
   std::string driver;
   Pose2 X_RS;
   double z_m = 0;
-  std::vector<std::pair<std::string, std::string>> params;  ///< Values as a file has them.
-  bool without_obstacles = false;  ///< Who wishes it must not learn of virtual obstacles.
+  std::vector<std::pair<std::string, std::string>> params;  ///< Values as in a file.
+  bool without_obstacles = false;  ///< The user must not learn about virtual obstacles.
 };
 
-/// What became of it: what hosts are asked for, with the number of the robot in the run.
+/// A created probe: the request to the hosts, with the number of the robot in the run.
 struct ProbeMade {
   probe::Asked asked;
   std::string text;         ///< The entry for `sensors:` of a robot file.
   std::string sensor_json;  ///< As in a roster.
 };
 
-/// What all pages together look at.
+/// The data that all pages together need.
 struct Audience {
-  bool any = false;                  ///< A page wants poses.
-  std::vector<LookedAt> looked_at;   ///< Ascending, without repetitions.
-  bool parts = false;                ///< Also the halves of hybrid sensors.
-  std::vector<std::uint32_t> maps;   ///< Robots whose local maps; the same.
-  std::vector<probe::Asked> probes;  ///< The same.
+  bool any = false;                 ///< A page needs poses.
+  std::vector<LookedAt> looked_at;  ///< Ascending, without duplicates.
+  bool parts = false;               ///< Also the halves of hybrid sensors.
+  /// Robots whose local maps are needed; ascending, without duplicates.
+  std::vector<std::uint32_t> maps;
+  std::vector<probe::Asked> probes;  ///< Ascending, without duplicates.
 };
 
-/// One thread, which is that of the server.
+/// Used in one thread, that of the server.
 class Source {
  public:
-  /// What came of something that was asked. May come later.
+  /// Receives the result of a request, now or later.
   using Reply = std::function<void(bool good, std::string text)>;
 
   virtual ~Source() = default;
@@ -253,67 +256,69 @@ class Source {
   /// The arrays `bodies` of a message `scene` and `robots` of a message `roster`, as JSON.
   [[nodiscard]] virtual const std::string& bodies_json() const noexcept = 0;
   [[nodiscard]] virtual const std::string& robots_json() const noexcept = 0;
-  /// Kinds of bodies that are withheld.
+  /// The kinds of bodies that are withheld, as a JSON array.
   [[nodiscard]] virtual std::string hidden_kinds_json() const { return "[]"; }
   [[nodiscard]] virtual std::uint32_t robot_count() const noexcept = 0;
   [[nodiscard]] virtual std::span<const LogEvent> events() const noexcept = 0;
   [[nodiscard]] virtual std::unique_ptr<Cursor> open_cursor() = 0;
   [[nodiscard]] virtual std::unique_ptr<Playhead> open_playhead() = 0;
 
-  // A run that goes on.
-  /// Called some 60 times a second, before the pages are served.
+  // A run in progress.
+  /// Called about 60 times a second, before the pages are served.
   virtual void tick(Playhead::Clock::time_point /*now*/, const Audience& /*audience*/) {}
-  /// Another number whenever events came or changed; since a number of before, those from this
-  /// index on did.
+  /// Changes whenever events were added or changed. events_changed_since() returns the index of the
+  /// first such event since an earlier revision.
   [[nodiscard]] virtual std::uint64_t events_revision() const noexcept { return 0; }
   [[nodiscard]] virtual std::size_t events_changed_since(
       std::uint64_t /*revision*/) const noexcept {
     return 0;
   }
-  /// The same of the bodies of the scene, with the message that says what changed.
+  /// Changes with the bodies of the scene. bodies_changed_since() returns the message with the
+  /// changes since an earlier revision.
   [[nodiscard]] virtual std::uint64_t bodies_revision() const noexcept { return 0; }
   [[nodiscard]] virtual std::string bodies_changed_since(std::uint64_t /*revision*/) const {
     return {};
   }
-  /// The array `hosts` of a message of that name, and another number whenever it changed; 0: the
+  /// The array `hosts` of the message with that name, and a revision that changes with it; 0: the
   /// run has no hosts.
   [[nodiscard]] virtual std::uint64_t hosts_revision() const noexcept { return 0; }
   [[nodiscard]] virtual const std::string& hosts_json() const noexcept {
     static const std::string kNone = "[]";
     return kNone;
   }
-  // Maps. They are those of the present, wherever a page is in time.
-  /// What can be looked at, and another number whenever that changed; 0: there are none.
+  // Maps: always the present ones, whatever time a page shows.
+  /// The maps that can be shown, and a revision that changes with the list; 0: none.
   [[nodiscard]] virtual std::vector<MapName> map_names() const { return {}; }
   [[nodiscard]] virtual std::uint64_t map_names_revision() const noexcept { return 0; }
-  /// Another number whenever a tile of any map came.
+  /// Changes with every tile of any map.
   [[nodiscard]] virtual std::uint64_t maps_revision() const noexcept { return 0; }
-  /// A local map is found by its slot alone. Null: there is no such map, or nothing is known of it
-  /// yet. Holds until the next tick().
+  /// The content of a map; a local map is identified by its slot only. Null: no such map, or
+  /// nothing known yet. Valid until the next tick().
   [[nodiscard]] virtual const MapShown* map(const MapName& /*name*/) const { return nullptr; }
 
-  // Virtual sensors that are tried. Their readings come with those of the cursor, by their number.
-  /// Which there are: the array `drivers` of a message `catalogue`.
+  // Probes: virtual sensors for trial. Their readings come with those of the cursor, by their
+  // number.
+  /// The available virtual sensors: the array `drivers` of a message `catalogue`.
   [[nodiscard]] virtual std::string virtual_sensors_json() { return "[]"; }
-  /// Nothing senses yet: that begins when the audience of tick() has it. Errors: kState (nobody
-  /// can), kNotFound, kInvalidArgument.
+  /// Checks and prepares a probe. Sensing begins when the audience of tick() contains it. Errors:
+  /// kState (not possible here), kNotFound, kInvalidArgument.
   [[nodiscard]] virtual Result<ProbeMade> probe(const ProbeWish& wish);
-  /// What people said in the run that this is the record of, oldest first; slots are robots.
+  /// The chat of a recorded run, oldest first; slots are robots.
   [[nodiscard]] virtual std::span<const ChatText> chat() const noexcept { return {}; }
-  /// Puts what was said into the record of the run.
+  /// Adds a chat message to the recording of the run.
   virtual void keep_chat(const ChatText& /*said*/) {}
 
-  /// Stops and releases robots, at once and without a lease to stop.
+  /// Stops or releases robots at once; a stop needs no lease.
   virtual void halt(const HaltMessage& halt, const Author& author, Reply reply) = 0;
 
-  /// What came of a command for one of its robots; of an obstacle with kNoSlot.
+  /// The result of a command for one of its robots; for an obstacle with kNoSlot.
   static constexpr std::uint32_t kNoSlot = 0xffffffff;
   using SlotReply = std::function<void(std::uint32_t slot, bool good, std::string text)>;
-  /// Calls `reply` once for each robot of the command, now or later.
+  /// Executes a command. Calls `reply` once for each robot of the command, now or later.
   virtual void command(const CommandMessage& command, const Author& /*author*/,
                        const SlotReply& reply);
-  /// Another number whenever it changed who drives which robot; since a number of before (0: ever),
-  /// these did.
+  /// Changes whenever a lease changes. leases_changed_since() returns the changes since an earlier
+  /// revision (0: all).
   [[nodiscard]] virtual std::uint64_t leases_revision() const noexcept { return 0; }
   [[nodiscard]] virtual std::vector<DriveState> leases_changed_since(
       std::uint64_t /*revision*/) const {
@@ -321,8 +326,8 @@ class Source {
   }
 };
 
-/// Plays the record of a run. Errors: those of record::open_run() and McapReader::open(), kParse
-/// (not written by RAVE), and those of the scenario in it (a map that is missing).
+/// A source that plays a recording. Errors: those of record::open_run() and McapReader::open(),
+/// kParse (not written by RAVE), and those of the scenario in it (a missing map).
 [[nodiscard]] Result<std::shared_ptr<Source>> open_recording(const std::filesystem::path& file);
 
 }  // namespace rave::gui_server

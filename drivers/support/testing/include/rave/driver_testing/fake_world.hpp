@@ -11,12 +11,12 @@
 
 namespace rave::testing {
 
-/// A disc or a box in the fake world. Its place is that of the robot, if it is one.
+/// A disc or a box in the fake world. For a robot, X_WB is the robot's pose.
 struct FakeBody {
   Layer layer = Layer::kVirtualObstacles;
   Pose2 X_WB;
-  double radius_m = 0;        ///< Of a disc; 0 for a box.
-  Vec2 half_size_m = {0, 0};  ///< Of a box, along its own axes.
+  double radius_m = 0;        ///< Radius of a disc; 0 for a box.
+  Vec2 half_size_m = {0, 0};  ///< Half the lengths of a box along its own axes.
   double z0_m = 0;
   double z1_m = 1;
   RobotId robot = {};  ///< Valid for the body of a robot.
@@ -24,8 +24,8 @@ struct FakeBody {
   TouchState touch = {};
 };
 
-/// A world of a few bodies, each query answered by the textbook formula and a loop: what drivers
-/// are tested against. Bodies keep the order in which they were added; robots are numbered.
+/// A world of few bodies for tests of drivers. Each query is a loop over textbook formulas. Bodies
+/// keep the order in which they were added; robots are numbered.
 class FakeWorld final : public WorldView {
  public:
   BodyId add_disc(Vec2 p_WB, double radius_m, Layer layer = Layer::kVirtualObstacles) {
@@ -51,7 +51,7 @@ class FakeWorld final : public WorldView {
     robots_.push_back(add(body));
     return body.robot;
   }
-  /// Puts a code on a body, between two heights.
+  /// Puts a barcode on a body, between two heights.
   void add_code(BodyId body, std::int32_t code, double z0_m, double z1_m) {
     const FakeBody& carrier = at(body);
     landmarks_.push_back({body, code, carrier.X_WB.position(), z0_m, z1_m, carrier.robot});
@@ -137,7 +137,7 @@ class FakeWorld final : public WorldView {
     return -b - std::sqrt(discriminant);
   }
 
-  /// Where the ray is between both pairs of sides at once.
+  /// The slab method: the part of the ray that is between both pairs of sides.
   [[nodiscard]] static double to_box(Vec2 origin, Vec2 direction, Vec2 half) noexcept {
     double enter = 0;
     double leave = kNoHit;

@@ -17,19 +17,19 @@
 #include "rave/math/scalar.hpp"
 #include "rave/sim/virtual_sensor.hpp"
 
-/// Of the driver that is compiled into the test.
+/// Entry function of the driver that is compiled into the test.
 extern "C" void rave_register_plugin(rave::RegistrySink* registry);
 
 namespace rave::testing {
 
-/// A parameter as a robot file would give it.
+/// A parameter with a value other than its default.
 struct Given {
   std::string name;
   double number = 0;
   std::vector<double> list = {};
 };
 
-/// Keeps what the plug-in registers.
+/// Records what the plug-in registers.
 struct Registrations final : RegistrySink {
   void add(const DriverInfo& info, const void* ops) override {
     infos.push_back(info);
@@ -39,8 +39,8 @@ struct Registrations final : RegistrySink {
   std::vector<const void*> tables;
 };
 
-/// The one virtual sensor of a plug-in, reached through its registered function table as the
-/// engine does it. Parameters that are not given have their defaults.
+/// The only virtual sensor of a plug-in, called through its registered function table like in the
+/// engine. Other parameters have their defaults.
 class SensorUnderTest {
  public:
   explicit SensorUnderTest(std::vector<Given> given = {}, LayerMask layers = kAllLayers)
@@ -69,7 +69,7 @@ class SensorUnderTest {
     ::operator delete(memory_, std::align_val_t{ops_->instance.alignment});
   }
 
-  /// One sample of a sensor that fills its records itself.
+  /// One sample of a sensor without a fan.
   template <class Record>
   std::vector<Record> sample(const WorldView& world, SampleItem item) {
     std::vector<Record> records(declaration.capacity);
@@ -87,7 +87,7 @@ class SensorUnderTest {
     return records;
   }
 
-  /// One sample of a sensor that declared a fan, cast ray by ray as FanQuery says.
+  /// One sample of a sensor with a fan, cast ray by ray as FanQuery specifies.
   [[nodiscard]] std::vector<double> ranges(const WorldView& world, const SampleItem& item) const {
     const FanQuery& fan = declaration.fan;
     std::vector<double> readings;
@@ -104,7 +104,7 @@ class SensorUnderTest {
     return readings;
   }
 
-  /// As after a reset of the run.
+  /// Clears the state, like a reset of the run.
   void reset() { std::memset(state_.data(), 0, state_.size() * sizeof(std::max_align_t)); }
   [[nodiscard]] std::string error() const { return error_.text; }
 
@@ -137,7 +137,7 @@ class SensorUnderTest {
   ErrorText error_;
 };
 
-/// Where a robot looks from: the sensor at the robot's origin unless it is moved.
+/// A sample item for a sensor at the robot's origin; set X_WS for another mounting.
 inline SampleItem looking_from(RobotId robot, const Pose2& X_WR, double z_m = 0.5) {
   SampleItem item;
   item.robot = robot;
@@ -148,8 +148,8 @@ inline SampleItem looking_from(RobotId robot, const Pose2& X_WR, double z_m = 0.
   return item;
 }
 
-/// Mean and spread of many draws, and whether they are what was configured: both within five
-/// standard errors, which a right driver misses once in a million runs.
+/// Mean and standard deviation of many draws. Expectations allow five standard errors, which a
+/// correct driver exceeds once in a million runs.
 class Statistics {
  public:
   void add(double value) {

@@ -6,13 +6,13 @@
 
 namespace rave::testing {
 
-// Far beyond what any test needs: a wait that ends by it has failed.
+// Far longer than any test needs: a wait that reaches it has failed.
 inline constexpr std::chrono::seconds kLong{100};
 
-/// Between two looks of a wait; a look that starts a process is better taken less often.
+/// The pause between two checks of a wait; use a longer one if a check starts a process.
 inline constexpr std::chrono::milliseconds kOften{10};
 
-/// Waits until `holds()` is true. False: it never was.
+/// Waits until `holds()` is true. False: it did not become true within kLong.
 template <class Holds>
 [[nodiscard]] bool await(Holds&& holds, std::chrono::milliseconds pause = kOften) {
   const auto end = std::chrono::steady_clock::now() + kLong;

@@ -8,14 +8,14 @@
 namespace rave::testing {
 
 namespace detail {
-/// Made before the instance that comes from it.
+/// A base class that owns the plug-in, so that it is constructed before LiveSensor.
 struct OwnPlugin {
   explicit OwnPlugin(const std::string& name) : own_plugin(name) {}
   LivePlugin own_plugin;
 };
 }  // namespace detail
 
-/// A sensor driver that is alone in a plug-in of its name.
+/// A sensor driver in a plug-in of the same name.
 class LiveDriver : private detail::OwnPlugin, public LiveSensor {
  public:
   explicit LiveDriver(const std::string& name)

@@ -19,10 +19,10 @@
 
 namespace rave::testing {
 
-/// Values of parameters that differ from the default.
+/// Values of parameters that differ from their defaults.
 using Given = std::map<std::string, std::variant<double, std::string, std::vector<double>>>;
 
-/// In the order of the specs, defaults filled in.
+/// The values in the order of the specs, with defaults filled in.
 [[nodiscard]] inline plugin::ParamSet values_of(const DriverInfo& info, const Given& given) {
   plugin::ParamSet set;
   std::size_t used = 0;
@@ -43,7 +43,7 @@ using Given = std::map<std::string, std::variant<double, std::string, std::vecto
   return set;
 }
 
-/// A plug-in of the build tree and the drivers in it.
+/// A plug-in of the build tree and its drivers.
 class LivePlugin final : public RegistrySink {
  public:
   explicit LivePlugin(const std::string& name) {
@@ -71,8 +71,8 @@ class LivePlugin final : public RegistrySink {
   std::map<std::string, std::pair<DriverInfo, const void*>> drivers_;
 };
 
-/// One instance of a driver, called through its table of functions as a host does it. What the
-/// functions below give as text is empty, or the text of the error.
+/// One instance of a driver, called through its function table like in a host. Functions that
+/// return a text return the error, or an empty text.
 template <class Ops>
 class LiveInstance {
  public:

@@ -14,7 +14,7 @@
 
 namespace rave::testing {
 
-/// A run that goes by the wall from when this object is made.
+/// A run that follows the wall clock, beginning with the construction of this object.
 class WallClock final : public RunClock {
  public:
   using Clock = std::chrono::steady_clock;
@@ -23,7 +23,7 @@ class WallClock final : public RunClock {
     return begin_ + std::chrono::nanoseconds(t.ns);
   }
   [[nodiscard]] SimTime at(Clock::time_point t) const noexcept { return {(t - begin_).count()}; }
-  /// The same for nanoseconds of CLOCK_MONOTONIC, which peers log.
+  /// Like at(), for nanoseconds of CLOCK_MONOTONIC, as in logs of peers.
   [[nodiscard]] SimTime at_ns(std::int64_t t_ns) const noexcept {
     return at(Clock::time_point(std::chrono::nanoseconds(t_ns)));
   }
@@ -32,7 +32,7 @@ class WallClock final : public RunClock {
   Clock::time_point begin_ = Clock::now();
 };
 
-/// One sample as a host takes it out, and when the driver put it in.
+/// One sample as a host receives it, and the time when the driver published it.
 template <class Record>
 struct Delivered {
   SimTime stamp;
@@ -40,7 +40,7 @@ struct Delivered {
   std::vector<Record> records;
 };
 
-/// The host's queue, with an ear at the driver's side so that a test can wait for samples.
+/// The host's queue with notifications, so that a test can wait for samples.
 template <class Record>
 class LiveSink final : public SampleSink {
  public:
@@ -73,25 +73,25 @@ class LiveSink final : public SampleSink {
   }
   [[nodiscard]] SimTime now() const noexcept override { return queue_.now(); }
 
-  /// Waits until there are `count` more samples than now.
+  /// Waits for `count` further samples.
   void await_more(std::size_t count) {
     std::unique_lock lock(mutex_);
     const std::size_t wanted = samples_.size() + count;
     EXPECT_TRUE(changed_.wait_for(lock, kLong, [&] { return samples_.size() >= wanted; }))
         << samples_.size() << " samples of " << wanted;
   }
-  /// Waits until the driver says that its device is gone; gives what it says.
+  /// Waits for fail() of the driver; returns its text.
   std::string await_failure() {
     std::unique_lock lock(mutex_);
     EXPECT_TRUE(changed_.wait_for(lock, kLong, [&] { return !queue_.failure().empty(); }));
     return queue_.failure();
   }
-  /// Waits until the driver takes that back.
+  /// Waits for recover() of the driver.
   void await_recovery() {
     std::unique_lock lock(mutex_);
     EXPECT_TRUE(changed_.wait_for(lock, kLong, [&] { return queue_.failure().empty(); }));
   }
-  /// Waits for a sample whose first record is as wanted; gives it.
+  /// Waits for a sample whose first record satisfies `wanted`; returns that record.
   template <class Wanted>
   Record await_record(Wanted wanted) {
     std::unique_lock lock(mutex_);
@@ -123,7 +123,7 @@ class LiveSink final : public SampleSink {
   std::vector<Delivered<Record>> samples_;
 };
 
-/// Prints how long things took, milliseconds: to be read by people, judged by nobody.
+/// Prints statistics of durations in milliseconds; informative only.
 inline void print_times(const char* what, std::vector<double> times_ms) {
   if (times_ms.empty()) return;
   std::sort(times_ms.begin(), times_ms.end());

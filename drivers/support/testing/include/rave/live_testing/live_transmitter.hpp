@@ -19,7 +19,7 @@
 
 namespace rave::testing {
 
-/// Keeps what a transmitter hears and waits for it.
+/// Records the packets of a transmitter and waits for them.
 class LivePort final : public PacketSink {
  public:
   void receive(const std::byte* packet, std::uint64_t size) noexcept override {
@@ -40,7 +40,7 @@ class LivePort final : public PacketSink {
     changed_.notify_all();
   }
 
-  /// Hang guards of a minute; false: it did not happen.
+  /// Wait for at most a minute; false: it did not happen.
   bool wait_packets(std::size_t count) {
     return wait([&] { return packets_.size() >= count; });
   }
@@ -73,8 +73,8 @@ class LivePort final : public PacketSink {
   int recoveries_ = 0;
 };
 
-/// One instance of a transmitter driver of the build tree, called through its table of functions as
-/// a host does it.
+/// One instance of a transmitter driver of the build tree, called through its function table like
+/// in a host.
 class LiveTransmitter final : RegistrySink {
  public:
   using Given = std::map<std::string, std::variant<double, std::string>>;
@@ -99,7 +99,7 @@ class LiveTransmitter final : RegistrySink {
     ::operator delete(instance_, std::align_val_t(ops_->instance.alignment));
   }
 
-  /// These return an empty text, or that of the error.
+  /// Return the error, or an empty text.
   std::string configure(const Given& given) {
     for (const ParamSpec& spec : info_.param_specs()) {
       const auto found = given.find(spec.name);

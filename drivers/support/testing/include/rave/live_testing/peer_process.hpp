@@ -18,8 +18,8 @@ extern char** environ;
 
 namespace rave::testing {
 
-/// A peer (tests/peers) as a process: commands to its input, lines from its output. It ends when
-/// this object does.
+/// A simulated peer (tests/peers) as a process: it reads commands from its input and writes lines
+/// to its output. The destructor ends it.
 class PeerProcess {
  public:
   PeerProcess(const std::string& program, std::vector<std::string> options) {
@@ -52,15 +52,16 @@ class PeerProcess {
     if (pid_ > 0) ::waitpid(pid_, nullptr, 0);
   }
 
-  /// What the peer said after `ready `.
+  /// The text that the peer wrote after `ready `.
   [[nodiscard]] const std::string& where() const { return ready_; }
-  /// Gives a command and waits until the peer has obeyed.
+  /// Sends a command and waits for its confirmation.
   void tell(const std::string& command) {
     const std::string line = command + "\n";
     EXPECT_EQ(::write(to_, line.data(), line.size()), static_cast<ssize_t>(line.size()));
     (void)wait_for("ok " + command.substr(0, command.find(' ')));
   }
-  /// Gives a command that the peer answers by a line which begins so; gives what follows it.
+  /// Sends a command whose answer is a line that begins with the command; returns the rest of that
+  /// line.
   std::string ask(const std::string& command) {
     const std::string line = command + "\n";
     EXPECT_EQ(::write(to_, line.data(), line.size()), static_cast<ssize_t>(line.size()));
@@ -68,7 +69,7 @@ class PeerProcess {
     (void)wait_for("ok " + command);
     return answer;
   }
-  /// Waits for a line that begins so, and gives what follows it.
+  /// Waits for a line that begins with `beginning`; returns the rest of it.
   std::string wait_for(const std::string& beginning) {
     while (true) {
       for (auto end = text_.find('\n'); end != std::string::npos; end = text_.find('\n')) {

@@ -12,9 +12,9 @@
 
 namespace rave::testing {
 
-/// A robot with two wheels on the bench: the peer, a folder for its files, and the driver of its
-/// wheels. Sensors and devices are the test's. The room is 6 m by 3 m and empty; the robot stands
-/// at (1, 1.5) and looks along x.
+/// A robot with two wheels for tests: the peer, a folder for its files, and the driver of its
+/// wheels. The test adds sensors and devices. The room is 6 m by 3 m and empty; the robot stands at
+/// (1, 1.5) and faces along x.
 class RobotBench {
  public:
   RobotBench(const RobotBench&) = delete;
@@ -30,13 +30,13 @@ class RobotBench {
     };
     return services;
   }
-  /// What the driver said to its host.
+  /// The log lines of the driver.
   [[nodiscard]] std::string said() const {
     const std::lock_guard lock(log_mutex_);
     return log_;
   }
 
-  /// Goes on giving a velocity, as a robot's controller does, until stop_driving().
+  /// Repeats a velocity command like a controller, until stop_driving().
   void keep_driving(double v_mps, double w_radps) {
     stop_driving();
     driver_ = std::jthread(
@@ -55,24 +55,24 @@ class RobotBench {
   }
 
   [[nodiscard]] nlohmann::json state() { return state_of(*peer); }
-  /// Waits until the peer is as wanted.
+  /// Waits until the state of the peer satisfies `wanted`.
   template <class Wanted>
   nlohmann::json await_state(Wanted wanted) {
     return await_answer([this] { return state(); }, wanted);
   }
   nlohmann::json await_standstill() {
     auto now = await_state(wheels_stand);
-    poses->await_more(3);  // by now one came that was made after it
+    poses->await_more(3);  // by now a sample that was taken afterwards has arrived
     return now;
   }
 
-  Given given;  ///< To the device.
+  Given given;  ///< Parameters of the device.
   std::unique_ptr<PeerProcess> peer;
   LivePlugin plugin;
   std::unique_ptr<LiveSink<OdometryReading>> poses;
 
  protected:
-  /// `drive` is the test's own, of the plug-in; it need not be there yet.
+  /// `drive` is owned by the test and made from the plug-in; it may be constructed later.
   RobotBench(const std::string& plugin_name, LiveActuator& drive)
       : plugin(plugin_name), drive_(drive), scratch_(plugin_name) {
     scratch_.write("room", "3 1.5 0 6 3\n");

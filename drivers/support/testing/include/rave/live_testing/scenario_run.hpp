@@ -12,7 +12,7 @@
 
 namespace rave::testing {
 
-/// `rave run` as a process, or another command with the same options.
+/// `rave run`, or another command with the same options, as a process.
 class RaveRun {
  public:
   RaveRun(const std::string& scenario, const std::string& output,
@@ -31,27 +31,27 @@ class RaveRun {
     if (pid_ > 0) kill();
   }
 
-  /// The exit code.
+  /// Waits for the end; returns the exit code.
   int wait() {
     int status = 0;
     ::waitpid(pid_, &status, 0);
     pid_ = -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  /// As a crash or the kernel does it: nothing of the process runs any more.
+  /// Kills the process (SIGKILL).
   void kill() {
     ::kill(pid_, SIGKILL);
     (void)wait();
   }
   [[nodiscard]] pid_t pid() const { return pid_; }
-  /// Ends it as a user does.
+  /// Ends it with SIGINT, like Ctrl-C.
   void interrupt() const { ::kill(pid_, SIGINT); }
 
  private:
   pid_t pid_ = -1;
 };
 
-/// A peer, a scenario that it takes part in, and a folder for their files.
+/// A peer, a scenario that uses it, and a folder for their files.
 class ScenarioRun {
  public:
   explicit ScenarioRun(const std::string& prefix) : scratch_(prefix) {}
@@ -72,7 +72,7 @@ class ScenarioRun {
   nlohmann::json await_state(Wanted wanted) {
     return await_answer([this] { return state(); }, wanted);
   }
-  /// Until the console has said something so many times.
+  /// Waits until the console log contains `text` at least `times` times.
   void await_console(const std::string& text, int times) const {
     const nlohmann::json counted =
         await_answer([&] { return nlohmann::json(said(text)); },
@@ -80,8 +80,8 @@ class ScenarioRun {
     EXPECT_GE(counted.get<int>(), times) << text;
   }
   [[nodiscard]] std::string file(const std::string& name) const { return scratch_.file(name); }
-  /// A scenario that does not say how late it may be may be as late as it likes: a machine that
-  /// runs tests has no time to spare, and that is not what they are about.
+  /// Writes a file. A scenario without `max_missed_pct` gets 100: these tests are not about
+  /// deadlines, which a loaded test machine misses.
   void write(const std::string& name, const std::string& text) const {
     const bool silent = text.find("max_missed_pct:") == std::string::npos;
     scratch_.write(name, name == "scenario.yaml" && silent ? text + "max_missed_pct: 100\n" : text);

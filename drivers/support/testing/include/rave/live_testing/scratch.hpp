@@ -15,7 +15,7 @@
 
 namespace rave::testing {
 
-/// A folder of this test alone, removed with this object.
+/// A folder for this test, removed by the destructor.
 class Scratch {
  public:
   explicit Scratch(const std::string& prefix)
@@ -39,7 +39,7 @@ class Scratch {
   std::filesystem::path folder_;
 };
 
-/// Asks until the answer is as wanted; gives the last one.
+/// Repeats `ask` until `wanted(answer)` holds; returns the last answer.
 template <class Ask, class Wanted>
 nlohmann::json await_answer(Ask&& ask, Wanted&& wanted, std::chrono::milliseconds pause = kOften) {
   nlohmann::json now;
@@ -53,11 +53,11 @@ nlohmann::json await_answer(Ask&& ask, Wanted&& wanted, std::chrono::millisecond
   return now;
 }
 
-/// What a peer says of itself.
+/// The state that a peer reports.
 [[nodiscard]] inline nlohmann::json state_of(PeerProcess& peer) {
   return nlohmann::json::parse(peer.ask("state"));
 }
-/// The same of one that has two wheels.
+/// Tests of the state of a peer with two wheels.
 [[nodiscard]] inline bool wheels_turn(const nlohmann::json& state) {
   return std::abs(state["left_mps"].get<double>()) > 0.05;
 }

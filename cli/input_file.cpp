@@ -107,7 +107,7 @@ Result<InputFile> read_input(const std::filesystem::path& path) {
     return input;
   }
   // The world's own errors first, and at their own places.
-  RAVE_TRY(config::read_world_file(path).map([](const auto&) {}));
+  RAVE_TRY(config::read_world_file(path));
   const std::string world = "world" + file.substr(std::string_view("file").size());
   RAVE_TRY_ASSIGN(input.scenario,
                   around(world + std::string(kBystander), path.parent_path() / "check"));

@@ -61,10 +61,19 @@ Result<std::unique_ptr<gui_server::GuiServer>> serve_page(
   return server;
 }
 
+namespace {
+
+Result<std::shared_ptr<gui_server::Source>> recording_of(const std::filesystem::path& folder) {
+  RAVE_TRY_ASSIGN(const auto file, record_file(folder.string()));
+  return gui_server::open_recording(file);
+}
+
+}  // namespace
+
 void replay_on_page(gui_server::GuiServer& page, bool quiet, const std::filesystem::path& folder,
                     const runtime::RunControl& control) {
   if (control.stopping()) return;
-  auto source = record_file(folder.string()).and_then(gui_server::open_recording);
+  auto source = recording_of(folder);
   if (!quiet) {
     put(stdout, source
                     ? "the page shows the recording; press Ctrl-C to quit\n"

@@ -305,7 +305,7 @@ class Playing {
 Result<PlayedScenario> played_scenario(const PlayWish& wish, plugin::Catalogue& catalogue) {
   RAVE_TRY_ASSIGN(const auto reader, record::McapReader::open(wish.record));
   RAVE_TRY_ASSIGN(auto run, record::read_run_info(reader));
-  if (wish.world) RAVE_TRY(config::read_world_file(*wish.world).map([](const auto&) {}));
+  if (wish.world) RAVE_TRY(config::read_world_file(*wish.world));
   auto original = config::expand_scenario_text(run.expanded_scenario,
                                                wish.record.parent_path() / "scenario.yaml");
   if (!original) {

@@ -12,9 +12,13 @@
 namespace rave {
 
 /// The value of a fallible call, or an Error. Every public function that can fail returns a Result
-/// or Status; no exception crosses a library boundary.
+/// or Status; no exception crosses a library boundary. The compiler refuses a call that drops the
+/// result; who means to drop it writes `static_cast<void>(...)` and why.
 template <class T>
-using Result = tl::expected<T, Error>;
+class [[nodiscard]] Result : public tl::expected<T, Error> {
+ public:
+  using tl::expected<T, Error>::expected;
+};
 
 /// A fallible call without a value.
 using Status = Result<void>;

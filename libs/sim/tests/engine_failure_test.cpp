@@ -124,7 +124,7 @@ TEST(EngineFailure, OfAProgramToStartNamesRobotAndDriver) {
   const auto engine = Engine::create(std::move(spec));
   ASSERT_FALSE(engine.has_value());
   EXPECT_EQ(engine.error().text().substr(0, 52),
-            "robot `r0`, program `program` (driver `program`): th")
+            "robot `r0`, program `program` (driver `program`): ro")
       << engine.error().text();
 }
 

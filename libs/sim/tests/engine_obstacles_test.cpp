@@ -213,7 +213,7 @@ TEST(EngineObstacles, ARefusedChangeLeavesEverythingAsItWas) {
   by_number.id = BodyId(77);
   refused("there is no obstacle 77", by_number);
   by_number.kind = Kind{7};
-  refused("unknown change", by_number);
+  refused("the kind of the obstacle change is unknown", by_number);
 }
 
 TEST(EngineObstacles, WhatHasGoneCannotBeChangedAndWhatHasTwoNamesNeedsANumber) {

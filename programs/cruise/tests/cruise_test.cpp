@@ -158,7 +158,9 @@ TEST(Cruise, SaysWhatItsRobotLacks) {
     if (!bearings_rad.empty()) rig.add_ranges(bearings_rad, 0, 8.0);
     return program.start(1);
   };
-  EXPECT_NE(problem({}).find("wants a sensor of kind `ranges`"), std::string::npos) << problem({});
+  EXPECT_NE(problem({}).find("has no sensor of kind `ranges`, which its program requires"),
+            std::string::npos)
+      << problem({});
   EXPECT_EQ(problem({2, 3}), "no ray of sensor `ranges` points within 50 deg of the front");
   const std::string order =
       "the rays of sensor `ranges` within 50 deg of the front are not one row from right to left";

@@ -104,7 +104,8 @@ TEST_F(FlockTest, PassesOverMessagesOfOthers) {
 TEST(Flock, NeedsACommunicator) {
   testing::ProgramUnderTest program(rave_register_plugin, "flock");
   program.add_robot();
-  EXPECT_NE(program.start(1).find("wants a communicator"), std::string::npos);
+  EXPECT_NE(program.start(1).find("has no communicator, which its program requires"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ TEST(Wander, TakesNewParametersAndRefusesBadOnes) {
 TEST(Wander, SaysWhatItsRobotLacks) {
   testing::ProgramUnderTest program(rave_register_plugin, "wander");
   program.add_robot().controllers = {{"arm", CommandKind::kJoint, 0}};
-  EXPECT_NE(program.start(1).find("controller that takes `velocity`"), std::string::npos);
+  EXPECT_NE(program.start(1).find("no controller that accepts `velocity`"), std::string::npos);
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST(HostLeases, IsHandedOverByItsHolderAndGivenBack) {
   EXPECT_FALSE(leases.give("r1", kAnna, "", kStart)) << "nobody has it";
   ASSERT_TRUE(leases.take("r1", kAnna, false, kStart));
   EXPECT_FALSE(leases.give("r1", kBert, "bert", kStart));
-  EXPECT_EQ(leases.give("r1", kAnna, "bert", kStart).value(), "r1 is now `bert`'s");
+  EXPECT_EQ(leases.give("r1", kAnna, "bert", kStart).value(), "r1 is given to `bert`");
   EXPECT_EQ(leases.holder("r1"), "bert");
   EXPECT_EQ(leases.give("r1", kRoot, "", kStart).value(), "nobody drives r1 now");
   EXPECT_EQ(leases.holder("r1"), "");
@@ -146,7 +146,7 @@ TEST(HostLeases, WhatAPageLeavesTheNextPageOfThePersonHas) {
   EXPECT_NE(why(leases.use("r1", first, Use::kOrder, kStart + 2s)), "");
   EXPECT_TRUE(leases.take_changes().empty());
   // What somebody else gave is that of the page that uses it first.
-  EXPECT_EQ(leases.give("r1", second, "bert", kStart + 3s).value(), "r1 is now `bert`'s");
+  EXPECT_EQ(leases.give("r1", second, "bert", kStart + 3s).value(), "r1 is given to `bert`");
   EXPECT_TRUE(leases.use("r1", {"bert", false, 8}, Use::kDrive, kStart + 3s));
   EXPECT_NE(why(leases.use("r1", {"bert", false, 9}, Use::kDrive, kStart + 3s)), "");
   // A page that goes takes nothing, not even that of a super-user.

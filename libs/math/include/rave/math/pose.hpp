@@ -20,6 +20,7 @@ struct Vec2 {
 [[nodiscard]] constexpr double dot(Vec2 a, Vec2 b) noexcept { return a.x * b.x + a.y * b.y; }
 /// The z component of the cross product: positive if b is counter-clockwise of a.
 [[nodiscard]] constexpr double cross(Vec2 a, Vec2 b) noexcept { return a.x * b.y - a.y * b.x; }
+/// The square of the length.
 [[nodiscard]] constexpr double squared_norm(Vec2 a) noexcept { return dot(a, a); }
 
 /// A planar pose (`X_WB`: of body B in frame W). REP-103: x forward, y left, yaw counter-clockwise

@@ -37,9 +37,11 @@ namespace detail {
   return detail::wrap_outside(angle_rad);
 }
 
+/// Degrees to radians.
 [[nodiscard]] constexpr double deg_to_rad(double angle_deg) noexcept {
   return angle_deg * (kPi / 180.0);
 }
+/// Radians to degrees.
 [[nodiscard]] constexpr double rad_to_deg(double angle_rad) noexcept {
   return angle_rad * (180.0 / kPi);
 }

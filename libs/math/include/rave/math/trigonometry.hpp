@@ -111,7 +111,9 @@ inline constexpr double kRounder = 0x1.8p52;
   return result;
 }
 
+/// The sine; see sincos().
 [[nodiscard]] inline double sin(double angle_rad) noexcept { return sincos(angle_rad).sin; }
+/// The cosine; see sincos().
 [[nodiscard]] inline double cos(double angle_rad) noexcept { return sincos(angle_rad).cos; }
 
 /// The angle of the vector (x, y) in [-pi, pi], within 2 ulp; signs of zero and infinities as in

@@ -19,10 +19,12 @@ enum class Layer : std::uint32_t {
 
 /// A set of layers, one bit each.
 using LayerMask = std::uint32_t;
+/// The set of all layers.
 inline constexpr LayerMask kAllLayers = 15;
 /// The layers that the real half of a hybrid sensor cannot sense.
 inline constexpr LayerMask kUnrealLayers = 1 | 4;
 
+/// Whether the set contains the layer.
 [[nodiscard]] constexpr bool contains(LayerMask mask, Layer layer) noexcept {
   return (mask & static_cast<std::uint32_t>(layer)) != 0;
 }

@@ -15,17 +15,13 @@ Qos make_qos(const QosProfile& profile) {
   dds_qset_reliability(qos.get(),
                        profile.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
                        profile.waits ? DDS_MSECS(500) : 0);
-  const dds_history_kind_t history =
-      profile.depth == 0 ? DDS_HISTORY_KEEP_ALL : DDS_HISTORY_KEEP_LAST;
-  const std::int32_t depth = profile.depth == 0 ? 1 : profile.depth;
-  const std::int32_t most = profile.max_samples == 0 ? DDS_LENGTH_UNLIMITED : profile.max_samples;
-  dds_qset_history(qos.get(), history, depth);
-  dds_qset_resource_limits(qos.get(), most, kMostInstances, DDS_LENGTH_UNLIMITED);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, profile.depth);
+  dds_qset_resource_limits(qos.get(), DDS_LENGTH_UNLIMITED, kMostInstances, DDS_LENGTH_UNLIMITED);
   if (profile.durable) {
     dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
     // This policy, not the history, determines the samples for late readers.
-    dds_qset_durability_service(qos.get(), 0, history, depth, most, DDS_LENGTH_UNLIMITED,
-                                DDS_LENGTH_UNLIMITED);
+    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, profile.depth,
+                                DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   }
   // The end of a process does not remove its robots or obstacles; dispose() does.
   dds_qset_writer_data_lifecycle(qos.get(), false);

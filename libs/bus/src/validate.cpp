@@ -2,7 +2,6 @@
 #include "rave/bus/validate.hpp"
 
 #include <algorithm>
-#include <tuple>
 
 #include "sample_checks.hpp"
 
@@ -40,29 +39,6 @@ Status check_reports(std::string_view list, const rave_wire_RobotReports& report
   if (reports.flags._length == size) return {};
   return invalid(
       fmt::format("{}.flags has {} entries for {} robots", list, reports.flags._length, size));
-}
-
-/// Checks that inputs are in the order of application, without duplicates.
-template <class Sequence>
-Status check_inputs(std::string_view list, const Sequence& sequence) {
-  const auto inputs = elements(sequence);
-  if (inputs.size() > rave_wire_kMaxInputs) {
-    return invalid(
-        fmt::format("{} has {} entries, more than {}", list, inputs.size(), rave_wire_kMaxInputs));
-  }
-  const auto place = [](const rave_wire_Input& input) {
-    return std::tuple(static_cast<int>(input.kind), input.robot, input.number);
-  };
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (inputs[i].kind > rave_wire_INPUT_JOIN) {
-      return invalid(fmt::format("{}[{}] has an unknown kind", list, i));
-    }
-    if (i > 0 && place(inputs[i - 1]) >= place(inputs[i])) {
-      return invalid(
-          fmt::format("{}[{}] is out of order; inputs ascend by kind, robot and number", list, i));
-    }
-  }
-  return {};
 }
 
 /// Every vertex is to the left of every edge: convex, counter-clockwise, and wound once.
@@ -149,9 +125,6 @@ Status validate(const HostState& sample) {
   RAVE_TRY(check_writer(sample));
   RAVE_TRY(check_id("host", sample.host));
   RAVE_TRY(check_robots("resolved", sample.resolved));
-  RAVE_TRY(check_twists("proposal", sample.proposal));
-  RAVE_TRY(check_inputs("commands", sample.commands));
-  RAVE_TRY(check_inputs("packets", sample.packets));
   return check_reports("reports", sample.reports);
 }
 
@@ -159,8 +132,7 @@ Status validate(const World& sample) {
   RAVE_TRY(check_writer(sample));
   RAVE_TRY(check_time("time_ns", sample.time_ns));
   RAVE_TRY(check_robots("robots", sample.robots));
-  RAVE_TRY(check_robot_numbers("stale", "stale", sample.stale));
-  return check_inputs("inputs", sample.inputs);
+  return check_robot_numbers("stale", "stale", sample.stale);
 }
 
 Status validate(const RosterEntry& sample) {
@@ -182,18 +154,6 @@ Status validate(const RosterEntry& sample) {
     RAVE_TRY(check_label("parameters.value", parameter.value, false));
   }
   return {};
-}
-
-Status validate(const Edit& sample) {
-  RAVE_TRY(check_writer(sample));
-  RAVE_TRY(check_label("author", sample.author, true));
-  RAVE_TRY(check_label("name", sample.name, false));
-  if (sample.action > rave_wire_EDIT_REMOVE) return invalid("action is unknown");
-  if (sample.layer > rave_wire_LAYER_MAPPED_REAL) return invalid("layer is unknown");
-  const bool adds = sample.action == rave_wire_EDIT_ADD;
-  if (!adds) RAVE_TRY(check_id("id", sample.id));
-  RAVE_TRY(check_pose(sample));
-  return check_body(sample.body, adds);
 }
 
 Status validate(const Command& sample) {
@@ -330,19 +290,6 @@ Status validate(const Wish& sample) {
 Status validate(const WishAnswer& sample) {
   RAVE_TRY(check_address(sample));
   return check_line(sample.text, rave_wire_kMaxWishAnswerBytes);
-}
-
-Status check_step(std::uint64_t step, std::uint64_t now, std::uint64_t behind,
-                  std::uint64_t ahead) {
-  if (step < now && now - step > behind) {
-    return fail(ErrorCode::kState, "step {} is {} before {}; at most {} are of use", step,
-                now - step, now, behind);
-  }
-  if (step > now && step - now > ahead) {
-    return fail(ErrorCode::kState, "step {} is {} after {}; at most {} are of use", step,
-                step - now, now, ahead);
-  }
-  return {};
 }
 
 }  // namespace rave::bus

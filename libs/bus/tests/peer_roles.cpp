@@ -86,7 +86,6 @@ void host(Bus& bus, const Arguments& arguments) {
     state.host = which;
     state.step = step;
     robots.lend(state.resolved);
-    robots.lend(state.proposal);
     static_cast<void>(writer->write(state));
   }
   say("written");

@@ -33,19 +33,14 @@ Message written() {
   return message;
 }
 
-/// A world of three robots and two inputs.
+/// A world of three robots.
 struct SampleWorld {
   RobotArrays robots{3, 1};
-  std::vector<rave_wire_Input> inputs = std::vector<rave_wire_Input>(2);
   World sample{};
 
-  SampleWorld() {
-    sample.writer = 9;
-    inputs[1].number = 1;
-  }
+  SampleWorld() { sample.writer = 9; }
   std::string judge() {
     robots.lend(sample.robots);
-    borrow(sample.inputs, inputs);
     return reason(sample);
   }
 };
@@ -93,31 +88,20 @@ TEST(Validate, RefusesListsThatDoNotFit) {
   EXPECT_EQ(many.judge(), "robots has 131073 robots, more than 131072");
 }
 
-TEST(Validate, RefusesInputsOutOfOrder) {
-  SampleWorld world;
-  world.inputs[1].number = 0;
-  EXPECT_EQ(world.judge(), "inputs[1] is out of order; inputs ascend by kind, robot and number");
-  SampleWorld kinds;
-  kinds.inputs[0].kind = rave_wire_INPUT_EDIT;
-  kinds.inputs[1].kind = rave_wire_INPUT_COMMAND;
-  EXPECT_TRUE(kinds.judge().starts_with("inputs[1] is out of order"));
-}
-
 TEST(Validate, NeedsAWriter) {
   SampleWorld world;
   world.sample.writer = 0;
   EXPECT_EQ(world.judge(), "writer is 0");
 }
 
-TEST(Validate, LooksAtBothListsOfAHost) {
+TEST(Validate, LooksAtTheRobotsOfAHost) {
   RobotArrays robots(2, 0);
-  RobotArrays wishes(2, 0);
   auto state = written<HostState>();
   robots.lend(state.resolved);
-  wishes.lend(state.proposal);
   EXPECT_EQ(reason(state), "accepted");
-  wishes.vy[1] = kNaN;
-  EXPECT_TRUE(reason(state).starts_with("proposal.vy_mps[1] is nan"));
+  robots.vy[1] = kNaN;
+  EXPECT_TRUE(reason(state).starts_with("resolved.vy_mps[1] is nan"));
+  robots.vy[1] = 0;
   state.host = rave_wire_kNone;
   EXPECT_EQ(reason(state), "host is none");
 }
@@ -232,20 +216,6 @@ TEST(Validate, RosterEntriesHaveNamesThatCanBeShown) {
   EXPECT_EQ(reason(entry), "host is none");
 }
 
-TEST(Validate, Edits) {
-  auto edit = written<Edit>();
-  put_text(edit.author, "bob");
-  edit.action = rave_wire_EDIT_MOVE;
-  EXPECT_EQ(reason(edit), "accepted");
-  edit.x_m = kNaN;
-  EXPECT_TRUE(reason(edit).starts_with("x_m is nan"));
-  edit.x_m = 0;
-  edit.id = rave_wire_kNone;
-  EXPECT_EQ(reason(edit), "id is none");
-  edit.action = rave_wire_EDIT_ADD;
-  EXPECT_EQ(reason(edit), "body is empty");
-}
-
 TEST(Validate, Commands) {
   auto command = written<Command>();
   EXPECT_EQ(reason(command), "author is empty");
@@ -326,15 +296,6 @@ TEST(Validate, PacketsSayWhoTheyAreForAndFromWhere) {
   packet.range_m = 0;
   packet.sent_ns = INT64_MAX;
   EXPECT_TRUE(reason(packet).starts_with("sent_ns is 9223372036854775807"));
-}
-
-TEST(CheckStep, LetsThroughWhatIsNear) {
-  EXPECT_TRUE(check_step(10, 12, 2, 0));
-  EXPECT_TRUE(check_step(13, 12, 0, 1));
-  EXPECT_EQ(check_step(9, 12, 2, 0).error().message, "step 9 is 3 before 12; at most 2 are of use");
-  EXPECT_EQ(check_step(14, 12, 0, 1).error().message,
-            "step 14 is 2 after 12; at most 1 are of use");
-  EXPECT_FALSE(check_step(~0ULL, 0, 5, 5));
 }
 
 TEST(PutText, CutsAtTheEndOfACharacter) {

@@ -15,12 +15,10 @@ struct QosProfile {
   /// Whether a late reader receives the samples that writers keep, and objects outlive their
   /// writer.
   bool durable = false;
-  /// How many samples each end keeps per instance; 0: all, up to `max_samples`.
+  /// How many samples each end keeps per instance.
   std::int32_t depth = 1;
-  /// The total limit of kept samples; 0: only `depth` limits.
-  std::int32_t max_samples = 0;
-  /// Whether a write blocks, for up to half a second, while `max_samples` or 16 MB are not
-  /// acknowledged. If there is still no room, the sample is dropped and the write fails.
+  /// Whether a write blocks, for up to half a second, while 16 MB are not acknowledged. If there is
+  /// still no room, the sample is dropped and the write fails.
   bool waits = false;
 };
 
@@ -34,9 +32,6 @@ inline constexpr QosProfile kDescription{.durable = true};
 inline constexpr QosProfile kPast{.durable = true, .depth = 256};
 /// Reliable; keeps the last 8 samples of each instance. What one instance lost is in another.
 inline constexpr QosProfile kLately{.depth = 8};
-/// Reliable, in order, nothing dropped. A writer blocks when 4096 samples are not acknowledged,
-/// then fails.
-inline constexpr QosProfile kEverything{.depth = 0, .max_samples = 4096, .waits = true};
 /// Reliable; keeps the last 256 samples of each instance. Bursts are delivered; a stuck reader
 /// blocks nobody.
 inline constexpr QosProfile kRecent{.depth = 256};

@@ -29,7 +29,6 @@ using RosterEntry = rave_wire_RosterEntry;
 using Obstacle = rave_wire_Obstacle;
 /// An obstacle that a host sends to a manager that restarts. Same type, another topic.
 struct LastObstacle : rave_wire_Obstacle {};
-using Edit = rave_wire_Edit;
 using Command = rave_wire_Command;
 using Packet = rave_wire_Packet;
 using HostInfo = rave_wire_HostInfo;
@@ -100,10 +99,6 @@ inline TopicSpec topic_of<Obstacle>() {
 template <>
 inline TopicSpec topic_of<LastObstacle>() {
   return {"rave/last_obstacle", &rave_wire_Obstacle_desc, kDurable};
-}
-template <>
-inline TopicSpec topic_of<Edit>() {
-  return {"rave/edit", &rave_wire_Edit_desc, kEverything};
 }
 template <>
 inline TopicSpec topic_of<Command>() {

@@ -16,7 +16,7 @@ inline constexpr double kMaxTurn_radps = 1e4;
 /// Checks what any receiver can check: finite numbers within bounds, arrays of equal length for one
 /// list of robots, ascending ids, sizes within the wire types, convex bodies. Error
 /// kInvalidArgument with field, entry and value. Pure. Readers call it for every sample; whether
-/// the sample fits the run is checked by the receiver (check_step, HostClaims).
+/// the sample fits the run is checked by the receiver (HostClaims).
 [[nodiscard]] Status validate(const HostReport& sample);
 [[nodiscard]] Status validate(const WorldStep& sample);
 [[nodiscard]] Status validate(const RunState& sample);
@@ -24,7 +24,6 @@ inline constexpr double kMaxTurn_radps = 1e4;
 [[nodiscard]] Status validate(const World& sample);
 [[nodiscard]] Status validate(const RosterEntry& sample);
 [[nodiscard]] Status validate(const Obstacle& sample);
-[[nodiscard]] Status validate(const Edit& sample);
 [[nodiscard]] Status validate(const Command& sample);
 [[nodiscard]] Status validate(const Packet& sample);
 [[nodiscard]] Status validate(const HostInfo& sample);
@@ -40,10 +39,5 @@ inline constexpr double kMaxTurn_radps = 1e4;
 [[nodiscard]] Status validate(const MapTile& sample);
 [[nodiscard]] Status validate(const Wish& sample);
 [[nodiscard]] Status validate(const WishAnswer& sample);
-
-/// Checks that a sample of `step` is useful at step `now`: at most `behind` steps earlier and at
-/// most `ahead` steps later. Error kState.
-[[nodiscard]] Status check_step(std::uint64_t step, std::uint64_t now, std::uint64_t behind,
-                                std::uint64_t ahead);
 
 }  // namespace rave::bus

@@ -43,7 +43,7 @@ def ping(options, round_trips=20_000, more=()):
     """64 bytes there and back, beside a plain UDP socket in the same run."""
     rounds = [bench_bus(options, "ping", round_trips) for _ in range(options.rounds)]
     names = ["udp_median_us", "bus_median_us", "bus_ratio", "listener_median_us", "listener_ratio",
-             "short_median_us", "short_ratio", *more]
+             "short_median_us", "local_ratio", *more]
     return {name: spread([one[name] for one in rounds]) for name in names}
 
 

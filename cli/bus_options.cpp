@@ -42,7 +42,7 @@ Result<bus::BusConfig> read_bus_options(const BusOptions& options, std::string p
   config.peers = options.peers;
   config.security = options.security;
   config.tag = options.tag;
-  config.short_way = !options.dds_only;
+  config.local_transport = !options.dds_only;
   RAVE_TRY_ASSIGN(config.multicast, multicast_of(options.multicast));
   const auto digits = bus::RunId::parse(options.run);
   config.run = digits                ? *digits

@@ -18,7 +18,7 @@ struct BusOptions {
   std::vector<std::string> peers;
   std::string multicast = "off";
   std::string security;   ///< A folder with certificates; empty: none.
-  bool dds_only = false;  ///< No short way between processes of one machine; to measure.
+  bool dds_only = false;  ///< No local transport between processes of one machine; to measure.
   std::string tag;        ///< Hides the run from processes with another one; for tests.
 
   /// Whether something says which bus, for people.

@@ -19,13 +19,13 @@ Result<std::uint16_t> port_of(std::string_view text, const std::string& whole) {
               "--web {}: expected ADDRESS:PORT, such as 192.168.1.20:8090", whole);
 }
 
-Result<direct_line::LineOptions> options_of(const LineWish& wish, LogSink& log) {
-  RAVE_TRY_ASSIGN(const LinePlace place, parse_line_place(*wish.web));
+Result<direct_line::LineOptions> options_of(const LineArguments& arguments, LogSink& log) {
+  RAVE_TRY_ASSIGN(const LinePlace place, parse_line_place(*arguments.web));
   direct_line::LineOptions options;
   options.address = place.address;
   options.port = place.port;
-  options.certificate = wish.certificate;
-  options.key = wish.key;
+  options.certificate = arguments.certificate;
+  options.key = arguments.key;
   options.log = &log;
   return options;
 }
@@ -60,21 +60,21 @@ Result<LinePlace> parse_line_place(const std::string& text) {
   return place;
 }
 
-Result<HostLineEnds> open_host_line(const LineWish& wish, const std::string& host,
+Result<HostLineEnds> open_host_line(const LineArguments& arguments, const std::string& host,
                                     const bus::BusConfig& bus, runtime::RunControl& control,
                                     LogSink& log) {
   HostLineEnds ends;
-  if (!wish.web) {
-    if (wish.web_key.empty()) return ends;
+  if (!arguments.web) {
+    if (arguments.web_key.empty()) return ends;
     return fail(ErrorCode::kInvalidArgument, "--web-key needs --web");
   }
-  if (wish.web_key.empty()) {
+  if (arguments.web_key.empty()) {
     return fail(ErrorCode::kInvalidArgument,
                 "--web needs --web-key FILE, the public key of the GUI Server: `rave keys line "
                 "FILE` creates FILE for `rave gui --line-key` and FILE.pub for hosts");
   }
-  RAVE_TRY_ASSIGN(auto options, options_of(wish, log));
-  RAVE_TRY_ASSIGN(options.signer, direct_line::read_public_key(wish.web_key));
+  RAVE_TRY_ASSIGN(auto options, options_of(arguments, log));
+  RAVE_TRY_ASSIGN(options.signer, direct_line::read_public_key(arguments.web_key));
   options.run = bus.run.text();
   options.host = host;
   RAVE_TRY_ASSIGN(ends.server, direct_line::LineServer::start(options, control));
@@ -82,10 +82,11 @@ Result<HostLineEnds> open_host_line(const LineWish& wish, const std::string& hos
   return ends;
 }
 
-Result<HostLineEnds> open_line_here(const LineWish& wish, const config::ExpandedScenario& scenario,
+Result<HostLineEnds> open_line_here(const LineArguments& arguments,
+                                    const config::ExpandedScenario& scenario,
                                     runtime::RunControl& control, gui_server::GuiServer& page,
                                     LogSink& log) {
-  RAVE_TRY_ASSIGN(auto options, options_of(wish, log));
+  RAVE_TRY_ASSIGN(auto options, options_of(arguments, log));
   const direct_line::SigningKey key = direct_line::new_signing_key();
   options.signer = key.open;
   options.run = bus::RunId::random().text();

@@ -16,7 +16,7 @@
 namespace rave::cli {
 
 /// The direct line of a host, as the command line says.
-struct LineWish {
+struct LineArguments {
   std::optional<std::string> web;  ///< `ADDRESS:PORT` or a part of it; unset: no line.
   std::string web_key;             ///< The file with the public key of the GUI Server.
   std::string certificate;         ///< With `key`: TLS.
@@ -38,15 +38,16 @@ struct HostLineEnds {
 };
 
 /// The line of a host on a bus, or of its environment manager (direct_line::kManagerHost), which is
-/// told of if that process takes the orders of the run; both ends are null if none is wished.
+/// told of if that process takes the orders of the run; both ends are null if none is requested.
 /// Errors: kInvalidArgument (an address, or no key), those of the key file, LineServer::start() and
 /// LineBeacon::start().
-[[nodiscard]] Result<HostLineEnds> open_host_line(const LineWish& wish, const std::string& host,
+[[nodiscard]] Result<HostLineEnds> open_host_line(const LineArguments& arguments,
+                                                  const std::string& host,
                                                   const bus::BusConfig& bus,
                                                   runtime::RunControl& control, LogSink& log);
 
 /// The line of a run of this process, which `page` gives tickets for. The same errors.
-[[nodiscard]] Result<HostLineEnds> open_line_here(const LineWish& wish,
+[[nodiscard]] Result<HostLineEnds> open_line_here(const LineArguments& arguments,
                                                   const config::ExpandedScenario& scenario,
                                                   runtime::RunControl& control,
                                                   gui_server::GuiServer& page, LogSink& log);

@@ -12,9 +12,9 @@
 #include "places.hpp"
 #include "rave/assemble/build.hpp"
 #include "rave/base/file.hpp"
+#include "rave/control/bus_requests.hpp"
 #include "rave/control/commands.hpp"
 #include "rave/control/folder.hpp"
-#include "rave/control/wishes.hpp"
 #include "rave/direct_line/key_files.hpp"
 #include "rave/gui_server/bus_run.hpp"
 #include "rave/host/host_run.hpp"
@@ -91,7 +91,7 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, runtime::BuiltScenario bu
   how.log = &run.console;
   how.stopping = run.stopping;
   how.control = &run.control;
-  how.begin_wish = control::wishes_of(run.control);
+  how.begin_request = control::bus_requests_of(run.control);
   how.on_command = control::commands_of(run.control, run.scenario);
   how.on_progress = [&run, &file](const manager::ManagerOptions::Progress& progress) {
     const double sim_s = static_cast<double>(progress.step) * file.step_s.value;
@@ -218,7 +218,7 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, runtime::BuiltScenario bui
   how.log = &run.console;
   how.stopping = run.stopping;
   how.control = &run.control;
-  how.begin_wish = control::wishes_of(run.control);
+  how.begin_request = control::bus_requests_of(run.control);
   how.on_progress = [&run, &file](SimTime now, double speed, const std::string& waiting) {
     run.console.show({now.seconds() / file.duration_s, now.seconds(), file.duration_s, speed,
                       run.scenario.robots.size(),

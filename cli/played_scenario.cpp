@@ -36,9 +36,9 @@ RawNode mapping_of(const config::PoseFile& pose) {
 /// Turns the robots of one record into recorded ones.
 class Playing {
  public:
-  Playing(const PlayWish& wish, plugin::Catalogue& catalogue, const record::McapReader& reader,
-          record::RunInfo run, config::ExpandedScenario original)
-      : wish_(wish),
+  Playing(const PlayArguments& arguments, plugin::Catalogue& catalogue,
+          const record::McapReader& reader, record::RunInfo run, config::ExpandedScenario original)
+      : arguments_(arguments),
         catalogue_(catalogue),
         reader_(reader),
         run_(std::move(run)),
@@ -55,18 +55,19 @@ class Playing {
     RAVE_TRY(check_anew());
     RAVE_TRY_ASSIGN(const std::string scenario, scenario_text(std::move(robots)));
     played_.files.push_back({"scenario.yaml", scenario});
-    if (!wish_.world) played_.files.push_back({"world.yaml", config::write_world(original_.world)});
+    if (!arguments_.world)
+      played_.files.push_back({"world.yaml", config::write_world(original_.world)});
     return std::move(played_);
   }
 
  private:
   Result<std::vector<const record::RecordedRobot*>> chosen_robots() const {
     std::vector<const record::RecordedRobot*> chosen;
-    for (const std::string& name : wish_.robots) {
+    for (const std::string& name : arguments_.robots) {
       RAVE_TRY_ASSIGN(const auto* const robot, record::find_robot(run_, name));
       if (std::find(chosen.begin(), chosen.end(), robot) == chosen.end()) chosen.push_back(robot);
     }
-    if (wish_.robots.empty()) {
+    if (arguments_.robots.empty()) {
       for (const record::RecordedRobot& robot : run_.robots) chosen.push_back(&robot);
     }
     for (const record::RecordedRobot* const robot : chosen) {
@@ -104,10 +105,10 @@ class Playing {
   [[nodiscard]] RawNode player_params(const std::string& robot, const std::string& sensor) const {
     RawNode params = RawNode::mapping();
     std::error_code error;
-    params.append("file", RawNode::text(fs::absolute(wish_.record, error).lexically_normal()));
+    params.append("file", RawNode::text(fs::absolute(arguments_.record, error).lexically_normal()));
     params.append("robot", RawNode::text(robot));
     if (!sensor.empty()) params.append("sensor", RawNode::text(sensor));
-    if (wish_.start_s != 0) params.append("start_s", RawNode::number(wish_.start_s));
+    if (arguments_.start_s != 0) params.append("start_s", RawNode::number(arguments_.start_s));
     return params;
   }
 
@@ -126,7 +127,7 @@ class Playing {
         return fail(ErrorCode::kParse, "the recording does not describe sensor `{}` of robot `{}`",
                     sensor.name.value, recorded.name);
       }
-      if (std::ranges::find(wish_.anew, sensor.name.value) != wish_.anew.end()) {
+      if (std::ranges::find(arguments_.anew, sensor.name.value) != arguments_.anew.end()) {
         RAVE_TRY(keep_virtual(sensor));
         continue;
       }
@@ -161,7 +162,7 @@ class Playing {
   }
 
   Status check_anew() const {
-    for (const std::string& name : wish_.anew) {
+    for (const std::string& name : arguments_.anew) {
       if (std::ranges::find(used_anew_, name) != used_anew_.end()) continue;
       std::vector<std::string_view> names;
       for (const record::RecordedSensor& sensor : run_.sensors) {
@@ -183,10 +184,10 @@ class Playing {
     for (const record::PoseTrackPoint& point : track) {
       const auto& known = point.true_pose ? point.true_pose : point.reported_pose;
       if (!origin && known) origin = in_degrees(*known);
-      if (point.reported_pose && (!start || point.time.seconds() <= wish_.start_s)) {
+      if (point.reported_pose && (!start || point.time.seconds() <= arguments_.start_s)) {
         start = in_degrees(*point.reported_pose);
       }
-      if (point.time.seconds() > wish_.start_s && start && origin) break;
+      if (point.time.seconds() > arguments_.start_s && start && origin) break;
     }
     if (!robot.pose_from) {
       add_reported_pose(recorded, robot);
@@ -238,19 +239,19 @@ class Playing {
   }
 
   void replace_program(config::RobotFile& robot) const {
-    if (!wish_.program) {
+    if (!arguments_.program) {
       robot.program.reset();
       return;
     }
     config::ProgramFile program;
-    program.driver = config::Located<std::string>(*wish_.program);
+    program.driver = config::Located<std::string>(*arguments_.program);
     program.period_s = config::Located<double>(kProgramPeriod_s);
     if (robot.program && robot.program->period_s) {
       program.period_s = robot.program->period_s;
       program.phase_s = robot.program->phase_s;
     }
     // The same program keeps what it was told; another one knows other parameters.
-    if (robot.program && robot.program->driver.value == *wish_.program) {
+    if (robot.program && robot.program->driver.value == *arguments_.program) {
       program.params = robot.program->params;
     }
     robot.program = std::move(program);
@@ -261,27 +262,27 @@ class Playing {
     const auto end = record::read_run_end(reader_);
     const auto last_s = static_cast<double>(reader_.statistics().end_ns) * 1e-9;
     const double steps = end ? static_cast<double>(end->steps) : std::floor(last_s / step_s) + 1;
-    const double duration_s = steps * step_s - wish_.start_s;
+    const double duration_s = steps * step_s - arguments_.start_s;
     if (!(duration_s >= step_s)) {
       return fail(ErrorCode::kInvalidArgument,
                   "the recording is {} s long; expected an earlier start than {} s", steps * step_s,
-                  wish_.start_s);
+                  arguments_.start_s);
     }
     RawNode root = RawNode::mapping();
     root.append("name", RawNode::text(played_.name));
     root.append("description", RawNode::text(fmt::format("Robots of the run {} of {}, played",
                                                          run_.scenario, run_.started)));
     std::error_code error;
-    const std::string world = wish_.world
-                                  ? fs::absolute(*wish_.world, error).lexically_normal().string()
-                                  : std::string("world.yaml");
+    const std::string world =
+        arguments_.world ? fs::absolute(*arguments_.world, error).lexically_normal().string()
+                         : std::string("world.yaml");
     root.append("world", RawNode::text(world));
     root.append("duration_s", RawNode::number(std::round(duration_s * 1e9) / 1e9));
     root.append("step_s", RawNode::number(step_s));
     root.append("seed", RawNode::unsigned_integer(run_.seed));
     root.append("robots", std::move(robots));
-    if (!wish_.world) {
-      RAVE_TRY_ASSIGN(RawNode changes, played_obstacles(reader_, run_, wish_.start_s));
+    if (!arguments_.world) {
+      RAVE_TRY_ASSIGN(RawNode changes, played_obstacles(reader_, run_, arguments_.start_s));
       if (changes.size() > 0) root.append("changes", std::move(changes));
     }
     RawNode picture = RawNode::mapping();
@@ -291,7 +292,7 @@ class Playing {
            config::to_yaml(root);
   }
 
-  const PlayWish& wish_;
+  const PlayArguments& arguments_;
   plugin::Catalogue& catalogue_;
   const record::McapReader& reader_;
   record::RunInfo run_;
@@ -302,17 +303,18 @@ class Playing {
 
 }  // namespace
 
-Result<PlayedScenario> played_scenario(const PlayWish& wish, plugin::Catalogue& catalogue) {
-  RAVE_TRY_ASSIGN(const auto reader, record::McapReader::open(wish.record));
+Result<PlayedScenario> played_scenario(const PlayArguments& arguments,
+                                       plugin::Catalogue& catalogue) {
+  RAVE_TRY_ASSIGN(const auto reader, record::McapReader::open(arguments.record));
   RAVE_TRY_ASSIGN(auto run, record::read_run_info(reader));
-  if (wish.world) RAVE_TRY(config::read_world_file(*wish.world));
+  if (arguments.world) RAVE_TRY(config::read_world_file(*arguments.world));
   auto original = config::expand_scenario_text(run.expanded_scenario,
-                                               wish.record.parent_path() / "scenario.yaml");
+                                               arguments.record.parent_path() / "scenario.yaml");
   if (!original) {
     return tl::unexpected(std::move(original).error().with_context(
-        fmt::format("the scenario inside `{}`", wish.record.string())));
+        fmt::format("the scenario inside `{}`", arguments.record.string())));
   }
-  return Playing(wish, catalogue, reader, std::move(run), *std::move(original)).make();
+  return Playing(arguments, catalogue, reader, std::move(run), *std::move(original)).make();
 }
 
 Status write_played(const PlayedScenario& played, const fs::path& folder) {

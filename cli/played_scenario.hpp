@@ -12,7 +12,7 @@
 namespace rave::cli {
 
 /// Which robots of a record to play, and in what.
-struct PlayWish {
+struct PlayArguments {
   std::filesystem::path record;
   std::vector<std::string> robots;  ///< Names in the record; empty: all.
   std::vector<std::string> anew;    ///< Virtual sensors that sense the new world instead.
@@ -34,7 +34,7 @@ struct PlayedScenario {
 
 /// Makes the scenario: each sensor is played by a `playback_...` driver, each actuator takes
 /// commands and ignores them. Errors: no record of RAVE, robots or sensors that are not in it.
-[[nodiscard]] Result<PlayedScenario> played_scenario(const PlayWish& wish,
+[[nodiscard]] Result<PlayedScenario> played_scenario(const PlayArguments& arguments,
                                                      plugin::Catalogue& catalogue);
 
 /// Writes the files below `folder`, which is created. Errors: kIo; kInvalidArgument if there is a

@@ -54,7 +54,7 @@ void add_scenario(CLI::App& app, std::string& scenario);
 void add_page_options(CLI::App& app, PageOptions& page);
 
 /// The direct line of a host.
-void add_line_options(CLI::App& app, LineWish& line);
+void add_line_options(CLI::App& app, LineArguments& line);
 
 /// The record that a subcommand is about.
 void add_record(CLI::App& app, std::string& file);

@@ -148,7 +148,7 @@ class Crew {
   }
 
   void add_line(std::vector<std::string>& words) const {
-    const LineWish& line = options_.line;
+    const LineArguments& line = options_.line;
     if (!line.web) return;
     words.emplace_back("--web");
     words.push_back(*line.web);
@@ -180,7 +180,7 @@ bool wants_lines(const RunCommand& options, std::size_t hosts) {
 
 /// Gives the hosts what they need for a line, and the page the key, unless they were told of.
 Status make_lines(RunCommand& options, const std::filesystem::path& folder) {
-  LineWish& line = options.line;
+  LineArguments& line = options.line;
   if (!line.web) {
     line.web = options.page.listen + ":0";
     line.certificate = options.page.certificate;

@@ -12,10 +12,10 @@
 #include "places.hpp"
 #include "rave/assemble/build.hpp"
 #include "rave/base/control_characters.hpp"
+#include "rave/control/bus_requests.hpp"
 #include "rave/control/commands.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/control/server.hpp"
-#include "rave/control/wishes.hpp"
 #include "rave/host/host_run.hpp"
 #include "run_folder.hpp"
 #include "run_scenario.hpp"
@@ -80,7 +80,7 @@ int robot(const RobotCommand& options) {
   how.run.control = &control;
   how.run.arm = run.arm;
   how.run.run_name = control::own_run_name(scenario->scenario.name.value, options.host);
-  how.begin_wish = control::wishes_of(control);
+  how.begin_request = control::bus_requests_of(control);
   how.on_command = control::commands_of(control, *scenario);
   auto server = control::Server::start(how.run.run_name, control);
   if (!server) {

@@ -15,14 +15,14 @@ namespace {
 Result<PlayedScenario> make(const PlayCommand& options) {
   plugin::Catalogue catalogue(runtime::host_stamp());
   RAVE_TRY(add_plugin_folders(options.run.plugins, catalogue));
-  PlayWish wish;
-  RAVE_TRY_ASSIGN(wish.record, record_file(options.file));
-  wish.robots = options.robots;
-  wish.anew = options.anew;
-  if (!options.world.empty()) wish.world = options.world;
-  if (!options.program.empty()) wish.program = options.program;
-  wish.start_s = options.start_s;
-  return played_scenario(wish, catalogue);
+  PlayArguments arguments;
+  RAVE_TRY_ASSIGN(arguments.record, record_file(options.file));
+  arguments.robots = options.robots;
+  arguments.anew = options.anew;
+  if (!options.world.empty()) arguments.world = options.world;
+  if (!options.program.empty()) arguments.program = options.program;
+  arguments.start_s = options.start_s;
+  return played_scenario(arguments, catalogue);
 }
 
 /// The record that is played is still read while the run goes.

@@ -30,7 +30,7 @@ struct RunCommand {
   BusOptions bus;                ///< Of runs with several processes.
   bool gui = false;              ///< Show it in the browser, then its recording.
   PageOptions page;
-  LineWish line;  ///< Of the hosts that this process runs or starts.
+  LineArguments line;  ///< Of the hosts that this process runs or starts.
 };
 
 /// Runs a scenario. Returns 0 if it was whole and its checks hold, 1 if not, 2 on bad input.

@@ -33,7 +33,7 @@ struct OdometrySample {
 };
 
 struct LoadOptions {
-  recording::WindowWish window;
+  recording::WindowOptions window;
   double clock_offset_s = 0;  ///< Added to all stamps, within +-1000.
   bool accept_cut = false;
   /// Refuse a file whose SHA-256 differs from the one in `stretch.txt`.

@@ -54,10 +54,10 @@ class Player final : public HardwareSensor {
   static constexpr ReadingKind kReading = kKind;
 
   Status configure(const HardwareSetup& setup, HardwareDeclaration& declaration) override {
-    const Wish wish = wish_of(setup.parameters(), kKind);
-    RAVE_TRY_ASSIGN(timeline_, load_timeline(wish, setup.folder, kKind));
-    report_ = report_json(wish, timeline_);
-    live_ = wish.live;
+    const Source source = source_of(setup.parameters(), kKind);
+    RAVE_TRY_ASSIGN(timeline_, load_timeline(source, setup.folder, kKind));
+    report_ = report_json(source, timeline_);
+    live_ = source.live;
     const auto& bearings = timeline_.info.bearings_rad;
     declaration.capacity = std::max(1U, timeline_.largest);
     if (kKind == ReadingKind::kRanges && !bearings.empty()) {
@@ -67,7 +67,7 @@ class Player final : public HardwareSensor {
       declaration.range_max_m = timeline_.info.range_max_m;
       declaration.cone_rad = timeline_.info.cone_rad;
     }
-    if (wish.collect) {
+    if (source.collect) {
       declaration.collect = 1;
       declaration.capacity = std::max(64U, timeline_.largest);
     }

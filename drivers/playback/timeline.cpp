@@ -98,24 +98,25 @@ Status check_sensor(const record::RecordedSensor& sensor, ReadingKind kind,
 }
 
 Result<Timeline> sensor_readings(const record::McapReader& reader, const record::RunInfo& run,
-                                 const record::RecordedRobot& robot, const Wish& wish,
+                                 const record::RecordedRobot& robot, const Source& source,
                                  ReadingKind kind) {
-  RAVE_TRY_ASSIGN(const auto* const sensor, record::find_sensor(run, robot, wish.sensor));
+  RAVE_TRY_ASSIGN(const auto* const sensor, record::find_sensor(run, robot, source.sensor));
   const auto recorded = static_cast<ReadingKind>(sensor->kind);
   if (recorded != kind) {
     return fail(ErrorCode::kInvalidArgument,
                 "sensor `{}` of robot `{}` gives {}, so its driver is `playback_{}`, not "
                 "`playback_{}`",
-                wish.sensor, wish.robot, to_string(recorded), to_string(recorded), to_string(kind));
+                source.sensor, source.robot, to_string(recorded), to_string(recorded),
+                to_string(kind));
   }
   RAVE_TRY_ASSIGN(const auto all,
-                  record::read_samples(reader, robot.id, sensor->sensor, wish.part));
-  Builder builder(kind, wish.start_s);
+                  record::read_samples(reader, robot.id, sensor->sensor, source.part));
+  Builder builder(kind, source.start_s);
   ByteSpan before;
   for (const auto& sample : all.samples) {
     const ByteSpan now = all.records_of(sample);
     builder.add({sample.header.stamp_ns}, sample.delivered,
-                wish.collect ? new_events(before, now) : now);
+                source.collect ? new_events(before, now) : now);
     before = now;
   }
   Timeline timeline = std::move(builder).finish();
@@ -126,31 +127,31 @@ Result<Timeline> sensor_readings(const record::McapReader& reader, const record:
 
 }  // namespace
 
-Wish wish_of(const Params& params, ReadingKind kind) {
-  Wish wish;
-  wish.file = params.text("file");
-  wish.robot = params.text("robot");
-  wish.sensor = params.text("sensor");
+Source source_of(const Params& params, ReadingKind kind) {
+  Source source;
+  source.file = params.text("file");
+  source.robot = params.text("robot");
+  source.sensor = params.text("sensor");
   const std::string_view part = params.text("part");
-  if (part == "real") wish.part = record::PerceptPart::kReal;
-  if (part == "virtual") wish.part = record::PerceptPart::kVirtual;
-  wish.start_s = params.number("start_s");
-  wish.live = params.text("clock") == "live";
-  wish.collect = kind == ReadingKind::kSightings && params.flag("collect");
-  return wish;
+  if (part == "real") source.part = record::PerceptPart::kReal;
+  if (part == "virtual") source.part = record::PerceptPart::kVirtual;
+  source.start_s = params.number("start_s");
+  source.live = params.text("clock") == "live";
+  source.collect = kind == ReadingKind::kSightings && params.flag("collect");
+  return source;
 }
 
-Result<Timeline> load_timeline(const Wish& wish, const std::string& folder, ReadingKind kind) {
+Result<Timeline> load_timeline(const Source& source, const std::string& folder, ReadingKind kind) {
   // operator/ ignores the folder if the path is absolute.
-  const std::filesystem::path path = std::filesystem::path(folder) / wish.file;
+  const std::filesystem::path path = std::filesystem::path(folder) / source.file;
   const auto load = [&]() -> Result<Timeline> {
     RAVE_TRY_ASSIGN(const auto reader, record::McapReader::open(path));
     RAVE_TRY_ASSIGN(const record::RunInfo run, record::read_run_info(reader));
-    RAVE_TRY_ASSIGN(const auto* const robot, record::find_robot(run, wish.robot));
-    if (kind == ReadingKind::kPose && wish.sensor.empty()) {
-      return reported_poses(reader, robot->id, wish.start_s);
+    RAVE_TRY_ASSIGN(const auto* const robot, record::find_robot(run, source.robot));
+    if (kind == ReadingKind::kPose && source.sensor.empty()) {
+      return reported_poses(reader, robot->id, source.start_s);
     }
-    return sensor_readings(reader, run, *robot, wish, kind);
+    return sensor_readings(reader, run, *robot, source, kind);
   };
   auto timeline = load();
   if (timeline) return timeline;
@@ -158,14 +159,14 @@ Result<Timeline> load_timeline(const Wish& wish, const std::string& folder, Read
       fmt::format("record `{}`", path.lexically_normal().string())));
 }
 
-std::string report_json(const Wish& wish, const Timeline& timeline) {
+std::string report_json(const Source& source, const Timeline& timeline) {
   // Division instead of multiplication by 1e-9, so that whole milliseconds print exactly.
   const auto seconds = [](SimTime t) { return static_cast<double>(t.ns) / 1e9; };
   nlohmann::ordered_json json;
-  json["file"] = wish.file;
-  json["robot"] = wish.robot;
-  json["sensor"] = wish.sensor;
-  json["start_s"] = wish.start_s;
+  json["file"] = source.file;
+  json["robot"] = source.robot;
+  json["sensor"] = source.sensor;
+  json["start_s"] = source.start_s;
   json["samples"] = timeline.samples.size();
   json["left_out"] = timeline.left_out;
   json["dropped"] = {{"count", timeline.left_out},

@@ -15,7 +15,7 @@
 namespace rave::playback {
 
 /// The parameters of a player.
-struct Wish {
+struct Source {
   std::string file;   ///< As in the parameter.
   std::string robot;  ///< Name of the robot in the recording.
   /// Name of the sensor there; empty: the reported pose of the robot (poses only).
@@ -26,7 +26,7 @@ struct Wish {
   /// Sightings only: collect those of several steps until the program decides.
   bool collect = false;
 };
-[[nodiscard]] Wish wish_of(const Params& params, ReadingKind kind);
+[[nodiscard]] Source source_of(const Params& params, ReadingKind kind);
 
 /// One recorded reading to be played. Times are those of the new run.
 struct Sample {
@@ -48,10 +48,10 @@ struct Timeline {
 /// Loads the samples of a player of `kind`. `folder` is the base of a relative file name. Errors:
 /// those of reading a recording (naming the file), an unknown robot or sensor (with the nearest
 /// name), a sensor of another kind.
-[[nodiscard]] Result<Timeline> load_timeline(const Wish& wish, const std::string& folder,
+[[nodiscard]] Result<Timeline> load_timeline(const Source& source, const std::string& folder,
                                              ReadingKind kind);
 
 /// The report of a player as one JSON object.
-[[nodiscard]] std::string report_json(const Wish& wish, const Timeline& timeline);
+[[nodiscard]] std::string report_json(const Source& source, const Timeline& timeline);
 
 }  // namespace rave::playback

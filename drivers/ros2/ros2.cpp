@@ -17,11 +17,11 @@ Description describe(const char* name, const char* summary, std::span<const Para
 }
 
 /// Description of sensors for commands of others, which may never come.
-Description describe_wish(const char* name, const char* summary,
-                          std::span<const ParamSpec> params) {
-  Description wish = describe(name, summary, params);
-  wish.timing = SampleTiming::kEvents;
-  return wish;
+Description describe_input(const char* name, const char* summary,
+                           std::span<const ParamSpec> params) {
+  Description description = describe(name, summary, params);
+  description.timing = SampleTiming::kEvents;
+  return description;
 }
 
 }  // namespace
@@ -72,12 +72,13 @@ RAVE_PLUGIN(
       registry, describe("ros2_battery", "The battery of a robot (sensor_msgs/BatteryState).",
                          kBatteryParams));
   rave::add_sensor<Ros2Command>(
-      registry, describe_wish("ros2_command",
-                              "Velocity commands from ROS 2 (geometry_msgs/Twist or TwistStamped).",
-                              kCommandParams));
+      registry,
+      describe_input("ros2_command",
+                     "Velocity commands from ROS 2 (geometry_msgs/Twist or TwistStamped).",
+                     kCommandParams));
   rave::add_sensor<Ros2Goal>(
       registry,
-      describe_wish("ros2_goal", "Goals from ROS 2 (geometry_msgs/PoseStamped).", kGoalParams));
+      describe_input("ros2_goal", "Goals from ROS 2 (geometry_msgs/PoseStamped).", kGoalParams));
   rave::add_actuator<Ros2Velocity>(
       registry,
       describe("ros2_velocity", "Drives a robot by velocity (geometry_msgs/Twist or TwistStamped).",

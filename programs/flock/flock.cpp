@@ -87,7 +87,7 @@ class Flock final : public DecisionProcess {
       commands.velocity(drive_, 0, 0);  // What was free then need not be free now.
       return;
     }
-    steer(rotate(-pose.yaw_rad, wish(p_W, pose.yaw_rad)), commands);
+    steer(rotate(-pose.yaw_rad, desired_velocity(p_W, pose.yaw_rad)), commands);
   }
 
  private:
@@ -113,9 +113,9 @@ class Flock final : public DecisionProcess {
   }
 
   /// Where it would like to go, world frame; of length 1 and more.
-  [[nodiscard]] Vec2 wish(Vec2 p_W, double yaw_rad) const {
+  [[nodiscard]] Vec2 desired_velocity(Vec2 p_W, double yaw_rad) const {
     const SinCos ahead = sincos(yaw_rad);
-    Vec2 wish_W{ahead.cos, ahead.sin};
+    Vec2 desired_W{ahead.cos, ahead.sin};
     Vec2 middle_W;
     Vec2 flow_W;
     for (const Neighbour& n : neighbours_) {
@@ -123,26 +123,26 @@ class Flock final : public DecisionProcess {
       const Vec2 away_W = p_W - there_W;
       const double distance_m = std::max(std::sqrt(squared_norm(away_W)), 0.01);
       if (distance_m < spacing_m_) {
-        wish_W = wish_W + (separation_ * (spacing_m_ / distance_m - 1) / distance_m) * away_W;
+        desired_W = desired_W + (separation_ * (spacing_m_ / distance_m - 1) / distance_m) * away_W;
       }
       middle_W = middle_W + there_W;
       flow_W = flow_W + n.v_W;
     }
     if (!neighbours_.empty()) {
       const double share = 1.0 / static_cast<double>(neighbours_.size());
-      wish_W = wish_W + cohesion_ * (share * middle_W - p_W);
-      wish_W = wish_W + (alignment_ * share / cruise_mps_) * flow_W;
+      desired_W = desired_W + cohesion_ * (share * middle_W - p_W);
+      desired_W = desired_W + (alignment_ * share / cruise_mps_) * flow_W;
     }
     const Vec2 home_W = centre_W_ - p_W;
     const double out_m = std::sqrt(squared_norm(home_W)) - stay_within_m_;
-    if (stay_within_m_ > 0 && out_m > 0) wish_W = wish_W + (2 * out_m) * home_W;
-    return wish_W;
+    if (stay_within_m_ > 0 && out_m > 0) desired_W = desired_W + (2 * out_m) * home_W;
+    return desired_W;
   }
 
-  void steer(Vec2 wish_R, Commands& commands) {
+  void steer(Vec2 desired_R, Commands& commands) {
     points_R_.clear();
     for (const RangeHit& hit : scan_.hits()) points_R_.push_back(hit.p_R);
-    const FreeHeading way = steering_.best(points_R_, atan2(wish_R.y, wish_R.x), look_m_);
+    const FreeHeading way = steering_.best(points_R_, atan2(desired_R.y, desired_R.x), look_m_);
     const double room = std::clamp(way.free_m / look_m_, 0.0, 1.0);
     const double ahead = std::max(0.0, cos(way.heading_rad));
     commands.velocity(

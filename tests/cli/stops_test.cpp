@@ -2,12 +2,12 @@
 // Robots of several processes are stopped and released: what a terminal says is so at the hosts.
 #include <sys/wait.h>
 
-#include "wishes.hpp"
+#include "bus_requests.hpp"
 
 namespace rave::cli_test {
 namespace {
 
-class Stops : public Wishes {
+class Stops : public BusRequests {
  protected:
   /// Whether `rave ps` says so of all processes here; `count` of them.
   [[nodiscard]] std::size_t lines_with(const std::string& text) const {

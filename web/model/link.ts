@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {Look, PageMessage, ProbeWish, ServerMessage} from '../protocol/messages';
+import type {Look, PageMessage, ProbeRequest, ServerMessage} from '../protocol/messages';
 import type {DirectLines} from './direct_lines';
 import {OrderRouter} from './order_router';
 import type {RunModel} from './run_model';
@@ -138,8 +138,8 @@ export class Link {
   }
 
   /** `owner` tries this virtual sensor; null ends that. */
-  tryProbe(owner: object, wish: ProbeWish | null): void {
-    if (this.model.probes.wish(owner, wish)) this.tryProbes();
+  tryProbe(owner: object, request: ProbeRequest | null): void {
+    if (this.model.probes.request(owner, request)) this.tryProbes();
   }
 
   /** A slider that is pulled says so many things, of which the last counts. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {Catalogue, ProbeMade, Probes as ProbesMessage, ProbeWish, Sensor, VirtualSensor} from '../protocol/messages';
+import type {Catalogue, ProbeMade, Probes as ProbesMessage, ProbeRequest, Sensor, VirtualSensor} from '../protocol/messages';
 import {kFirstProbe} from '../protocol/frames';
 import {Signal} from './signal';
 
@@ -10,7 +10,7 @@ export class Probes {
   readonly changed = new Signal();
   /** Number of the newest request; answers to older ones count no more. */
   private request = 0;
-  private readonly wishes = new Map<object, ProbeWish>();
+  private readonly requests = new Map<object, ProbeRequest>();
   private made: readonly ProbeMade[] = [];
 
   takeCatalogue(message: Catalogue): void {
@@ -25,20 +25,20 @@ export class Probes {
   }
 
   /** What `owner` tries from now on; null: nothing. False: that is what it tries already. */
-  wish(owner: object, wish: ProbeWish | null): boolean {
-    const before = this.wishes.get(owner);
-    if (wish === null) this.wishes.delete(owner);
-    else this.wishes.set(owner, wish);
-    return JSON.stringify(before ?? null) !== JSON.stringify(wish);
+  request(owner: object, request: ProbeRequest | null): boolean {
+    const before = this.requests.get(owner);
+    if (request === null) this.requests.delete(owner);
+    else this.requests.set(owner, request);
+    return JSON.stringify(before ?? null) !== JSON.stringify(request);
   }
 
   /** All of the page, under a new number. */
-  next(): {request: number; probes: ProbeWish[]} {
+  next(): {request: number; probes: ProbeRequest[]} {
     this.made = [];
-    return {request: ++this.request, probes: [...this.wishes.values()].slice(0, 4)};
+    return {request: ++this.request, probes: [...this.requests.values()].slice(0, 4)};
   }
 
-  /** What became of the wish of `owner`; null: not known yet. */
+  /** What became of the request of `owner`; null: not known yet. */
   of(owner: object): ProbeMade | null {
     return this.made[this.placeOf(owner)] ?? null;
   }
@@ -54,7 +54,7 @@ export class Probes {
   }
 
   private placeOf(owner: object): number {
-    return [...this.wishes.keys()].indexOf(owner);
+    return [...this.requests.keys()].indexOf(owner);
   }
 
   /** Another run, or the same with other rights: the server has forgotten them. */

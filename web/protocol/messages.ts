@@ -277,7 +277,7 @@ export interface Catalogue {
 }
 
 /** A virtual sensor to be tried on a robot. */
-export interface ProbeWish {
+export interface ProbeRequest {
   slot: number;
   name: string;
   driver: string;
@@ -290,7 +290,7 @@ export interface ProbeWish {
 export interface LookProbes {
   type: "look_probes";
   request: number;
-  probes: ProbeWish[];
+  probes: ProbeRequest[];
 }
 
 /** What became of one of them. */

@@ -12,12 +12,12 @@ Status check_seconds(std::string_view name, double value, double least, double m
 }
 
 Result<StreamWindow> choose_window(const std::optional<Stretch>& stretch, std::int64_t first_ns,
-                                   std::int64_t last_ns, const WindowWish& wish,
+                                   std::int64_t last_ns, const WindowOptions& options,
                                    const std::string& path) {
   constexpr double kLongest_s = 1e9;
-  RAVE_TRY(check_seconds("start_s", wish.start_s.value_or(0), 0, kLongest_s));
-  RAVE_TRY(check_seconds("end_s", wish.end_s.value_or(0), 0, kLongest_s));
-  RAVE_TRY(check_seconds("margin_s", wish.margin_s, 0, 1000));
+  RAVE_TRY(check_seconds("start_s", options.start_s.value_or(0), 0, kLongest_s));
+  RAVE_TRY(check_seconds("end_s", options.end_s.value_or(0), 0, kLongest_s));
+  RAVE_TRY(check_seconds("margin_s", options.margin_s, 0, 1000));
   StreamWindow window;
   if (stretch) {
     window = {stretch->origin_ns, stretch->start_ns, stretch->end_ns, 0};
@@ -27,9 +27,9 @@ Result<StreamWindow> choose_window(const std::optional<Stretch>& stretch, std::i
     window = {first_ns, 0, last_ns - first_ns, 0};
   }
   const StreamWindow held = window;
-  if (wish.start_s) window.start_ns = from_seconds(*wish.start_s).ns;
-  if (wish.end_s) window.end_ns = from_seconds(*wish.end_s).ns;
-  window.margin_ns = from_seconds(wish.margin_s).ns;
+  if (options.start_s) window.start_ns = from_seconds(*options.start_s).ns;
+  if (options.end_s) window.end_ns = from_seconds(*options.end_s).ns;
+  window.margin_ns = from_seconds(options.margin_s).ns;
   if (window.start_ns >= held.start_ns && window.end_ns <= held.end_ns &&
       window.start_ns < window.end_ns) {
     return window;

@@ -21,7 +21,7 @@ struct StreamWindow {
 };
 
 /// The requested part of a recording, seconds from its origin, both ends included. Unset: all.
-struct WindowWish {
+struct WindowOptions {
   std::optional<double> start_s;
   std::optional<double> end_s;
   /// Margin that is also kept at both ends, seconds in [0, 1000].
@@ -37,6 +37,7 @@ struct WindowWish {
 /// last_ns).
 [[nodiscard]] Result<StreamWindow> choose_window(const std::optional<Stretch>& stretch,
                                                  std::int64_t first_ns, std::int64_t last_ns,
-                                                 const WindowWish& wish, const std::string& path);
+                                                 const WindowOptions& options,
+                                                 const std::string& path);
 
 }  // namespace rave::recording

@@ -21,10 +21,10 @@
 
 namespace rave::bus {
 
-/// A packet on a topic that has the short way, which that of radio has not.
-struct ShortPacket : rave_wire_Packet {};
+/// A packet on a topic that has the local transport, which that of radio has not.
+struct LocalPacket : rave_wire_Packet {};
 template <>
-inline TopicSpec topic_of<ShortPacket>() {
+inline TopicSpec topic_of<LocalPacket>() {
   return {"bench/short", &rave_wire_Packet_desc, kNewest, 3};
 }
 
@@ -128,38 +128,38 @@ struct Client {
   }
 };
 
-/// The same with the short way; `last` ends a server.
-struct ShortEnd : EndOf<ShortPacket> {
-  explicit ShortEnd(Bus& bus) : EndOf(bus) { borrow(sample.payload, payload); }
+/// The same with the local transport; `last` ends a server.
+struct LocalEnd : EndOf<LocalPacket> {
+  explicit LocalEnd(Bus& bus) : EndOf(bus) { borrow(sample.payload, payload); }
   bool write() { return writer.write(sample).has_value(); }
   /// Waits for one sample; whether it came.
   bool take() {
     bool came = false;
     if (waits.wait(Duration{200'000'000}) != Woken::kReady) return false;
-    reader.take([&](const ShortPacket& packet) {
+    reader.take([&](const LocalPacket& packet) {
       came = true;
       last = packet.from_robot == kEnd;
     });
     return came;
   }
   std::vector<std::uint8_t> payload = std::vector<std::uint8_t>(kPingBytes, 'p');
-  ShortPacket sample{};
+  LocalPacket sample{};
   bool last = false;
 };
 
 int serve_short(Bus& bus) {
-  ShortEnd end(bus);
+  LocalEnd end(bus);
   while (!end.last) {
     if (end.take()) static_cast<void>(end.write());
   }
   return 0;
 }
 
-std::vector<double> short_round_trips_us(std::size_t count) {
+std::vector<double> local_round_trips_us(std::size_t count) {
   const std::string run = RunId::random().text();
   const Child server = start({"serve-short", run});
   const auto bus = join(run, "ping");
-  ShortEnd end(*bus);
+  LocalEnd end(*bus);
   wait_for(1, [&] { return std::min(end.writer.readers(), end.reader.writers()); });
   std::vector<double> times_us;
   for (std::size_t number = 0; number <= count;) {
@@ -234,14 +234,14 @@ int ping(std::size_t count) {
   std::vector<double> udp_us;
   std::vector<double> bus_us;
   std::vector<double> listener_us;
-  std::vector<double> short_us;
+  std::vector<double> local_us;
   for (std::size_t turn = 0; turn < kTurns; ++turn) {
     const Child server = start({"serve-udp"});
     const auto port = static_cast<int>(number_from(server));
     append(udp_us, udp_round_trips_us(port, kPingBytes, count / kTurns));
     ::waitpid(server.process, nullptr, 0);
     append(bus_us, bus_round_trips_us(count / kTurns, Way::kWaitSet));
-    append(short_us, short_round_trips_us(count / kTurns));
+    append(local_us, local_round_trips_us(count / kTurns));
     append(listener_us, bus_round_trips_us(count / kTurns, Way::kListener));
   }
   const double udp = quantile(udp_us, 0.5);
@@ -249,7 +249,7 @@ int ping(std::size_t count) {
   print("udp", udp_us, udp);
   print("bus", bus_us, udp);
   print("listener", listener_us, udp);
-  print("short", short_us, udp);
+  print("short", local_us, udp);
   std::printf("}\n");
   return 0;
 }

@@ -7,7 +7,7 @@
 namespace rave::bus::bench {
 
 /// Who takes the sample: a thread that a wait set wakes, as all of RAVE does it, or the thread of
-/// Cyclone DDS that received it, for comparison; or the former by the short way.
+/// Cyclone DDS that received it, for comparison; or the former by the local transport.
 enum class Way { kWaitSet, kListener, kShort };
 
 /// Answers packets of the run until one says that it is the last. For a process of its own.

@@ -9,7 +9,7 @@
 #include "participants.hpp"
 #include "rave/bus/cyclone_log.hpp"
 #include "rave/bus/endpoint.hpp"
-#include "rave/bus/short_way.hpp"
+#include "rave/bus/local_transport.hpp"
 
 namespace rave::bus {
 namespace {
@@ -147,9 +147,9 @@ Status Bus::open_participant() {
   if (worst < 0) return refused(worst);
   if (secured && !config_.anonymous) RAVE_TRY(introduce());
   // The local transport is not encrypted, so it must not be used with certificates.
-  if (config_.short_way && !config_.anonymous && !secured) {
-    if (auto socket = ShortSocket::open({config_.run, writer_, 0})) {
-      short_way_ = std::make_unique<ShortSocket>(*std::move(socket));
+  if (config_.local_transport && !config_.anonymous && !secured) {
+    if (auto socket = LocalSocket::open({config_.run, writer_, 0})) {
+      local_transport_ = std::make_unique<LocalSocket>(*std::move(socket));
     }
   }
   return {};
@@ -199,10 +199,10 @@ Result<dds_entity_t> Bus::add_endpoint(const TopicSpec& topic, bool reads) {
   Endpoint endpoint;
   endpoint.reads = reads;
   endpoint.topic = topic.name;
-  open_short_way(endpoint, topic);
+  open_local_transport(endpoint, topic);
   // A reader without a socket does not announce its process: the address could belong to another
   // reader.
-  if (topic.short_way != 0 && !config_.anonymous && (!reads || endpoint.receiver)) {
+  if (topic.local_transport != 0 && !config_.anonymous && (!reads || endpoint.receiver)) {
     write_identity({config_.participant, config_.run, writer_}, qos.get());
   }
   const dds_entity_t entity = reads ? dds_create_reader(subscriber_, handle, qos.get(), nullptr)
@@ -219,16 +219,17 @@ Result<dds_entity_t> Bus::add_endpoint(const TopicSpec& topic, bool reads) {
   return entity;
 }
 
-void Bus::open_short_way(Endpoint& endpoint, const TopicSpec& topic) {
-  if (short_way_ == nullptr || topic.short_way == 0) return;
+void Bus::open_local_transport(Endpoint& endpoint, const TopicSpec& topic) {
+  if (local_transport_ == nullptr || topic.local_transport == 0) return;
   if (!endpoint.reads) {
-    endpoint.sender = std::make_unique<ShortSender>(topic, config_.run, short_way_->descriptor());
+    endpoint.sender =
+        std::make_unique<LocalSender>(topic, config_.run, local_transport_->descriptor());
     return;
   }
   // A second reader of the topic in this process gets no socket; writers see two readers and use
   // DDS.
-  if (auto socket = ShortSocket::open({config_.run, writer_, topic.short_way})) {
-    endpoint.receiver = std::make_unique<ShortReceiver>(topic, config_.run, *std::move(socket));
+  if (auto socket = LocalSocket::open({config_.run, writer_, topic.local_transport})) {
+    endpoint.receiver = std::make_unique<LocalReceiver>(topic, config_.run, *std::move(socket));
   }
 }
 

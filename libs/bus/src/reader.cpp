@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "rave/bus/short_way.hpp"
+#include "rave/bus/local_transport.hpp"
 
 namespace rave::bus {
 

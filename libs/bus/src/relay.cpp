@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "rave/base/thread.hpp"
-#include "rave/bus/short_way.hpp"
+#include "rave/bus/local_transport.hpp"
 #include "rave/bus/wait_set.hpp"
 
 namespace rave::bus {
@@ -66,13 +66,13 @@ bool Relay::ready() const {
   return true;
 }
 
-void Relay::add(ShortReceiver& receiver) {
+void Relay::add(LocalReceiver& receiver) {
   polled_.push_back({receiver.descriptor(), POLLIN, 0});
   receivers_.push_back(&receiver);
 }
 
 void Relay::tell_of_dds() const {
-  for (ShortReceiver* const receiver : receivers_) receiver->note_dds();
+  for (LocalReceiver* const receiver : receivers_) receiver->note_dds();
 }
 
 void Relay::note_answer() {
@@ -90,7 +90,7 @@ bool Relay::look(Duration most) {
   for (;;) {
     note_answer();
     bool any = false;
-    for (ShortReceiver* const receiver : receivers_) any = receiver->fetch() || any;
+    for (LocalReceiver* const receiver : receivers_) any = receiver->fetch() || any;
     if (any || !asked_ || now >= end || now < crowded_until_) return any;
     ::sched_yield();
     const auto before = std::exchange(now, std::chrono::steady_clock::now());

@@ -17,7 +17,7 @@
 
 namespace rave::bus {
 
-class ShortReceiver;
+class LocalReceiver;
 
 /// Waits for sockets and a DDS wait set at once. poll() cannot wait for DDS, so a thread does and
 /// signals through a flag and an event descriptor. Datagrams do not pass that thread. Owner: a
@@ -31,7 +31,7 @@ class Relay {
   ~Relay();
 
   /// `receiver` must outlive the relay; it is told what ended a wait.
-  void add(ShortReceiver& receiver);
+  void add(LocalReceiver& receiver);
   enum class Came : std::uint8_t { kNothing, kSocket, kSet };
   /// Waits; returns what to look at first. Negative `timeout`: without limit.
   [[nodiscard]] Came wait(Duration timeout);
@@ -52,7 +52,7 @@ class Relay {
   dds_entity_t bell_;
   int event_;
   std::vector<pollfd> polled_;  ///< The event descriptor, then the sockets of the receivers.
-  std::vector<ShortReceiver*> receivers_;
+  std::vector<LocalReceiver*> receivers_;
   std::chrono::steady_clock::time_point crowded_until_{};
   std::chrono::milliseconds crowded_for_{};
   bool asked_ = false;  ///< A request to the thread whose answer was not processed yet.

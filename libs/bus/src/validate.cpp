@@ -281,15 +281,15 @@ Status validate(const FindingsPart& sample) {
                              sample.part, expected));
 }
 
-Status validate(const Wish& sample) {
+Status validate(const Request& sample) {
   RAVE_TRY(check_address(sample));
   RAVE_TRY(check_label("from", sample.from, true));
-  return check_line(sample.text, rave_wire_kMaxWishBytes);
+  return check_line(sample.text, rave_wire_kMaxRequestBytes);
 }
 
-Status validate(const WishAnswer& sample) {
+Status validate(const RequestAnswer& sample) {
   RAVE_TRY(check_address(sample));
-  return check_line(sample.text, rave_wire_kMaxWishAnswerBytes);
+  return check_line(sample.text, rave_wire_kMaxRequestAnswerBytes);
 }
 
 }  // namespace rave::bus

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "participants.hpp"
-#include "rave/bus/short_way.hpp"
+#include "rave/bus/local_transport.hpp"
 #include "relay.hpp"
 
 namespace rave::bus {

@@ -2,7 +2,7 @@
 #include "rave/bus/writer.hpp"
 
 #include "rave/bus/endpoint.hpp"
-#include "rave/bus/short_way.hpp"
+#include "rave/bus/local_transport.hpp"
 
 namespace rave::bus {
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bytes from the network as samples of every topic: the first byte chooses the topic and the byte
 // order, the rest goes through the deserialiser and the validation, as in a reader; or as datagrams
-// of the short way, where heads and bounds are looked at first.
+// of the local transport, where heads and bounds are looked at first.
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <type_traits>
 #include <vector>
 
+#include "rave/bus/local_transport.hpp"
+#include "rave/bus/request_parts.hpp"
 #include "rave/bus/sequence.hpp"
-#include "rave/bus/short_way.hpp"
 #include "rave/bus/validate.hpp"
-#include "rave/bus/wish_parts.hpp"
 #include "rave/bus_testing/messages.hpp"
 
 namespace {
@@ -22,15 +22,15 @@ template <class Message>
 void receive(std::span<const std::byte> bytes, bool swapped) {
   testing::Decoded<Message> decoded;
   if (!decoded.decode(bytes, swapped) || !validate(decoded.sample())) return;
-  if constexpr (std::is_same_v<Message, WishAnswer>) {
+  if constexpr (std::is_same_v<Message, RequestAnswer>) {
     static_cast<void>(AnswerParts().add(text_of(decoded.sample().text)));
   }
 }
 
 /// Twice, the second time into the memory of the first.
 template <class Message>
-void receive_short(std::span<const std::byte> bytes, bool /*swapped*/) {
-  ShortDecoder decoder(topic_of<Message>());
+void receive_local(std::span<const std::byte> bytes, bool /*swapped*/) {
+  LocalDecoder decoder(topic_of<Message>());
   for (int i = 0; i < 2; ++i) {
     // Aligned as the receiver's memory is, and not a byte longer than it must be.
     std::vector<std::byte> datagram(bytes.begin(), bytes.end());
@@ -54,10 +54,10 @@ constexpr Receive kTopics[] = {receive<HostState>,
                                receive<RunState>,
                                receive<ProcessState>,
                                receive<FindingsPart>,
-                               receive<Wish>,
-                               receive<WishAnswer>,
-                               receive_short<HostReport>,
-                               receive_short<WorldStep>,
+                               receive<Request>,
+                               receive<RequestAnswer>,
+                               receive_local<HostReport>,
+                               receive_local<WorldStep>,
                                receive<LineInfo>,
                                receive<LineWithdrawal>,
                                receive<Look>,

@@ -132,7 +132,8 @@ void unreliable(Bus& bus) {
   while (!ended(-1)) continue;
 }
 
-/// Tells of each world that has come, in a report of that step, whether that was by the short way.
+/// Tells of each world that has come, in a report of that step, whether that was by the local
+/// transport.
 void follow(Bus& bus, const Arguments& arguments) {
   auto worlds = Reader<WorldStep>::create(bus);
   auto reports = Writer<HostReport>::create(bus);

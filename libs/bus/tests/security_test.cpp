@@ -13,8 +13,8 @@
 #include <fstream>
 
 #include "peer_process.hpp"
+#include "rave/bus/local_transport.hpp"
 #include "rave/bus/reader.hpp"
-#include "rave/bus/short_way.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/keys/key_set.hpp"
 
@@ -110,9 +110,10 @@ TEST_F(Security, NothingGoesBesideTheCertificates) {
   auto worlds = Writer<WorldStep>::create(**bus);
   auto reports = Reader<HostReport>::create(**bus);
   ASSERT_TRUE(worlds && reports);
-  // Nobody has the addresses of the short way.
-  EXPECT_TRUE(ShortSocket::open({domain_.run, (*bus)->writer(), 0}));
-  EXPECT_TRUE(ShortSocket::open({domain_.run, (*bus)->writer(), topic_of<HostReport>().short_way}));
+  // Nobody has the addresses of the local transport.
+  EXPECT_TRUE(LocalSocket::open({domain_.run, (*bus)->writer(), 0}));
+  EXPECT_TRUE(
+      LocalSocket::open({domain_.run, (*bus)->writer(), topic_of<HostReport>().local_transport}));
   int heard = 0;
   WorldStep world{};
   world.epoch = 1;

@@ -307,9 +307,9 @@ TEST(PutText, CutsAtTheEndOfACharacter) {
   EXPECT_STREQ(field, "ab");
 }
 
-/// A wish, or its answer, with a line of text.
+/// A request, or its answer, with a line of text.
 template <class Message>
-Message wish_with(std::string& text) {
+Message request_with(std::string& text) {
   auto message = written<Message>();
   message.target = 2;
   message.number = 1;
@@ -318,35 +318,35 @@ Message wish_with(std::string& text) {
   return message;
 }
 
-TEST(Validate, RefusesWishesThatAreForNobodyOrNoLine) {
+TEST(Validate, RefusesRequestsThatAreForNobodyOrNoLine) {
   std::string text = R"({"rave":1,"do":"list"})";
-  auto wish = wish_with<Wish>(text);
-  put_text(wish.from, "anna@box");
-  EXPECT_EQ(reason(wish), "accepted");
-  auto nobody = wish;
+  auto request = request_with<Request>(text);
+  put_text(request.from, "anna@box");
+  EXPECT_EQ(reason(request), "accepted");
+  auto nobody = request;
   nobody.target = 0;
   EXPECT_EQ(reason(nobody), "target is 0");
-  auto uncounted = wish;
+  auto uncounted = request;
   uncounted.number = 0;
   EXPECT_EQ(reason(uncounted), "number is 0");
-  auto unsigned_one = wish;
+  auto unsigned_one = request;
   put_text(unsigned_one.from, "");
   EXPECT_EQ(reason(unsigned_one), "from is empty");
   put_text(unsigned_one.from, "\x1b[31m");
   EXPECT_EQ(reason(unsigned_one), "from has control characters");
   std::string lines = "a\nb";
-  auto two = wish_with<Wish>(lines);
+  auto two = request_with<Request>(lines);
   put_text(two.from, "anna");
   EXPECT_EQ(reason(two), "text has control characters");
   two.text._length = 0;
   EXPECT_EQ(reason(two), "text is empty");
-  std::string endless(rave_wire_kMaxWishBytes + 1, 'x');
-  auto much = wish_with<Wish>(endless);
+  std::string endless(rave_wire_kMaxRequestBytes + 1, 'x');
+  auto much = request_with<Request>(endless);
   put_text(much.from, "anna");
   EXPECT_EQ(reason(much), "text has 65537 bytes, more than 65536");
-  EXPECT_EQ(reason(wish_with<WishAnswer>(endless)), "accepted");
+  EXPECT_EQ(reason(request_with<RequestAnswer>(endless)), "accepted");
   std::string none;
-  EXPECT_EQ(reason(wish_with<WishAnswer>(none)), "text is empty");
+  EXPECT_EQ(reason(request_with<RequestAnswer>(none)), "text is empty");
 }
 
 }  // namespace

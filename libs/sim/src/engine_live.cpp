@@ -141,14 +141,14 @@ void Engine::Impl::give_order(RobotGroup& group, std::uint32_t member) {
     if (now_given) guarded.given[c] = work_began;
   }
   GuardOrder& order = guarded.thread->next_order();
-  order.wishes.resize(group.actuators.size());
-  for (std::uint32_t a = 0; a < order.wishes.size(); ++a) {
+  order.demands.resize(group.actuators.size());
+  for (std::uint32_t a = 0; a < order.demands.size(); ++a) {
     const ControllerSlots* const speaker = group.speaker(a, member);
-    ActuatorWish& wish = order.wishes[a];
-    wish.command = group.actuators[a].commands[member];
-    wish.expected = speaker != nullptr ? speaker->spec->ops->gives : CommandKind::kVelocity;
-    wish.watched = speaker != nullptr && group.program.spec != nullptr;
-    wish.given = wish.watched ? guarded.given[group.index_of(*speaker)] : std::nullopt;
+    ActuatorDemand& demand = order.demands[a];
+    demand.command = group.actuators[a].commands[member];
+    demand.expected = speaker != nullptr ? speaker->spec->ops->gives : CommandKind::kVelocity;
+    demand.watched = speaker != nullptr && group.program.spec != nullptr;
+    demand.given = demand.watched ? guarded.given[group.index_of(*speaker)] : std::nullopt;
   }
   order.holds = robot_guards[robot.value()].holds();
   order.world_time = work_began - world_age;
@@ -164,10 +164,10 @@ void Engine::Impl::fill_neighbours(RobotId robot, const RobotGroup& group, Guard
   order.bodies.clear();
   const GuardSpec& limits = *guards[spec.robots[robot.value()].type];
   order.sees_others = order.reported.known;
-  if (limits.separation_m < 0 || !order.sees_others || order.wishes.empty()) return;
+  if (limits.separation_m < 0 || !order.sees_others || order.demands.empty()) return;
   // Who may come into question until the next order, however late the guard and that may be.
   GuardInput input;
-  input.command = order.wishes.front().command;
+  input.command = order.demands.front().command;
   input.velocity = order.reported.velocity;
   input.pose_age_s = group.type->staleness.seconds();
   input.dt_s = LiveGuard::kLongestGap_s;

@@ -122,9 +122,9 @@ void GuardThread::run() {
 
 void GuardThread::write_all(bool stands) {
   const SimTime now = setup_.clock->now();
-  const std::size_t count = std::min(order_.wishes.size(), allowed_.size());
+  const std::size_t count = std::min(order_.demands.size(), allowed_.size());
   if (stands) {
-    for (std::size_t a = 0; a < count; ++a) allowed_[a] = standing(order_.wishes[a].expected);
+    for (std::size_t a = 0; a < count; ++a) allowed_[a] = standing(order_.demands[a].expected);
   } else {
     guard_.limit(order_, now, allowed_);
   }

@@ -96,16 +96,16 @@ void LiveGuard::limit(const GuardOrder& order, SimTime now, std::span<Command> a
   input_.radius_m = order.radius_m;
   input_.body = order.body.get();
   guard_.set_holds(order.holds);
-  for (std::size_t a = 0; a < order.wishes.size(); ++a) {
-    const ActuatorWish& wish = order.wishes[a];
+  for (std::size_t a = 0; a < order.demands.size(); ++a) {
+    const ActuatorDemand& demand = order.demands[a];
     GuardInput input = input_;
     input.neighbours = neighbours_;
     input.sensors = ages_;
-    input.command = wish.command;
-    input.expected = wish.expected;
-    if (wish.watched) {
+    input.command = demand.command;
+    input.expected = demand.expected;
+    if (demand.watched) {
       input.command_age_s =
-          wish.given ? age_s(now, *wish.given) : std::numeric_limits<double>::infinity();
+          demand.given ? age_s(now, *demand.given) : std::numeric_limits<double>::infinity();
     }
     const GuardOutput output = guard_.limit(limits_, input);
     allowed[a] = output.command;

@@ -17,7 +17,7 @@
 namespace rave::sim {
 
 /// What the engine wants of one actuator of a real robot.
-struct ActuatorWish {
+struct ActuatorDemand {
   Command command;                                ///< From the controller that speaks.
   CommandKind expected = CommandKind::kVelocity;  ///< What the actuator takes.
   bool watched = false;                           ///< A program has to command again and again.
@@ -27,9 +27,9 @@ struct ActuatorWish {
 /// What the guard of a real robot has to know in a live run, as of one step. Moments are by the
 /// clock of the run. Keeps what it points to.
 struct GuardOrder {
-  std::vector<ActuatorWish> wishes;  ///< By actuator of the robot's type.
+  std::vector<ActuatorDemand> demands;  ///< By actuator of the robot's type.
   GuardHolds holds;
-  SimTime world_time;     ///< Of the virtual world that the wishes were made in.
+  SimTime world_time;     ///< Of the virtual world that the demands were made in.
   ReportedPose reported;  ///< For a robot whose pose does not come from a live sensor.
   double radius_m = 0;
   std::shared_ptr<const world::Body> body;  ///< Shared with the engine, which may replace its own.

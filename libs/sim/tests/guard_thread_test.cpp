@@ -35,7 +35,7 @@ class Robot {
   }
   void order(const Command& command) {
     GuardOrder& order = guard->next_order();
-    order.wishes = {{command, CommandKind::kVelocity, true, clock_.now()}};
+    order.demands = {{command, CommandKind::kVelocity, true, clock_.now()}};
     order.world_time = clock_.now();
     order.radius_m = 0.2;
     guard->give_order();

@@ -42,7 +42,7 @@ class LiveGuardTest : public ::testing::Test {
   }
   /// A step of the engine in which the program wants the cart to drive.
   void order(double v_mps) {
-    order_.wishes = {{velocity_command(v_mps, 0), CommandKind::kVelocity, true, clock_.now()}};
+    order_.demands = {{velocity_command(v_mps, 0), CommandKind::kVelocity, true, clock_.now()}};
     order_.world_time = clock_.now();
     order_.reported = {{x_m_, 0, 0, 0, 0}, {v_mps_, 0, 0}, clock_.now(), true, false};
   }
@@ -127,7 +127,7 @@ TEST_F(LiveGuardTest, TheWatchdogBitesByTheWallUntilTheNextCommand) {
 TEST_F(LiveGuardTest, BeforeItsProgramHasCommandedItStands) {
   begin(fence_alone());
   order(0.2);
-  order_.wishes[0].given.reset();
+  order_.demands[0].given.reset();
   EXPECT_EQ(ask(), 0) << "whatever its controller makes of it";
   EXPECT_TRUE(begun(GuardLimit::kWatchdog));
   order(0.2);

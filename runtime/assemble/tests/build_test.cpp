@@ -82,7 +82,7 @@ TEST(Build, ASensorIsGivenItsLargestAgeAndWhenItsSamplesCome) {
   Host host;
   const auto built =
       host.build_text(cart("{name: eye, driver: ros2_laser, device: base, max_age_s: 0.5}, "
-                           "{name: wish, driver: ros2_command, device: base}, {name: scanner, "
+                           "{name: command, driver: ros2_command, device: base}, {name: scanner, "
                            "driver: scip_laser, params: {device: /dev/x}}"));
   ASSERT_TRUE(built.has_value()) << built.error().text();
   const auto& sensors = built->spec.types.at(0).sensors;

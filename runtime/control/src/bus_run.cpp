@@ -8,9 +8,9 @@
 
 #include "rave/base/control_characters.hpp"
 #include "rave/base/names.hpp"
+#include "rave/bus/request_parts.hpp"
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/wait_set.hpp"
-#include "rave/bus/wish_parts.hpp"
 #include "rave/bus/writer.hpp"
 
 namespace rave::control {
@@ -62,14 +62,14 @@ Result<Answer> read_answer(std::string_view line) {
   return answer;
 }
 
-Result<std::string> wish_line(const Request& request) {
+Result<std::string> request_line(const Request& request) {
   std::string line = write_request(request);
   if (line.ends_with('\n')) line.pop_back();
-  if (line.size() <= rave_wire_kMaxWishBytes && !has_control_characters(line)) return line;
+  if (line.size() <= rave_wire_kMaxRequestBytes && !has_control_characters(line)) return line;
   return fail(
       ErrorCode::kInvalidArgument,
       "the request has {} bytes, or control characters; expected at most {} bytes of plain text",
-      line.size(), rave_wire_kMaxWishBytes);
+      line.size(), rave_wire_kMaxRequestBytes);
 }
 
 tl::unexpected<Error> gone(const BusPeer& peer) {
@@ -94,11 +94,11 @@ struct Asked {
 };
 
 /// The wire type refers to `line`, which must live as long as the request is used.
-void put_line(bus::Wish& wish, std::string& line) {
+void put_line(bus::Request& request, std::string& line) {
   // The wire type has a pointer to mutable octets.
-  wish.text._buffer = reinterpret_cast<std::uint8_t*>(line.data());
-  wish.text._length = static_cast<std::uint32_t>(line.size());
-  wish.text._maximum = wish.text._length;
+  request.text._buffer = reinterpret_cast<std::uint8_t*>(line.data());
+  request.text._length = static_cast<std::uint32_t>(line.size());
+  request.text._maximum = request.text._length;
 }
 
 }  // namespace
@@ -107,8 +107,8 @@ struct BusRun::Impl {
   std::unique_ptr<bus::Bus> bus;
   bus::Reader<bus::HostInfo> infos;
   bus::Reader<bus::RunState> states;
-  bus::Writer<bus::Wish> wishes;
-  bus::Reader<bus::WishAnswer> answers;
+  bus::Writer<bus::Request> requests;
+  bus::Reader<bus::RequestAnswer> answers;
   bus::WaitSet waits;
   std::string from;
   std::vector<BusPeer> peers{};
@@ -125,7 +125,7 @@ struct BusRun::Impl {
     std::string text;
   };
   [[nodiscard]] std::vector<Said> take(const BusPeer& peer);
-  Status send(const BusPeer& peer, std::uint64_t wish_number, std::string& line);
+  Status send(const BusPeer& peer, std::uint64_t request_number, std::string& line);
   void take(std::vector<Asked>& asked);
   std::optional<Clock::time_point> send_due(std::vector<Asked>& asked, std::string& line);
 };
@@ -149,7 +149,7 @@ void BusRun::Impl::look() {
 /// The answers to the last request.
 std::vector<BusRun::Impl::Said> BusRun::Impl::take(const BusPeer& peer) {
   std::vector<Said> said;
-  answers.take([&](const bus::WishAnswer& answer) {
+  answers.take([&](const bus::RequestAnswer& answer) {
     const bool ours =
         answer.writer == peer.writer && answer.target == bus->writer() && answer.number == number;
     // More answers than the request and its repetitions can cause: the sender is faulty.
@@ -159,18 +159,18 @@ std::vector<BusRun::Impl::Said> BusRun::Impl::take(const BusPeer& peer) {
   return said;
 }
 
-Status BusRun::Impl::send(const BusPeer& peer, std::uint64_t wish_number, std::string& line) {
-  bus::Wish wish{};
-  wish.target = peer.writer;
-  wish.number = wish_number;
-  bus::put_text(wish.from, from);
-  put_line(wish, line);
-  return wishes.write(wish);
+Status BusRun::Impl::send(const BusPeer& peer, std::uint64_t request_number, std::string& line) {
+  bus::Request request{};
+  request.target = peer.writer;
+  request.number = request_number;
+  bus::put_text(request.from, from);
+  put_line(request, line);
+  return requests.write(request);
 }
 
 /// Reads the answers of the processes that have not answered yet.
 void BusRun::Impl::take(std::vector<Asked>& asked) {
-  answers.take([&](const bus::WishAnswer& answer) {
+  answers.take([&](const bus::RequestAnswer& answer) {
     if (answer.target != bus->writer()) return;
     const auto one = std::ranges::find_if(asked, [&](const Asked& other) {
       return other.peer.writer == answer.writer && other.number == answer.number;
@@ -225,15 +225,15 @@ Result<std::unique_ptr<BusRun>> BusRun::open(bus::BusConfig config, std::string_
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::RunState>::create(*bus));
-  RAVE_TRY_ASSIGN(auto wishes, bus::Writer<bus::Wish>::create(*bus));
-  RAVE_TRY_ASSIGN(auto answers, bus::Reader<bus::WishAnswer>::create(*bus));
+  RAVE_TRY_ASSIGN(auto requests, bus::Writer<bus::Request>::create(*bus));
+  RAVE_TRY_ASSIGN(auto answers, bus::Reader<bus::RequestAnswer>::create(*bus));
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
   RAVE_TRY(waits.add(infos));
   RAVE_TRY(waits.add(states));
   RAVE_TRY(waits.add(answers));
   RAVE_TRY(waits.add_events());
   std::unique_ptr<Impl> impl(new Impl{std::move(bus), std::move(infos), std::move(states),
-                                      std::move(wishes), std::move(answers), std::move(waits),
+                                      std::move(requests), std::move(answers), std::move(waits),
                                       without_control_characters(from, " ")});
   return std::unique_ptr<BusRun>(new BusRun(std::move(impl)));
 }
@@ -292,7 +292,7 @@ std::vector<BusPeer> BusRun::all(Duration patience) {
 
 Result<Answer> BusRun::ask(const BusPeer& peer, const Request& request, Duration patience) {
   Impl& run = *impl_;
-  RAVE_TRY_ASSIGN(std::string line, wish_line(request));
+  RAVE_TRY_ASSIGN(std::string line, request_line(request));
   ++run.number;
   bus::AnswerParts parts;
   auto end = Clock::now() + std::chrono::nanoseconds(patience.ns);
@@ -312,7 +312,7 @@ Result<Answer> BusRun::ask(const BusPeer& peer, const Request& request, Duration
       if (parts.complete()) return read_answer(parts.text());
     }
     if (parts.text().size() > had) {
-      line = bus::wish_for_rest(parts.text().size());
+      line = bus::request_for_rest(parts.text().size());
       send_at = Clock::now();
       again = kFirstAgain;
       // Repeated for each part; there are few.
@@ -327,7 +327,7 @@ Result<Answer> BusRun::ask(const BusPeer& peer, const Request& request, Duration
 std::vector<BusReply> BusRun::ask_each(const Request& request, const Meant& meant,
                                        Duration patience) {
   Impl& run = *impl_;
-  auto line = wish_line(request);
+  auto line = request_line(request);
   if (!line) return {};
   const auto latest = Clock::now() + std::chrono::nanoseconds(patience.ns);
   auto end = latest;  // The end of the search.

@@ -55,7 +55,7 @@ TEST(Protocol, AnyPathThatIsTakenFitsIntoALine) {
   path.speed_mps = 0.1234567890123456;
   const std::string line = write_request(path);
   EXPECT_LE(line.size(), kMaxLineBytes);
-  EXPECT_LE(line.size(), std::size_t{rave_wire_kMaxWishBytes});
+  EXPECT_LE(line.size(), std::size_t{rave_wire_kMaxRequestBytes});
   EXPECT_TRUE(parse_request(std::string_view(line).substr(0, line.size() - 1)));
 }
 

@@ -230,7 +230,7 @@ Result<HostLink::Options> link_options(const HostSetup& host, const BuiltScenari
   options.world_period = from_seconds(host.scenario.scenario.world_period_s);
   options.manager_patience = host.options.manager_patience;
   options.log = &host.console;
-  options.begin_wish = host.options.begin_wish;
+  options.begin_request = host.options.begin_request;
   options.on_command = host.options.on_command;
   return options;
 }

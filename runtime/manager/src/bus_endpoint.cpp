@@ -11,7 +11,7 @@ struct BusEndpoint::Parts {
   bus::Writer<bus::HostInfo> own_info;
   bus::Reader<bus::HostInfo> infos;
   bus::Reader<bus::RosterEntry> roster;
-  std::unique_ptr<bus::WishBox> wishes;
+  std::unique_ptr<bus::RequestBox> requests;
   std::unique_ptr<bus::CommandBox> commands;
   lock_step::Pulse pulse;
   lock_step::FindingsCollector findings;
@@ -25,7 +25,7 @@ BusEndpoint::BusEndpoint(Parts parts)
       own_info_(std::move(parts.own_info)),
       infos_(std::move(parts.infos)),
       roster_(std::move(parts.roster)),
-      wishes_(std::move(parts.wishes)),
+      requests_(std::move(parts.requests)),
       commands_(std::move(parts.commands)),
       pulse_(std::move(parts.pulse)),
       findings_(std::move(parts.findings)),
@@ -33,7 +33,7 @@ BusEndpoint::BusEndpoint(Parts parts)
 
 Result<std::unique_ptr<BusEndpoint>> BusEndpoint::open(const bus::BusConfig& config,
                                                        lock_step::Identity identity, LogSink* log,
-                                                       bus::BeginWish begin_wish,
+                                                       bus::BeginRequest begin_request,
                                                        bus::OnCommand on_command) {
   bus::BusConfig own = config;
   own.side = bus::Side::kManager;
@@ -42,20 +42,20 @@ Result<std::unique_ptr<BusEndpoint>> BusEndpoint::open(const bus::BusConfig& con
   RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto roster, bus::Reader<bus::RosterEntry>::create(*bus));
-  RAVE_TRY_ASSIGN(auto wishes, bus::WishBox::create(*bus, std::move(begin_wish), log));
+  RAVE_TRY_ASSIGN(auto requests, bus::RequestBox::create(*bus, std::move(begin_request), log));
   RAVE_TRY_ASSIGN(auto commands, bus::CommandBox::create(*bus, std::move(on_command)));
   RAVE_TRY_ASSIGN(auto pulse, lock_step::Pulse::create(*bus, identity));
   RAVE_TRY_ASSIGN(auto findings, lock_step::FindingsCollector::create(*bus));
-  return std::unique_ptr<BusEndpoint>(
-      new BusEndpoint({std::move(identity), log, std::move(bus), std::move(states),
-                       std::move(own_info), std::move(infos), std::move(roster), std::move(wishes),
-                       std::move(commands), std::move(pulse), std::move(findings)}));
+  return std::unique_ptr<BusEndpoint>(new BusEndpoint(
+      {std::move(identity), log, std::move(bus), std::move(states), std::move(own_info),
+       std::move(infos), std::move(roster), std::move(requests), std::move(commands),
+       std::move(pulse), std::move(findings)}));
 }
 
 Status BusEndpoint::wake(bus::WaitSet& waits) {
   RAVE_TRY(findings_.wake(waits));
   if (commands_) RAVE_TRY(commands_->wake(waits));
-  return wishes_ ? wishes_->wake(waits) : Status();
+  return requests_ ? requests_->wake(waits) : Status();
 }
 
 Status BusEndpoint::wake_for_processes(bus::WaitSet& waits) {

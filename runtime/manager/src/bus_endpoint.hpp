@@ -14,9 +14,9 @@
 #include "rave/base/result.hpp"
 #include "rave/bus/command_box.hpp"
 #include "rave/bus/event_log.hpp"
+#include "rave/bus/request_box.hpp"
 #include "rave/bus/standstill.hpp"
 #include "rave/bus/wait_set.hpp"
-#include "rave/bus/wish_box.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/protocol/findings.hpp"
 #include "rave/protocol/introduction.hpp"
@@ -27,12 +27,12 @@ namespace rave::manager {
 /// The end of a manager of which the run is on the bus. Belongs to one thread.
 class BusEndpoint final : public ManagerEndpoint {
  public:
-  /// `begin_wish` and `on_command` may be empty: nobody on the bus can ask anything, or drive.
+  /// `begin_request` and `on_command` may be empty: nobody on the bus can ask anything, or drive.
   /// `log` is not owned and may be null. Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<BusEndpoint>> open(const bus::BusConfig& config,
                                                                  lock_step::Identity identity,
                                                                  LogSink* log,
-                                                                 bus::BeginWish begin_wish,
+                                                                 bus::BeginRequest begin_request,
                                                                  bus::OnCommand on_command);
 
   /// For the topics that only one kind of run has.
@@ -51,7 +51,7 @@ class BusEndpoint final : public ManagerEndpoint {
   }
 
   void serve_requests() override {
-    if (wishes_) wishes_->serve();
+    if (requests_) requests_->serve();
     if (commands_) commands_->serve();
   }
   Result<std::vector<std::uint64_t>> look_at_processes(bool begun) override;
@@ -88,7 +88,7 @@ class BusEndpoint final : public ManagerEndpoint {
   bus::Writer<bus::HostInfo> own_info_;
   bus::Reader<bus::HostInfo> infos_;
   bus::Reader<bus::RosterEntry> roster_;
-  std::unique_ptr<bus::WishBox> wishes_;       ///< May be null.
+  std::unique_ptr<bus::RequestBox> requests_;  ///< May be null.
   std::unique_ptr<bus::CommandBox> commands_;  ///< May be null.
   lock_step::Pulse pulse_;
   lock_step::FindingsCollector findings_;

@@ -86,10 +86,11 @@ Status SteppedOnBus::write(const std::vector<HostSlot>& slots) {
 Result<std::unique_ptr<SteppedEndpoint>> SteppedEndpoint::open(const bus::BusConfig& config,
                                                                lock_step::Identity identity,
                                                                LogSink* log,
-                                                               bus::BeginWish begin_wish,
+                                                               bus::BeginRequest begin_request,
                                                                bus::OnCommand on_command) {
-  RAVE_TRY_ASSIGN(auto endpoint, BusEndpoint::open(config, std::move(identity), log,
-                                                   std::move(begin_wish), std::move(on_command)));
+  RAVE_TRY_ASSIGN(auto endpoint,
+                  BusEndpoint::open(config, std::move(identity), log, std::move(begin_request),
+                                    std::move(on_command)));
   bus::Bus& bus = endpoint->bus();
   RAVE_TRY_ASSIGN(auto worlds, bus::Writer<bus::WorldStep>::create(bus));
   RAVE_TRY_ASSIGN(auto reports, bus::Reader<bus::HostReport>::create(bus));

@@ -15,7 +15,7 @@
 #include "rave/base/time.hpp"
 #include "rave/bus/command_box.hpp"
 #include "rave/bus/config.hpp"
-#include "rave/bus/wish_book.hpp"
+#include "rave/bus/request_book.hpp"
 #include "rave/protocol/introduction.hpp"
 #include "rave/sim/authority_state.hpp"
 #include "rave/sim/world_step.hpp"
@@ -28,13 +28,11 @@ class SteppedEndpoint {
  public:
   using Visit = std::function<void(const bus::HostReport&)>;
 
-  /// `begin_wish` and `on_command` may be empty: nobody on the bus can ask anything. Errors: those
-  /// of bus::Bus::open().
-  [[nodiscard]] static Result<std::unique_ptr<SteppedEndpoint>> open(const bus::BusConfig& config,
-                                                                     lock_step::Identity identity,
-                                                                     LogSink* log,
-                                                                     bus::BeginWish begin_wish,
-                                                                     bus::OnCommand on_command);
+  /// `begin_request` and `on_command` may be empty: nobody on the bus can ask anything. Errors:
+  /// those of bus::Bus::open().
+  [[nodiscard]] static Result<std::unique_ptr<SteppedEndpoint>> open(
+      const bus::BusConfig& config, lock_step::Identity identity, LogSink* log,
+      bus::BeginRequest begin_request, bus::OnCommand on_command);
   virtual ~SteppedEndpoint() = default;
 
   /// Sleeps until something has come, the time is over or `stop` is set.

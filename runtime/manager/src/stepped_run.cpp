@@ -36,7 +36,7 @@ SteppedRun::SteppedRun(const ManagerOptions& options,
       authority_(std::move(authority)),
       board_(std::move(board)),
       slots_(make_slots(options.hosts)),
-      wishes_(options.control, options.log),
+      requests_(options.control, options.log),
       claims_(static_cast<std::uint32_t>(options.hosts.size())),
       roster_(planned_robots(authority_->spec()), options.hosts),
       lateness_(period_of(authority_->spec(), options.pace)) {
@@ -61,7 +61,7 @@ Result<SteppedRun::Gathered> SteppedRun::gather() {
   while (!complete()) {
     board_->wait(Duration{std::chrono::nanoseconds(kLook).count()}, asked());
     RAVE_TRY(listen());
-    wishes_.listen(*authority_);
+    requests_.listen(*authority_);
     if (complete()) break;
     RAVE_TRY(look());
     const auto now = Clock::now();
@@ -74,7 +74,7 @@ Result<SteppedRun::Gathered> SteppedRun::gather() {
                  fmt::format("waiting for {}", waited_for()));
     }
     tell_progress(waited_for());
-    wishes_.put_off(fmt::format("the run waits for {}", waited_for()));
+    requests_.put_off(fmt::format("the run waits for {}", waited_for()));
     if (stopping()) return Gathered::kStopped;
   }
   note_waiting({});
@@ -138,7 +138,7 @@ Status SteppedRun::make_step() {
   world_.last = world_.last || ending_ || step_ >= options_.steps;
   if (options_.on_world && options_.on_world(*authority_)) ending_ = true;
   RAVE_TRY(board_->send(world_, authority_->state(std::exchange(newcomer_, false)), slots_));
-  wishes_.after_step(*authority_, world_);
+  requests_.after_step(*authority_, world_);
   for (HostSlot& slot : slots_) slot.reported = false;
   ++step_;
   return {};
@@ -161,7 +161,7 @@ void SteppedRun::wait_for_turn() {
     auto status = listen();
     if (status) status = look();
     if (!status) failure_ = std::move(status).error();
-    wishes_.listen(*authority_);
+    requests_.listen(*authority_);
     if (failure_ || stopping()) return;
   }
   lateness_.woke(due, Clock::now());
@@ -171,14 +171,14 @@ void SteppedRun::wait_for_turn() {
 void SteppedRun::hold() {
   constexpr std::chrono::milliseconds kHeld{20};
   const auto since = Clock::now();
-  while (!wishes_.may_step() && !stopping()) {
+  while (!requests_.may_step() && !stopping()) {
     board_->wait(Duration{std::chrono::nanoseconds(kHeld).count()}, {});
     auto status = listen();
     if (status) status = look();
     if (!status) failure_ = std::move(status).error();
     if (failure_) return;
-    wishes_.listen(*authority_);
-    wishes_.put_off("the run is paused");
+    requests_.listen(*authority_);
+    requests_.put_off("the run is paused");
     // The next step is made without a host that is gone now, and the one after it is not.
     note_waiting(join_names(names_of(slots_, [this](const HostSlot& slot) {
       return slot.state == SlotState::kLost &&
@@ -216,7 +216,7 @@ Result<ManagerOutcome> SteppedRun::go() {
   }
   RAVE_TRY(take_over());
   begun_ = true;
-  wishes_.begin(*authority_, first_status());
+  requests_.begin(*authority_, first_status());
   began_ = Clock::now();
   first_step_ = step_;
   for (;;) {
@@ -228,7 +228,7 @@ Result<ManagerOutcome> SteppedRun::go() {
     }
     hold();
     wait_for_turn();
-    wishes_.listen(*authority_);
+    requests_.listen(*authority_);
     if (failure_) return tl::unexpected(*failure_);
     if (stopping() && !ending_) {
       ending_ = true;
@@ -254,7 +254,7 @@ void SteppedRun::give_up(const Error& error) {
 ManagerOutcome SteppedRun::outcome() {
   ended_ = Clock::now();
   if (options_.on_end) options_.on_end(*authority_);
-  wishes_.end();
+  requests_.end();
   ManagerOutcome outcome;
   outcome.steps = authority_->steps_done();
   outcome.contacts = contacts_;

@@ -18,7 +18,7 @@
 #include "rave/sim/world_authority.hpp"
 #include "roster_book.hpp"
 #include "stepped_endpoint.hpp"
-#include "wishes.hpp"
+#include "world_requests.hpp"
 
 namespace rave::manager {
 
@@ -81,7 +81,7 @@ class SteppedRun {
   std::unique_ptr<SteppedEndpoint> board_;
   std::vector<HostSlot> slots_;
   sim::HostReport heard_;  ///< Before it is known whether it can be used.
-  Wishes wishes_;
+  WorldRequests requests_;
   bus::HostClaims claims_;
   RosterBook roster_;
   std::uint64_t step_ = 0;  ///< For which reports are gathered.

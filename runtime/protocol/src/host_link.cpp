@@ -64,8 +64,8 @@ Status HostLink::Impl::open_endpoints() {
     RAVE_TRY_ASSIGN(Realities made, Realities::create(*bus, options.self.host, options.host_of));
     realities.emplace(std::move(made));
   }
-  RAVE_TRY_ASSIGN(wishes, bus::WishBox::create(*bus, options.begin_wish, options.log));
-  if (wishes) RAVE_TRY(wishes->wake(set));
+  RAVE_TRY_ASSIGN(requests, bus::RequestBox::create(*bus, options.begin_request, options.log));
+  if (requests) RAVE_TRY(requests->wake(set));
   RAVE_TRY_ASSIGN(commands, bus::CommandBox::create(*bus, options.on_command));
   if (commands) RAVE_TRY(commands->wake(set));
   RAVE_TRY(set.add_events());

@@ -233,7 +233,7 @@ void HostLink::Impl::take() {
   if (worlds) take_worlds();
   if (packets_in) take_packets();
   if (realities) realities->hear();
-  if (wishes) wishes->serve();
+  if (requests) requests->serve();
   if (commands) commands->serve();
   look();
   if (obstacles) take_obstacles();

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "rave/bus/event_log.hpp"
+#include "rave/bus/request_box.hpp"
 #include "rave/bus/wait_set.hpp"
-#include "rave/bus/wish_box.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/protocol/findings.hpp"
 #include "rave/protocol/host_link.hpp"
@@ -60,8 +60,8 @@ struct HostLink::Impl {
   std::optional<bus::Reader<bus::World>> worlds{};        // If a robot here sees others.
   std::optional<bus::Writer<bus::Packet>> packets_out{};  // If a robot here communicates.
   std::optional<bus::Reader<bus::Packet>> packets_in{};
-  std::optional<Realities> realities{};    // If drivers may change.
-  std::unique_ptr<bus::WishBox> wishes{};  // If other processes may send requests.
+  std::optional<Realities> realities{};         // If drivers may change.
+  std::unique_ptr<bus::RequestBox> requests{};  // If other processes may send requests.
   std::unique_ptr<bus::CommandBox> commands{};
   std::optional<bus::WaitSet> waits{};  // Declared after everything that it waits for.
   std::optional<lock_step::Pulse> pulse{};

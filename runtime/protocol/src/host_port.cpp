@@ -7,10 +7,10 @@
 #include <set>
 
 #include "rave/bus/event_log.hpp"
+#include "rave/bus/request_box.hpp"
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/standstill.hpp"
 #include "rave/bus/wait_set.hpp"
-#include "rave/bus/wish_box.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/protocol/findings.hpp"
 #include "rave/protocol/pulse.hpp"
@@ -52,7 +52,7 @@ struct HostPort::Impl {
   bus::Reader<bus::WorldStep> worlds;
   bus::Reader<bus::RunState> states;
   bus::Reader<bus::HostInfo> infos;
-  std::unique_ptr<bus::WishBox> wishes;  ///< Null if other processes may not send requests.
+  std::unique_ptr<bus::RequestBox> requests;  ///< Null if other processes may not send requests.
   bus::WaitSet waits;
   Pulse pulse;
   Roster roster;
@@ -293,7 +293,7 @@ HostPort::~HostPort() = default;
 
 Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, Identity identity,
                                                  LogSink* log, Patience patience,
-                                                 bus::BeginWish begin_wish) {
+                                                 bus::BeginRequest begin_request) {
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
   RAVE_TRY_ASSIGN(auto reports, bus::Writer<bus::HostReport>::create(*bus));
   RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
@@ -305,18 +305,18 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
   RAVE_TRY_ASSIGN(auto pulse, Pulse::create(*bus, identity));
   RAVE_TRY_ASSIGN(auto roster, Roster::create(*bus, identity.host));
   RAVE_TRY_ASSIGN(auto findings, FindingsSender::create(*bus));
-  RAVE_TRY_ASSIGN(auto wishes, bus::WishBox::create(*bus, std::move(begin_wish), log));
+  RAVE_TRY_ASSIGN(auto requests, bus::RequestBox::create(*bus, std::move(begin_request), log));
   RAVE_TRY(waits.add(worlds));
   RAVE_TRY(waits.add(states));
   RAVE_TRY(waits.add(infos));
-  if (wishes) RAVE_TRY(wishes->wake(waits));
+  if (requests) RAVE_TRY(requests->wake(waits));
   RAVE_TRY(waits.add_events());
   bus::HostInfo info = introduction(identity);
   RAVE_TRY(own_info.write(info));
   std::unique_ptr<Impl> impl(
       new Impl{std::move(identity), log, bus::EventLog(log), std::move(bus), std::move(reports),
                std::move(own_info), std::move(last_worlds), std::move(worlds), std::move(states),
-               std::move(infos), std::move(wishes), std::move(waits), std::move(pulse),
+               std::move(infos), std::move(requests), std::move(waits), std::move(pulse),
                std::move(roster), std::move(findings), info, patience});
   RAVE_TRY_ASSIGN(auto states_out, bus::Writer<bus::HostState>::create(*impl->bus));
   impl->states_out.emplace(std::move(states_out));
@@ -342,7 +342,7 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
       patience = std::min(2 * patience, kLongestPatience);
     }
     static_cast<void>(port.waits.wait(bus::left_until(std::min(send_at, next_stop))));
-    if (port.wishes) port.wishes->serve();
+    if (port.requests) port.requests->serve();
     if (port.take_world(report, world)) {
       port.told.clear();
       return Answer::kWorld;

@@ -145,7 +145,8 @@ Status ObstacleParts::fill(std::span<const sim::ObstacleChange> changes) {
     wire.kind = static_cast<rave_wire_ObstacleChangeKind>(change.kind);
     wire.id = change.id.value();
     if (!bus::put_text(wire.name, change.name)) return too_long("the name", change);
-    if (!bus::put_text(wire.asked, change.asked)) return too_long("the wish", change);
+    if (!bus::put_text(wire.asked, change.asked))
+      return too_long("the text of the request", change);
     if (!bus::put_text(wire.author, change.by)) return too_long("the name of the author", change);
     if (change.kind == Kind::kRemove) continue;
     wire.x_m = change.X_WB.x;

@@ -55,7 +55,7 @@ class Ghost {
   explicit Ghost(const TestDomain& domain) {
     bus::BusConfig config = domain.config("ghost");
     config.beside = true;
-    config.short_way = false;
+    config.local_transport = false;
     bus_ = *bus::Bus::open(config);
     worlds_.emplace(*bus::Writer<bus::WorldStep>::create(*bus_));
   }

@@ -21,9 +21,10 @@ constexpr double kGapShare = 0.3;
 
 }  // namespace
 
-TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec, const Wish& wish)
-    : wanted_(wish.tracks) {
-  const double interval_s = std::max(kLeastInterval_s, wish.duration_s / kMostPoints);
+TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec,
+                             const Options& options)
+    : wanted_(options.tracks) {
+  const double interval_s = std::max(kLeastInterval_s, options.duration_s / kMostPoints);
   every_ = std::max<std::uint64_t>(
       1, static_cast<std::uint64_t>(std::llround(interval_s / spec.step.seconds())));
   const std::size_t count = spec.robots.size();
@@ -45,13 +46,13 @@ TrackRecorder::TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec
     poses_[r].kind = kinds.kind(body);
     poses_[r].colour = kinds.colour(body);
     // Reserve all memory at once: a growing vector leaves an unused block of half its size.
-    const double points = std::min(kMostPoints, wish.duration_s / interval_s);
+    const double points = std::min(kMostPoints, options.duration_s / interval_s);
     if (wanted_ && here_[r] != 0) poses_[r].points.reserve(static_cast<std::size_t>(points) + 2);
     odometry_tracks_[r] = poses_[r];
     odometry_tracks_[r].odometry_only = true;
     const sim::RobotType& type = spec.types[spec.robots[r].type];
     for (std::uint32_t s = 0; s < type.sensors.size(); ++s) {
-      if (wanted_ && type.sensors[s].name == wish.odometry_sensor &&
+      if (wanted_ && type.sensors[s].name == options.odometry_sensor &&
           type.sensors[s].kind == ReadingKind::kVelocity) {
         odometry_[r] = Odometry{s, std::nullopt};
       }

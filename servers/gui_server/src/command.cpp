@@ -46,7 +46,7 @@ void Source::command(const CommandMessage& command, const Author& /*author*/,
   for (const std::uint32_t slot : command.slots) reply(slot, false, why_not);
 }
 
-Result<ProbeMade> Source::probe(const ProbeWish& /*wish*/) {
+Result<ProbeMade> Source::probe(const ProbeRequest& /*request*/) {
   return fail(ErrorCode::kState, "This is a recording: its world is not there to be sensed.");
 }
 

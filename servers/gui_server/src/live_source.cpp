@@ -118,12 +118,12 @@ Powers LiveSource::powers() const {
   return powers;
 }
 
-Result<ProbeMade> LiveSource::probe(const ProbeWish& wish) {
+Result<ProbeMade> LiveSource::probe(const ProbeRequest& request) {
   if (!start_.probes) return fail(ErrorCode::kState, "No virtual sensors can be tried here.");
-  if (wish.slot >= start_.robots.size()) {
+  if (request.slot >= start_.robots.size()) {
     return fail(ErrorCode::kNotFound, "There is no such robot.");
   }
-  return start_.probes->make(wish, wish.slot);
+  return start_.probes->make(request, request.slot);
 }
 
 std::unique_ptr<Cursor> LiveSource::open_cursor() { return std::make_unique<LiveCursor>(*this); }

@@ -64,7 +64,7 @@ class LiveSource : public Source {
   [[nodiscard]] std::string virtual_sensors_json() override {
     return start_.probes ? start_.probes->catalogue_json() : "[]";
   }
-  [[nodiscard]] Result<ProbeMade> probe(const ProbeWish& wish) override;
+  [[nodiscard]] Result<ProbeMade> probe(const ProbeRequest& request) override;
   void keep_chat(const ChatText& said) override;
   void halt(const HaltMessage& halt, const Author& author, Reply reply) override;
   void command(const CommandMessage& command, const Author& author,

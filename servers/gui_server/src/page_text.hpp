@@ -51,7 +51,7 @@ struct PageAnswer {
 /// Which maps the page can look at.
 [[nodiscard]] std::string maps_text(std::span<const MapName> names);
 /// What a page sent may stand in the text; what is no UTF-8 is replaced.
-/// What became of a probe that a page wished for.
+/// What became of a probe that a page requested.
 struct ProbeAnswer {
   std::uint32_t slot = 0;  ///< Of the page.
   std::string error;       ///< For people; empty: it was made.

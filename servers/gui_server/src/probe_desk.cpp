@@ -28,15 +28,16 @@ std::string dumped(const ProbeJson& json) {
 }
 
 /// What a file has in each line of the entry, from its name on.
-std::vector<std::string> lines_of(const ProbeWish& wish) {
+std::vector<std::string> lines_of(const ProbeRequest& request) {
   // Degrees as somebody typed them, although they came in radians.
-  const double yaw_deg = std::round(rad_to_deg(wish.X_RS.yaw) * 1e6) / 1e6;
-  std::vector<std::string> lines = {"name: " + wish.name, "driver: " + wish.driver,
-                                    fmt::format("mount: {{x_m: {}, y_m: {}, z_m: {}, yaw_deg: {}}}",
-                                                wish.X_RS.x, wish.X_RS.y, wish.z_m, yaw_deg)};
-  if (wish.without_obstacles) lines.emplace_back(kWithoutObstacles);
+  const double yaw_deg = std::round(rad_to_deg(request.X_RS.yaw) * 1e6) / 1e6;
+  std::vector<std::string> lines = {
+      "name: " + request.name, "driver: " + request.driver,
+      fmt::format("mount: {{x_m: {}, y_m: {}, z_m: {}, yaw_deg: {}}}", request.X_RS.x,
+                  request.X_RS.y, request.z_m, yaw_deg)};
+  if (request.without_obstacles) lines.emplace_back(kWithoutObstacles);
   std::vector<std::string> params;
-  for (const auto& [name, value] : wish.params)
+  for (const auto& [name, value] : request.params)
     params.push_back(fmt::format("{}: {}", name, value));
   if (!params.empty()) lines.push_back(fmt::format("params: {{{}}}", fmt::join(params, ", ")));
   return lines;
@@ -88,8 +89,8 @@ const std::string& ProbeDesk::catalogue_json() {
   return json_ = dumped(drivers);
 }
 
-Result<ProbeMade> ProbeDesk::make(const ProbeWish& wish, std::uint32_t robot) {
-  const std::vector<std::string> lines = lines_of(wish);
+Result<ProbeMade> ProbeDesk::make(const ProbeRequest& request, std::uint32_t robot) {
+  const std::vector<std::string> lines = lines_of(request);
   ProbeMade made;
   made.asked.robot = robot;
   made.asked.block = fmt::format("{{{}}}", fmt::join(lines, ", "));

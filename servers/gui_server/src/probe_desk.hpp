@@ -10,8 +10,8 @@
 
 namespace rave::gui_server {
 
-/// What pages are told of virtual sensors, and makes probes of what they wish: the sensor as hosts
-/// will make it, so that whoever asks learns at once what is wrong. The thread of the server.
+/// What pages are told of virtual sensors, and makes probes of what they request: the sensor as
+/// hosts will make it, so that whoever asks learns at once what is wrong. The thread of the server.
 class ProbeDesk {
  public:
   /// `catalogue`: of this thread alone. `step_s`: of the run.
@@ -20,7 +20,7 @@ class ProbeDesk {
   /// The array `drivers` of a message `catalogue`. Loads all plug-ins when it is first called.
   [[nodiscard]] const std::string& catalogue_json();
   /// `robot`: in the run. Errors: those of probe::read_block() and sim::LoneSensor::make().
-  [[nodiscard]] Result<ProbeMade> make(const ProbeWish& wish, std::uint32_t robot);
+  [[nodiscard]] Result<ProbeMade> make(const ProbeRequest& request, std::uint32_t robot);
 
  private:
   std::unique_ptr<plugin::Catalogue> catalogue_;

@@ -50,42 +50,42 @@ Result<std::string> value_text(const std::string& name, const PageJson& value) {
               name);
 }
 
-Status take_params(const PageJson& params, ProbeWish& wish) {
+Status take_params(const PageJson& params, ProbeRequest& request) {
   if (!params.is_object() || params.size() > kMostParameters) {
     return fail(ErrorCode::kParse, "`params`: expected an object");
   }
   for (const auto& [name, value] : params.items()) {
     if (!is_plain_name(name)) return fail(ErrorCode::kParse, "`params`: expected plain names");
     RAVE_TRY_ASSIGN(std::string text, value_text(name, value));
-    wish.params.emplace_back(name, std::move(text));
+    request.params.emplace_back(name, std::move(text));
   }
   return {};
 }
 
-Result<ProbeWish> wish_of(const PageJson& json) {
+Result<ProbeRequest> request_of(const PageJson& json) {
   if (!json.is_object()) return fail(ErrorCode::kParse, "`probes`: expected objects");
   Members members(json);
-  ProbeWish wish;
-  RAVE_TRY_ASSIGN(wish.slot, members.index("slot"));
-  RAVE_TRY_ASSIGN(wish.name, plain_name(members, "name"));
-  RAVE_TRY_ASSIGN(wish.driver, plain_name(members, "driver"));
+  ProbeRequest request;
+  RAVE_TRY_ASSIGN(request.slot, members.index("slot"));
+  RAVE_TRY_ASSIGN(request.name, plain_name(members, "name"));
+  RAVE_TRY_ASSIGN(request.driver, plain_name(members, "driver"));
   RAVE_TRY_ASSIGN(const PageJson* const mount, members.array("mount", 3));
   const bool whole = mount->size() == 3 && std::all_of(mount->begin(), mount->end(), is_finite);
   if (!whole) {
     return fail(ErrorCode::kParse, "`mount`: expected x, y in metres and yaw in radians");
   }
-  wish.X_RS = {(*mount)[0].get<double>(), (*mount)[1].get<double>(), (*mount)[2].get<double>()};
-  RAVE_TRY_ASSIGN(wish.z_m, members.number("z"));
-  const bool near = std::abs(wish.X_RS.x) <= kFarthestMount_m &&
-                    std::abs(wish.X_RS.y) <= kFarthestMount_m &&
-                    std::abs(wish.z_m) <= kFarthestMount_m;
-  if (!near || std::abs(wish.X_RS.yaw) > 2 * std::numbers::pi) {
+  request.X_RS = {(*mount)[0].get<double>(), (*mount)[1].get<double>(), (*mount)[2].get<double>()};
+  RAVE_TRY_ASSIGN(request.z_m, members.number("z"));
+  const bool near = std::abs(request.X_RS.x) <= kFarthestMount_m &&
+                    std::abs(request.X_RS.y) <= kFarthestMount_m &&
+                    std::abs(request.z_m) <= kFarthestMount_m;
+  if (!near || std::abs(request.X_RS.yaw) > 2 * std::numbers::pi) {
     return fail(ErrorCode::kParse, "`mount`: expected at most {} m and one turn", kFarthestMount_m);
   }
   RAVE_TRY_ASSIGN(const PageJson* const params, members.any("params"));
-  RAVE_TRY(take_params(*params, wish));
+  RAVE_TRY(take_params(*params, request));
   RAVE_TRY(members.finish());
-  return wish;
+  return request;
 }
 
 }  // namespace
@@ -95,8 +95,8 @@ Result<LookProbesMessage> look_probes_of(Members& members) {
   RAVE_TRY_ASSIGN(look.request, members.index("request"));
   RAVE_TRY_ASSIGN(const PageJson* const probes, members.array("probes", kMostProbes));
   for (const PageJson& probe : *probes) {
-    RAVE_TRY_ASSIGN(ProbeWish wish, wish_of(probe));
-    look.probes.push_back(std::move(wish));
+    RAVE_TRY_ASSIGN(ProbeRequest request, request_of(probe));
+    look.probes.push_back(std::move(request));
   }
   return look;
 }

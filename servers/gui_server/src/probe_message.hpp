@@ -16,7 +16,7 @@ inline constexpr std::size_t kMostProbes = 4;
 /// The virtual sensors that a page tries at present: instead of those of before.
 struct LookProbesMessage {
   std::uint32_t request = 0;
-  std::vector<ProbeWish> probes;  ///< At most kMostProbes.
+  std::vector<ProbeRequest> probes;  ///< At most kMostProbes.
 };
 
 /// A page wants to know which virtual sensors there are.

@@ -240,12 +240,12 @@ std::string RestrictedSource::virtual_sensors_json() {
   return view_->may_any(InfoClass::kProbe) ? all_->virtual_sensors_json() : "[]";
 }
 
-Result<ProbeMade> RestrictedSource::probe(const ProbeWish& wish) {
-  const auto robot = view_->robot_of(wish.slot);
+Result<ProbeMade> RestrictedSource::probe(const ProbeRequest& request) {
+  const auto robot = view_->robot_of(request.slot);
   const bool may =
       robot && view_->may(InfoClass::kProbe, *robot) && view_->may(InfoClass::kReadings, *robot);
   if (!may) return fail(ErrorCode::kState, "{}", kNotYours);
-  ProbeWish mine = wish;
+  ProbeRequest mine = request;
   mine.slot = *robot;
   mine.without_obstacles = !view_->may_any(InfoClass::kObstacles);
   return all_->probe(mine);

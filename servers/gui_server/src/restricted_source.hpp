@@ -47,7 +47,7 @@ class RestrictedSource final : public Source {
   [[nodiscard]] const MapShown* map(const MapName& name) const override;
   [[nodiscard]] std::string virtual_sensors_json() override;
   /// Who gets no virtual obstacles senses none.
-  [[nodiscard]] Result<ProbeMade> probe(const ProbeWish& wish) override;
+  [[nodiscard]] Result<ProbeMade> probe(const ProbeRequest& request) override;
   void halt(const HaltMessage& halt, const Author& author, Reply reply) override;
   void command(const CommandMessage& command, const Author& author,
                const SlotReply& reply) override;

@@ -93,18 +93,18 @@ class FakeRun : public Source {
   [[nodiscard]] std::string virtual_sensors_json() override {
     return R"([{"name":"virtual_laser","summary":"","kind":"ranges","parameters":[]}])";
   }
-  [[nodiscard]] Result<ProbeMade> probe(const ProbeWish& wish) override {
+  [[nodiscard]] Result<ProbeMade> probe(const ProbeRequest& request) override {
     const std::lock_guard lock(mutex_);
-    wishes_.push_back(wish);
-    return ProbeMade{{wish.slot, kProbeNumber, "{}"},
+    requests_.push_back(request);
+    return ProbeMade{{request.slot, kProbeNumber, "{}"},
                      "  - name: p\n",
                      R"({"name":"p","kind":"ranges","origin":"virtual","driver":"virtual_laser",)"
                      R"("mount":[0,0,0],"z":0,"period_s":0.1,"fields":["range [m]"]})"};
   }
-  /// What pages wished to try, by robots of the run.
-  [[nodiscard]] std::vector<ProbeWish> wishes() {
+  /// What pages requested to try, by robots of the run.
+  [[nodiscard]] std::vector<ProbeRequest> requests() {
     const std::lock_guard lock(mutex_);
-    return wishes_;
+    return requests_;
   }
   void halt(const HaltMessage& halt, const Author& /*author*/, Reply reply) override {
     halted_robots += halt.slots.empty() ? 4 : static_cast<int>(halt.slots.size());
@@ -199,7 +199,7 @@ class FakeRun : public Source {
   };
 
   std::mutex mutex_;
-  std::vector<ProbeWish> wishes_;
+  std::vector<ProbeRequest> requests_;
   std::vector<ChatText> kept_;
   std::vector<std::pair<CommandMessage, Author>> commands_;
   std::string robots_;

@@ -43,12 +43,12 @@ TEST_F(HostileProbes, ProbesAreForWhoMayHaveThemOnThatRobot) {
     const std::string answer = ben.text_with(slot < 0 ? "\"message\"" : "\"probes\"");
     EXPECT_EQ(answer.find("\"block\""), std::string::npos) << answer;
   }
-  EXPECT_TRUE(run_->wishes().empty());
+  EXPECT_TRUE(run_->requests().empty());
   ben.send(probe_on(2));
   EXPECT_NE(ben.text_with("\"block\"").find("virtual_laser"), std::string::npos);
-  ASSERT_EQ(run_->wishes().size(), 1U);
-  EXPECT_EQ(run_->wishes()[0].slot, 2U);
-  EXPECT_FALSE(run_->wishes()[0].without_obstacles);
+  ASSERT_EQ(run_->requests().size(), 1U);
+  EXPECT_EQ(run_->requests()[0].slot, 2U);
+  EXPECT_FALSE(run_->requests()[0].without_obstacles);
   EXPECT_TRUE(probed(4));
 }
 
@@ -67,7 +67,7 @@ TEST_F(HostileProbes, AProbeEndsWithItsRightAndWithItsPage) {
     ben.send(kLookAtPoses);
     ben.send(probe_on(0));
     EXPECT_TRUE(probed(1));
-    EXPECT_TRUE(run_->wishes().back().without_obstacles);
+    EXPECT_TRUE(run_->requests().back().without_obstacles);
   }
   EXPECT_TRUE(probed(0)) << "the page has gone";
 }

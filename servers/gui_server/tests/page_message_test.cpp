@@ -123,13 +123,13 @@ TEST(PageMessage, ProbesAreReadWithTheirValuesAsAFileHasThem) {
   const auto& look = std::get<LookProbesMessage>(*message);
   EXPECT_EQ(look.request, 5U);
   ASSERT_EQ(look.probes.size(), 1U);
-  const ProbeWish& wish = look.probes[0];
-  EXPECT_EQ(wish.slot, 2U);
-  EXPECT_EQ(wish.X_RS, (Pose2{0.5, -1, 3}));
-  EXPECT_EQ(wish.z_m, 0.2);
+  const ProbeRequest& request = look.probes[0];
+  EXPECT_EQ(request.slot, 2U);
+  EXPECT_EQ(request.X_RS, (Pose2{0.5, -1, 3}));
+  EXPECT_EQ(request.z_m, 0.2);
   const std::vector<std::pair<std::string, std::string>> params = {
       {"cone_deg", "12.5"}, {"fast", "true"}, {"mode", "\"a, b\""}, {"zones", "[1,2]"}};
-  EXPECT_EQ(wish.params, params);
+  EXPECT_EQ(request.params, params);
 }
 
 TEST(PageMessage, WhatIsSaidIsRead) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {Parameter, ProbeWish, Robot, VirtualSensor} from '../../protocol/messages';
+import type {Parameter, ProbeRequest, Robot, VirtualSensor} from '../../protocol/messages';
 
 /** Where a sensor sits on its robot, as a robot file has it. */
 export const kMount = [
@@ -35,8 +35,8 @@ export class ProbeDraft {
   }
 
   /** As the server is asked for it; its name is none that a sensor of the robot has. */
-  wish(slot: number, robot: Pick<Robot, 'sensors'>, driver: VirtualSensor): ProbeWish {
-    const params: ProbeWish['params'] = {};
+  request(slot: number, robot: Pick<Robot, 'sensors'>, driver: VirtualSensor): ProbeRequest {
+    const params: ProbeRequest['params'] = {};
     for (const parameter of driver.parameters) {
       const value = this.set_.get(`${driver.name} ${parameter.key}`);
       // What is no number is refused with the others, by its name.

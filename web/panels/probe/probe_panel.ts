@@ -64,10 +64,10 @@ export class ProbePanel extends LookingPanel {
     this.surface = new Surface(model.bodies.values(), model.robots, palette);
     const {driver, shownSlot: slot} = this;
     if (driver === null || slot === null || !model.may('probe')) return link.tryProbe(this, null);
-    const wish = this.draft.wish(slot, model.robots[slot], driver);
+    const request = this.draft.request(slot, model.robots[slot], driver);
     if (model.probes.of(this) === null) this.askedAt_ms ||= performance.now();
     else this.askedAt_ms = 0;
-    link.tryProbe(this, wish);
+    link.tryProbe(this, request);
   }
 
   private set(change: () => void): void {

@@ -18,9 +18,9 @@ namespace rave::bus {
 
 class CycloneLog;
 class Participants;
-class ShortReceiver;
-class ShortSender;
-class ShortSocket;
+class LocalReceiver;
+class LocalSender;
+class LocalSocket;
 class Standstill;
 
 /// Another participant of the domain, with the properties that it announced. A value.
@@ -83,8 +83,8 @@ class Bus {
     };
     std::vector<Peer> peers;
     std::vector<Peer> heard;  ///< Readers only: the writers whose samples have been received.
-    std::unique_ptr<ShortSender> sender;
-    std::unique_ptr<ShortReceiver> receiver;
+    std::unique_ptr<LocalSender> sender;
+    std::unique_ptr<LocalReceiver> receiver;
   };
 
   explicit Bus(BusConfig config);
@@ -101,7 +101,7 @@ class Bus {
   void remove_endpoint(dds_entity_t entity);
   /// The record of an entity, valid until the next one is created; null if there is none.
   [[nodiscard]] Endpoint* endpoint(dds_entity_t entity);
-  void open_short_way(Endpoint& endpoint, const TopicSpec& topic);
+  void open_local_transport(Endpoint& endpoint, const TopicSpec& topic);
   /// Tells the local transport of an endpoint which entities match it. Takes no events.
   void meet(Endpoint& endpoint);
   /// Whether DDS writer `from`, the source of a sample of `reader`, belongs to the process with id
@@ -123,7 +123,8 @@ class Bus {
   dds_entity_t publisher_ = 0;
   dds_entity_t subscriber_ = 0;
   std::unique_ptr<Participants> participants_;
-  std::unique_ptr<ShortSocket> short_way_;  ///< The socket to send from; null: all samples use DDS.
+  std::unique_ptr<LocalSocket>
+      local_transport_;  ///< The socket to send from; null: all samples use DDS.
   std::vector<Endpoint> endpoints_;
   std::vector<BusEvent> events_;
   std::uint64_t foreign_samples_ = 0;

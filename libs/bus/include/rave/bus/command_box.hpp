@@ -14,7 +14,7 @@ namespace rave::bus {
 using OnCommand = std::function<void(const Command&)>;
 
 /// Receives commands that users send to robots many times a second (topic rave/command). It sends
-/// no replies; requests that need a reply go through WishBox. Destroy it before its bus; thread:
+/// no replies; requests that need a reply go through RequestBox. Destroy it before its bus; thread:
 /// that of the bus.
 class CommandBox {
  public:

@@ -74,7 +74,7 @@ struct BusConfig {
   std::filesystem::path security;
   /// Whether small samples of lock-step use the local transport, beside DDS, between processes of
   /// this machine. Ignored with `security` and if `anonymous`.
-  bool short_way = true;
+  bool local_transport = true;
   /// Settings of Cyclone DDS: its own XML, or `file://...`. They override those made from the other
   /// members. The environment variable CYCLONEDDS_URI is not read; a caller may copy it here.
   std::string cyclone_settings;

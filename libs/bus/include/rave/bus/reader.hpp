@@ -46,7 +46,7 @@ class ReaderCore {
   Bus* bus_;
   const char* topic_;
   dds_entity_t reader_ = 0;
-  ShortReceiver* short_ = nullptr;  ///< Owned by the bus; null: all samples come through DDS.
+  LocalReceiver* short_ = nullptr;  ///< Owned by the bus; null: all samples come through DDS.
   std::uint64_t sender_ = 0;        ///< The sender of the last sample of the local transport.
 };
 
@@ -64,7 +64,7 @@ class Reader {
   [[nodiscard]] static Result<Reader> create(Bus& bus, const QosProfile& qos) {
     TopicSpec topic = topic_of<Message>();
     topic.qos = qos;
-    topic.short_way = 0;
+    topic.local_transport = 0;
     RAVE_TRY_ASSIGN(ReaderCore core, ReaderCore::create(bus, topic));
     return Reader(std::move(core));
   }

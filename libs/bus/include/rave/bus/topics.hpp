@@ -9,8 +9,8 @@
 #include "idl/rave/look.h"
 #include "idl/rave/map.h"
 #include "idl/rave/obstacle.h"
+#include "idl/rave/request.h"
 #include "idl/rave/roster.h"
-#include "idl/rave/wish.h"
 #include "idl/rave/world.h"
 #include "rave/bus/qos.hpp"
 
@@ -42,17 +42,17 @@ using Look = rave_wire_Look;
 using Readings = rave_wire_Readings;
 using RunEvents = rave_wire_RunEvents;
 using MapTile = rave_wire_MapTile;
-using Wish = rave_wire_Wish;
-using WishAnswer = rave_wire_WishAnswer;
+using Request = rave_wire_Request;
+using RequestAnswer = rave_wire_RequestAnswer;
 
 /// The name, type and QoS of a topic.
 struct TopicSpec {
   const char* name;
   const dds_topic_descriptor_t* type;
   QosProfile qos;
-  /// Its number on the local transport (short_way.hpp); 0: DDS only. Only for topics whose readers
-  /// tolerate loss, duplicates and reordering.
-  std::uint8_t short_way = 0;
+  /// Its number on the local transport (local_transport.hpp); 0: DDS only. Only for topics whose
+  /// readers tolerate loss, duplicates and reordering.
+  std::uint8_t local_transport = 0;
 };
 
 /// The topic of a message type. Names and QoS of all topics are defined here only; the table in
@@ -153,12 +153,12 @@ inline TopicSpec topic_of<MapTile>() {
   return {"rave/map", &rave_wire_MapTile_desc, kDescription};
 }
 template <>
-inline TopicSpec topic_of<Wish>() {
-  return {"rave/wish", &rave_wire_Wish_desc, kRecent};
+inline TopicSpec topic_of<Request>() {
+  return {"rave/request", &rave_wire_Request_desc, kRecent};
 }
 template <>
-inline TopicSpec topic_of<WishAnswer>() {
-  return {"rave/answer", &rave_wire_WishAnswer_desc, kRecent};
+inline TopicSpec topic_of<RequestAnswer>() {
+  return {"rave/answer", &rave_wire_RequestAnswer_desc, kRecent};
 }
 
 }  // namespace rave::bus

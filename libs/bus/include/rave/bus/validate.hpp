@@ -37,7 +37,7 @@ inline constexpr double kMaxTurn_radps = 1e4;
 [[nodiscard]] Status validate(const Readings& sample);
 [[nodiscard]] Status validate(const RunEvents& sample);
 [[nodiscard]] Status validate(const MapTile& sample);
-[[nodiscard]] Status validate(const Wish& sample);
-[[nodiscard]] Status validate(const WishAnswer& sample);
+[[nodiscard]] Status validate(const Request& sample);
+[[nodiscard]] Status validate(const RequestAnswer& sample);
 
 }  // namespace rave::bus

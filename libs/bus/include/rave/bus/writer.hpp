@@ -29,7 +29,7 @@ class WriterCore {
   Bus* bus_;
   const char* topic_;
   dds_entity_t writer_ = 0;
-  ShortSender* short_ = nullptr;  ///< Owned by the bus; null: all samples use DDS.
+  LocalSender* short_ = nullptr;  ///< Owned by the bus; null: all samples use DDS.
 };
 
 /// Writes one topic. Destroy it before its bus; thread: that of the bus.

@@ -10,7 +10,7 @@
 #include "rave/base/time.hpp"
 #include "rave/bus/command_box.hpp"
 #include "rave/bus/config.hpp"
-#include "rave/bus/wish_book.hpp"
+#include "rave/bus/request_book.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/host/run.hpp"
 #include "rave/plugin/catalogue.hpp"
@@ -32,7 +32,7 @@ struct HostOptions {
   std::unique_ptr<plugin::Catalogue> others;
   /// What is done with what others ask of this host on the bus, in the calling thread; may be
   /// empty: they cannot.
-  bus::BeginWish begin_wish;
+  bus::BeginRequest begin_request;
   bus::OnCommand on_command;  ///< The same of commands, in real time; in lock-step the manager's.
 };
 

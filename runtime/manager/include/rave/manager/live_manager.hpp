@@ -10,7 +10,7 @@
 #include "rave/base/result.hpp"
 #include "rave/base/time.hpp"
 #include "rave/bus/config.hpp"
-#include "rave/bus/wish_book.hpp"
+#include "rave/bus/request_book.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/control/run_control.hpp"
 #include "rave/protocol/findings.hpp"
@@ -54,7 +54,7 @@ struct LiveManagerOptions {
   runtime::RunControl* control = nullptr;
   /// What is done with what others ask on the bus, in the calling thread; may be empty: they
   /// cannot.
-  bus::BeginWish begin_wish;
+  bus::BeginRequest begin_request;
   /// Told about ten times a second, in the calling thread: time of the run, simulated seconds per
   /// second of the slowest host, and for whom it waits; may be empty.
   std::function<void(SimTime, double, const std::string&)> on_progress;
@@ -76,8 +76,8 @@ struct LiveManagerOutcome {
     std::uint64_t losses = 0;
   };
   std::vector<Host> hosts;
-  /// Changes of obstacles by hand, and how long it took from the wish until the robots of all hosts
-  /// had them around them, as far as hosts have confirmed that.
+  /// Changes of obstacles by hand, and how long it took from the request until the robots of all
+  /// hosts had them around them, as far as hosts have confirmed that.
   struct Edits {
     std::uint64_t made = 0;
     std::uint64_t confirmed = 0;

@@ -11,7 +11,7 @@
 #include "rave/base/result.hpp"
 #include "rave/bus/command_box.hpp"
 #include "rave/bus/config.hpp"
-#include "rave/bus/wish_book.hpp"
+#include "rave/bus/request_book.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/control/run_control.hpp"
 #include "rave/pace/lateness.hpp"
@@ -44,7 +44,7 @@ struct ManagerOptions {
   runtime::RunControl* control = nullptr;
   /// What is done with what others ask on the bus, in the calling thread; may be empty: they
   /// cannot.
-  bus::BeginWish begin_wish;
+  bus::BeginRequest begin_request;
   bus::OnCommand on_command;  ///< The same of commands (topic rave/command), which nobody answers.
   /// Told about ten times a second, in the calling thread; may be empty.
   struct Progress {

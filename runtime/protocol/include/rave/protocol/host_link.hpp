@@ -16,7 +16,7 @@
 #include "rave/bus/clock_offset.hpp"
 #include "rave/bus/command_box.hpp"
 #include "rave/bus/config.hpp"
-#include "rave/bus/wish_book.hpp"
+#include "rave/bus/request_book.hpp"
 #include "rave/protocol/host_word.hpp"
 #include "rave/protocol/introduction.hpp"
 #include "rave/protocol/live_world.hpp"
@@ -48,7 +48,7 @@ class HostLink {
     Duration manager_patience{};
     LogSink* log = nullptr;  ///< Not owned; may be null.
     /// Handles bus requests of others, inside calls of this object; may be empty.
-    bus::BeginWish begin_wish = {};
+    bus::BeginRequest begin_request = {};
     /// Handles bus commands of others, likewise; they get no answer.
     bus::OnCommand on_command = {};
   };

@@ -12,7 +12,7 @@
 #include "rave/base/result.hpp"
 #include "rave/base/time.hpp"
 #include "rave/bus/bus.hpp"
-#include "rave/bus/wish_book.hpp"
+#include "rave/bus/request_book.hpp"
 #include "rave/protocol/host_word.hpp"
 #include "rave/protocol/introduction.hpp"
 #include "rave/protocol/roster.hpp"
@@ -42,12 +42,12 @@ class HostPort {
     Duration after_standstill;
   };
 
-  /// Joins the bus. `log` is not owned and may be null. `begin_wish` handles bus requests of
+  /// Joins the bus. `log` is not owned and may be null. `begin_request` handles bus requests of
   /// others, inside exchange(); may be empty. Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<HostPort>> open(const bus::BusConfig& bus,
                                                               Identity identity, LogSink* log,
                                                               Patience patience = {},
-                                                              bus::BeginWish begin_wish = {});
+                                                              bus::BeginRequest begin_request = {});
   HostPort(const HostPort&) = delete;
   HostPort& operator=(const HostPort&) = delete;
   ~HostPort();

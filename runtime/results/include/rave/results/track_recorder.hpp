@@ -16,13 +16,13 @@ namespace rave::runtime {
 /// pose source and, for real robots, the track integrated from their commanded velocity.
 class TrackRecorder final : public RunObserver {
  public:
-  struct Wish {
+  struct Options {
     double duration_s = 0;        ///< Duration of the run.
     std::string odometry_sensor;  ///< Sensor whose velocity is integrated; empty for none.
     bool tracks = true;           ///< False: record only the travelled distance.
   };
   /// `spec.local` lists the robots that run here.
-  TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec, const Wish& wish);
+  TrackRecorder(const BodyKinds& kinds, const sim::EngineSpec& spec, const Options& options);
 
   /// If steps are late, only one point in ten is kept.
   void after_step(const StepView& step) override;

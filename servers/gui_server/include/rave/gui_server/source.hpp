@@ -217,7 +217,7 @@ struct MapShown {
 };
 
 /// A request to try a virtual sensor on a robot.
-struct ProbeWish {
+struct ProbeRequest {
   std::uint32_t slot = 0;
   std::string name;
   std::string driver;
@@ -302,7 +302,7 @@ class Source {
   [[nodiscard]] virtual std::string virtual_sensors_json() { return "[]"; }
   /// Checks and prepares a probe. Sensing begins when the audience of tick() contains it. Errors:
   /// kState (not possible here), kNotFound, kInvalidArgument.
-  [[nodiscard]] virtual Result<ProbeMade> probe(const ProbeWish& wish);
+  [[nodiscard]] virtual Result<ProbeMade> probe(const ProbeRequest& request);
   /// The chat of a recorded run, oldest first; slots are robots.
   [[nodiscard]] virtual std::span<const ChatText> chat() const noexcept { return {}; }
   /// Adds a chat message to the recording of the run.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The short way between two buses of one machine: what takes it, and what is refused.
-#include "rave/bus/short_way.hpp"
+// The local transport between two buses of one machine: what takes it, and what is refused.
+#include "rave/bus/local_transport.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -49,10 +49,10 @@ struct Pair {
     config.beside = true;
     // Nobody is missed because the machine is busy.
     config.lease = from_seconds(20);
-    config.short_way = left_short;
+    config.local_transport = left_short;
     left = std::move(*Bus::open(config));
     config.participant = "right";
-    config.short_way = right_short;
+    config.local_transport = right_short;
     right = std::move(*Bus::open(config));
     reader = std::make_unique<Reader<WorldStep>>(std::move(*Reader<WorldStep>::create(*right)));
     writer = std::make_unique<Writer<WorldStep>>(std::move(*Writer<WorldStep>::create(*left)));
@@ -67,17 +67,17 @@ struct Pair {
     borrow(world.sent.bytes, text);
     EXPECT_TRUE(writer->write(world));
   }
-  /// Sends until something comes; whether that was by the short way.
+  /// Sends until something comes; whether that was by the local transport.
   [[nodiscard]] bool comes_short(std::size_t bytes = 0) const {
-    bool short_way = false;
+    bool local_transport = false;
     std::uint64_t step = 0;
     EXPECT_TRUE(eventually([&] {
       send(++step, bytes);
       return reader->take([&](const WorldStep&, const dds_sample_info_t& info) {
-        short_way = info.publication_handle == 0;
+        local_transport = info.publication_handle == 0;
       }) > 0;
     }));
-    return short_way;
+    return local_transport;
   }
   /// Both ends know each other.
   [[nodiscard]] bool goes() const {
@@ -85,12 +85,12 @@ struct Pair {
   }
   /// Sends bytes to the reader from an address; how many samples came of it. None if the system
   /// does not carry so many bytes.
-  [[nodiscard]] std::optional<std::size_t> throw_bytes(const ShortAddress& from,
+  [[nodiscard]] std::optional<std::size_t> throw_bytes(const LocalAddress& from,
                                                        const std::string& bytes) const {
-    const auto socket = ShortSocket::open(from);
+    const auto socket = LocalSocket::open(from);
     EXPECT_TRUE(socket) << "somebody has that address";
     if (!socket) return std::nullopt;
-    const ShortAddress to(domain.run, right->writer(), kWorldStep);
+    const LocalAddress to(domain.run, right->writer(), kWorldStep);
     const auto sent = ::sendto(socket->descriptor(), bytes.data(), bytes.size(), 0,
                                reinterpret_cast<const sockaddr*>(&to.name), to.size);
     if (sent != static_cast<ssize_t>(bytes.size())) return std::nullopt;
@@ -128,7 +128,7 @@ struct Followed {
       if (report.step >= word.step) word = {report.step, report.text};
     });
   }
-  /// Sends until something comes the short way to all of them.
+  /// Sends until something comes by the local transport to all of them.
   [[nodiscard]] bool goes_short(const std::vector<std::uint32_t>& hosts) {
     last.clear();
     return eventually([&] {
@@ -139,22 +139,22 @@ struct Followed {
   }
 };
 
-TEST(ShortWay, SmallSamplesTakeItAndLargeOnesDoNot) {
+TEST(LocalTransport, SmallSamplesTakeItAndLargeOnesDoNot) {
   const Pair pair;
   EXPECT_TRUE(pair.goes());
-  EXPECT_TRUE(eventually([&] { return !pair.comes_short(kMostShortBytes); }));
+  EXPECT_TRUE(eventually([&] { return !pair.comes_short(kMostLocalBytes); }));
 }
 
-TEST(ShortWay, WhoHasNoneIsReachedByDds) {
+TEST(LocalTransport, WhoHasNoneIsReachedByDds) {
   const Pair pair(false);
   EXPECT_FALSE(pair.comes_short());
   // Also if somebody has its address, to get what is for it.
-  const auto thief = ShortSocket::open({pair.domain.run, pair.right->writer(), kWorldStep});
+  const auto thief = LocalSocket::open({pair.domain.run, pair.right->writer(), kWorldStep});
   ASSERT_TRUE(thief);
   EXPECT_FALSE(pair.comes_short());
 }
 
-TEST(ShortWay, AWaitSetWakesFromBoth) {
+TEST(LocalTransport, AWaitSetWakesFromBoth) {
   const Pair pair;
   auto waits = WaitSet::create(*pair.right);
   ASSERT_TRUE(waits && waits->add(*pair.reader));
@@ -166,7 +166,7 @@ TEST(ShortWay, AWaitSetWakesFromBoth) {
     EXPECT_EQ(waits->wait(Duration{10'000'000'000}), Woken::kReady);
     EXPECT_EQ(waits->wait(Duration{0}), Woken::kReady);
     EXPECT_GE(pair.reader->take([](const WorldStep&) {}), 1U);
-    pair.send(1001, kMostShortBytes);
+    pair.send(1001, kMostLocalBytes);
     EXPECT_EQ(waits->wait(Duration{10'000'000'000}), Woken::kReady);
     EXPECT_GE(pair.reader->take([](const WorldStep&) {}), 1U);
     waits->ring();
@@ -174,7 +174,7 @@ TEST(ShortWay, AWaitSetWakesFromBoth) {
   }
 }
 
-TEST(ShortWay, ASleepEndsByTimeBellDatagramAndStop) {
+TEST(LocalTransport, ASleepEndsByTimeBellDatagramAndStop) {
   const Pair pair;
   auto waits = WaitSet::create(*pair.right);
   ASSERT_TRUE(waits && waits->add(*pair.reader));
@@ -204,11 +204,11 @@ TEST(ShortWay, ASleepEndsByTimeBellDatagramAndStop) {
   EXPECT_EQ(woken, Woken::kStopped);
 }
 
-TEST(ShortWay, WhatComesByDdsIsNotLeftLyingWhileDatagramsCome) {
+TEST(LocalTransport, WhatComesByDdsIsNotLeftLyingWhileDatagramsCome) {
   const Pair pair;
   BusConfig config = pair.domain.config("far");
   config.beside = true;
-  config.short_way = false;
+  config.local_transport = false;
   const auto far = Bus::open(config);
   ASSERT_TRUE(far) << far.error().text();
   auto far_writer = Writer<WorldStep>::create(**far);
@@ -237,9 +237,9 @@ TEST(ShortWay, WhatComesByDdsIsNotLeftLyingWhileDatagramsCome) {
 /// A receiver and somebody who knocks at it.
 struct Door {
   RunId run = RunId::random();
-  ShortAddress address{run, 1, kWorldStep};
-  ShortReceiver receiver{topic_of<WorldStep>(), run, *ShortSocket::open(address)};
-  std::optional<ShortSocket> visitor = ShortSocket::open({run, 2, 0});
+  LocalAddress address{run, 1, kWorldStep};
+  LocalReceiver receiver{topic_of<WorldStep>(), run, *LocalSocket::open(address)};
+  std::optional<LocalSocket> visitor = LocalSocket::open({run, 2, 0});
 
   void knock(std::string_view bytes) const {
     EXPECT_EQ(::sendto(visitor->descriptor(), bytes.data(), bytes.size(), 0,
@@ -259,7 +259,7 @@ struct Door {
   }
 };
 
-TEST(ShortWay, WhatEndedAWaitIsReceivedOnceAndInItsTurn) {
+TEST(LocalTransport, WhatEndedAWaitIsReceivedOnceAndInItsTurn) {
   Door door;
   EXPECT_FALSE(door.receiver.fetch());
   door.knock("first");
@@ -276,7 +276,7 @@ TEST(ShortWay, WhatEndedAWaitIsReceivedOnceAndInItsTurn) {
   EXPECT_EQ(door.next(), "none");
 }
 
-TEST(ShortWay, WhoSentWhatEndedAWaitIsSaidWhenItIsReceived) {
+TEST(LocalTransport, WhoSentWhatEndedAWaitIsSaidWhenItIsReceived) {
   Door door;
   door.wake();
   door.receiver.meet({2, 3});
@@ -290,9 +290,9 @@ TEST(ShortWay, WhoSentWhatEndedAWaitIsSaidWhenItIsReceived) {
   EXPECT_EQ(last->writer, 2U) << "its last words";
 }
 
-TEST(ShortWay, OnlyATakeThatADatagramWokeLeavesDdsAlone) {
+TEST(LocalTransport, OnlyATakeThatADatagramWokeLeavesDdsAlone) {
   Door door;
-  ShortReceiver& receiver = door.receiver;
+  LocalReceiver& receiver = door.receiver;
   EXPECT_EQ(receiver.begin_take(100), 100U) << "nobody has waited";
   EXPECT_FALSE(receiver.leaves_dds(true));
   door.wake();
@@ -313,7 +313,7 @@ TEST(ShortWay, OnlyATakeThatADatagramWokeLeavesDdsAlone) {
   EXPECT_TRUE(receiver.leaves_dds(true));
 }
 
-TEST(ShortWay, AFullQueueGoesByDdsAndTheNewestArrives) {
+TEST(LocalTransport, AFullQueueGoesByDdsAndTheNewestArrives) {
   const Pair pair;
   ASSERT_TRUE(pair.goes());
   // More than any system keeps in a queue.
@@ -332,7 +332,7 @@ TEST(ShortWay, AFullQueueGoesByDdsAndTheNewestArrives) {
   EXPECT_TRUE(pair.goes());
 }
 
-TEST(ShortWay, WhenAReaderIsKilledTheOthersMissNothing) {
+TEST(LocalTransport, WhenAReaderIsKilledTheOthersMissNothing) {
   Followed run;
   PeerProcess victim(run.domain, "follow", "victim", {"host=1"});
   PeerProcess other(run.domain, "follow", "other", {"host=2", "lease_s=20"});
@@ -348,12 +348,12 @@ TEST(ShortWay, WhenAReaderIsKilledTheOthersMissNothing) {
   EXPECT_EQ(other.end(), 0);
 }
 
-TEST(ShortWay, WhatStrangersThrowIsRefused) {
+TEST(LocalTransport, WhatStrangersThrowIsRefused) {
   const Pair pair;
   ASSERT_TRUE(pair.goes());
-  const ShortAddress stranger(pair.domain.run, 77, 0);
+  const LocalAddress stranger(pair.domain.run, 77, 0);
   for (const std::string& bytes : {std::string("hello"), std::string(), datagram(WorldStep{}),
-                                   std::string(kMostShortBytes + 1, 'x')}) {
+                                   std::string(kMostLocalBytes + 1, 'x')}) {
     const auto before = pair.right->foreign_samples();
     const auto came = pair.throw_bytes(stranger, bytes);
     if (!came) continue;
@@ -363,11 +363,11 @@ TEST(ShortWay, WhatStrangersThrowIsRefused) {
   EXPECT_TRUE(pair.goes());
 }
 
-TEST(ShortWay, WhatAKnownProcessSendsIsJudgedLikeASampleOfDds) {
-  // The writer has no short way, so its address is free for what the test throws in its name.
+TEST(LocalTransport, WhatAKnownProcessSendsIsJudgedLikeASampleOfDds) {
+  // The writer has no local transport, so its address is free for what the test throws in its name.
   const Pair pair(true, false);
   ASSERT_TRUE(eventually([&] { return pair.reader->writers() == 1; }));
-  const ShortAddress writer(pair.domain.run, pair.left->writer(), 0);
+  const LocalAddress writer(pair.domain.run, pair.left->writer(), 0);
   WorldStep world{};
   world.epoch = 1;
   world.writer = pair.left->writer();
@@ -386,7 +386,7 @@ TEST(ShortWay, WhatAKnownProcessSendsIsJudgedLikeASampleOfDds) {
   EXPECT_EQ(pair.right->foreign_samples(), before + 1);
 }
 
-TEST(ShortWay, AProcessOfAnotherRunIsAStranger) {
+TEST(LocalTransport, AProcessOfAnotherRunIsAStranger) {
   const Pair pair(true, false);
   ASSERT_TRUE(eventually([&] { return pair.reader->writers() == 1; }));
   const auto before = pair.right->foreign_samples();
@@ -394,20 +394,20 @@ TEST(ShortWay, AProcessOfAnotherRunIsAStranger) {
   world.epoch = 1;
   world.writer = pair.left->writer();
   std::ranges::copy(pair.domain.run.bytes, world.run);
-  const ShortAddress elsewhere(RunId::random(), pair.left->writer(), 0);
+  const LocalAddress elsewhere(RunId::random(), pair.left->writer(), 0);
   EXPECT_EQ(pair.throw_bytes(elsewhere, datagram(world)), 0U);
   EXPECT_EQ(pair.right->foreign_samples(), before + 1);
 }
 
-TEST(ShortWay, IsOpenWithoutCertificatesAlone) {
+TEST(LocalTransport, IsOpenWithoutCertificatesAlone) {
   // With them: Security.NothingGoesBesideTheCertificates.
   const Pair pair;
-  EXPECT_FALSE(ShortSocket::open({pair.domain.run, pair.left->writer(), 0}));
-  EXPECT_FALSE(ShortSocket::open({pair.domain.run, pair.right->writer(), kWorldStep}));
+  EXPECT_FALSE(LocalSocket::open({pair.domain.run, pair.left->writer(), 0}));
+  EXPECT_FALSE(LocalSocket::open({pair.domain.run, pair.right->writer(), kWorldStep}));
 }
 
-TEST(ShortWay, BytesThatAreNoSampleAreRefused) {
-  ShortDecoder decoder(topic_of<WorldStep>());
+TEST(LocalTransport, BytesThatAreNoSampleAreRefused) {
+  LocalDecoder decoder(topic_of<WorldStep>());
   alignas(8) std::array<std::byte, 64> bytes{};
   EXPECT_EQ(decoder.decode(bytes), nullptr);
   const std::string head("ravesw\1\2", 8);

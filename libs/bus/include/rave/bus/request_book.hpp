@@ -16,7 +16,7 @@
 namespace rave::bus {
 
 /// A request that was begun.
-struct BegunWish {
+struct BegunRequest {
   /// Polled until it returns the answer: one line of UTF-8 without a newline. It must not block.
   std::function<std::optional<std::string>()> answer;
   std::string told;  ///< The text for the log; empty if the request changes nothing.
@@ -25,11 +25,11 @@ struct BegunWish {
 };
 
 /// Begins the request of a line without waiting for it. Always called in the same thread.
-using BeginWish = std::function<BegunWish(std::string_view line)>;
+using BeginRequest = std::function<BegunRequest(std::string_view line)>;
 
 /// The requests that a process has received. It limits the rate and the number of each sender, so
 /// none keeps the others waiting, and executes a repeated request once. One owner thread.
-class WishBook {
+class RequestBook {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr double kPerSecond = 10;          ///< Rate limit of one writer.
@@ -55,14 +55,14 @@ class WishBook {
     std::uint64_t target = 0;  ///< The writer that sent the request.
     std::uint64_t number = 0;
     bool taken = false;  ///< False: the request was refused here; `text` gives the reason.
-    std::string text;    ///< The answer; of a long one the requested part, see wish_parts.hpp.
+    std::string text;    ///< The answer; of a long one the requested part, see request_parts.hpp.
   };
 
   /// `log` is not owned and may be null.
-  WishBook(BeginWish begin, LogSink* log) : begin_(std::move(begin)), log_(log) {}
+  RequestBook(BeginRequest begin, LogSink* log) : begin_(std::move(begin)), log_(log) {}
 
   /// Begins a request, unless it exceeds a limit or is a repetition.
-  void hear(const Heard& wish, Clock::time_point now);
+  void hear(const Heard& request, Clock::time_point now);
   /// The answers that became available since the last call.
   [[nodiscard]] std::vector<Reply> take(Clock::time_point now);
   /// The number of unanswered requests.
@@ -91,16 +91,16 @@ class WishBook {
   struct Open {
     std::uint64_t writer = 0;
     std::uint64_t number = 0;
-    BegunWish begun;
+    BegunRequest begun;
   };
 
   [[nodiscard]] Asker* asker_of(std::uint64_t writer, Clock::time_point now);
-  void refuse(const Heard& wish, Asker& asker, std::string_view why, Clock::time_point now);
+  void refuse(const Heard& request, Asker& asker, std::string_view why, Clock::time_point now);
   [[nodiscard]] std::size_t kept_long(const Asker* but) const;
   void reply(Asker* asker, Reply reply, Clock::time_point now);
   void send(Reply reply, std::size_t from);
 
-  BeginWish begin_;
+  BeginRequest begin_;
   LogSink* log_;
   Budget all_{};
   std::map<std::uint64_t, Asker> askers_;  ///< By writer.

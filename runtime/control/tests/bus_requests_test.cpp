@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rave/control/wishes.hpp"
+#include "rave/control/bus_requests.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace rave::control {
 namespace {
 
 /// A run that serves what it was asked when it is told to.
-class WishesTest : public ::testing::Test {
+class BusRequestsTest : public ::testing::Test {
  protected:
   void begin(bool live) {
     runtime::RunStatus status{"tests", 0, 10, 1, live, false, false, {}, {}};
@@ -24,7 +24,7 @@ class WishesTest : public ::testing::Test {
         },
         [](runtime::RunStatus&) {});
   }
-  static Answer answer_of(const bus::BegunWish& begun) {
+  static Answer answer_of(const bus::BegunRequest& begun) {
     const auto line = begun.answer();
     EXPECT_TRUE(line);
     if (!line) return {};
@@ -35,28 +35,28 @@ class WishesTest : public ::testing::Test {
   }
 
   runtime::RunControl control_;
-  bus::BeginWish wishes_ = wishes_of(control_);
+  bus::BeginRequest requests_ = bus_requests_of(control_);
 };
 
-TEST_F(WishesTest, WhatTheRunDoesIsAnsweredWhenItIsDone) {
+TEST_F(BusRequestsTest, WhatTheRunDoesIsAnsweredWhenItIsDone) {
   begin(false);
-  const bus::BegunWish begun = wishes_(R"({"rave":1,"do":"stop","robot":"anna"})");
+  const bus::BegunRequest begun = requests_(R"({"rave":1,"do":"stop","robot":"anna"})");
   EXPECT_EQ(begun.told, R"({"rave":1,"do":"stop","robot":"anna"})");
   EXPECT_FALSE(begun.answer());
   serve();
   const Answer answer = answer_of(begun);
   EXPECT_TRUE(answer.good);
   EXPECT_EQ(answer.text, "did it to anna");
-  const bus::BegunWish other = wishes_(R"({"rave":1,"do":"stop","robot":"nobody"})");
+  const bus::BegunRequest other = requests_(R"({"rave":1,"do":"stop","robot":"nobody"})");
   serve();
   EXPECT_FALSE(answer_of(other).good);
 }
 
-TEST_F(WishesTest, ARunThatEndsAnswersWhatIsOpen) {
-  const bus::BegunWish early = wishes_(R"({"rave":1,"do":"stop"})");
+TEST_F(BusRequestsTest, ARunThatEndsAnswersWhatIsOpen) {
+  const bus::BegunRequest early = requests_(R"({"rave":1,"do":"stop"})");
   EXPECT_FALSE(answer_of(early).good);
   begin(false);
-  const bus::BegunWish begun = wishes_(R"({"rave":1,"do":"stop"})");
+  const bus::BegunRequest begun = requests_(R"({"rave":1,"do":"stop"})");
   EXPECT_FALSE(begun.answer());
   control_.end();
   const Answer answer = answer_of(begun);
@@ -64,29 +64,29 @@ TEST_F(WishesTest, ARunThatEndsAnswersWhatIsOpen) {
   EXPECT_NE(answer.text.find("has ended"), std::string::npos) << answer.text;
 }
 
-TEST_F(WishesTest, StatusAndPausesAreAnsweredAtOnce) {
+TEST_F(BusRequestsTest, StatusAndPausesAreAnsweredAtOnce) {
   begin(false);
-  const bus::BegunWish status = wishes_(R"({"rave":1,"do":"status"})");
+  const bus::BegunRequest status = requests_(R"({"rave":1,"do":"status"})");
   EXPECT_TRUE(status.told.empty());
   EXPECT_EQ(answer_of(status).status.scenario, "tests");
-  const bus::BegunWish pause = wishes_(R"({"rave":1,"do":"pause"})");
+  const bus::BegunRequest pause = requests_(R"({"rave":1,"do":"pause"})");
   EXPECT_FALSE(pause.told.empty());
   EXPECT_TRUE(answer_of(pause).good);
   EXPECT_TRUE(control_.paused());
 }
 
-TEST_F(WishesTest, NonsenseIsRefusedWithASentenceAndLogged) {
+TEST_F(BusRequestsTest, NonsenseIsRefusedWithASentenceAndLogged) {
   begin(true);
   for (const char* const line :
        {"", "x", "[]", R"({"rave":2,"do":"stop"})", R"({"rave":1,"do":"explode"})",
         R"({"rave":1,"do":"stop","robot":7})", R"({"rave":1,"do":"pause"})"}) {
-    const bus::BegunWish begun = wishes_(line);
+    const bus::BegunRequest begun = requests_(line);
     const Answer answer = answer_of(begun);
     EXPECT_FALSE(answer.good) << line;
     EXPECT_FALSE(answer.text.empty()) << line;
     EXPECT_FALSE(begun.told.empty()) << line;
   }
-  const bus::BegunWish endless = wishes_(std::string(kMaxLineBytes + 1, 'x'));
+  const bus::BegunRequest endless = requests_(std::string(kMaxLineBytes + 1, 'x'));
   EXPECT_NE(answer_of(endless).text.find("longer than 65536 bytes"), std::string::npos);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rave/bus/wish_parts.hpp"
+#include "rave/bus/request_parts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 namespace rave::bus {
 namespace {
 
-constexpr std::size_t kMessage = rave_wire_kMaxWishAnswerBytes;
+constexpr std::size_t kMessage = rave_wire_kMaxRequestAnswerBytes;
 
 std::string reason(const Status& status) { return status ? "accepted" : status.error().message; }
 
-TEST(WishParts, WhatFitsGoesAsItIs) {
+TEST(RequestParts, WhatFitsGoesAsItIs) {
   const std::string answer(kMessage, 'x');
   EXPECT_EQ(answer_part(answer, 0), answer);
   EXPECT_EQ(answer_part(answer, kMessage), std::nullopt);
@@ -24,7 +24,7 @@ TEST(WishParts, WhatFitsGoesAsItIs) {
   EXPECT_EQ(parts.text(), answer);
 }
 
-TEST(WishParts, ALongAnswerIsPutTogetherAndNoCharacterIsCut) {
+TEST(RequestParts, ALongAnswerIsPutTogetherAndNoCharacterIsCut) {
   // Of three bytes each, begun at each of the three places.
   for (const char* const start : {"", "a", "ab"}) {
     std::string answer = start;
@@ -46,16 +46,16 @@ TEST(WishParts, ALongAnswerIsPutTogetherAndNoCharacterIsCut) {
   }
 }
 
-TEST(WishParts, AWishForTheRestSaysWhereItBegins) {
-  EXPECT_EQ(wish_for_rest(262'080), "from 262080");
-  EXPECT_EQ(rest_wished("from 262080"), 262'080U);
+TEST(RequestParts, ARequestForTheRestSaysWhereItBegins) {
+  EXPECT_EQ(request_for_rest(262'080), "from 262080");
+  EXPECT_EQ(rest_requested("from 262080"), 262'080U);
   for (const char* const other : {"", "from ", "from -1", "from 7 ", "from 7x", "{\"rave\":1}",
                                   "from 99999999999999999999999999"}) {
-    EXPECT_EQ(rest_wished(other), 0U) << other;
+    EXPECT_EQ(rest_requested(other), 0U) << other;
   }
 }
 
-TEST(WishParts, GarbageIsRefused) {
+TEST(RequestParts, GarbageIsRefused) {
   const std::string answer(2 * kMessage, 'x');
   const std::string first = *answer_part(answer, 0);
   AnswerParts parts;

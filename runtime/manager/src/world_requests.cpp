@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "wishes.hpp"
+#include "world_requests.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -18,7 +18,7 @@ namespace {
 using runtime::RunRequest;
 
 /// Who asks is told that it will take a while after this.
-constexpr std::chrono::seconds kWishPatience{1};
+constexpr std::chrono::seconds kRequestPatience{1};
 /// The order of a robot that somebody drives, as engines call it.
 constexpr std::string_view kDriven = "drive";
 
@@ -53,7 +53,7 @@ std::string made_text(const sim::WorldAuthority& authority, const sim::ObstacleC
 
 }  // namespace
 
-void Wishes::begin(const sim::WorldAuthority& authority, runtime::RunStatus status) {
+void WorldRequests::begin(const sim::WorldAuthority& authority, runtime::RunStatus status) {
   for (const sim::ObstacleChange& change : authority.state().obstacles) limits_.made(change);
   next_step_ = authority.next_step();
   const sim::EngineSpec& spec = authority.spec();
@@ -68,13 +68,13 @@ void Wishes::begin(const sim::WorldAuthority& authority, runtime::RunStatus stat
   control_->begin(std::move(status));
 }
 
-void Wishes::end() {
-  wishes_.clear();
+void WorldRequests::end() {
+  requests_.clear();
   if (std::exchange(begun_, false)) control_->end();
 }
 
 /// Whether a robot, or all, may be armed as far as stops were asked here.
-Status Wishes::check_released(const sim::WorldAuthority& authority, RobotId robot) const {
+Status WorldRequests::check_released(const sim::WorldAuthority& authority, RobotId robot) const {
   std::vector<std::string_view> names;
   for (std::uint32_t r = 0; r < stopped_.size(); ++r) {
     const bool meant = !robot.valid() || robot.value() == r;
@@ -86,12 +86,13 @@ Status Wishes::check_released(const sim::WorldAuthority& authority, RobotId robo
               names.size() > kMany ? fmt::format("{} robots", names.size()) : join_names(names));
 }
 
-Result<std::uint64_t> Wishes::pass_on(const RunRequest& request, sim::WorldAuthority& authority) {
+Result<std::uint64_t> WorldRequests::pass_on(const RunRequest& request,
+                                             sim::WorldAuthority& authority) {
   RAVE_TRY_ASSIGN(sim::WorldInput input, runtime::input_of(authority.spec(), request));
   if (input.kind == sim::WorldInput::Kind::kArm) RAVE_TRY(check_released(authority, input.robot));
   if (input.obstacle) {
     RAVE_TRY(limits_.take(*input.obstacle, EditLimits::Clock::now()));
-  } else if (wishes_.size() >= EditLimits::kMostOpen) {
+  } else if (requests_.size() >= EditLimits::kMostOpen) {
     return fail(ErrorCode::kState, "too many requests wait for the next step; try again later");
   } else {
     RAVE_TRY(lock_step::check_fits(input));
@@ -99,7 +100,7 @@ Result<std::uint64_t> Wishes::pass_on(const RunRequest& request, sim::WorldAutho
   return authority.ask(std::move(input));
 }
 
-void Wishes::listen(sim::WorldAuthority& authority) {
+void WorldRequests::listen(sim::WorldAuthority& authority) {
   if (!begun_) return;
   if (desk_.waits()) {
     desk_.tick(
@@ -113,7 +114,7 @@ void Wishes::listen(sim::WorldAuthority& authority) {
   for (runtime::RunControl::Asked& asked : control_->take()) take(std::move(asked), authority);
 }
 
-void Wishes::take(runtime::RunControl::Asked asked, sim::WorldAuthority& authority) {
+void WorldRequests::take(runtime::RunControl::Asked asked, sim::WorldAuthority& authority) {
   if (asked.request().kind == RunRequest::Kind::kList) {
     return asked.answer(runtime::obstacle_list(authority.world()));
   }
@@ -129,11 +130,11 @@ void Wishes::take(runtime::RunControl::Asked asked, sim::WorldAuthority& authori
   using Kind = RunRequest::Kind;
   const Kind kind = asked.request().kind;
   const bool obstacle = kind == Kind::kAdd || kind == Kind::kMove || kind == Kind::kRemove;
-  wishes_.push_back(
+  requests_.push_back(
       {std::move(asked), *number, obstacle, false, false, std::chrono::steady_clock::now()});
 }
 
-void Wishes::take_order(runtime::RunControl::Asked asked, sim::WorldAuthority& authority) {
+void WorldRequests::take_order(runtime::RunControl::Asked asked, sim::WorldAuthority& authority) {
   const RunRequest request = asked.request();
   if (!request.robot.empty()) {
     const auto robot = runtime::find_robot(authority.spec(), request.robot);
@@ -149,20 +150,20 @@ void Wishes::take_order(runtime::RunControl::Asked asked, sim::WorldAuthority& a
       [&](const std::string& robot) { return is_driven(authority, robot); },
       runtime::OrderDesk::Time::clock::now());
   tell_leases();
-  // What ends with a lease that changes hands is nobody's wish.
+  // What ends with a lease that changes hands is nobody's request.
   const bool of_lease =
       request.kind == RunRequest::Kind::kTake || request.kind == RunRequest::Kind::kGive;
   if (!answer || number == 0 || of_lease) return asked.answer(std::move(answer));
-  wishes_.push_back({std::move(asked), number, false, runtime::is_order(request.kind), false,
-                     std::chrono::steady_clock::now()});
+  requests_.push_back({std::move(asked), number, false, runtime::is_order(request.kind), false,
+                       std::chrono::steady_clock::now()});
 }
 
-bool Wishes::is_driven(const sim::WorldAuthority& authority, const std::string& name) const {
+bool WorldRequests::is_driven(const sim::WorldAuthority& authority, const std::string& name) const {
   const auto robot = runtime::find_robot(authority.spec(), name);
   return robot && orders_[robot->value()] == kDriven;
 }
 
-void Wishes::tell_leases() {
+void WorldRequests::tell_leases() {
   const auto changes = desk_.take_changes();
   if (changes.empty()) return;
   for (const runtime::HostLeases::Change& change : changes) {
@@ -173,7 +174,7 @@ void Wishes::tell_leases() {
   control_->refresh([this](runtime::RunStatus& status) { show_orders(status); });
 }
 
-void Wishes::show_orders(runtime::RunStatus& status) const {
+void WorldRequests::show_orders(runtime::RunStatus& status) const {
   for (std::size_t r = 0; r < status.robots.size(); ++r) {
     runtime::RunStatus::Robot& robot = status.robots[r];
     robot.lease = desk_.holder(robot.name);
@@ -182,25 +183,25 @@ void Wishes::show_orders(runtime::RunStatus& status) const {
   }
 }
 
-void Wishes::put_off(std::string_view why) {
+void WorldRequests::put_off(std::string_view why) {
   const auto now = std::chrono::steady_clock::now();
-  for (Wish& wish : wishes_) {
-    if (now - wish.since < kWishPatience) continue;
-    wish.asked.answer(
+  for (Pending& pending : requests_) {
+    if (now - pending.since < kRequestPatience) continue;
+    pending.asked.answer(
         fmt::format("requested; {}, so it is carried out or refused in step {}; the log of this "
                     "process tells the result",
                     why, next_step_));
   }
 }
 
-void Wishes::answer(Wish& wish, Result<std::string> text) {
+void WorldRequests::answer(Pending& pending, Result<std::string> text) {
   if (log_ != nullptr && text) log_->info("by hand", "{}", *text);
   if (log_ != nullptr && !text) log_->warn("by hand", "refused: {}", text.error().message);
-  wish.asked.answer(std::move(text));
+  pending.asked.answer(std::move(text));
 }
 
 /// What robots do for people, as far as it was asked here.
-void Wishes::note_order(const sim::WorldInput& input) {
+void WorldRequests::note_order(const sim::WorldInput& input) {
   using Kind = sim::WorldInput::Kind;
   const bool ends = input.kind == Kind::kStop || input.kind == Kind::kCancel;
   const bool moves =
@@ -215,7 +216,7 @@ void Wishes::note_order(const sim::WorldInput& input) {
   }
 }
 
-void Wishes::note_inputs(const sim::WorldAuthority& authority, const sim::WorldStep& world) {
+void WorldRequests::note_inputs(const sim::WorldAuthority& authority, const sim::WorldStep& world) {
   bool any = false;
   // What a host has refused in the step before, its robot does not do.
   for (const sim::InputRefusal& refusal : authority.refusals()) {
@@ -242,36 +243,37 @@ void Wishes::note_inputs(const sim::WorldAuthority& authority, const sim::WorldS
   });
 }
 
-void Wishes::after_step(const sim::WorldAuthority& authority, const sim::WorldStep& world) {
+void WorldRequests::after_step(const sim::WorldAuthority& authority, const sim::WorldStep& world) {
   limits_.step_done();
   for (const sim::ObstacleChange& change : world.obstacles) limits_.made(change);
   next_step_ = world.step + 1;
   if (!begun_) return;
   control_->set_time(static_cast<double>(world.step) * authority.spec().step.seconds());
   if (!world.inputs.empty() || !authority.refusals().empty()) note_inputs(authority, world);
-  if (wishes_.empty()) return;
+  if (requests_.empty()) return;
   // Those by hand come before those of the scenario, in the order in which they were asked for.
   auto made = world.obstacles.begin();
-  std::vector<Wish> later;
-  for (Wish& wish : wishes_) {
+  std::vector<Pending> later;
+  for (Pending& pending : requests_) {
     const auto refusals = authority.refusals();
-    const auto refusal = std::find_if(refusals.begin(), refusals.end(),
-                                      [&](const auto& one) { return one.sequence == wish.number; });
+    const auto refusal = std::find_if(refusals.begin(), refusals.end(), [&](const auto& one) {
+      return one.sequence == pending.number;
+    });
     if (refusal != refusals.end()) {
-      answer(wish, fail(ErrorCode::kInvalidArgument, "{}", refusal->text));
+      answer(pending, fail(ErrorCode::kInvalidArgument, "{}", refusal->text));
       continue;
     }
-    if (wish.order && !std::exchange(wish.told, true)) {
-      later.push_back(std::move(wish));
+    if (pending.order && !std::exchange(pending.told, true)) {
+      later.push_back(std::move(pending));
       continue;
     }
-    const bool of_obstacle = wish.obstacle && made != world.obstacles.end();
+    const bool of_obstacle = pending.obstacle && made != world.obstacles.end();
     const std::string done =
-        of_obstacle ? made_text(authority, *made++) : done_text(wish.asked.request());
-    const std::uint64_t from = wish.order ? world.step - 1 : world.step;
-    answer(wish, fmt::format("{}; {}", done, from_step(authority, from)));
+        of_obstacle ? made_text(authority, *made++) : done_text(pending.asked.request());
+    const std::uint64_t from = pending.order ? world.step - 1 : world.step;
+    answer(pending, fmt::format("{}; {}", done, from_step(authority, from)));
   }
-  wishes_ = std::move(later);
+  requests_ = std::move(later);
 }
 
 }  // namespace rave::manager

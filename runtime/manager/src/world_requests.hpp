@@ -18,13 +18,13 @@ namespace rave::manager {
 /// What people ask of a run in lock-step while it goes: becomes inputs of the next step, and is
 /// answered when that is made; orders when the hosts have said what they refuse, a step later. It
 /// keeps the leases of all robots, since it numbers what they are asked. Belongs to one thread.
-class Wishes {
+class WorldRequests {
  public:
   /// Neither is owned; both may be null.
-  Wishes(runtime::RunControl* control, LogSink* log) : control_(control), log_(log) {}
-  Wishes(const Wishes&) = delete;
-  Wishes& operator=(const Wishes&) = delete;
-  ~Wishes() { end(); }
+  WorldRequests(runtime::RunControl* control, LogSink* log) : control_(control), log_(log) {}
+  WorldRequests(const WorldRequests&) = delete;
+  WorldRequests& operator=(const WorldRequests&) = delete;
+  ~WorldRequests() { end(); }
 
   /// Requests are taken from here on. `authority` may be in the middle of a run.
   void begin(const sim::WorldAuthority& authority, runtime::RunStatus status);
@@ -40,7 +40,7 @@ class Wishes {
   [[nodiscard]] bool may_step() const { return control_ == nullptr || control_->may_step(); }
 
  private:
-  struct Wish {
+  struct Pending {
     runtime::RunControl::Asked asked;
     std::uint64_t number = 0;  ///< As an input of the world.
     bool obstacle = false;
@@ -59,14 +59,14 @@ class Wishes {
   void note_inputs(const sim::WorldAuthority& authority, const sim::WorldStep& world);
   void note_order(const sim::WorldInput& input);
   void show_orders(runtime::RunStatus& status) const;
-  void answer(Wish& wish, Result<std::string> text);
+  void answer(Pending& pending, Result<std::string> text);
 
   runtime::RunControl* control_;
   LogSink* log_;
   bool begun_ = false;
   std::uint64_t next_step_ = 0;
   EditLimits limits_;
-  std::vector<Wish> wishes_;           ///< For the next step, in order.
+  std::vector<Pending> requests_;      ///< For the next step, in order.
   std::vector<std::uint8_t> stopped_;  ///< By robot, as far as it was asked here.
   runtime::OrderDesk desk_;
   std::vector<std::string> orders_;           ///< By robot: what people asked last, for people.

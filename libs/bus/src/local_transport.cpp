@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rave/bus/short_way.hpp"
+#include "rave/bus/local_transport.hpp"
 
 #include <dds/ddsi/ddsi_cdrstream.h>
 #include <unistd.h>
@@ -20,9 +20,9 @@ constexpr std::uint32_t kXcdr1 = 1;
 /// sent by DDS at once: the next ones would probably fail too.
 constexpr unsigned kNotTried = 63;
 /// Larger than the longest sample, to detect longer ones.
-constexpr std::size_t kBufferBytes = kMostShortBytes + sizeof(std::uint64_t);
-static_assert(kMostShortBytes % sizeof(std::uint64_t) == 0 &&
-              kMark.size() + 1 == kShortHeaderBytes);
+constexpr std::size_t kBufferBytes = kMostLocalBytes + sizeof(std::uint64_t);
+static_assert(kMostLocalBytes % sizeof(std::uint64_t) == 0 &&
+              kMark.size() + 1 == kLocalHeaderBytes);
 /// Lock-step repeats a request after 20 ms at the earliest.
 constexpr std::int64_t kCountAfter_ms = 5;
 
@@ -35,7 +35,7 @@ std::int64_t coarse_ms() noexcept {
 
 }  // namespace
 
-ShortAddress::ShortAddress(const RunId& run, std::uint64_t writer, std::uint8_t topic) {
+LocalAddress::LocalAddress(const RunId& run, std::uint64_t writer, std::uint8_t topic) {
   name.sun_family = AF_UNIX;
   // The first byte is 0: the abstract namespace.
   const auto end = fmt::format_to_n(name.sun_path + 1, sizeof name.sun_path - 1,
@@ -43,14 +43,14 @@ ShortAddress::ShortAddress(const RunId& run, std::uint64_t writer, std::uint8_t 
   size = static_cast<socklen_t>(end.out - reinterpret_cast<char*>(&name));
 }
 
-bool ShortAddress::operator==(const ShortAddress& other) const noexcept {
+bool LocalAddress::operator==(const LocalAddress& other) const noexcept {
   return size == other.size && std::memcmp(&name, &other.name, size) == 0;
 }
 
-std::optional<ShortSocket> ShortSocket::open(const ShortAddress& address) {
+std::optional<LocalSocket> LocalSocket::open(const LocalAddress& address) {
   const int descriptor = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (descriptor < 0) return std::nullopt;
-  ShortSocket socket(descriptor);
+  LocalSocket socket(descriptor);
   // Unread datagrams count against the sender's buffer; the system may grant less.
   constexpr int kRoom = 4 << 20;
   static_cast<void>(::setsockopt(descriptor, SOL_SOCKET, SO_SNDBUF, &kRoom, sizeof kRoom));
@@ -60,27 +60,27 @@ std::optional<ShortSocket> ShortSocket::open(const ShortAddress& address) {
   return socket;
 }
 
-ShortSocket::ShortSocket(ShortSocket&& other) noexcept
+LocalSocket::LocalSocket(LocalSocket&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)) {}
 
-ShortSocket::~ShortSocket() {
+LocalSocket::~LocalSocket() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-ShortDecoder::ShortDecoder(const TopicSpec& topic)
-    : type_(topic.type), topic_(topic.short_way), sample_(dds_alloc(topic.type->m_size)) {
+LocalDecoder::LocalDecoder(const TopicSpec& topic)
+    : type_(topic.type), topic_(topic.local_transport), sample_(dds_alloc(topic.type->m_size)) {
   std::memset(sample_, 0, type_->m_size);
 }
 
-ShortDecoder::~ShortDecoder() { dds_sample_free(sample_, type_, DDS_FREE_ALL); }
+LocalDecoder::~LocalDecoder() { dds_sample_free(sample_, type_, DDS_FREE_ALL); }
 
-const void* ShortDecoder::decode(std::span<std::byte> datagram) {
-  if (datagram.size() < kShortHeaderBytes || datagram.size() > kMostShortBytes) return nullptr;
+const void* LocalDecoder::decode(std::span<std::byte> datagram) {
+  if (datagram.size() < kLocalHeaderBytes || datagram.size() > kMostLocalBytes) return nullptr;
   if (std::memcmp(datagram.data(), kMark.data(), kMark.size()) != 0 ||
       datagram[kMark.size()] != std::byte{topic_}) {
     return nullptr;
   }
-  const auto cdr = datagram.subspan(kShortHeaderBytes);
+  const auto cdr = datagram.subspan(kLocalHeaderBytes);
   const auto size = static_cast<std::uint32_t>(cdr.size());
   std::uint32_t end = 0;
   // Like a reader of Cyclone DDS: data that does not match the type is not read.
@@ -95,12 +95,12 @@ const void* ShortDecoder::decode(std::span<std::byte> datagram) {
   return sample_;
 }
 
-ShortSender::ShortSender(const TopicSpec& topic, const RunId& run, int socket)
-    : type_(topic.type), topic_(topic.short_way), run_(run), socket_(socket) {}
+LocalSender::LocalSender(const TopicSpec& topic, const RunId& run, int socket)
+    : type_(topic.type), topic_(topic.local_transport), run_(run), socket_(socket) {}
 
-ShortSender::~ShortSender() { dds_free(buffer_); }
+LocalSender::~LocalSender() { dds_free(buffer_); }
 
-void ShortSender::meet(std::vector<std::uint64_t> writers) {
+void LocalSender::meet(std::vector<std::uint64_t> writers) {
   if (writers == writers_) return;
   writers_ = std::move(writers);
   addresses_.clear();
@@ -112,11 +112,11 @@ void ShortSender::meet(std::vector<std::uint64_t> writers) {
       !sorted.empty() && sorted.front() != 0 && std::ranges::adjacent_find(sorted) == sorted.end();
 }
 
-bool ShortSender::due() const noexcept { return coarse_ms() - counted_ms_ >= kCountAfter_ms; }
+bool LocalSender::due() const noexcept { return coarse_ms() - counted_ms_ >= kCountAfter_ms; }
 
-void ShortSender::counted() noexcept { counted_ms_ = coarse_ms(); }
+void LocalSender::counted() noexcept { counted_ms_ = coarse_ms(); }
 
-std::span<const unsigned char> ShortSender::encode(const void* sample) {
+std::span<const unsigned char> LocalSender::encode(const void* sample) {
   dds_ostream_t stream;
   if (buffer_ == nullptr) {
     dds_ostream_init(&stream, 1024, kXcdr1);
@@ -126,7 +126,7 @@ std::span<const unsigned char> ShortSender::encode(const void* sample) {
   std::ranges::copy(kMark, stream.m_buffer);
   stream.m_buffer[kMark.size()] = topic_;
   // The header length is a multiple of the strictest alignment.
-  stream.m_index = kShortHeaderBytes;
+  stream.m_index = kLocalHeaderBytes;
   const bool good = dds_stream_write(&stream, static_cast<const char*>(sample), type_->m_ops);
   // Cyclone DDS has freed the buffer on failure.
   buffer_ = good ? stream.m_buffer : nullptr;
@@ -135,7 +135,7 @@ std::span<const unsigned char> ShortSender::encode(const void* sample) {
   return {buffer_, stream.m_index};
 }
 
-bool ShortSender::send(const void* sample) {
+bool LocalSender::send(const void* sample) {
   if (!near_) return false;
   if (not_tried_ > 0) {
     --not_tried_;
@@ -143,11 +143,11 @@ bool ShortSender::send(const void* sample) {
   }
   const auto bytes = encode(sample);
   if (bytes.empty()) return false;
-  if (bytes.size() > kMostShortBytes) {
+  if (bytes.size() > kMostLocalBytes) {
     not_tried_ = kNotTried;
     return false;
   }
-  for (const ShortAddress& to : addresses_) {
+  for (const LocalAddress& to : addresses_) {
     if (::sendto(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
                  reinterpret_cast<const sockaddr*>(&to.name), to.size) >= 0) {
       continue;
@@ -163,18 +163,18 @@ bool ShortSender::send(const void* sample) {
   return true;
 }
 
-ShortReceiver::ShortReceiver(const TopicSpec& topic, const RunId& run, ShortSocket socket)
+LocalReceiver::LocalReceiver(const TopicSpec& topic, const RunId& run, LocalSocket socket)
     : run_(run),
       socket_(std::move(socket)),
       decoder_(topic),
       buffer_(std::make_unique<std::uint64_t[]>(kBufferBytes / sizeof(std::uint64_t))) {}
 
-void ShortReceiver::meet(const std::vector<std::uint64_t>& writers) {
+void LocalReceiver::meet(const std::vector<std::uint64_t>& writers) {
   if (writers == writers_) return;
   writers_ = writers;
   std::vector<Known> known;
   for (const std::uint64_t writer : writers_) {
-    if (writer != 0) known.push_back({writer, ShortAddress(run_, writer, 0)});
+    if (writer != 0) known.push_back({writer, LocalAddress(run_, writer, 0)});
   }
   // Last datagrams of a writer that left may still be queued, and count as with DDS.
   leaving_.clear();
@@ -186,19 +186,19 @@ void ShortReceiver::meet(const std::vector<std::uint64_t>& writers) {
   known_ = std::move(known);
 }
 
-std::size_t ShortReceiver::begin_take(std::size_t most) noexcept {
+std::size_t LocalReceiver::begin_take(std::size_t most) noexcept {
   may_meet_ = true;
   after_wait_ = std::exchange(woken_, false);
   return after_wait_ && writers_.size() <= 1 ? std::min<std::size_t>(most, 1) : most;
 }
 
-bool ShortReceiver::leaves_dds(bool got) noexcept {
+bool LocalReceiver::leaves_dds(bool got) noexcept {
   if (got && after_wait_ && !look_) return true;
   look_ = false;
   return false;
 }
 
-std::optional<std::size_t> ShortReceiver::read() noexcept {
+std::optional<std::size_t> LocalReceiver::read() noexcept {
   from_.size = sizeof from_.name;
   const auto got = ::recvfrom(socket_.descriptor(), buffer_.get(), kBufferBytes, MSG_DONTWAIT,
                               reinterpret_cast<sockaddr*>(&from_.name), &from_.size);
@@ -206,13 +206,13 @@ std::optional<std::size_t> ShortReceiver::read() noexcept {
   return static_cast<std::size_t>(got);
 }
 
-bool ShortReceiver::fetch() noexcept {
+bool LocalReceiver::fetch() noexcept {
   if (!held_) held_ = read();
   if (held_) woken_ = true;
   return held_.has_value();
 }
 
-std::optional<ShortReceiver::Datagram> ShortReceiver::receive() {
+std::optional<LocalReceiver::Datagram> LocalReceiver::receive() {
   auto got = std::exchange(held_, std::nullopt);
   if (!got) got = read();
   if (!got) {
@@ -222,7 +222,7 @@ std::optional<ShortReceiver::Datagram> ShortReceiver::receive() {
   return Datagram{{reinterpret_cast<std::byte*>(buffer_.get()), *got}, sender()};
 }
 
-std::uint64_t ShortReceiver::sender() const {
+std::uint64_t LocalReceiver::sender() const {
   for (const std::vector<Known>* const some : {&known_, &leaving_}) {
     const auto found = std::ranges::find(*some, from_, &Known::address);
     if (found != some->end()) return found->writer;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "rave/bus/wish_book.hpp"
+#include "rave/bus/request_book.hpp"
 #include "rave/control/run_control.hpp"
 
 namespace rave::control {
@@ -9,6 +9,6 @@ namespace rave::control {
 /// A handler of the bus requests of a process. It treats them like requests at the control socket:
 /// the same lines, the same answers. `control` must outlive the handler, which does not block and
 /// may be called in the thread of the run.
-[[nodiscard]] bus::BeginWish wishes_of(runtime::RunControl& control);
+[[nodiscard]] bus::BeginRequest bus_requests_of(runtime::RunControl& control);
 
 }  // namespace rave::control

@@ -12,7 +12,7 @@ namespace rave::cli_test {
 using Words = std::vector<std::string>;
 
 /// Runs that are asked from beside their processes, and from a machine that shares the bus alone.
-class Wishes : public SharedWorld {
+class BusRequests : public SharedWorld {
  protected:
   /// `rave` on a machine without runs.
   [[nodiscard]] Ended far(Words words) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rave/bus/wish_parts.hpp"
+#include "rave/bus/request_parts.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -13,7 +13,7 @@ constexpr std::string_view kFrom = "from ";
 constexpr std::string_view kOf = " of ";
 constexpr std::string_view kColon = ": ";
 /// The rest of the message is enough for the part header.
-constexpr std::size_t kPartBytes = rave_wire_kMaxWishAnswerBytes - 64;
+constexpr std::size_t kPartBytes = rave_wire_kMaxRequestAnswerBytes - 64;
 /// Number of continuation bytes of a UTF-8 character.
 constexpr std::size_t kMostFollowing = 3;
 
@@ -41,17 +41,17 @@ bool take_number(std::string_view& text, std::size_t& number) {
 }  // namespace
 
 std::optional<std::string> answer_part(std::string_view answer, std::size_t from) {
-  if (from == 0 && answer.size() <= rave_wire_kMaxWishAnswerBytes) return std::string(answer);
+  if (from == 0 && answer.size() <= rave_wire_kMaxRequestAnswerBytes) return std::string(answer);
   if (from >= answer.size()) return std::nullopt;
   return fmt::format("{}{}{}{}{}{}", kFrom, from, kOf, answer.size(), kColon,
                      first_part(answer.substr(from)));
 }
 
-std::string wish_for_rest(std::size_t from) { return fmt::format("{}{}", kFrom, from); }
+std::string request_for_rest(std::size_t from) { return fmt::format("{}{}", kFrom, from); }
 
-std::size_t rest_wished(std::string_view wish) noexcept {
+std::size_t rest_requested(std::string_view request) noexcept {
   std::size_t from = 0;
-  const bool good = take_word(wish, kFrom) && take_number(wish, from) && wish.empty();
+  const bool good = take_word(request, kFrom) && take_number(request, from) && request.empty();
   return good ? from : 0;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rave/control/wishes.hpp"
+#include "rave/control/bus_requests.hpp"
 
 #include <chrono>
 #include <future>
@@ -12,7 +12,7 @@
 namespace rave::control {
 namespace {
 
-using bus::BegunWish;
+using bus::BegunRequest;
 using runtime::RunControl;
 
 /// Omits what the bus does not carry.
@@ -22,7 +22,7 @@ std::string line_of(const Answer& answer) {
   return without_control_characters(line, " ");
 }
 
-BegunWish answered(const Answer& answer, std::string told, bool understood = true) {
+BegunRequest answered(const Answer& answer, std::string told, bool understood = true) {
   return {[line = line_of(answer)] { return std::optional(line); }, std::move(told), understood};
 }
 
@@ -36,8 +36,8 @@ std::string told_of(const Request& request) {
 
 }  // namespace
 
-bus::BeginWish wishes_of(RunControl& control) {
-  return [&control](std::string_view line) -> BegunWish {
+bus::BeginRequest bus_requests_of(RunControl& control) {
+  return [&control](std::string_view line) -> BegunRequest {
     const auto request = parse_request(line);
     if (!request) {
       return answered({false, request.error().message, {}},

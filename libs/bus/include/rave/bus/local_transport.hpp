@@ -20,44 +20,44 @@
 namespace rave::bus {
 
 /// Longer samples use DDS.
-inline constexpr std::size_t kMostShortBytes = 60'000;
+inline constexpr std::size_t kMostLocalBytes = 60'000;
 /// In front of the sample: a magic word, the version, the topic number.
-inline constexpr std::size_t kShortHeaderBytes = 8;
+inline constexpr std::size_t kLocalHeaderBytes = 8;
 
 /// An address in the abstract Unix namespace (no file). It belongs to a network namespace, as
 /// loopback does. A value.
-struct ShortAddress {
+struct LocalAddress {
   sockaddr_un name{};
   socklen_t size = 0;
 
-  ShortAddress() = default;
+  LocalAddress() = default;
   /// `topic` 0: the socket that a process sends from.
-  ShortAddress(const RunId& run, std::uint64_t writer, std::uint8_t topic);
-  [[nodiscard]] bool operator==(const ShortAddress& other) const noexcept;
+  LocalAddress(const RunId& run, std::uint64_t writer, std::uint8_t topic);
+  [[nodiscard]] bool operator==(const LocalAddress& other) const noexcept;
 };
 
 /// A non-blocking Unix datagram socket. Owns its descriptor.
-class ShortSocket {
+class LocalSocket {
  public:
   /// Empty if the system refuses, or if the address is in use.
-  [[nodiscard]] static std::optional<ShortSocket> open(const ShortAddress& address);
-  ShortSocket(ShortSocket&& other) noexcept;
-  ShortSocket& operator=(ShortSocket&&) = delete;
-  ~ShortSocket();
+  [[nodiscard]] static std::optional<LocalSocket> open(const LocalAddress& address);
+  LocalSocket(LocalSocket&& other) noexcept;
+  LocalSocket& operator=(LocalSocket&&) = delete;
+  ~LocalSocket();
   [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
 
  private:
-  explicit ShortSocket(int descriptor) : descriptor_(descriptor) {}
+  explicit LocalSocket(int descriptor) : descriptor_(descriptor) {}
   int descriptor_;
 };
 
 /// Decodes datagrams into samples. Reuses the memory of the sample.
-class ShortDecoder {
+class LocalDecoder {
  public:
-  explicit ShortDecoder(const TopicSpec& topic);
-  ShortDecoder(const ShortDecoder&) = delete;
-  ShortDecoder& operator=(const ShortDecoder&) = delete;
-  ~ShortDecoder();
+  explicit LocalDecoder(const TopicSpec& topic);
+  LocalDecoder(const LocalDecoder&) = delete;
+  LocalDecoder& operator=(const LocalDecoder&) = delete;
+  ~LocalDecoder();
 
   /// The decoded sample, valid until the next call; null if the bytes are not a sample of this
   /// topic. `datagram` must be aligned to 8 bytes; it is modified.
@@ -70,12 +70,12 @@ class ShortDecoder {
 };
 
 /// Sends the samples of one writer by the local transport.
-class ShortSender {
+class LocalSender {
  public:
-  ShortSender(const TopicSpec& topic, const RunId& run, int socket);
-  ShortSender(const ShortSender&) = delete;
-  ShortSender& operator=(const ShortSender&) = delete;
-  ~ShortSender();
+  LocalSender(const TopicSpec& topic, const RunId& run, int socket);
+  LocalSender(const LocalSender&) = delete;
+  LocalSender& operator=(const LocalSender&) = delete;
+  ~LocalSender();
 
   /// Sets the processes of the matched readers, by writer id; 0: not a process of this run.
   void meet(std::vector<std::uint64_t> writers);
@@ -99,7 +99,7 @@ class ShortSender {
   RunId run_;
   int socket_;
   std::vector<std::uint64_t> writers_;
-  std::vector<ShortAddress> addresses_;
+  std::vector<LocalAddress> addresses_;
   bool near_ = false;  ///< All readers are on this machine, as far as known.
   std::int64_t counted_ms_ = INT64_MIN / 2;
   unsigned not_tried_ = 0;
@@ -109,9 +109,9 @@ class ShortSender {
 
 /// Receives the datagrams of one reader, and decides when to look at its DDS samples too: that
 /// costs as much as the whole local transport.
-class ShortReceiver {
+class LocalReceiver {
  public:
-  ShortReceiver(const TopicSpec& topic, const RunId& run, ShortSocket socket);
+  LocalReceiver(const TopicSpec& topic, const RunId& run, LocalSocket socket);
 
   /// Sets the processes of the matched writers, by writer id; 0: not a process of this run.
   void meet(const std::vector<std::uint64_t>& writers);
@@ -141,23 +141,23 @@ class ShortReceiver {
   [[nodiscard]] std::optional<Datagram> receive();
   /// The sender of the last datagram, looked up again, for use after meet().
   [[nodiscard]] std::uint64_t sender() const;
-  [[nodiscard]] ShortDecoder& decoder() noexcept { return decoder_; }
+  [[nodiscard]] LocalDecoder& decoder() noexcept { return decoder_; }
 
  private:
   struct Known {
     std::uint64_t writer;
-    ShortAddress address;
+    LocalAddress address;
   };
   /// Reads a datagram into the buffer; its size, or empty if there is none.
   [[nodiscard]] std::optional<std::size_t> read() noexcept;
 
   RunId run_;
-  ShortSocket socket_;
-  ShortDecoder decoder_;
+  LocalSocket socket_;
+  LocalDecoder decoder_;
   std::vector<std::uint64_t> writers_;
   std::vector<Known> known_;
   std::vector<Known> leaving_;  ///< No longer matched; still known until the queue was empty once.
-  ShortAddress from_;
+  LocalAddress from_;
   std::unique_ptr<std::uint64_t[]> buffer_;
   /// Size of the datagram in the buffer that receive() has not returned yet.
   std::optional<std::size_t> held_;

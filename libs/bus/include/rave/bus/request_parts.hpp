@@ -21,8 +21,8 @@ inline constexpr std::size_t kMostAnswerBytes = std::size_t{8} << 20U;
 
 /// The request for the rest of an answer, and its inverse: the byte that such a request names; 0
 /// for any other request.
-[[nodiscard]] std::string wish_for_rest(std::size_t from);
-[[nodiscard]] std::size_t rest_wished(std::string_view wish) noexcept;
+[[nodiscard]] std::string request_for_rest(std::size_t from);
+[[nodiscard]] std::size_t rest_requested(std::string_view request) noexcept;
 
 /// Assembles an answer from its parts. One owner thread.
 class AnswerParts {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs are asked from a machine that has none of their processes: all that it shares with them is
 // the bus.
-#include "wishes.hpp"
+#include "bus_requests.hpp"
 
 #include <dds/dds.h>
 #include <fmt/format.h>
@@ -16,15 +16,15 @@
 #include <sstream>
 
 #include "rave/bus/reader.hpp"
+#include "rave/bus/request_box.hpp"
 #include "rave/bus/sequence.hpp"
-#include "rave/bus/wish_box.hpp"
 #include "rave/bus/writer.hpp"
 #include "stranger.hpp"
 
 namespace rave::cli_test {
 namespace {
 
-TEST_F(Wishes, WithoutARunItSaysWhereItHasLooked) {
+TEST_F(BusRequests, WithoutARunItSaysWhereItHasLooked) {
   const Ended ended = far({"edit", "list"});
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_NE(ended.err.find("no run is in progress on this machine"), std::string::npos)
@@ -32,7 +32,7 @@ TEST_F(Wishes, WithoutARunItSaysWhereItHasLooked) {
   EXPECT_NE(ended.err.find("--interface and --peer"), std::string::npos) << ended.err;
 }
 
-TEST_F(Wishes, ARunInLockStepDoesWhatIsAskedFromElsewhere) {
+TEST_F(BusRequests, ARunInLockStepDoesWhatIsAskedFromElsewhere) {
   start_all("crowd.yaml", {"--duration", "100000", "--no-record"});
   const Ended added =
       far({"edit", "crowd", "add", "box", "--name", "bale", "--at", "40,2", "--size", "0.5x0.3"});
@@ -74,7 +74,7 @@ TEST_F(Wishes, ARunInLockStepDoesWhatIsAskedFromElsewhere) {
   EXPECT_EQ(end_of("two"), 0) << console("two");
 }
 
-TEST_F(Wishes, ARunInRealTimeDoesWhatIsAskedFromElsewhere) {
+TEST_F(BusRequests, ARunInRealTimeDoesWhatIsAskedFromElsewhere) {
   start_all("live_twins.yaml", {"--no-record"});
   wait_for_line("env", "all hosts have joined");
   const Ended added =
@@ -90,7 +90,7 @@ TEST_F(Wishes, ARunInRealTimeDoesWhatIsAskedFromElsewhere) {
   end_by_hand("env");
 }
 
-TEST_F(Wishes, ARobotIsHandedOverByItsHostWhoeverAsks) {
+TEST_F(BusRequests, ARobotIsHandedOverByItsHostWhoeverAsks) {
   start_all("live_twins.yaml", {"--no-record"});
   wait_for_line("two", "handed over: simulated -> simulated");
   const Ended made = far({"hand-over", "left", "twin"});
@@ -103,7 +103,7 @@ TEST_F(Wishes, ARobotIsHandedOverByItsHostWhoeverAsks) {
   end_by_hand("env");
 }
 
-TEST_F(Wishes, RunsOfOtherMachinesAreListedWhenTheyAreAskedFor) {
+TEST_F(BusRequests, RunsOfOtherMachinesAreListedWhenTheyAreAskedFor) {
   start_all("crowd.yaml", {"--duration", "100000", "--no-record"});
   const std::string alone = "XDG_RUNTIME_DIR=" + elsewhere_.path().string();
   EXPECT_EQ(run_rave({"ps"}, {alone}).out, "no run is in progress\n");
@@ -140,7 +140,7 @@ TEST_F(Wishes, RunsOfOtherMachinesAreListedWhenTheyAreAskedFor) {
   end_by_hand("env");
 }
 
-TEST_F(Wishes, OfSeveralRunsOneHasToBeNamed) {
+TEST_F(BusRequests, OfSeveralRunsOneHasToBeNamed) {
   for (const char* const name : {"morning", "evening"}) {
     start(name, "env", "crowd.yaml", {"--run", name});
   }
@@ -172,9 +172,9 @@ TEST_F(Wishes, OfSeveralRunsOneHasToBeNamed) {
 }
 
 /// A run whose processes are members of a set of keys.
-class SecretWishes : public Wishes {
+class SecretRequests : public BusRequests {
  protected:
-  SecretWishes() {
+  SecretRequests() {
     EXPECT_EQ(run_rave({"keys", "new", folder("keys"), "env", "one", "two", "anna"}).exit_code, 0);
     EXPECT_EQ(run_rave({"keys", "new", folder("others"), "anna"}).exit_code, 0);
   }
@@ -203,7 +203,7 @@ class SecretWishes : public Wishes {
   }
 };
 
-TEST_F(SecretWishes, AMemberOfTheSetAloneReachesTheRun) {
+TEST_F(SecretRequests, AMemberOfTheSetAloneReachesTheRun) {
   start_secretly("crowd.yaml", {"--duration", "100000", "--no-record"});
   not_found({"pause"});
   not_found({"hand-over", "left-1", "twin"});
@@ -225,7 +225,7 @@ TEST_F(SecretWishes, AMemberOfTheSetAloneReachesTheRun) {
   end_by_hand("env");
 }
 
-TEST_F(SecretWishes, AHostInRealTimeHearsAMemberToo) {
+TEST_F(SecretRequests, AHostInRealTimeHearsAMemberToo) {
   start_secretly("live_twins.yaml", {"--no-record"});
   wait_for_line("env", "all hosts have joined");
   const Ended stopped = as_member({"stop", "live_twins@one"});
@@ -235,21 +235,21 @@ TEST_F(SecretWishes, AHostInRealTimeHearsAMemberToo) {
   end_by_hand("env");
 }
 
-TEST_F(SecretWishes, WithKeysARunWithoutIsNotHeard) {
+TEST_F(SecretRequests, WithKeysARunWithoutIsNotHeard) {
   start("env", "env", "crowd.yaml", {"--no-record", "--run", "open"});
   wait_until([this] { return far({"edit", "open", "list"}).exit_code == 1; }, "it answers");
   not_found(with_keys({"edit", "open", "list"}, "keys/anna"));
 }
 
 /// A bus in the test's process, from which anything can be sent.
-class StrangeWishes : public Wishes {
+class StrangeRequests : public BusRequests {
  protected:
-  /// Wishes of the test, and their answers.
+  /// BusRequests of the test, and their answers.
   struct Asker {
     std::unique_ptr<bus::Bus> bus;
     bus::Reader<bus::HostInfo> infos;
-    bus::Writer<bus::Wish> wishes;
-    bus::Reader<bus::WishAnswer> answers;
+    bus::Writer<bus::Request> requests;
+    bus::Reader<bus::RequestAnswer> answers;
   };
   /// Says of itself that it belongs to the run.
   struct Pretender {
@@ -270,31 +270,31 @@ class StrangeWishes : public Wishes {
   [[nodiscard]] Result<Asker> open_asker(const bus::RunId& run) const {
     RAVE_TRY_ASSIGN(auto bus, open_stranger(apart(), run));
     RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
-    RAVE_TRY_ASSIGN(auto wishes, bus::Writer<bus::Wish>::create(*bus));
-    RAVE_TRY_ASSIGN(auto answers, bus::Reader<bus::WishAnswer>::create(*bus));
-    return Asker{std::move(bus), std::move(infos), std::move(wishes), std::move(answers)};
+    RAVE_TRY_ASSIGN(auto requests, bus::Writer<bus::Request>::create(*bus));
+    RAVE_TRY_ASSIGN(auto answers, bus::Reader<bus::RequestAnswer>::create(*bus));
+    return Asker{std::move(bus), std::move(infos), std::move(requests), std::move(answers)};
   }
   static void send(Asker& asker, std::uint64_t target, std::uint64_t number, std::string text) {
-    bus::Wish wish{};
-    wish.target = target;
-    wish.number = number;
-    bus::put_text(wish.from, "a stranger");
-    wish.text._buffer = reinterpret_cast<std::uint8_t*>(text.data());
-    wish.text._length = static_cast<std::uint32_t>(text.size());
-    EXPECT_TRUE(asker.wishes.write(wish));
+    bus::Request request{};
+    request.target = target;
+    request.number = number;
+    bus::put_text(request.from, "a stranger");
+    request.text._buffer = reinterpret_cast<std::uint8_t*>(text.data());
+    request.text._length = static_cast<std::uint32_t>(text.size());
+    EXPECT_TRUE(asker.requests.write(request));
   }
   /// In the partition of the asker's run, but of another run.
   static void stray(Asker& asker, std::uint64_t target, std::uint64_t number, std::string text) {
-    bus::Wish wish{};
-    std::ranges::copy(bus::RunId::random().bytes, wish.run);
-    wish.writer = asker.bus->writer();
-    wish.target = target;
-    wish.number = number;
-    bus::put_text(wish.from, "a stranger");
-    wish.text._buffer = reinterpret_cast<std::uint8_t*>(text.data());
-    wish.text._length = static_cast<std::uint32_t>(text.size());
+    bus::Request request{};
+    std::ranges::copy(bus::RunId::random().bytes, request.run);
+    request.writer = asker.bus->writer();
+    request.target = target;
+    request.number = number;
+    bus::put_text(request.from, "a stranger");
+    request.text._buffer = reinterpret_cast<std::uint8_t*>(text.data());
+    request.text._length = static_cast<std::uint32_t>(text.size());
     // The bus would sign it with the run that it is in.
-    EXPECT_EQ(dds_write(asker.wishes.handle(), &wish), DDS_RETCODE_OK);
+    EXPECT_EQ(dds_write(asker.requests.handle(), &request), DDS_RETCODE_OK);
   }
   std::uint64_t manager_of(Asker& asker) {
     std::uint64_t manager = 0;
@@ -312,7 +312,7 @@ class StrangeWishes : public Wishes {
   bus::RunId run_ = bus::RunId::random();
 };
 
-TEST_F(StrangeWishes, WhoAsksNonsenseWithoutEndKeepsNobodyFromBeingHeard) {
+TEST_F(StrangeRequests, WhoAsksNonsenseWithoutEndKeepsNobodyFromBeingHeard) {
   start_all("crowd.yaml", {"--duration", "100000", "--no-record", "--run", run_.text()});
   auto asker = open_asker(run_);
   ASSERT_TRUE(asker) << asker.error().text();
@@ -323,7 +323,7 @@ TEST_F(StrangeWishes, WhoAsksNonsenseWithoutEndKeepsNobodyFromBeingHeard) {
   wait_until(
       [&] {
         for (int i = 0; i < 20; ++i) send(*asker, manager, ++number, "utter nonsense");
-        asker->answers.take([&](const bus::WishAnswer& answer) {
+        asker->answers.take([&](const bus::RequestAnswer& answer) {
           (answer.taken ? answered : refusal) = bus::text_of(answer.text);
         });
         return !answered.empty() && !refusal.empty();
@@ -339,7 +339,7 @@ TEST_F(StrangeWishes, WhoAsksNonsenseWithoutEndKeepsNobodyFromBeingHeard) {
   end_by_hand("env");
 }
 
-TEST_F(StrangeWishes, WhatIsOfAnotherRunOrForAnotherProcessIsNotDone) {
+TEST_F(StrangeRequests, WhatIsOfAnotherRunOrForAnotherProcessIsNotDone) {
   start_all("crowd.yaml", {"--duration", "100000", "--no-record", "--run", run_.text()});
   const std::string stop = R"({"rave":1,"do":"stop"})";
   std::uint64_t manager = 0;
@@ -347,7 +347,7 @@ TEST_F(StrangeWishes, WhatIsOfAnotherRunOrForAnotherProcessIsNotDone) {
     auto asker = open_asker(run_);
     ASSERT_TRUE(asker) << asker.error().text();
     manager = manager_of(*asker);
-    wait_until([&] { return asker->wishes.readers() >= 3; }, "all hear it");
+    wait_until([&] { return asker->requests.readers() >= 3; }, "all hear it");
     send(*asker, manager + 1, 1, stop);
     stray(*asker, manager, 2, stop);
     send(*asker, manager, 3, R"({"rave":1,"do":"release"})");
@@ -355,7 +355,7 @@ TEST_F(StrangeWishes, WhatIsOfAnotherRunOrForAnotherProcessIsNotDone) {
                "what comes after both is heard");
     wait_until(
         [&] {
-          return console("env").find("rave/wish: 1 samples of other runs") != std::string::npos;
+          return console("env").find("rave/request: 1 samples of other runs") != std::string::npos;
         },
         "that of another run has come");
   }
@@ -366,13 +366,13 @@ TEST_F(StrangeWishes, WhatIsOfAnotherRunOrForAnotherProcessIsNotDone) {
     wait_until([&] { return logged_foreign("env", other.text()); }, "the stranger is known");
     send(*stranger, manager, 1, stop);
     EXPECT_EQ(far({"edit", run_.text().substr(0, 8), "list"}).exit_code, 0);
-    EXPECT_EQ(stranger->wishes.readers(), 0U);
+    EXPECT_EQ(stranger->requests.readers(), 0U);
   }
   EXPECT_FALSE(logged("env", stop)) << console("env");
   end_by_hand("env");
 }
 
-TEST_F(StrangeWishes, AHostThatNeverAnswersMayBeTheOneThatHasIt) {
+TEST_F(StrangeRequests, AHostThatNeverAnswersMayBeTheOneThatHasIt) {
   start("env", "env", "crowd.yaml", {"--no-record", "--run", run_.text()});
   const auto pretender = pretend(1, "deaf host");
   ASSERT_TRUE(pretender) << pretender.error().text();
@@ -389,7 +389,7 @@ TEST_F(StrangeWishes, AHostThatNeverAnswersMayBeTheOneThatHasIt) {
       << ended.err;
 }
 
-TEST_F(StrangeWishes, AStatusOfManyMessagesArrivesWhole) {
+TEST_F(StrangeRequests, AStatusOfManyMessagesArrivesWhole) {
   const auto pretender = pretend(rave_wire_kNone, "environment manager", "far-away");
   ASSERT_TRUE(pretender) << pretender.error().text();
   auto robots = nlohmann::json::array();
@@ -410,11 +410,11 @@ TEST_F(StrangeWishes, AStatusOfManyMessagesArrivesWhole) {
                                    {"paused", false},
                                    {"robots", robots}}}};
   const std::string line = answer.dump();
-  ASSERT_GT(line.size(), 3 * std::size_t{rave_wire_kMaxWishAnswerBytes});
+  ASSERT_GT(line.size(), 3 * std::size_t{rave_wire_kMaxRequestAnswerBytes});
   const auto begin = [&line](std::string_view) {
-    return bus::BegunWish{[&line] { return std::optional(line); }, {}, true};
+    return bus::BegunRequest{[&line] { return std::optional(line); }, {}, true};
   };
-  auto box = bus::WishBox::create(*pretender->bus, begin, nullptr);
+  auto box = bus::RequestBox::create(*pretender->bus, begin, nullptr);
   ASSERT_TRUE(box) << box.error().text();
   auto listed = std::async(std::launch::async, [this] {
     Ended ended = far({"ps", "--network", "--robots"});
@@ -437,7 +437,7 @@ TEST_F(StrangeWishes, AStatusOfManyMessagesArrivesWhole) {
   }
 }
 
-TEST_F(StrangeWishes, AProcessThatNeverAnswersIsNamedWithWhatCanBeDone) {
+TEST_F(StrangeRequests, AProcessThatNeverAnswersIsNamedWithWhatCanBeDone) {
   const auto pretender = pretend(rave_wire_kNone, "deaf one");
   ASSERT_TRUE(pretender) << pretender.error().text();
   const Ended ended = far({"edit", "list"});

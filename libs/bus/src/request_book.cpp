@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rave/bus/wish_book.hpp"
+#include "rave/bus/request_book.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "rave/base/control_characters.hpp"
+#include "rave/bus/request_parts.hpp"
 #include "rave/bus/topics.hpp"
-#include "rave/bus/wish_parts.hpp"
 
 namespace rave::bus {
 namespace {
@@ -21,13 +21,13 @@ std::string for_log(std::string text) {
   return without_control_characters(text, " ");
 }
 
-bool is_long(const WishBook::Reply& reply) {
-  return reply.text.size() > rave_wire_kMaxWishAnswerBytes;
+bool is_long(const RequestBook::Reply& reply) {
+  return reply.text.size() > rave_wire_kMaxRequestAnswerBytes;
 }
 
 }  // namespace
 
-bool WishBook::Budget::take(double per_second, double most, Clock::time_point now) {
+bool RequestBook::Budget::take(double per_second, double most, Clock::time_point now) {
   if (filled == Clock::time_point{}) {
     left = most;
   } else {
@@ -41,7 +41,7 @@ bool WishBook::Budget::take(double per_second, double most, Clock::time_point no
 }
 
 /// Null: no room for another sender.
-WishBook::Asker* WishBook::asker_of(std::uint64_t writer, Clock::time_point now) {
+RequestBook::Asker* RequestBook::asker_of(std::uint64_t writer, Clock::time_point now) {
   auto place = askers_.find(writer);
   if (place == askers_.end()) {
     if (askers_.size() >= kMostAskers) {
@@ -61,7 +61,7 @@ WishBook::Asker* WishBook::asker_of(std::uint64_t writer, Clock::time_point now)
 }
 
 /// Total size of long answers kept for senders other than this one.
-std::size_t WishBook::kept_long(const Asker* but) const {
+std::size_t RequestBook::kept_long(const Asker* but) const {
   std::size_t bytes = 0;
   for (const auto& [writer, asker] : askers_) {
     if (&asker != but && asker.said && is_long(*asker.said)) bytes += asker.said->text.size();
@@ -69,7 +69,7 @@ std::size_t WishBook::kept_long(const Asker* but) const {
   return bytes;
 }
 
-void WishBook::reply(Asker* asker, Reply reply, Clock::time_point now) {
+void RequestBook::reply(Asker* asker, Reply reply, Clock::time_point now) {
   if (is_long(reply)) {
     const std::size_t bytes = reply.text.size();
     if (bytes > kMostAnswerBytes) {
@@ -94,25 +94,25 @@ void WishBook::reply(Asker* asker, Reply reply, Clock::time_point now) {
 }
 
 /// Sends the part of an answer that fits into one message.
-void WishBook::send(Reply reply, std::size_t from) {
+void RequestBook::send(Reply reply, std::size_t from) {
   auto part = answer_part(reply.text, from);
   if (!part) return;
   reply.text = *std::move(part);
   replies_.push_back(std::move(reply));
 }
 
-void WishBook::refuse(const Heard& wish, Asker& asker, std::string_view why,
-                      Clock::time_point now) {
+void RequestBook::refuse(const Heard& request, Asker& asker, std::string_view why,
+                         Clock::time_point now) {
   // A sender without an answer repeats the request later, when there may be room.
   if (asker.scolded && now - *asker.scolded < kScolding) return;
   asker.scolded = now;
-  asker.last = wish.number;
-  if (log_ != nullptr) log_->warn("by hand", "refused of `{}` over the bus: {}", wish.from, why);
-  reply(&asker, {wish.writer, wish.number, false, std::string(why)}, now);
+  asker.last = request.number;
+  if (log_ != nullptr) log_->warn("by hand", "refused of `{}` over the bus: {}", request.from, why);
+  reply(&asker, {request.writer, request.number, false, std::string(why)}, now);
 }
 
-void WishBook::hear(const Heard& wish, Clock::time_point now) {
-  const auto [writer, number, from, line] = wish;
+void RequestBook::hear(const Heard& request, Clock::time_point now) {
+  const auto [writer, number, from, line] = request;
   // A known sender uses its own budget. New senders share one, so that invented ids are stopped
   // before anything is stored about them.
   const bool known = askers_.contains(writer);
@@ -123,20 +123,20 @@ void WishBook::hear(const Heard& wish, Clock::time_point now) {
                        (!known || all_.take(kAllPerSecond, kAllAtOnce, now));
   if (number <= asker->last) {
     if (in_time && asker->said && asker->said->number == number) {
-      send(*asker->said, rest_wished(line));
+      send(*asker->said, rest_requested(line));
     }
     return;
   }
   if (!in_time) {
-    refuse(wish, *asker, "too many requests; try again later", now);
+    refuse(request, *asker, "too many requests; try again later", now);
     return;
   }
   if (asker->open >= kMostOpenEach || open_.size() >= kMostOpen) {
-    refuse(wish, *asker, "too many requests are waiting; try again later", now);
+    refuse(request, *asker, "too many requests are waiting; try again later", now);
     return;
   }
   asker->last = number;
-  BegunWish begun = begin_(line);
+  BegunRequest begun = begin_(line);
   const bool again = !begun.understood && asker->babbled && now - *asker->babbled < kScolding;
   if (!begun.understood && !again) asker->babbled = now;
   if (log_ != nullptr && !begun.told.empty() && !again) {
@@ -146,7 +146,7 @@ void WishBook::hear(const Heard& wish, Clock::time_point now) {
   open_.push_back({writer, number, std::move(begun)});
 }
 
-std::vector<WishBook::Reply> WishBook::take(Clock::time_point now) {
+std::vector<RequestBook::Reply> RequestBook::take(Clock::time_point now) {
   std::erase_if(open_, [&](Open& one) {
     auto text = one.begun.answer();
     if (!text) return false;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rave/bus/request_box.hpp"
+
+#include "rave/bus/sequence.hpp"
+
+namespace rave::bus {
+
+Result<std::unique_ptr<RequestBox>> RequestBox::create(Bus& bus, BeginRequest begin, LogSink* log) {
+  if (!begin) return std::unique_ptr<RequestBox>();
+  RAVE_TRY_ASSIGN(auto requests, Reader<Request>::create(bus));
+  RAVE_TRY_ASSIGN(auto answers, Writer<RequestAnswer>::create(bus));
+  return std::unique_ptr<RequestBox>(new RequestBox(
+      std::move(requests), std::move(answers), bus.writer(), RequestBook(std::move(begin), log)));
+}
+
+void RequestBox::serve() {
+  const std::size_t heard = requests_.take([this](const Request& request) {
+    if (request.target != self_) return;
+    book_.hear({request.writer, request.number, request.from, text_of(request.text)},
+               RequestBook::Clock::now());
+  });
+  // Fast path: most steps have no requests.
+  if (heard == 0 && idle_) return;
+  for (RequestBook::Reply& reply : book_.take(RequestBook::Clock::now())) {
+    RequestAnswer answer{};
+    answer.target = reply.target;
+    answer.number = reply.number;
+    answer.taken = reply.taken;
+    // The wire type requires non-const octets.
+    answer.text._buffer = reinterpret_cast<std::uint8_t*>(reply.text.data());
+    answer.text._length = static_cast<std::uint32_t>(reply.text.size());
+    answer.text._maximum = answer.text._length;
+    // A lost answer is sent again when the request is repeated.
+    static_cast<void>(answers_.write(answer));
+  }
+  idle_ = book_.idle();
+}
+
+}  // namespace rave::bus

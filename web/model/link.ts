@@ -139,7 +139,7 @@ export class Link {
 
   /** `owner` tries this virtual sensor; null ends that. */
   tryProbe(owner: object, request: ProbeRequest | null): void {
-    if (this.model.probes.request(owner, request)) this.tryProbes();
+    if (this.model.probes.ask(owner, request)) this.tryProbes();
   }
 
   /** A slider that is pulled says so many things, of which the last counts. */

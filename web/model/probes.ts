@@ -25,7 +25,7 @@ export class Probes {
   }
 
   /** What `owner` tries from now on; null: nothing. False: that is what it tries already. */
-  request(owner: object, request: ProbeRequest | null): boolean {
+  ask(owner: object, request: ProbeRequest | null): boolean {
     const before = this.requests.get(owner);
     if (request === null) this.requests.delete(owner);
     else this.requests.set(owner, request);

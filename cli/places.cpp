@@ -115,7 +115,8 @@ Result<fs::path> find_scenario(std::string_view word) {
   } else if (fs::exists(path, error)) {
     return path;
   }
-  if (word.find('/') == std::string_view::npos && !word.empty()) {
+  // `corridor/simulated` names another file of a shipped scenario.
+  if (!word.empty() && path.is_relative() && !word.starts_with('.')) {
     for (const fs::path& folder : scenario_folders()) {
       if (auto found = scenario_in(folder, path)) return *std::move(found);
     }

@@ -77,7 +77,7 @@ void add_env(CLI::App& root, EnvCommand& c) {
 void add_run_options(CLI::App& app, RunCommand& c) {
   add_value(app, "--output", c.output, "Folder for the results [runs/<time>-<scenario>]", "DIR");
   app.add_flag("--replace", c.replace, "Remove the results of an earlier run from that folder");
-  add_value(app, "--seed", c.seed, "Random seed (overrides the scenario)", "N");
+  add_whole_number(app, "--seed", c.seed, "Random seed (overrides the scenario)");
   add_threads(app, c.threads);
   add_value(app, "--duration", c.duration_s, "Simulated time, in seconds (overrides the scenario)",
             "S")

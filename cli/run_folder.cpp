@@ -54,6 +54,23 @@ void remove_run(const fs::path& folder, std::error_code& error) {
   fs::remove(folder / "hosts", ended);
 }
 
+/// The expanded scenario is written as `scenario.yaml`, which is also the usual name of what people
+/// write themselves.
+Status check_no_input(const WantedFolder& wanted) {
+  std::error_code error;
+  for (const std::string_view file : kRunFiles) {
+    const fs::path path = wanted.path / file;
+    if (wanted.scenario_file.empty() || !fs::equivalent(path, wanted.scenario_file, error)) {
+      continue;
+    }
+    return fail(ErrorCode::kInvalidArgument,
+                "`{}` is the scenario that you run, and results would replace it; choose another "
+                "folder with --output",
+                path.string());
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<RunFolder> RunFolder::create(const WantedFolder& wanted, std::string_view scenario) {
@@ -61,6 +78,7 @@ Result<RunFolder> RunFolder::create(const WantedFolder& wanted, std::string_view
   std::error_code error;
   RunFolder folder;
   if (!given.empty()) {
+    RAVE_TRY(check_no_input(wanted));
     folder.path_ = given;
     folder.is_new_ = fs::create_directories(given, error);
     if (error) {

@@ -10,8 +10,9 @@ namespace rave::cli {
 
 /// Where a run leaves everything, as the user asks for it.
 struct WantedFolder {
-  std::filesystem::path path;  ///< Empty: a new one below `runs`.
-  bool replace = false;        ///< What an earlier run left there is removed first.
+  std::filesystem::path path;             ///< Empty: a new one below `runs`.
+  bool replace = false;                   ///< What an earlier run left there is removed first.
+  std::filesystem::path scenario_file{};  ///< Never overwritten or removed; empty: there is none.
 };
 
 /// The folder that a run leaves everything in. Unless given it is a new one,
@@ -20,7 +21,7 @@ struct WantedFolder {
 class RunFolder {
  public:
   /// Creates the folder. Errors: kInvalidArgument (it holds files of a run, and they are not to be
-  /// replaced), kIo.
+  /// replaced; it holds the scenario that is to run), kIo.
   [[nodiscard]] static Result<RunFolder> create(const WantedFolder& wanted,
                                                 std::string_view scenario);
 

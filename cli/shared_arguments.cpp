@@ -3,9 +3,24 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+
 #include "bus_options.hpp"
 
 namespace rave::cli {
+
+void add_whole_number(CLI::App& app, const char* name, std::optional<std::uint64_t>& value,
+                      const char* what) {
+  const auto check = [](const std::string& word) -> std::string {
+    std::uint64_t number = 0;
+    const char* const end = word.data() + word.size();
+    const auto [parsed, problem] = std::from_chars(word.data(), end, number);
+    if (problem == std::errc() && parsed == end) return {};
+    return fmt::format("found `{}`, expected a whole number from 0 to {}", word, UINT64_MAX);
+  };
+  // The text is checked before CLI11 reads it.
+  add_value(app, name, value, what, "N")->transform(check);
+}
 
 void add_processes(CLI::App& app, std::optional<int>& processes, const char* what, int least) {
   const auto check = [least](const std::string& word) -> std::string {

@@ -34,6 +34,10 @@ inline CLI::Option* add_values(CLI::App& app, const char* name, std::vector<std:
   return add_value(app, name, values, what, type)->take_all()->allow_extra_args(false);
 }
 
+/// An option whose value is a whole number from 0. CLI11 would wrap negative numbers round.
+void add_whole_number(CLI::App& app, const char* name, std::optional<std::uint64_t>& value,
+                      const char* what);
+
 /// Of a number or an optional one.
 template <class T>
 void add_threads(CLI::App& app, T& threads,

@@ -16,8 +16,8 @@
 #include "rave/base/file.hpp"
 #include "rave/direct_line/key_files.hpp"
 #include "rave/host/host_run.hpp"
-#include "run_folder.hpp"
 #include "run_report.hpp"
+#include "run_scenario.hpp"
 
 namespace rave::cli {
 namespace {
@@ -217,8 +217,7 @@ int run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario
   const bool lines = wants_lines(options, hosts.size());
   // A line has an end of its own on the bus.
   make_room(*bus, lines ? 2 * hosts.size() : hosts.size(), bus::Reach::kHub);
-  const auto folder =
-      RunFolder::create({options.output, options.replace}, scenario.scenario.name.value);
+  const auto folder = RunFolder::create(wanted_folder(options), scenario.scenario.name.value);
   if (!folder) return complain(folder.error());
   Console console(options.quiet);
   if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {

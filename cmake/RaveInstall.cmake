@@ -84,7 +84,9 @@ foreach(program rave rave-program-runner)
 endforeach()
 foreach(folder scenarios robots worlds data schemas)
   if(EXISTS "${CMAKE_SOURCE_DIR}/${folder}")
-    install(DIRECTORY "${CMAKE_SOURCE_DIR}/${folder}" DESTINATION share/rave COMPONENT runtime)
+    # scenarios/demo needs the test peers, which are not installed.
+    install(DIRECTORY "${CMAKE_SOURCE_DIR}/${folder}" DESTINATION share/rave COMPONENT runtime
+      PATTERN demo EXCLUDE)
   endif()
 endforeach()
 install(DIRECTORY "${CMAKE_SOURCE_DIR}/share/templates" DESTINATION share/rave COMPONENT runtime)

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <set>
 
 #include "build_errors.hpp"
@@ -11,6 +12,7 @@
 #include "input_file.hpp"
 #include "places.hpp"
 #include "rave/assemble/build.hpp"
+#include "rave/sim/engine.hpp"
 
 namespace rave::cli {
 namespace {
@@ -71,7 +73,25 @@ class Checker {
   }
 
  private:
-  bool check_file(const std::string& file) {
+  /// A name or a folder stands for its scenario, as for `rave run`.
+  [[nodiscard]] static std::string file_of(const std::string& word) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(word, error)) return word;
+    const auto found = find_scenario(word);
+    return found ? found->string() : word;
+  }
+
+  /// Programs and drivers check what they are given when they start. With hardware that would open
+  /// devices, so only runs without any are tried.
+  [[nodiscard]] Status try_start(const InputFile& input, const runtime::BuildOptions& how) {
+    RAVE_TRY_ASSIGN(auto built, runtime::build(input.scenario, catalogue_, how));
+    if (input.kind != FileKind::kScenario || !built.live_reason.empty()) return {};
+    RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
+    return {};
+  }
+
+  bool check_file(const std::string& word) {
+    const std::string file = file_of(word);
     const auto kind = recognise(file);
     if (!kind) return bad(file, "", kind.error());
     auto input = read_input(file);
@@ -86,6 +106,9 @@ class Checker {
       if (errors.empty()) errors.push_back(first);
       for (const Error& error : errors) complain_about(error);
       return verdict(file, to_string(*kind));
+    }
+    if (auto started = try_start(*input, build_options); !started) {
+      return bad(file, to_string(*kind), started.error());
     }
     report_good(file, *input, *built);
     if (options_.expand) put(stdout, write_input(*input));

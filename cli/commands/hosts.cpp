@@ -17,7 +17,6 @@
 #include "rave/control/folder.hpp"
 #include "rave/control/server.hpp"
 #include "rave/host/host_run.hpp"
-#include "run_folder.hpp"
 #include "run_scenario.hpp"
 
 namespace rave::cli {
@@ -65,7 +64,7 @@ int robot(const RobotCommand& options) {
   auto bus = bus_of_run(run.bus, options.host, *scenario, bus::Reach::kHubs);
   if (!bus) return complain(bus.error());
   how.bus = *bus;
-  const auto folder = RunFolder::create({run.output, run.replace}, name);
+  const auto folder = RunFolder::create(wanted_folder(run), name);
   if (!folder) return complain(folder.error());
   Console console(run.quiet);
   if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {
@@ -107,8 +106,7 @@ int env(const EnvCommand& options) {
   if (!scenario) return complain(scenario.error());
   auto bus = bus_of_run(run.bus, "environment manager", *scenario, bus::Reach::kHub);
   if (!bus) return complain(bus.error());
-  const auto folder =
-      RunFolder::create({run.output, run.replace}, scenario->scenario.name.value + "-env");
+  const auto folder = RunFolder::create(wanted_folder(run), scenario->scenario.name.value + "-env");
   if (!folder) return complain(folder.error());
   Console console(run.quiet);
   if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {

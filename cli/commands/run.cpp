@@ -13,7 +13,6 @@
 #include "rave/control/server.hpp"
 #include "rave/gui_server/live_run.hpp"
 #include "rave/host/run.hpp"
-#include "run_folder.hpp"
 #include "run_report.hpp"
 #include "run_scenario.hpp"
 #include "shared_run.hpp"
@@ -30,8 +29,7 @@ int run(const RunCommand& options) {
   if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
     return complain(added.error());
   }
-  const auto folder =
-      RunFolder::create({options.output, options.replace}, scenario->scenario.name.value);
+  const auto folder = RunFolder::create(wanted_folder(options), scenario->scenario.name.value);
   if (!folder) return complain(folder.error());
   Console console(options.quiet);
   if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {

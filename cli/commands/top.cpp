@@ -157,11 +157,13 @@ int top(const TopCommand& options) {
     const Status shown = show_live(*look, options, interval, keys);
     return shown ? kGood : complain(shown.error());
   }
+  bool over = false;  // Whoever reads a pipe waits for its end.
   do {
     const auto view = (*look)(interval, options.robots, keys.next());
     if (!view) return complain(view.error());
     print(*view, options);
-  } while (!options.once && !keys.ended());
+    over = view->phase == watch::Phase::kEnded || view->phase == watch::Phase::kFailed;
+  } while (!options.once && !over && !keys.ended());
   return kGood;
 }
 

@@ -117,6 +117,33 @@ TEST(Run, EachFileOfARunTellsThatAFolderIsUsed) {
   }
 }
 
+TEST(Run, TheScenarioThatRunsIsNeverReplaced) {
+  const TemporaryFolder folder;
+  const std::string own = folder.path() + "/scenario.yaml";
+  fs::copy_file("good_scenario.yaml", own);
+  fs::copy_file("good_robot.yaml", folder.path() + "/good_robot.yaml");
+  fs::copy_file("good_world.yaml", folder.path() + "/good_world.yaml");
+  const std::string before = content_of(own);
+  for (const std::string& word : {own, std::string(folder.path())}) {
+    const Ended ended = run_rave({"run", word, "--output", folder.path(), "--replace"});
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_NE(ended.err.find("is the scenario that you run, and results would replace it"),
+              std::string::npos)
+        << ended.err;
+    EXPECT_EQ(content_of(own), before);
+  }
+}
+
+TEST(Run, ASeedIsAWholeNumber) {
+  for (const char* const word : {"-1", "99999999999999999999", "1.5", "x", ""}) {
+    const Ended ended = run_rave({"run", "good_scenario.yaml", "--seed", word});
+    EXPECT_NE(ended.exit_code, 0) << word;
+    EXPECT_NE(ended.err.find("expected a whole number from 0 to 18446744073709551615"),
+              std::string::npos)
+        << word << ": " << ended.err;
+  }
+}
+
 TEST(Run, ReplaceLeavesNothingOfTheEarlierRunAndAllThatIsNotItsOwn) {
   const TemporaryFolder folder;
   const std::string output = folder.path() / "results";

@@ -105,7 +105,8 @@ void describe(V& v, SightingsCheckFile& c) {
 template <class V>
 void describe(V& v, TouchesCheckFile& c) {
   v.required("robots", c.robots,
-             {.doc = "Robots, or entries of several robots, whose contacts are counted together.",
+             {.doc = "Robots, or entries of several robots, whose contacts are counted together; a "
+                     "contact with a real robot counts for each of the two robots.",
               .min_items = 1});
   v.field("sensor", c.sensor,
           {.doc = "Contact sensor to count; null: contacts in the world of the run."});
@@ -179,7 +180,7 @@ void describe(V& v, ChecksFile& c) {
 template <class V>
 void describe(V& v, PictureFile& c) {
   v.field("instant_s", c.instant_s,
-          {.doc = "Time of the picture; null: the middle of the run.",
+          {.doc = "Time of the drawn instant; null: the middle of the run.",
            .min = 0,
            .max = 1e9,
            .unit = "s"});
@@ -324,7 +325,9 @@ void describe(V& v, ScenarioFile& c) {
   v.field("changes", c.changes,
           {.doc = "Changes of parameters and obstacles during the run.", .max_items = 100'000});
   v.field("checks", c.checks, {.doc = "Conditions that must hold at the end of the run."});
-  v.field("picture", c.picture, {.doc = "Settings of the picture of the run; null: defaults."});
+  v.field(
+      "picture", c.picture,
+      {.doc = "Settings of the picture of the run; null: only the tracks, without an instant."});
   v.field("geo_origin", c.geo_origin,
           {.doc = "Position of the origin of the world on the earth, for satellite navigation; "
                   "null: unknown."});

@@ -16,6 +16,12 @@
 namespace rave::config {
 namespace {
 
+/// yaml-cpp notices a missing colon, bracket or indent only at what follows it.
+std::string_view place_hint(std::string_view problem) {
+  const bool late = problem == "illegal map value" || problem.ends_with("not found");
+  return late ? "; see also the line before: a colon, a bracket or the indent" : "";
+}
+
 /// Ends the parser's event loop; caught in parse_yaml().
 struct Abort {
   Error error;
@@ -321,8 +327,9 @@ std::optional<RawNode> parse_yaml(std::string_view text, std::string_view file_n
     diagnostics.add(abort.error);
     return std::nullopt;
   } catch (const YAML::Exception& e) {
-    diagnostics.add(
-        Error{ErrorCode::kParse, fmt::format("YAML syntax: {}", e.msg), builder.place(e.mark)});
+    diagnostics.add(Error{ErrorCode::kParse,
+                          fmt::format("YAML syntax: {}{}", e.msg, place_hint(e.msg)),
+                          builder.place(e.mark)});
     return std::nullopt;
   } catch (const std::exception& e) {
     diagnostics.add(Error{ErrorCode::kParse, fmt::format("YAML: {}", e.what()),

@@ -162,8 +162,11 @@ const Case kCases[] = {
     {"CrossFieldAtTheMapping", "fov_deg: 360\nrays: 3\nframe: base\n",
      "a.yaml:1:1: a full circle needs an even number of rays, found 3"},
     {"SyntaxUnclosedList", "frame: base\nrows: [1, 2\n",
-     "a.yaml:3:1: YAML syntax: end of sequence flow not found"},
-    {"SyntaxTab", "frame: base\nnamed:\n\tleft: 3\n", "a.yaml:3:6: YAML syntax: illegal map value"},
+     "a.yaml:3:1: YAML syntax: end of sequence flow not found; see also the line before: a colon, "
+     "a bracket or the indent"},
+    {"SyntaxTab", "frame: base\nnamed:\n\tleft: 3\n",
+     "a.yaml:3:6: YAML syntax: illegal map value; see also the line before: a colon, a bracket or "
+     "the indent"},
     {"SyntaxUnclosedQuote", "frame: \"base\n", "a.yaml:1:8: YAML syntax: a quote is not closed"},
     {"SyntaxUnclosedQuoteWithTheMark", "frame: \"#end-of-file-2f6c1d\n",
      "a.yaml:1:8: YAML syntax: a quote is not closed"},
@@ -171,7 +174,9 @@ const Case kCases[] = {
      "a.yaml:3:6: YAML syntax: a quote is not closed"},
     {"SyntaxUnclosedQuoteWithoutLineBreak", "frame: \"base",
      "a.yaml:1:13: YAML syntax: illegal EOF in scalar"},
-    {"SyntaxBadIndent", "frame: base\n  rays: 3\n", "a.yaml:2:7: YAML syntax: illegal map value"},
+    {"SyntaxBadIndent", "frame: base\n  rays: 3\n",
+     "a.yaml:2:7: YAML syntax: illegal map value; see also the line before: a colon, a bracket or "
+     "the indent"},
     {"UnknownAlias", "frame: base\nparams: *nobody\n",
      "a.yaml:2:9: YAML syntax: the referenced anchor is not defined"},
     {"AliasInsideItself", "frame: base\nparams: &a [*a]\n",

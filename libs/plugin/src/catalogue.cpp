@@ -180,7 +180,8 @@ Error Catalogue::Impl::unknown(std::span<const DriverKind> kinds, std::string_vi
   const std::string_view nearest = nearest_name(name, names);
   if (!nearest.empty()) message += fmt::format("; did you mean `{}`?", nearest);
   message += other_kinds;
-  message += fmt::format("; there are {}", join_names(names));
+  if (nearest.empty()) message += fmt::format("; there are {}", join_names(names));
+  message += "; the folder of your own plug-ins is given with --plugins or RAVE_PLUGIN_PATH";
   for (const RejectedPlugin& plugin : rejected) message += "; " + plugin.error.message;
   return Error{ErrorCode::kNotFound, std::move(message), {}};
 }

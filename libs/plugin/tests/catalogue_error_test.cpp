@@ -21,9 +21,12 @@ TEST_F(CatalogueTest, AnUnknownNameGetsTheNearestAndAllOfItsKind) {
   ASSERT_FALSE(driver);
   EXPECT_EQ(driver.error().code, ErrorCode::kNotFound);
   EXPECT_EQ(message(driver),
-            "there is no program `sleper`; did you mean `sleeper`?; there are sleeper");
+            "there is no program `sleper`; did you mean `sleeper`?; the folder of your own "
+            "plug-ins is given "
+            "with --plugins or RAVE_PLUGIN_PATH");
   EXPECT_EQ(message(catalogue_.find(kSensors, "zzzzzzzzz")),
-            "there is no sensor or virtual sensor `zzzzzzzzz`; there are ear");
+            "there is no sensor or virtual sensor `zzzzzzzzz`; there are ear; "
+            "the folder of your own plug-ins is given with --plugins or RAVE_PLUGIN_PATH");
 }
 
 TEST_F(CatalogueTest, ANameOfAnotherKindIsSaidToBeOne) {

@@ -9,7 +9,8 @@ namespace rave::runtime {
 
 std::string words_of(const BodyKinds& kinds, const sim::Event& event) {
   if (!event.other.valid() || is_of_obstacle(event.kind)) return event.text;
-  return fmt::format("with {} {}", kinds.name(event.other.value()), event.text);
+  const std::string with = fmt::format("with {}", kinds.name(event.other.value()));
+  return event.text.empty() ? with : with + ' ' + event.text;
 }
 
 }  // namespace rave::runtime

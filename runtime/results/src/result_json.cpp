@@ -17,13 +17,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double rounded(double value, double unit) { return std::round(value / unit) * unit; }
+/// `digits` decimals. The quotient by a power of ten is the double nearest to the decimal, which
+/// prints without further digits; a product by 0.001 is not.
+double rounded(double value, int digits) {
+  const double scale = std::pow(10.0, digits);
+  return std::round(value * scale) / scale;
+}
 
 Json tally_json(const SightingTally& tally) {
   return {{"total", tally.total},
           {"unknown", tally.unknown},
           {"within", tally.within},
-          {"within_pct", rounded(tally.within_pct(), 0.01)}};
+          {"within_pct", rounded(tally.within_pct(), 2)}};
 }
 
 Json sightings_json(const config::SightingsCheckFile& limits, const SightingFacts& facts,
@@ -32,7 +37,7 @@ Json sightings_json(const config::SightingsCheckFile& limits, const SightingFact
   Json json = tally_json(all);
   // Robots may misread a code occasionally; so the limit is applied to all readings together.
   json["counted"] = counted(limits, all);
-  json["within_pct"] = rounded(within_pct(limits, all), 0.01);
+  json["within_pct"] = rounded(within_pct(limits, all), 2);
   json["limits"] = {{"range_m", limits.range_m},
                     {"bearing_deg", limits.bearing_deg},
                     {"min_within_pct", limits.min_within_pct},
@@ -52,8 +57,8 @@ Json encounters_json(const Findings& findings) {
   Json json = Json::object();
   for (const auto& [pair, encounter] : findings.facts.closest) {
     json[pair] = {
-        {"gap_m", rounded(encounter.gap_m, 1e-4)},
-        {"centres_m", rounded(encounter.centres_m, 1e-4)},
+        {"gap_m", rounded(encounter.gap_m, 4)},
+        {"centres_m", rounded(encounter.centres_m, 4)},
         {"time_s", encounter.time_s},
         {"between", {findings.kinds.name(encounter.a), findings.kinds.name(encounter.b)}}};
   }
@@ -93,10 +98,10 @@ Json robot_json(const Findings& findings, const RobotFacts& robot) {
   const bool simulated = findings.spec.types[spec.type].simulated;
   Json json = {{"name", spec.name},        {"reality", simulated ? "simulated" : "real"},
                {"program", robot.program}, {"commands", robot.commands},
-               {"obeys", robot.obeys},     {"way_m", rounded(robot.way_m, 1e-3)}};
-  json["final_pose"] = {{"x_m", rounded(robot.x_m, 1e-4)},
-                        {"y_m", rounded(robot.y_m, 1e-4)},
-                        {"yaw_rad", rounded(robot.yaw_rad, 1e-4)},
+               {"obeys", robot.obeys},     {"way_m", rounded(robot.way_m, 3)}};
+  json["final_pose"] = {{"x_m", rounded(robot.x_m, 4)},
+                        {"y_m", rounded(robot.y_m, 4)},
+                        {"yaw_rad", rounded(robot.yaw_rad, 4)},
                         {"stamp_s", SimTime{robot.stamp_ns}.seconds()},
                         {"stale", robot.stale}};
   return json;
@@ -171,13 +176,13 @@ Json capture_json(const Findings& findings) {
   if (!findings.facts.capture) return json;
   const CaptureFacts& facts = *findings.facts.capture;
   if (holds(check, facts) || findings.facts.world_from == 0) json["holds"] = holds(check, facts);
-  if (facts.closest_m.value_or(1e9) < 1e9) json["closest_m"] = rounded(*facts.closest_m, 1e-4);
+  if (facts.closest_m.value_or(1e9) < 1e9) json["closest_m"] = rounded(*facts.closest_m, 4);
   for (const Capture& capture : facts.captures) {
     if (json["captured_at_s"].is_null()) json["captured_at_s"] = capture.time_s;
     json["captures"].push_back({{"predator", spec.robots[capture.predator.value()].name},
                                 {"prey", spec.robots[capture.prey.value()].name},
                                 {"time_s", capture.time_s},
-                                {"gap_m", rounded(capture.gap_m, 1e-4)}});
+                                {"gap_m", rounded(capture.gap_m, 4)}});
   }
   return json;
 }
@@ -241,7 +246,7 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   // Contacts, changes of the world and captures before this step are unknown.
   if (findings.facts.world_from > 0) json["world_from_step"] = findings.facts.world_from;
   json["simulated_s"] = findings.done_s();
-  json["wall_s"] = rounded(findings.wall_s, 1e-3);
+  json["wall_s"] = rounded(findings.wall_s, 3);
   json["lateness"] = lateness_json(findings.facts.lateness);
   json["threads"] = findings.spec.threads;
   json["hash"] = outcome.hash.empty() ? Json(nullptr) : Json(outcome.hash);

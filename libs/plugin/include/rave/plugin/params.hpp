@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace rave {
@@ -107,21 +109,17 @@ class Params {
   constexpr explicit Params(std::span<const ParamValue> values) noexcept
       : values_(values.data()), count_(values.size()) {}
 
-  /// The value of the declared parameter `name`. For an undeclared name the result is 0, an empty
-  /// text or an empty list. Tests of the driver must find such mistakes.
-  [[nodiscard]] constexpr double number(std::string_view name) const noexcept {
-    return find(name).number;
-  }
-  [[nodiscard]] constexpr std::int64_t integer(std::string_view name) const noexcept {
+  /// The value of the declared parameter `name`. Throws std::invalid_argument for an undeclared
+  /// name: a mistake in the source of the driver, which the host reports with its name.
+  [[nodiscard]] constexpr double number(std::string_view name) const { return find(name).number; }
+  [[nodiscard]] constexpr std::int64_t integer(std::string_view name) const {
     return static_cast<std::int64_t>(find(name).number);
   }
-  [[nodiscard]] constexpr bool flag(std::string_view name) const noexcept {
-    return find(name).number != 0;
-  }
-  [[nodiscard]] constexpr std::string_view text(std::string_view name) const noexcept {
+  [[nodiscard]] constexpr bool flag(std::string_view name) const { return find(name).number != 0; }
+  [[nodiscard]] constexpr std::string_view text(std::string_view name) const {
     return find(name).text;
   }
-  [[nodiscard]] constexpr std::span<const double> numbers(std::string_view name) const noexcept {
+  [[nodiscard]] constexpr std::span<const double> numbers(std::string_view name) const {
     const ParamValue& value = find(name);
     return {value.list, value.list_size};
   }
@@ -130,14 +128,14 @@ class Params {
   }
 
  private:
-  [[nodiscard]] constexpr const ParamValue& find(std::string_view name) const noexcept {
+  [[nodiscard]] constexpr const ParamValue& find(std::string_view name) const {
     for (const ParamValue& value : values()) {
       if (name == value.name) return value;
     }
-    return kMissing;
+    throw std::invalid_argument("the source asks for the parameter `" + std::string(name) +
+                                "`, which is not declared");
   }
 
-  static constexpr ParamValue kMissing{};
   const ParamValue* values_ = nullptr;
   std::uint64_t count_ = 0;
 };

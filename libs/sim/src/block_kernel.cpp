@@ -71,6 +71,8 @@ void cast_padded(const SeenBy& discs, const SeenBy& polygons, const Vec2* vertic
       }
     }
   }
+  // Discs first in every way of casting: of two bodies at equal distance the same one is always
+  // named.
   SeenPolygon polygon;
   for (std::size_t i = 0; i < polygons.pieces.size(); ++i) {
     const world::ShapePiece& piece = *polygons.pieces[i];

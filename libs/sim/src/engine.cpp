@@ -40,6 +40,8 @@ bool has_hybrid(const EngineSpec& spec, const std::vector<std::uint8_t>& local) 
   for (std::size_t r = 0; r < local.size(); ++r) {
     if (local[r] == 0) continue;
     runs[spec.robots[r].type] = 1;
+    // A hand-over can put the twin in charge in any step. History cannot be made up later, so it is
+    // kept from the start.
     if (spec.robots[r].twin) runs[*spec.robots[r].twin] = 1;
   }
   for (std::size_t t = 0; t < runs.size(); ++t) {
@@ -195,6 +197,8 @@ Status Engine::Impl::make() {
 
 Status Engine::Impl::reset() {
   tell_complaints();
+  // Robots stand before anything is closed: a driver may take long to close, and what it was told
+  // last would count until then.
   halt();
   RAVE_TRY(hand_overs.restore());
   // All are closed first: what two robots share must be free before one of them opens it again.
@@ -213,6 +217,7 @@ Status Engine::Impl::begin() {
   if (spec.on_ready) spec.on_ready();
   for (RobotGroup& group : roster.groups) RAVE_TRY(open_sensors(group_context(), group));
   RAVE_TRY(radio->open());
+  // Last, because the guards read the queues of sensors and write to actuators: both must be open.
   return start_guards();
 }
 
@@ -235,6 +240,7 @@ void Engine::Impl::set_initial_state() {
   truth.begin();
   if (host) host->begin();
   reported.assign(count, ReportedPose{});
+  // The velocity of a robot is estimated from its track, so a track is kept even without a history.
   const Duration keep = std::max(spec.history, from_seconds(1.0));
   tracks.assign(count, PoseTrack(keep));
   for (std::uint32_t r = 0; r < count; ++r) {
@@ -290,9 +296,12 @@ Status Engine::Impl::step_alone() {
   RAVE_TRY(ingest());
   phase.ends(Phase::kIngest);
   work(phase);
+  // All proposals are there. No phase before this one has moved a simulated robot, except out of
+  // the way of a real one.
   truth.resolve(step, events);
   phase.ends(Phase::kResolve);
   hash.merge(truth.hash_poses(step));
+  // Last, because the events of resolve() belong to this step, too, and events are hashed in order.
   publish();
   phase.ends(Phase::kPublish);
   ++step;

@@ -18,6 +18,7 @@ void Engine::Impl::body_changed(RobotId robot) {
     fusion_world->world.body_changed(robot);
     fusion_world->valid = false;
   }
+  // Its guard may still read the old one; the next order makes a new one.
   if (!guard_bodies.empty()) guard_bodies[robot.value()].reset();
   if (!roster.is_local(robot)) return;
   roster.group_of(robot).program.setups[roster.member_of(robot)].robot.radius_m =
@@ -56,6 +57,7 @@ void Engine::Impl::drivers_changed(RobotId robot, const Arrival& place) {
                  place.stamp,
                  true,
                  false};
+  // The velocity would otherwise be estimated across the jump between the two pose sources.
   tracks[r].clear();
   tracks[r].add(place.stamp, place.X_WR);
   // Who armed the robot before armed another one.

@@ -35,6 +35,7 @@ Status check_rays(const HybridSpec& spec, const SensorInfo& real, const SensorIn
   std::string difference;
   if (real.capacity == imagined.capacity) {
     for (std::uint32_t i = 0; i < real.capacity && difference.empty(); ++i) {
+      // Wrapped, since one driver may count from -180 degrees and the other from 180.
       const double off_rad = wrap_angle(real.bearings_rad[i] - imagined.bearings_rad[i]);
       if (std::abs(off_rad) <= kSameBearing_rad) continue;
       difference =
@@ -61,6 +62,7 @@ Status configure_imagined(const SensorSpec& sensor, const SensorInfo& real, Host
   setup.layers = sensor.layers;
   setup.period_s = real.period_s;
   setup.z_m = sensor.z_m;
+  // The virtual driver may take its rays and limits from the real device.
   setup.real_half = &real;
   VirtualDeclaration declaration;
   ErrorText error;

@@ -90,6 +90,7 @@ Status HandOvers::ask(std::uint64_t step, RobotId robot, DriverSet to, const Aut
   begin_stage(*twin, Twin::Stage::kOpening);
   // Nobody else shall wait for hardware. A stepped run waits.
   const bool beside = spec_.live_clock != nullptr && has_hardware(spec_.types[twin->type_of(to)]);
+  // The set may still be closing after an earlier hand-over; it must be closed before it is opened.
   auto open = [this, twin, before = std::move(twin->work)] {
     before.wait();
     return open_other(*twin);
@@ -102,6 +103,8 @@ void HandOvers::begin_stage(Twin& twin, Twin::Stage stage) {
   twin.stage = stage;
   twin.since = now_;
   twin.moved_at = twin.since;
+  // Only from here on does the robot stand. While devices are being opened it goes on with its
+  // task.
   guards_[twin.robot.value()].hold(stage == Twin::Stage::kStanding);
 }
 
@@ -129,6 +132,9 @@ void HandOvers::skip_to(std::uint64_t step) {
   }
 }
 
+// One stage after the other, and several in one step if nothing has to be waited for: open, listen,
+// stand, exchange. Once it is open, the other set is listened to in every step, so that a failure
+// ends the hand-over before anything has changed.
 void HandOvers::advance(Twin& twin) {
   if (twin.stage == Twin::Stage::kOpening) {
     if (!twin.work.ready()) {
@@ -201,6 +207,7 @@ bool HandOvers::stands(Twin& twin) {
   const bool obeys = std::any_of(group.actuators.begin(), group.actuators.end(),
                                  [](const ActuatorSlots& slots) { return slots.obeys[0] != 0; });
   if (!obeys) return true;
+  // Reported poses come late and are noisy: one still reading is not standing.
   if (!moves_seen(group, r)) return now_ - twin.moved_at >= kSeenToStand;
   twin.moved_at = now_;
   return false;
@@ -211,6 +218,7 @@ bool HandOvers::moves_seen(const RobotGroup& group, std::uint32_t robot) const {
   const ReportedPose& pose = reported_[robot];
   if (!pose.known || pose.stale) return true;
   if (!is_below(pose.velocity, kReportedStill_mps, kReportedStill_radps)) return true;
+  // An actuator that failed may not have received the command to stand.
   for (const ActuatorSlots& slots : group.actuators) {
     if (slots.failed[0] != 0) return true;
   }

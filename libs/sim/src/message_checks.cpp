@@ -41,6 +41,8 @@ Status check_robots(const EngineSpec& spec, std::span<const RobotId> expected,
                     const Robots& robots, Number number_of, std::string_view what) {
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const std::uint32_t robot = number_of(robots[i]);
+    // The rest of the loop finds out what is wrong, for the error: in a right report it is never
+    // reached.
     if (i < expected.size() && expected[i].value() == robot) continue;
     if (robot >= host_of.size())
       return wrong(spec, robot, fmt::format("{}, but it does not exist", what));
@@ -123,6 +125,7 @@ Status check_packet(const EngineSpec& spec, std::uint64_t step, const SentPacket
     return wrong(spec, robot, "a message of a communicator that it does not have");
   }
   if (packet.size > SentPacket::kMostBytes ||
+      // In 64 bits: the sum of two numbers from another process may not fit into 32.
       std::uint64_t{packet.first_byte} + packet.size > sent.bytes.size()) {
     return wrong(spec, robot, "a message with missing bytes");
   }
@@ -132,6 +135,7 @@ Status check_packet(const EngineSpec& spec, std::uint64_t step, const SentPacket
         packet.range_m >= 0 && std::isfinite(packet.antenna_z_m))) {
     return wrong(spec, robot, "a message with a position or range that is not finite");
   }
+  // The report of step n has what left its sender in step n - 1.
   const std::int64_t begin_ns = time_ns(spec, step) - spec.step.ns;
   if (packet.complete_ns < begin_ns || packet.complete_ns > begin_ns + spec.step.ns ||
       packet.stamp_ns > begin_ns) {
@@ -195,6 +199,7 @@ Status check_inputs(const EngineSpec& spec, const WorldStep& world) {
 }
 
 /// Which obstacles there are while changes are made one after the other.
+/// Numbers depend on the changes before, so a list is checked as a whole, without making one.
 class ObstacleRoll {
  public:
   /// As the world is now.
@@ -324,6 +329,7 @@ Status check_told_obstacles(const EngineSpec& spec, const WorldStep& world,
 Status check_taken_over(const EngineSpec& spec, const WorldStep& world, const AuthorityState& state,
                         bool needs_obstacles) {
   WorldStep bare = world;
+  // These are relative to the obstacles of `state` and not to those that this process has now.
   bare.obstacles.clear();
   RAVE_TRY(check_world_step(spec, bare));
   if (needs_obstacles) RAVE_TRY(check_told_obstacles(spec, world, state));

@@ -103,6 +103,7 @@ Status check_point(const EngineSpec& spec, const WorldInput& input, const Box& b
     return wrong(spec, input,
                  fmt::format("({}, {}) is not a point; expected metres", p_W.x, p_W.y));
   }
+  // A slip of the decimal point would otherwise send a robot away for good.
   if (p_W.x < box.low.x || p_W.x > box.high.x || p_W.y < box.low.y || p_W.y > box.high.y) {
     return wrong(spec, input,
                  fmt::format("({:.2f}, {:.2f}) is outside the world; expected x from {:.2f} to "

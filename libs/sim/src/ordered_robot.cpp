@@ -8,6 +8,7 @@ namespace rave::sim {
 
 void OrderedRobot::wait_for_program(const WorldInput& input) {
   const bool text = input.kind == WorldInput::Kind::kText;
+  // The newest motion replaces those before it; texts are all kept, up to a limit.
   if (!text) {
     std::erase_if(waiting,
                   [](const WorldInput& one) { return one.kind != WorldInput::Kind::kText; });

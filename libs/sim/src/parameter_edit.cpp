@@ -125,6 +125,7 @@ std::string change_text(const ParameterTarget& target,
 
 }  // namespace
 
+// All changes of one part in one call, since a plug-in may accept only some combinations.
 Status ParameterEdit::make(const ParameterChange& first, std::span<const ParameterChange> changes) {
   const std::pair key{first.part, first.index};
   if (std::find(seen_.begin(), seen_.end(), key) != seen_.end()) return {};

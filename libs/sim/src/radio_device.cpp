@@ -120,6 +120,7 @@ void Radio::hear_packet(const RadioMoment& moment, RadioLine& line, const RadioP
     return;
   }
   StoredPacket stored;
+  // The time of this host: the clock of the sender may be another one.
   stored.head.stamp_ns = moment.now.ns;
   stored.head.from = from;
   stored.head.sequence = packet.sequence;

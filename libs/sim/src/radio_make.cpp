@@ -41,6 +41,7 @@ Status Radio::make() {
   return {};
 }
 
+// One model for all robots of a type: link() gets all that differs by robot in its query.
 Status Radio::make_models() {
   models_of_.resize(spec_.types.size());
   for (std::uint32_t r = 0; r < spec_.robots.size(); ++r) {
@@ -101,6 +102,8 @@ Status Radio::make_robot(std::uint32_t robot) {
     Endpoint endpoint;
     endpoint.robot = robot;
     endpoint.device = c;
+    // Robots of other hosts have endpoints, too, so that endpoints have the same numbers on every
+    // host.
     endpoint.model = local_[robot] != 0 ? models_of_[t][c] : kNobody;
     endpoint.line = first + communicator.transmitter;
     endpoint.team = team_of(robot);
@@ -120,6 +123,7 @@ Status Radio::make_robot(std::uint32_t robot) {
   return {};
 }
 
+// One allocation for all boxes, in the order in which they are read. Programs get pointers into it.
 void Radio::lay_out_mailboxes() {
   std::size_t heads = 0;
   std::size_t bytes = 0;

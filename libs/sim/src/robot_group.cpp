@@ -49,6 +49,7 @@ RobotInfo info_of(const GroupContext& context, RobotId id) {
   return info;
 }
 
+// Views are pointers into the columns of the sensors, so programs read samples without a copy.
 void show_sensors(RobotGroup& group) {
   const std::size_t sensors = group.sensors.size();
   for (std::size_t m = 0; m < group.members.size(); ++m) {
@@ -181,6 +182,7 @@ Status start_actuators(const GroupContext& context, RobotGroup& group) {
     slots.changed.resize(count);
     slots.commands.assign(count, Command{});
     slots.failed.assign(count, 0);
+    // Virtual actuators obey. A real one says after it was opened, and a recorded one never does.
     slots.obeys.assign(count, 1);
     slots.open.assign(count, 0);
     for (std::size_t m = 0; m < count; ++m) {
@@ -273,6 +275,8 @@ Status start_programs(const GroupContext& context, RobotGroup& group) {
   return {};
 }
 
+// Programs last: what they are told of sensors, controllers and radio must be there, and their
+// first decision may command.
 Status start_devices(const GroupContext& context, RobotGroup& group) {
   RAVE_TRY(open_devices(context, group));
   RAVE_TRY(start_controllers(context, group));
@@ -310,6 +314,7 @@ Status open_body(GroupContext context, RobotGroup& group) {
 
 Status make_group(GroupContext context, RobotGroup& group) {
   RAVE_TRY(make_body(context, group));
+  // A copy, which stays when a hand-over exchanges the sensors: a program is told only once.
   for (const SensorSlots& slots : group.sensors) group.sensor_infos.push_back(slots.info);
   group.controllers.resize(group.type->controllers.size());
   for (std::size_t c = 0; c < group.controllers.size(); ++c) {

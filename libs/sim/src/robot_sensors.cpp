@@ -125,6 +125,7 @@ Status configure_hardware(const GroupContext& context, RobotGroup& group, Sensor
     slots.info.bearings_rad = declaration.bearings_rad;
     slots.info.cone_rad = declaration.cone_rad;
   }
+  // Such a driver delivers by its own clock, so a stepped run could not be repeated.
   if (slots.live && context.spec.live_clock == nullptr) {
     return fail(ErrorCode::kState, "follows the wall clock, but the run is stepped");
   }

@@ -74,6 +74,7 @@ Status check_twins(const EngineSpec& spec) {
     for (std::size_t s = 0; s < first.sensors.size(); ++s) {
       RAVE_CHECK(first.sensors[s].kind == twin.sensors[s].kind);
     }
+    // The two sets change places group by group, so the robot must be alone in its group.
     for (std::size_t other = 0; other < spec.robots.size(); ++other) {
       RAVE_CHECK(other == r || (spec.robots[other].type != spec.robots[r].type &&
                                 spec.robots[other].type != *spec.robots[r].twin));

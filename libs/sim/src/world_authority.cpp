@@ -147,6 +147,7 @@ void WorldAuthority::Impl::write_poses(WorldStep& world) const {
 }
 
 void WorldAuthority::Impl::write_contacts(WorldStep& world) {
+  // A robot may have been pushed by several real ones; its last place counts.
   std::sort(seen.begin(), seen.end());
   seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
   for (const std::uint32_t r : seen) {
@@ -168,6 +169,7 @@ void WorldAuthority::Impl::write_messages(WorldStep& world) {
       sent.emplace_back(&packet, &report->sent);
     }
   }
+  // In an order that depends neither on the hosts nor on which report came first.
   std::sort(world.poses.begin(), world.poses.end(),
             [](const auto& a, const auto& b) { return a.robot < b.robot; });
   std::sort(world.samples.begin(), world.samples.end(), [](const auto& a, const auto& b) {
@@ -196,15 +198,20 @@ Result<std::unique_ptr<WorldAuthority>> WorldAuthority::create(EngineSpec spec,
 
 Status WorldAuthority::step(std::span<const HostReport* const> reports, WorldStep& world) {
   Impl& authority = *impl_;
+  // Everything is checked before anything changes: after a refusal the right report may follow.
   RAVE_TRY(authority.check(reports));
   WorldTruth& truth = authority.truth;
   world.begin(authority.step, authority.spec.robots.size());
   authority.refusals.clear();
   authority.close_obstacles();
+  // Reports of step n have the proposals of step n - 1 and the real poses of step n. So the last
+  // step ends here, and the next one begins below.
   if (authority.step > 0) authority.finish_step();
   authority.make_changes(world);
   authority.last_obstacles = world.obstacles;
   authority.place_real_robots();
+  // Before make_way(): a robot without a pose source is told where it was before it was pushed. The
+  // places after that are in `pushed`.
   authority.write_poses(world);
   truth.make_way();
   authority.seen.clear();

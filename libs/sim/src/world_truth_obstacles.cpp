@@ -75,6 +75,7 @@ Status WorldTruth::check_new_obstacle(const ObstacleChange& change) const {
                 "there already is an obstacle `{}` (number {}); move it, or choose another name",
                 change.name, same.value());
   }
+  // Sensors tell landmarks by their codes alone, so two of the same code could not be told apart.
   if (change.body.code && same_code != nullptr) {
     return fail(ErrorCode::kInvalidArgument,
                 "`{}` already carries the code {}; expected another code for the obstacle `{}`",
@@ -127,6 +128,8 @@ Result<ObstacleChange> WorldTruth::change_obstacle(ObstacleChange change, SimTim
   if (change.kind == Kind::kAdd) {
     RAVE_TRY(check_new_obstacle(change));
     RAVE_TRY(check_room_for(change, change.body, note));
+    // Numbers are never used again, so a recording or a late host cannot mistake one obstacle for
+    // another.
     change.id = BodyId(spec.world.body_count());
   } else {
     RAVE_TRY_ASSIGN(change.id, find_obstacle(change));
@@ -149,6 +152,7 @@ void WorldTruth::put_obstacles(std::span<const ObstacleChange> changes, SimTime 
     place_obstacle(change, from);
     if (placed) placed(change);
   }
+  // Once for all: it builds the grid of everything that stands.
   snapshot.index_obstacles();
 }
 

@@ -19,11 +19,13 @@ class FileCheck {
     checked_.damages = file.damages;
   }
 
+  // From the parts to the whole: damage is reported at the smallest record that has it.
   CheckedFile run() {
     if (file_.ended && !file_.summed) unsummed("index");
     for (const AttachmentInfo& attachment : file_.attachments) check_attachment(attachment);
     for (const MetadataInfo& metadata : file_.metadata) check_metadata(metadata);
     for (const ChunkInfo& chunk : file_.chunks) check_chunk(chunk);
+    // If a chunk is damaged, its messages are missing anyway.
     if (messages_ != file_.statistics.message_count && checked_.damages.empty()) {
       damage(fmt::format("`{}` states {} messages; it has {}", source_.name(),
                          file_.statistics.message_count, messages_));

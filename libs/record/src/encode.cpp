@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// From values to CDR, in the layouts that ros_schemas.cpp describes. A change of a layout with
+// packed arrays needs another kLayoutVersion.
 #include "encode.hpp"
 
 #include "cdr_time.hpp"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// One recording from those of several processes. Each step takes from each part what that process
+// knows best: a host its robots, the authority the world.
 #include "rave/record/merge.hpp"
 
 #include <algorithm>
@@ -199,6 +201,8 @@ Status Merger::describe(RunRecorder& recorder) {
   return {};
 }
 
+// Messages of one step have the same log time in all parts. So the parts are read side by side, one
+// moment after the other.
 bool Merger::next_moment() {
   time_ns_ = std::numeric_limits<std::uint64_t>::max();
   for (const auto& part : parts_) {
@@ -218,6 +222,7 @@ void Merger::write_poses(RunRecorder& recorder) {
     for (const RobotPose& pose : step.items) {
       const std::uint32_t r = pose.robot.value();
       if (r >= poses_.size()) continue;
+      // Several parts may have a pose of the same robot; that of its own host counts.
       const bool own = owner_[r] != nullptr && *owner_[r] == part.host;
       if (poses_[r] && !own) continue;
       poses_[r] = pose;
@@ -252,6 +257,7 @@ void Merger::write_hash(RunRecorder& recorder) {
   RunHash sum;
   std::size_t known = 0;
   each_item(parts_, topic::kHash, decode_hash, [&](const Part&, const StepHash& step) {
+    // The run hash is a sum over items, each of which one process adds.
     sum.merge(RunHash::of_value(step.hash));
     ++known;
   });

@@ -18,6 +18,8 @@ RowBytes bytes_of(const CommandRecord& command) { return command.command; }
 
 /// The number of items from `begin` on that form one row.
 template <class Item>
+// Decoding has cut the rows of a recording into items that point into one message. Items that
+// follow each other in ids and in memory were one row, and are written as one again.
 std::uint32_t row_length(const std::vector<Item>& items, std::size_t begin) {
   const Item& first = items[begin];
   const RowBytes bytes = bytes_of(first);

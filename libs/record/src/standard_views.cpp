@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The same data in standard messages of ROS, at a lower rate, so that foreign viewers show a
+// recording without knowing RAVE.
 #include "standard_views.hpp"
 
 #include <algorithm>
@@ -92,6 +94,7 @@ Status StandardViews::open_velocities(McapWriter& file, const RunInfo& info) {
 
 bool StandardViews::due(Paced& paced, SimTime time, std::int64_t period_ns) noexcept {
   if (time.ns < paced.next_ns) return false;
+  // Kept on a grid of periods, and no burst after a gap.
   paced.next_ns = std::max(paced.next_ns, time.ns - period_ns) + period_ns;
   if (paced.next_ns <= time.ns) paced.next_ns = time.ns + period_ns;
   return true;
@@ -102,6 +105,7 @@ void StandardViews::put_transform(SimTime time, std::string_view parent, std::st
   put_time(cdr_, time);
   cdr_.put_string(parent);
   cdr_.put_string(child);
+  // A turn about z by yaw is the quaternion (0, 0, sin(yaw/2), cos(yaw/2)).
   for (const double value : {X.x, X.y, z_m, 0.0, 0.0, sin(X.yaw / 2), cos(X.yaw / 2)}) {
     cdr_.put(value);
   }
@@ -139,6 +143,7 @@ Status StandardViews::percept(McapWriter& file, SimTime time, const Percept& per
   cdr_.clear();
   put_time(cdr_, SimTime{percept.header.stamp_ns});
   cdr_.put_string(scan.frame);
+  // The fourth is the time between rays: all of a reading have one stamp.
   for (const float value : {scan.angle_min, scan.angle_max, scan.increment, 0.0F, scan.period,
                             scan.range_min, scan.range_max}) {
     cdr_.put(value);

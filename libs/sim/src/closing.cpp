@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Drivers are closed one after the other in a thread, within a limit each. One that hangs is left
+// behind with its thread, and the run ends without it.
 #include "closing.hpp"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The act phase: commands go through controllers and guards to actuators. Virtual actuators propose
+// velocities, which the resolver limits later; hardware is written to at once.
 #include <algorithm>
 #include <cmath>
 

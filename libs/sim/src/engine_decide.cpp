@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The decide phase: programs of a block are called together, isolated ones in processes of their
+// own. What they command is kept per controller, because controllers run more often than programs.
 #include <algorithm>
 #include <cmath>
 

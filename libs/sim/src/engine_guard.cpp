@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The guard of stepped runs and of simulated robots, asked within the act phase. Its time is that
+// of the run. Real robots of live runs have threads: engine_live.cpp.
 #include <algorithm>
 #include <limits>
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The beginning of a step: hardware samples, the reported poses that follow from them, and the
+// snapshot that all later phases read.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A step of one of several hosts, cut in two: propose() ends a step and reads the samples of the
+// next one, apply() begins that with the world of the authority. See docs/explanation/lock-step.md.
 #include <algorithm>
 #include <cmath>
 #include <optional>

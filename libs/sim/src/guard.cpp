@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// The limits as a pure function of a command and of what is known of the robot: no clock, no
+// memory, no allocation. So the same code serves stepped runs and the guard threads. The formulas
+// are in docs/explanation/guard.md.
 #include "rave/sim/guard.hpp"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Whether a disc that drives along an arc stays inside a polygon. Where the border is far, the free
+// distance is skipped; near it, short pieces of the arc are compared exactly with its edges.
 #include "guard_fence.hpp"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// How a robot changes between its two sets of drivers. It is a chain of stages that advances with
+// the steps; until the exchange, nothing of the robot has changed, and each failure is a refusal.
 #include "hand_overs.hpp"
 
 #include <algorithm>

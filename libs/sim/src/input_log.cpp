@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Inputs since the last step. They become events of the step that begins next, because each event
+// belongs to one step.
 #include "input_log.hpp"
 
 #include <utility>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// What people and the scenario did, as events and in the run hash. Both are made here alone, so
+// that an engine and the authority of several hosts give the same sums.
 #include "input_notes.hpp"
 
 #include <utility>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The guard in wall time: it takes the newest sample of the pose sensor itself and does not rely on
+// the step.
 #include "live_guard.hpp"
 
 #include <algorithm>

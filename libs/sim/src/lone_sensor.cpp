@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A virtual sensor without an engine, for a person who tries one beside the run. Nothing of it
+// reaches the run or its hash.
 #include "rave/sim/lone_sensor.hpp"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Everything that comes from another process is checked here before any of it is used. A report or
+// world that does not pass changes nothing.
 #include "message_checks.hpp"
 
 #include <algorithm>

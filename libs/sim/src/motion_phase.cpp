@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The broad phase: moves the robots for which each test of the resolver must end without a hit. The
+// bounds are derived in docs/explanation/motion.md.
 #include "motion_phase.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Chooses the pieces near a sensor from the columns of a grid, 4 to 16 at a time.
 #include "near_kernel.hpp"
 
 // Compiled once for each set of instructions.

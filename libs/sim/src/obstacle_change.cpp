@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Changes of obstacles come from files, people and other processes. What is wrong by itself is
+// found here; whether there is room is up to the world.
 #include "rave/sim/obstacle_change.hpp"
 
 #include <cmath>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Orders of people: given to the program if it takes their kind, otherwise to a controller in the
+// place of the program. Controllers get them again in each step, as if a program spoke.
 #include "order_book.hpp"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Orders come from people and from other processes, so their numbers, texts and places are checked
+// before anything is done. Both the engine and the authority use these checks.
 #include "order_checks.hpp"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Parameters of running parts. They are tried on the plug-in at once; until keep() is called, the
+// end of an edit gives all parts their former values back.
 #include "parameter_edit.hpp"
 
 #include <algorithm>

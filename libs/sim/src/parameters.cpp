@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Values of parameters that people change during a run, checked against what the plug-in declared.
 #include "parameters.hpp"
 
 #include <algorithm>

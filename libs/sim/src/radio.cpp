@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A step of the radio: deliver, collect, send, reach. What a phase does is in
+// docs/explanation/radio.md; the models and devices are made in radio_make.cpp.
 #include "radio.hpp"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// Messages through devices: packets that come in are checked, attributed and judged by the
+// receiver; messages that go out are encoded. These runs are live, so nothing here has to be
+// repeatable.
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The fixed part of the radio: models by type, endpoints by robot and communicator, lines by robot
+// and transmitter, channels by name. Their numbers are the same on all hosts.
 #include <algorithm>
 #include <utility>
 

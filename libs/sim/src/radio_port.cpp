@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The queue between the thread of a device and the engine. It has a fixed size, and a sender that
+// floods loses its own packets and not those of others.
 #include "radio_port.hpp"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Which robots hear a message, and when it arrives. Runs on many threads, so it writes only to the
+// Reach of its own block.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// When messages leave: rates of communicators and of transmitters that several share.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Messages of several hosts in lock-step: sent by the host of the sender, judged by each host for
+// its own receivers in the step after.
 #include <algorithm>
 
 #include "radio.hpp"

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// Readings of range sensors: gather what is near, cast the rays, reduce them to readings.
+// docs/explanation/ranges.md has the algorithm; the arithmetic is in fan_kernel.cpp and
+// block_kernel.cpp.
 #include "rave/sim/range_engine.hpp"
 
 #include <algorithm>

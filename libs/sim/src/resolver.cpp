@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Motion with contacts, one robot after the other: move until a hit, slide along it, push out of
+// real robots. See docs/explanation/motion.md.
 #include "resolver.hpp"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// From a robot type to instances of its drivers. The order is that of dependence: devices, sensors,
+// controllers, actuators, program. Each call into a plug-in has a crash note, which names the robot
+// and driver if it ends the process.
 #include "robot_group.hpp"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Robots of one type are a group and share arrays; blocks are parts of groups. Robots of other
+// hosts are in no group.
 #include "roster.hpp"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// What people and the scenario change between two steps. A change of several parts is made
+// completely or not at all.
 #include "run_inputs.hpp"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Threads for the loops of a step. Each has the same share of the blocks in each loop, so that
+// their data stay in the cache of its processor; those who are done early help the others.
 #include "rave/sim/thread_pool.hpp"
 
 #include <algorithm>

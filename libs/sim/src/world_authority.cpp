@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The authority of a world that several hosts share: resolves the motion of all robots and says
+// what each host has to know for its next step.
 #include "rave/sim/world_authority.hpp"
 
 #include <algorithm>

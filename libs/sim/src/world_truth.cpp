@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The true state of the world, which an engine alone has, or the authority of several hosts: poses,
+// contacts, bodies. It calls the resolver and makes the snapshot.
 #include "world_truth.hpp"
 
 #include <algorithm>

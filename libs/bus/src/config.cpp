@@ -215,6 +215,7 @@ std::string cyclone_xml(const BusConfig& config, int hub) {
       "<CycloneDDS><Domain Id=\"any\">" + general(config) + discovery(config, hub) + internals();
   if (!config.security.empty()) xml += security(config.security);
   xml += "</Domain></CycloneDDS>";
+  // After a comma Cyclone DDS reads another document, whose settings replace those before.
   if (!config.cyclone_settings.empty()) xml += "," + config.cyclone_settings;
   return xml;
 }

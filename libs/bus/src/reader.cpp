@@ -31,6 +31,7 @@ std::size_t ReaderCore::begin_take() {
 bool ReaderCore::leaves_dds(bool got) { return short_ != nullptr && short_->leaves_dds(got); }
 
 const void* ReaderCore::take_short(std::size_t& budget) {
+  // A budget, so that a peer that sends without end cannot keep this process from its other work.
   for (; budget > 0; --budget) {
     auto datagram = short_->receive();
     if (!datagram) return nullptr;
@@ -43,6 +44,7 @@ const void* ReaderCore::take_short(std::size_t& budget) {
       bus_->note_stranger();
       continue;
     }
+    // The sample lies in the memory of the decoder until the next one.
     if (const void* const sample = short_->decoder().decode(datagram->bytes)) {
       --budget;
       sender_ = datagram->writer;

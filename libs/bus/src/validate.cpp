@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Samples come from other processes and machines. What passes here has finite numbers, existing
+// kinds and texts that may be shown; whether it makes sense in the run is checked by its reader.
 #include "rave/bus/validate.hpp"
 
 #include <algorithm>
@@ -51,6 +53,7 @@ bool convex(std::span<const double> x, std::span<const double> y) {
     bool inside = false;
     for (std::size_t k = 0; k < x.size(); ++k) {
       const double side = ex * (y[k] - y[i]) - ey * (x[k] - x[i]);
+      // Corners on a line are allowed within rounding, but not a polygon without area.
       if (side < -1e-9) return false;
       inside |= side > 1e-12;
     }

@@ -46,6 +46,7 @@ Status check_sent(const rave_wire_SentPackets& sent) {
   const auto packets = elements(sent.packets);
   for (std::size_t i = 0; i < packets.size(); ++i) {
     const auto& packet = packets[i];
+    // In 64 bits: the sum must not wrap.
     if (std::uint64_t{packet.first_byte} + packet.size > sent.bytes._length) {
       return invalid(fmt::format("sent.packets[{}] has {} bytes from {} on, of {}", i, packet.size,
                                  packet.first_byte, sent.bytes._length));

@@ -25,6 +25,8 @@ WriterCore::~WriterCore() {
 
 bool WriterCore::goes_short(const void* sample) {
   if (short_ == nullptr) return false;
+  // The transport knows the readers by address and DDS by discovery. If the numbers differ, a
+  // reader is on another machine or has just come, and the sample goes by DDS, which reaches all.
   if (short_->due()) {
     const std::size_t count = readers();
     if (short_->readers() != count) bus_->meet(*bus_->endpoint(writer_));

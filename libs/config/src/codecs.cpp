@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// How values of each type are read from a file, written and described. Errors name what was found
+// and what was expected, at the place in the file.
 #include "rave/config/codecs.hpp"
 
 #include <cmath>
@@ -54,6 +56,7 @@ void Codec<double>::read(const ReadContext& context, const RawNode& node, double
 
 void Codec<std::string>::read(const ReadContext& context, const RawNode& node, std::string& value) {
   if (!node.is_text()) {
+    // `name: 12` or `name: true` is no text in YAML; who wrote it most likely forgot the quotes.
     const std::string_view hint = node.is_scalar() ? " (put it in quotes)" : "";
     context.wrong(node, fmt::format("{}{}", expectation(context.options), hint));
   } else if (!in_length(node.scalar().size(), context.options)) {
@@ -83,6 +86,7 @@ void read_signed(const ReadContext& context, const RawNode& node, std::int64_t l
   const std::string expected = number_expectation("a whole number", context.options);
   const bool whole = found || node.is_whole_number();
   if (whole && (!found || *found < low || *found > high)) {
+    // The limits of the type are told only if the field has none of its own.
     const bool limited = context.options.min && context.options.max;
     context.wrong(node, limited ? expected : whole_between(low, high));
   } else if (!whole || !in_range(static_cast<double>(*found), context.options)) {

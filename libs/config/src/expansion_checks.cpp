@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// What can be checked only when all files are read: names that refer to each other, and times that
+// must fit the step.
 #include "expansion_checks.hpp"
 
 #include <algorithm>
@@ -117,6 +119,7 @@ class Checks {
   }
 
   void multiple_of_step(std::string_view key, const Located<double>& time_s) {
+    // In whole nanoseconds: with binary fractions, 0.3 s would be no multiple of 0.1 s.
     const std::int64_t step_ns = from_seconds(*scenario_.step_s).ns;
     const std::int64_t ns = from_seconds(*time_s).ns;
     // A period below half a nanosecond rounds to 0.

@@ -70,9 +70,12 @@ void validate(const MapServerFile& c, CheckContext& check) {
 
 /// The state of a cell. Source: http://wiki.ros.org/map_server, "Value Interpretation".
 CellState state_of(std::uint8_t shade, bool opaque, const MapServerFile& file) {
+  // p: the probability that the cell is occupied. Dark is occupied unless negated.
   double p = file.negate.on ? shade / 255.0 : (255 - shade) / 255.0;
+  // In this mode transparency means unknown.
   if (file.mode == MapMode::kScale && !opaque) return CellState::kUnknown;
   if (file.mode == MapMode::kRaw) {
+    // Raw values are per cent, and all above 100 unknown.
     if (shade > 100) return CellState::kUnknown;
     p = shade / 100.0;
   }

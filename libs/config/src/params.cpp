@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Parameters of drivers and programs: read by what the plug-in declares, with the same codecs as
+// the files.
 #include "rave/config/params.hpp"
 
 #include <algorithm>
@@ -90,6 +92,7 @@ Status check_default(const FieldSpec& spec) {
   }
   Diagnostics diagnostics;
   const FieldOptions options = options_of(spec);
+  // The default is read as if a file had it, so the same limits apply to both.
   const ReadContext context{diagnostics, options, fmt::format("the default of `{}`", spec.name)};
   (void)read_value(context, node_of(*spec.default_value), spec);
   if (diagnostics.ok()) return {};
@@ -139,6 +142,7 @@ ParamValues read_params(const RawNode& node, std::span<const FieldSpec> specs,
     known.push_back({spec.name, spec.unit});
     if (const RawNode* given = node.find(spec.name)) {
       const FieldOptions options = options_of(spec);
+      // Collected apart, because the name of the plug-in is put before each error.
       Diagnostics found;
       const ReadContext read{found, options, fmt::format("`{}`", spec.name)};
       values.add({spec.name, read_value(read, *given, spec), given->where()});

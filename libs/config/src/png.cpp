@@ -94,6 +94,7 @@ class PngDecoder {
     for (std::size_t i = 0; i < width_; ++i, pixel += channels_) {
       unsigned sum = 0;
       for (std::size_t c = 0; c < colours; ++c) sum += pixel[c];
+      // The mean of the colours, rounded.
       image_.shade.push_back(static_cast<std::uint8_t>((sum + colours / 2) / colours));
       image_.opaque.push_back(!has_alpha || pixel[colours] == 255 ? 1 : 0);
     }

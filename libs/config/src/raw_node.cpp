@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A node of a file: text, number or collection, with its place. Plain scalars keep their text and
+// are typed when they are asked.
 #include "rave/config/raw_node.hpp"
 
 #include <fmt/format.h>
@@ -23,6 +25,7 @@ template <class T>
 std::optional<T> parse_number(std::string_view text) {
   const std::string_view digits = without_plus(text);
   T value{};
+  // from_chars() ignores the locale, under which strtod() may expect a comma.
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
   return value;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// YAML into a tree with places, from the events of yaml-cpp. Stricter than YAML: one document, no
+// tags, no merge keys, no key twice, limits on depth and size.
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
@@ -84,6 +86,8 @@ class TreeBuilder : public YAML::EventHandler {
     if (found == anchors_.end()) {
       throw Abort{{ErrorCode::kParse, "an alias refers to a value that contains it", place(mark)}};
     }
+    // An alias is a copy. Counting it keeps a small file with nested aliases from growing without
+    // limit ("billion laughs").
     count(found->second.size, mark);
     check_depth(static_cast<int>(stack_.size()) + height_of(found->second.node), mark);
     value(found->second.node, mark, 0, 0);
@@ -196,6 +200,8 @@ class TreeBuilder : public YAML::EventHandler {
 
   void key(Frame& frame, const RawNode& node, const YAML::Mark& mark) {
     frame.has_key = true;
+    // Until the key turns out to be good. Its value still comes as an event and must be dropped
+    // with it.
     frame.drop = true;
     frame.key_mark = mark;
     if (!node.is_scalar()) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Finds drivers by name. Stamps say which file provides what; a file is loaded when one of its
+// drivers is needed.
 #include "rave/plugin/catalogue.hpp"
 
 #include <algorithm>
@@ -131,6 +133,7 @@ Result<const Driver*> Catalogue::Impl::find_in(const Group& group,
   }
   const PluginFile* refused = nullptr;
   for (PluginFile* file : group.files) {
+    // The stamp names what a file provides, so only the file that is needed is loaded.
     if (!file->claims(name)) continue;
     if (!file->error()) {
       RAVE_TRY(load(*file));
@@ -139,6 +142,8 @@ Result<const Driver*> Catalogue::Impl::find_in(const Group& group,
       }
       return nullptr;
     }
+    // Another file of the folder may provide it; if none does, the reason why this one cannot be
+    // used is the answer.
     refused = file;
   }
   if (refused != nullptr) return tl::unexpected(*refused->error());
@@ -164,6 +169,7 @@ std::vector<const Driver*> Catalogue::Impl::load_all() {
 Error Catalogue::Impl::unknown(std::span<const DriverKind> kinds, std::string_view name) {
   std::vector<std::string_view> names;
   std::string other_kinds;
+  // Everything is loaded only now, to suggest a name: the run ends anyway.
   for (const Driver* driver : load_all()) {
     const std::string_view driver_name = driver->info.name;
     if (wanted(kinds, driver->info.kind)) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reads the stamp of a plug-in from its ELF file without loading it: code built for another
+// interface must not run at all.
 #include "rave/plugin/stamp.hpp"
 
 #include <elf.h>
@@ -57,6 +59,7 @@ tl::unexpected<Error> no_stamp() {
               kSection);
 }
 
+// The file may be anything, so each number in it is checked against the size before it is used.
 Result<Elf64_Ehdr> read_header(std::string_view bytes) {
   if (!bytes.starts_with(std::string_view(ELFMAG, SELFMAG))) {
     return fail(ErrorCode::kParse, "not a shared library (no ELF file)");

@@ -19,6 +19,7 @@ void hatch(Pen& pen, const std::vector<Vec2>& outline, Rgb colour) {
   // Bounds the number of lines for a body that fills the page at a high zoom.
   const double spacing = std::max(kSpacing, (box.width() + reach) / 200);
   std::vector<Vec2> ends;
+  // Lines at 45 degrees, from the lower edge to the upper one; the clip cuts them to the outline.
   for (double x = box.x0 - reach; x < box.x1; x += spacing) {
     ends.push_back({x, box.y1});
     ends.push_back({x + reach, box.y0});
@@ -89,6 +90,7 @@ void label_beside(Stage& stage, Vec2 anchor, double clearance, std::string_view 
   const Vec2 nearest = {std::clamp(anchor.x, box->x0, box->x1),
                         std::clamp(anchor.y, box->y0, box->y1)};
   const double reach = clearance + 4;
+  // Too far to be understood without a line to what it names.
   if (squared_norm(nearest - anchor) > reach * reach) {
     stage.pen.line(anchor, nearest);
     stage.pen.stroke(style.colour, 0.6, 0.9);

@@ -90,6 +90,7 @@ void draw_robot(Pen& pen, const std::vector<Vec2>& outline, Vec2 centre, Vec2 no
                 Rgb colour) {
   const bool is_light = kind != Kind::kRecordedRobot && kind != Kind::kHunter;
   pen.path(outline, true);
+  // A white border first, so that robots that touch each other can be told apart.
   pen.stroke_keeping_path(kWhite, 2.6, 0.9);
   pen.fill_keeping_path(is_light ? lighter(colour, 0.75) : colour);
   pen.stroke(colour, 1.1);
@@ -133,6 +134,7 @@ void draw_sighting(Pen& pen, Vec2 from, Vec2 to, const std::optional<Vec2>& tube
 
 void draw_instant(Stage& stage) {
   const PictureInstant& instant = *stage.picture.instant;
+  // What covers most is drawn first; hits last, since they are small and the point of the picture.
   draw_fans(stage);
   draw_trails(stage, instant.t_s);
   draw_bodies(stage, false);
@@ -172,6 +174,7 @@ void label_instant(Stage& stage) {
   const auto is_strong = [](const PictureRobot& robot) {
     return robot.kind == Kind::kRecordedRobot || robot.kind == Kind::kHunter;
   };
+  // Real robots and hunters get the free places first; the others are labelled only if all can be.
   const auto strong = static_cast<std::size_t>(
       std::count_if(instant.robots.begin(), instant.robots.end(), is_strong));
   if (strong <= kMostLabels) {

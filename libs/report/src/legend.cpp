@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The legend draws its symbols with the functions that draw the picture, so that both look alike.
 #include "legend.hpp"
 
 #include <algorithm>
@@ -232,6 +233,7 @@ std::vector<PlacedGroup> placed_in(const std::vector<LegendGroup>& groups, std::
 std::size_t rows_of(const std::vector<LegendGroup>& groups) {
   if (groups.empty()) return 0;
   std::size_t rows = 2;
+  // Ends, since with enough rows each group fits into one column.
   while (placed_in(groups, rows).empty()) ++rows;
   return rows;
 }

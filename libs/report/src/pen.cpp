@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Drawing with cairo. One description gives SVG and PNG with the same geometry.
 #include "pen.hpp"
 
 #include <array>
@@ -143,6 +144,7 @@ void Pen::text(Vec2 at, std::string_view text, const TextStyle& style) {
   const std::string terminated(text);
   cairo_new_path(cr_);
   cairo_move_to(cr_, left, at.y);
+  // A white border around the letters keeps them legible on lines and hatching.
   if (style.halo) {
     cairo_text_path(cr_, terminated.c_str());
     stroke(kWhite, 0.3 * style.size, 0.9);
@@ -179,6 +181,7 @@ std::vector<std::string> Pen::wrap(std::string_view text, double width, const Te
     }
   }
   if (!line.empty()) lines.push_back(line);
+  // A single word may still be too long.
   for (std::string& each : lines) each = fit(each, width, style);
   return lines;
 }

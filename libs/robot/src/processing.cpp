@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Noise, latency and filters behind a sensor, in this order. The state of all stages is one block
+// of bytes per robot, so that no sample allocates.
 #include "rave/robot/processing.hpp"
 
 #include <algorithm>
@@ -102,6 +104,7 @@ std::size_t filter_memory(const FilterSpec& filter, ReadingKind kind, std::uint3
   return std::size_t{capacity} * detail::filter_fields(kind).count * detail::filter_memory(filter);
 }
 
+// As many samples as can be under way during the latency, and the one that is just due.
 std::uint64_t ring_depth(Duration latency, Duration period) {
   if (period.ns == 0) return std::max(kIrregularDepth, ring_depth(latency, kIrregularPeriod));
   return static_cast<std::uint64_t>((latency.ns + period.ns - 1) / period.ns + 1);
@@ -173,6 +176,7 @@ std::byte* Processing::slot(std::byte* state, std::uint32_t index) const noexcep
 std::byte* Processing::enqueue(const SampleHeader& raw, const void* records,
                                std::byte* state) const noexcept {
   auto& ring = *reinterpret_cast<Ring*>(state);
+  // An irregular source may give more than was reckoned with. The oldest is lost and counted.
   if (ring.count == depth_) {
     const auto& lost = *reinterpret_cast<const SampleHeader*>(slot(state, ring.first));
     ring.dropped += lost.count + lost.dropped;
@@ -220,6 +224,8 @@ bool Processing::deliver_some(SimTime now, bool all, std::byte* state, SampleHea
     std::byte* const place = slot(state, ring.first);
     const auto& header = *reinterpret_cast<const SampleHeader*>(place);
     if (SimTime{header.stamp_ns} + latency_ > now) break;
+    // Filters see every sample in order, those too that a newer one replaces: their output would
+    // otherwise depend on how often somebody looks.
     for (const Stage& stage : stages_) filter(stage, header, place + sizeof(SampleHeader), state);
     ring.dropped += header.dropped;
     ring.first = (ring.first + 1) % depth_;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Filters for ranges, by column: the same place of all rays lies together, so that vector
+// instructions treat many rays at once.
 #include "range_filter.hpp"
 
 #include <algorithm>
@@ -65,6 +67,8 @@ void median(std::uint32_t window, std::uint32_t capacity, std::span<float> range
       own.next[ray] = own.next[ray] + 1 == window ? 0 : own.next[ray] + 1;
       own.filled[ray] = std::min(own.filled[ray] + 1, window);
     }
+    // The oldest value of each window leaves its sorted row and the new one enters, for up to 64
+    // rays at once. A full sort for each sample would take far longer.
     exchange_in_order(own.sorted + first, capacity, window, count,
                       {old.data(), fresh.data(), below.data()});
     for (std::uint32_t ray = first; ray < first + count; ++ray) {

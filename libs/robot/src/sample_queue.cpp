@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The queue between the thread of a hardware driver and the engine. Stepped: nothing is lost, and
+// the producer waits. Live: the newest counts, and the oldest is lost.
 #include "rave/robot/sample_queue.hpp"
 
 #include <algorithm>
@@ -38,6 +40,7 @@ std::byte* SampleQueue::records_of(std::size_t slot) noexcept {
 
 bool SampleQueue::wait_until(SimTime t) noexcept {
   Lock lock(mutex_);
+  // A stepped driver goes ahead as fast as the queue has room; the step takes samples by stamp.
   if (live_ == nullptr) return !closed_;
   producer_waits_ = true;
   while (!closed_ && live_->now() < t) {
@@ -81,6 +84,7 @@ bool SampleQueue::publish(SimTime stamp, const void* records, std::uint32_t coun
   if (closed_) return false;
   if (refused(stamp, count)) return true;
   if (live_ != nullptr) {
+    // Live: the newest is worth most, and a driver must not be blocked by a slow run.
     if (count_ == depth_) lose_oldest();
   } else if (count_ == depth_) {
     producer_waits_ = true;
@@ -91,6 +95,7 @@ bool SampleQueue::publish(SimTime stamp, const void* records, std::uint32_t coun
   const std::size_t slot = (first_ + count_) % depth_;
   ++count_;
   newest_ns_ = stamp.ns;
+  // Guards judge silence by arrival, since stamps may come from the clock of the device.
   if (live_ != nullptr) arrival_ns_ = steady_ns(std::chrono::steady_clock::now());
   headers_[slot] = {stamp.ns, ++sequence_, count, 0, 0};
   if (count > 0) std::memcpy(records_of(slot), records, std::size_t{count} * record_size_);

@@ -21,6 +21,7 @@ End::End(End&& other) noexcept
       reads_(other.reads_),
       entity_(std::exchange(other.entity_, 0)) {}
 
+// Swapped, so that the end of `other` removes what this one had.
 End& End::operator=(End&& other) noexcept {
   std::swap(participant_, other.participant_);
   std::swap(type_, other.type_);

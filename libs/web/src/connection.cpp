@@ -121,6 +121,7 @@ void Connection::read() {
 
 void Connection::refuse_broken(Error error) {
   const bool large = error == http::error::header_limit || error == http::error::body_limit;
+  // What is no HTTP gets no answer.
   if (!large) return stream_.close();
   message_ = {};
   message_.keep_alive(false);
@@ -135,6 +136,7 @@ void Connection::take() {
   request.method = std::string(message_.method_string());
   for (const auto& field : message_) {
     std::string name(field.name_string());
+    // Names of header fields are not case sensitive (RFC 9110, section 5.1).
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     request.headers.emplace(std::move(name), std::string(field.value()));
@@ -195,6 +197,8 @@ std::optional<Response> Connection::refusal(Request& request) {
   }
   const std::string_view origin = request.header("origin");
   const bool socket = beast::websocket::is_upgrade(message_) && request.path == kUsualSocket;
+  // A browser sends cookies with requests of foreign pages, too. What changes something, or opens a
+  // socket, must come from a page of this server (cross-site request forgery).
   const bool writes = request.method == "POST" || socket;
   if (core_.options().own_origin_only && writes && !origin.empty() &&
       origin != fmt::format("{}{}", core_.scheme(), request.header("host"))) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Certificate and key of the server, checked at the start and not by the first browser.
 #include "tls.hpp"
 
 #include <arpa/inet.h>

@@ -87,6 +87,8 @@ void WebSocket::accept(const http::request<http::string_body>& upgrade) {
 void WebSocket::opened() {
   core_.sockets.insert(this);
   const Handler::Admission admission = core_.handler().admit(request_);
+  // Refused after the handshake, because a browser does not show a page why an upgrade failed; it
+  // does show the code of a close.
   if (admission.refusal != 0) {
     close(admission.refusal, admission.reason);
   } else {
@@ -114,6 +116,7 @@ void WebSocket::write() {
     if (closing_) start_closing();
     return;
   }
+  // One write at a time, as Beast requires; its handler begins the next one.
   writing_ = true;
   const Out& next = out_.front();
   stream_.text(next.text);

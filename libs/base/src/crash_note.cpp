@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A line on standard error that says which plug-in was running when the process crashed.
 #include "rave/base/crash_note.hpp"
 
 #include <unistd.h>

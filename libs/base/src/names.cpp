@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Suggestions for names that do not exist.
 #include "rave/base/names.hpp"
 
 #include <fmt/format.h>

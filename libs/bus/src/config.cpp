@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The settings of Cyclone DDS, made from those of a run.
 #include "rave/bus/config.hpp"
 
 #include <string_view>

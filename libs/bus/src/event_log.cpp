@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Which events of the bus are worth a line of the log, and how many lines.
 #include "rave/bus/event_log.hpp"
 
 #include <fmt/format.h>

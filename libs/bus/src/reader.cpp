@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What arrives by DDS or by the local transport, attributed to its sender.
 #include "rave/bus/reader.hpp"
 
 #include <cstring>

@@ -98,6 +98,7 @@ Status check_body(const Sequence& body, bool needed) {
 template <class Message>
 Status check_address(const Message& sample) {
   RAVE_TRY(check_writer(sample));
+  // 0 is no process: such a message would be for nobody, or for everybody by mistake.
   if (sample.target == 0) return invalid("target is 0");
   if (sample.number == 0) return invalid("number is 0");
   return {};
@@ -169,6 +170,7 @@ Status validate(const Command& sample) {
   RAVE_TRY(check_number("vx_mps", sample.vx_mps, kMaxSpeed_mps));
   RAVE_TRY(check_number("vy_mps", sample.vy_mps, kMaxSpeed_mps));
   RAVE_TRY(check_number("wz_radps", sample.wz_radps, kMaxTurn_radps));
+  // Axes of a game controller, which go from -1 to 1.
   for (const double axis : elements(sample.axes)) RAVE_TRY(check_number("axes", axis, 1.0));
   if (sample.lease_ns < 0) return invalid(fmt::format("lease_ns is {}", sample.lease_ns));
   return {};

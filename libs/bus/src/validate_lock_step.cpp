@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// As validate.cpp, for the messages of lock-step.
 #include <algorithm>
 
 #include "sample_checks.hpp"
@@ -141,6 +142,7 @@ Status validate(const WorldStep& sample) {
   RAVE_TRY(check_writer(sample));
   if (sample.epoch == 0) return invalid("epoch is 0");
   RAVE_TRY(check_columns(sample));
+  // The columns say how many robots there are; all lists must name robots among them.
   const std::size_t robots = sample.flags._length;
   RAVE_TRY(check_named("pushed", sample.pushed, robots));
   RAVE_TRY(check_named("touches", sample.touches, robots));

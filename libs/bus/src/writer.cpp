@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What is sent by the local transport if all readers can be reached with it, otherwise by DDS.
 #include "rave/bus/writer.hpp"
 
 #include "rave/bus/endpoint.hpp"

@@ -46,6 +46,7 @@ void Codec<double>::read(const ReadContext& context, const RawNode& node, double
                                                        context.options)
                                   : expectation(context.options));
   } else if (std::isnan(*found) || (std::isinf(*found) && !context.options.allow_infinite)) {
+    // YAML has `.inf` and `.nan`; a field says whether infinity means something in it.
     context.wrong(node, number_expectation("a finite number", context.options));
   } else if (!in_range(*found, context.options)) {
     context.wrong(node, expectation(context.options));
@@ -186,6 +187,7 @@ int read_enum(const ReadContext& context, const RawNode& node,
   }
   std::string expected = enum_expectation(names);
   if (node.is_text()) {
+    // The nearest name, since most wrong choices are slips of the finger.
     const std::string_view near = nearest_name(node.scalar(), names);
     if (!near.empty()) expected += fmt::format("; did you mean `{}`?", near);
   }
@@ -215,6 +217,7 @@ bool check_map(const ReadContext& context, const RawNode& node, std::string_view
   return false;
 }
 
+// Limits of length are those of the list; limits of numbers are those of its elements.
 FieldOptions element_options(const FieldOptions& options) {
   FieldOptions element = options;
   element.min_items.reset();

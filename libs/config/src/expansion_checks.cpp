@@ -59,6 +59,7 @@ class Checks {
   void unique_robots() {
     std::unordered_map<std::string_view, std::size_t> seen;
     for (const ExpandedRobot& robot : expanded_.robots) {
+      // An entry `a-1` clashes with the first of several robots of an entry `a`.
       const auto [first, is_new] = seen.emplace(robot.name, robot.group);
       if (is_new) continue;
       report(expanded_.group_of(robot).name.where, "{}",
@@ -132,6 +133,7 @@ class Checks {
   void robots_exist(std::string_view key, const Located<std::string>& name) {
     std::vector<std::string_view> names;
     for (const ExpandedRobot& robot : expanded_.robots) names.push_back(robot.name);
+    // An entry stands for all its robots.
     for (const RobotGroup& group : expanded_.groups) names.push_back(*group.name);
     if (std::find(names.begin(), names.end(), *name) != names.end()) return;
     report(name.where, "`{}`: there is no robot `{}`{}", key, *name, suggestion(*name, names));

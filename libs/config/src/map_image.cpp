@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Maps in the format of map_server of ROS: a YAML file that names an image.
 #include "rave/config/map_image.hpp"
 
 #include "rave/config/fields.hpp"
@@ -114,6 +115,7 @@ Result<MapImage> read_map_text(std::string_view yaml, const std::filesystem::pat
   Result<GreyImage> image = decode();
   if (!image) {
     Error error = std::move(image).error();
+    // The line that names the image: the image itself has no lines.
     error.where = file.image.where;
     return tl::unexpected<Error>(std::move(error));
   }

@@ -173,6 +173,7 @@ Result<ParamValues> read_params(const RawNode& node, std::span<const FieldSpec> 
 
 RawNode write_params(const ParamValues& values, std::span<const FieldSpec> specs) {
   RawNode mapping = RawNode::mapping();
+  // In the order of the declaration, so that the same values give the same text.
   for (const FieldSpec& spec : specs) {
     if (const Param* param = values.find(spec.name)) {
       mapping.append(spec.name, node_of(param->value), field_comment(spec.doc, spec.unit));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// PNG images by libpng.
 #include <png.h>
 
 #include <csetjmp>

@@ -138,6 +138,7 @@ const RawNode* RawNode::find(std::string_view key) const noexcept {
   return nullptr;
 }
 
+// For errors: what somebody wrote, as they would call it.
 std::string RawNode::found_text() const {
   switch (kind_) {
     case Kind::kNull:
@@ -197,6 +198,7 @@ void RawNode::set_key_where(std::size_t i, int line, int column) {
 
 bool operator==(const RawNode& a, const RawNode& b) {
   if (a.kind_ != b.kind_ || a.children_.size() != b.children_.size()) return false;
+  // Quoted and plain text are equal, a number and a text of the same characters are not.
   if (a.is_scalar() && (a.scalar_ != b.scalar_ || a.is_text() != b.is_text())) return false;
   for (std::size_t i = 0; i < a.keys_.size(); ++i) {
     if (a.keys_[i].name != b.keys_[i].name) return false;

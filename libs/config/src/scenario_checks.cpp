@@ -44,6 +44,7 @@ void validate(const RobotEntry& c, CheckContext& check) {
     check.error("", "the robot `{}` has more than one of `pose`, `poses` and `scatter`", *c.name);
   }
   const bool has_twin = c.twin || c.twin_robot;
+  // Each twin may be a device of its own, so one file cannot stand for several.
   if (has_twin && (c.poses || c.scatter)) {
     check.error("twin", "`twin` needs a single robot, but `{}` stands for several", *c.name);
   }
@@ -118,6 +119,8 @@ RawNode* find_child(RawNode& mapping, std::string_view key) {
 
 }  // namespace
 
+// Robots written into a scenario have variables like those in files. They are replaced before the
+// scenario is read, because `$(v)` is no number.
 void substitute_inline_robots(RawNode& scenario, Diagnostics& diagnostics) {
   RawNode* robots = find_child(scenario, "robots");
   if (!robots || !robots->is_sequence()) return;

@@ -191,6 +191,7 @@ std::vector<std::string> parse_provides(const Stamp& stamp) {
 
 Status check_stamp(const Stamp& plugin, const Stamp& host) {
   std::string differences;
+  // All differences at once: one rebuild should settle all of them.
   const auto add = [&](std::string_view text) {
     if (!differences.empty()) differences += "; ";
     differences += text;
@@ -201,6 +202,7 @@ Status check_stamp(const Stamp& plugin, const Stamp& host) {
                     "it against this installation",
                     plugin.robot_interface, host.robot_interface));
   }
+  // 0: a plug-in without virtual drivers, which does not care about that interface.
   if (plugin.virtual_interface != 0 && plugin.virtual_interface != host.virtual_interface) {
     add(virtual_difference(plugin.virtual_interface, host.virtual_interface));
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reads all of a file and compares every checksum that is there.
 #include "check_file.hpp"
 
 #include <fmt/format.h>

@@ -129,6 +129,7 @@ Status Merger::check() const {
   if (!(first.info.step_s >= 1e-9 && first.info.step_s < 1e9)) {
     return fail(ErrorCode::kParse, "`{}` does not state the step", first.path.string());
   }
+  // The scenario, seed, step and robots identify a run; starting times differ between processes.
   for (const auto& part : parts_) {
     if (part->info.scenario == first.info.scenario && part->info.seed == first.info.seed &&
         part->info.step_s == first.info.step_s && part->info.robots == first.info.robots) {
@@ -166,6 +167,7 @@ Status Merger::learn_hosts() {
   StringMap all;
   for (const auto& part : parts_) {
     const StringMap known = metadata_of(part->reader, kHostsMetadata);
+    // Each process records which host has which robots, so one readable part is enough.
     all.insert(known.begin(), known.end());
   }
   for (const auto& [host, robots] : all) hosts_.push_back(host);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Finds rows again in what was read, so that a merged recording is no larger than its parts.
 #include "rows.hpp"
 
 namespace rave::record {

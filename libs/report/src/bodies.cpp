@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Bodies of the world, and labels beside what they name.
 #include <algorithm>
 #include <limits>
 

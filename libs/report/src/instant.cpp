@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What robots and sensors see at one moment.
 #include <algorithm>
 #include <cmath>
 

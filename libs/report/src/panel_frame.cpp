@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Grid, axes and scale of a panel.
 #include <cmath>
 
 #include "stage.hpp"

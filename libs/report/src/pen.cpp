@@ -42,6 +42,7 @@ void Pen::path(const std::vector<Vec2>& points, bool closed) {
   if (closed) cairo_close_path(cr_);
 }
 
+// One path for all, since in an SVG each path is an element.
 void Pen::polygons(const std::vector<Vec2>& corners, double scale,
                    const std::vector<Vec2>& places) {
   cairo_new_path(cr_);
@@ -159,6 +160,7 @@ std::string Pen::fit(std::string_view text, double width, const TextStyle& style
   if (text_width(text, style) <= width) return std::string(text);
   std::size_t columns = columns_of(text);
   std::string shorter(text);
+  // Character by character, because letters have different widths.
   while (columns > 1 && text_width(shorter, style) > width) {
     shorter = clip_to_columns(text, --columns);
   }

@@ -29,6 +29,7 @@ using Context = std::unique_ptr<cairo_t, Release>;
 cairo_status_t append(void* content, const unsigned char* data, unsigned int length) {
   try {
     static_cast<std::string*>(content)->append(data, data + length);
+    // An exception must not pass through the C code of cairo.
   } catch (const std::bad_alloc&) {
     return CAIRO_STATUS_NO_MEMORY;
   }
@@ -71,6 +72,7 @@ Status write_svg(const Picture& picture, const std::filesystem::path& path) {
         cairo_svg_surface_create_for_stream(append, &content, layout.width, layout.height));
     cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
     RAVE_TRY(draw_on(surface.get(), picture, layout, 1));
+    // Only then everything has been written to the stream.
     cairo_surface_finish(surface.get());
     RAVE_TRY(check_cairo(cairo_surface_status(surface.get())));
   }

@@ -34,6 +34,7 @@ Status check_amount(const char* name, double value, bool applies, ReadingKind ki
     return fail(ErrorCode::kInvalidArgument,
                 "noise: `{}` is {}; it must be a finite number of at least 0", name, value);
   }
+  // Noise without effect is a mistake in the file: somebody believes that it is there.
   if (value > 0 && !applies) {
     return fail(ErrorCode::kInvalidArgument, "noise: `{}` has no effect on a sensor of kind `{}`",
                 name, to_string(kind));
@@ -140,6 +141,8 @@ Result<Processing> Processing::make(const ProcessingSpec& spec, ReadingKind kind
   made.slot_size_ = sizeof(SampleHeader) + whole_words(records_size);
   const std::uint64_t depth = ring_depth(made.latency_, from_seconds(period_s));
   // All factors are far below 2^48, and the sum is checked before the next one could overflow it.
+  // A wrong unit in the file, such as milliseconds taken for seconds, would otherwise use up the
+  // memory.
   bool fits = depth <= kLargestState / made.slot_size_;
   std::size_t size = sizeof(Ring) + (fits ? depth * made.slot_size_ : 0);
   for (const FilterSpec& filter : spec.filters) {
@@ -254,6 +257,7 @@ void Processing::filter(const Stage& stage, const SampleHeader& header, void* re
   const std::size_t each = detail::filter_memory(stage.filter);
   const detail::FilterFields fields = detail::filter_fields(kind_);
   auto* record = static_cast<double*>(records);
+  // Each field of each record has its own state, one behind the other.
   for (std::uint32_t i = 0; i < header.count; ++i, record += record_size_ / sizeof(double)) {
     for (std::uint32_t k = 0; k < fields.count; ++k, memory += each) {
       record[k] = run(record[k], header.stamp_ns, k == fields.angle, memory);

@@ -58,6 +58,7 @@ bool SampleQueue::refused(SimTime stamp, std::uint32_t count) {
   if (count > max_records_) {
     why = fmt::format("holds {} records, more than the {} that were declared", count, max_records_);
   } else if (stamp.ns < newest_ns_) {
+    // Samples are taken by stamp; one from before the last step could not be taken any more.
     why = "came after one of " + text_of(newest_ns_) + "; stamps must not step back";
   } else if (live_ == nullptr && stamp.ns <= complete_ns_) {
     why = "came after the driver had declared samples complete up to " + text_of(complete_ns_);
@@ -66,6 +67,7 @@ bool SampleQueue::refused(SimTime stamp, std::uint32_t count) {
   }
   ++dropped_;
   dropped_since_next_ += count;
+  // The first complaint is kept: it is closest to the cause.
   if (complaint_.empty()) {
     complaint_ = fmt::format("the sample of {} was dropped: it {}", text_of(stamp.ns), why);
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A reader or writer of a topic.
 #include "rave/ros2/end.hpp"
 
 #include <utility>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Names of topics and types in ROS 2 and on the wire.
 #include "rave/ros2/names.hpp"
 
 namespace rave::ros2 {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What programs say to people, limited per decision and per second.
 #include "answer_book.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Rays of many sensors with few rays each, cast together.
 #include "block_kernel.hpp"
 
 #include <algorithm>

@@ -34,6 +34,8 @@ void Engine::Impl::obstacle_changed(const ObstacleChange& change) {
 
 void Engine::Impl::restore_world() {
   if (truth.restore_obstacles()) {
+    // Snapshots of the past may show obstacles that are gone; new ones begin with the world of the
+    // start.
     past.world.reset();
     if (fusion_world) fusion_world = std::make_unique<FusionWorld>(spec.world);
   }
@@ -185,6 +187,7 @@ bool Engine::show_reality(RobotId robot, bool simulated) {
   if (engine.spec.types[its.type].simulated == simulated) return true;
   if (!its.twin || engine.spec.types[*its.twin].simulated != simulated) return false;
   std::swap(its.type, *its.twin);
+  // set_reality() makes a robot present; whether its host reports it is another matter.
   const bool present = engine.truth.movers[r].present;
   engine.truth.set_reality(robot, simulated, engine.truth.movers[r].X_WR);
   engine.truth.movers[r].present = present;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// When in a step messages are delivered and collected; what happens to them in between is in
+// radio.cpp.
 #include "engine_impl.hpp"
 #include "radio.hpp"
 

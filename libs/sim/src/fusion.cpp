@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The parts of a hybrid sensor: a virtual half beside the real one, the noise of each, and the
+// driver that makes one reading of both.
 #include "fusion.hpp"
 
 #include <algorithm>
@@ -148,6 +150,7 @@ Result<std::unique_ptr<FusionSlots>> FusionSlots::make(const SensorSpec& spec,
   const HybridSpec& hybrid = *spec.hybrid;
   auto slots = std::make_unique<FusionSlots>();
   SensorInfo imagined;
+  // The order of dependence: the virtual half needs the real one, the fusion needs both.
   if (auto made = configure_imagined(spec, real, host, *slots, imagined); !made) {
     return tl::unexpected(in_half("virtual", hybrid.virtual_driver, std::move(made).error()));
   }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The thread of a guard. It shares orders and news with the engine under a mutex that is held for a
+// swap only, and calls drivers without it.
 #include "guard_thread.hpp"
 
 #include <pthread.h>

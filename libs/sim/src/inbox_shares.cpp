@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Fair inboxes for messages from devices: who sends most makes room first.
 #include "inbox_shares.hpp"
 
 #include <algorithm>

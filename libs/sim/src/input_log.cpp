@@ -36,6 +36,7 @@ void InputLog::note_order(std::uint64_t step, const WorldInput& input, EventKind
 
 void InputLog::count_order(std::uint64_t step, const WorldInput& input, EventKind kind) {
   count(input.author);
+  // In the hash, but no event: a stick gives many orders a second.
   static_cast<void>(noted_order(step, input, kind, hash_));
 }
 

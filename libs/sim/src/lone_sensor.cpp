@@ -73,6 +73,7 @@ Result<std::unique_ptr<LoneSensor>> LoneSensor::make(SensorSpec spec, double ste
     info.capacity = declaration.fan.ray_count / declaration.fan.rays_per_reading;
     describe_fan(declaration, info);
   }
+  // A person may try any parameters; what would take seconds per sample is refused.
   if (info.capacity > kMostRecords || (parts->uses_fan && declaration.fan.ray_count > kMostRays)) {
     return fail(ErrorCode::kInvalidArgument,
                 "the sensor has {} readings of {} rays; expected at most {} of {}", info.capacity,

@@ -110,6 +110,7 @@ Status check_samples(const EngineSpec& spec, std::uint64_t step,
     if (!is_finite(sample.X_WR)) return wrong(spec, robot, "a sample that is not finite");
     if (sample.stamp.ns > time_ns(spec, step))
       return wrong(spec, robot, "a sample from the future");
+    // Strictly ascending: no sample twice, and the same order on every host.
     if (before != nullptr &&
         std::tie(sample.robot, sample.stamp) <= std::tie(before->robot, before->stamp)) {
       return wrong(spec, robot, "samples out of order");
@@ -314,6 +315,8 @@ Status check_world_step(const EngineSpec& spec, const WorldStep& world) {
 
 Status check_told_obstacles(const EngineSpec& spec, const WorldStep& world,
                             const AuthorityState& state) {
+  // A manager leaves them out of most worlds, because they are long. A late host needs a world that
+  // has them.
   if (state.obstacles.empty() && state.obstacle_changes > 0) {
     return fail(ErrorCode::kInvalidArgument,
                 "obstacles had changed {} times before this world, but the changes are missing",

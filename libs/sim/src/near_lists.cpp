@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Lists of what is near, kept over several steps. The bound that they rely on is in
+// docs/explanation/ranges.md.
 #include "near_lists.hpp"
 
 #include <limits>

@@ -32,6 +32,7 @@ Status check_name(const ObstacleChange& change) {
 
 Status check_number(const ObstacleChange& change, std::string_view what, double value, double most,
                     std::string_view unit) {
+  // Not a number compares false and is refused with the rest.
   if (std::abs(value) <= most) return {};
   return fail(ErrorCode::kInvalidArgument, "obstacle `{}`: {} is {}; expected within +-{} {}",
               change.name, what, value, most, unit);
@@ -78,6 +79,7 @@ Status check_body(const ObstacleChange& change) {
                 "obstacle `{}` reaches {} m from its origin; expected at most {} m", change.name,
                 body.radius_m(), ObstacleChange::kLargest_m);
   }
+  // An obstacle on a layer of robots would be sensed as one.
   if (body.layer != Layer::kVirtualObstacles && body.layer != Layer::kMappedReal) {
     return wrong("its layer is one of robots; expected `virtual_obstacles` or `mapped_real`");
   }

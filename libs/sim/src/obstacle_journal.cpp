@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Where obstacles were in the past, as a list of changes that can be gone through in both
+// directions.
 #include "obstacle_journal.hpp"
 
 namespace rave::sim {

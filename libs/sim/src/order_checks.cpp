@@ -78,6 +78,7 @@ const world::Obstacle* obstacle_at(const world::WorldModel& world, const world::
         squared_norm(p_W - obstacle.X_WB.position()) > radius_m * radius_m + 1e-9) {
       continue;
     }
+    // A point and not the body of the robot: how near it can come is found out by driving there.
     if (covers(obstacle.body, transform_back(obstacle.X_WB, p_W), z0_m, z1_m)) return &obstacle;
   }
   return nullptr;
@@ -181,6 +182,8 @@ OrderKind order_kind(WorldInput::Kind kind) noexcept {
   }
 }
 
+// What another process may send at all. Whether an order makes sense is check_order(), whose errors
+// are for people.
 bool is_order_formed(const WorldInput& input) noexcept {
   const OrderDetails& order = input.order;
   bool formed = is_order(input.kind) && order.text.size() <= kMostOrderText &&
@@ -206,6 +209,7 @@ Status check_order(const EngineSpec& spec, const WorldInput& input) {
                 "the name of the author has {} bytes, or control characters; expected at most {}",
                 name.size(), kMostOrderAuthor);
   }
+  // Only a cancellation may be meant for all robots: nobody can send all of them to one place.
   const bool for_all = input.kind == InputKind::kCancel && !input.robot.valid();
   if (!for_all && input.robot.value() >= spec.robots.size()) {
     return fail(ErrorCode::kInvalidArgument, "`{}` needs a robot",

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Orders that wait for the next decision of a program, and as the program sees them.
 #include <algorithm>
 
 #include "order_book.hpp"

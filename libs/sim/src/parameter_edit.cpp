@@ -53,6 +53,7 @@ Result<ParameterTarget> device_target(std::vector<Slots>& devices, std::string_v
     return fail(ErrorCode::kNotFound, "the robot has no {} with this number", part);
   }
   Slots& slots = devices[index];
+  // A plug-in that failed is not called again.
   if (slots.failed[m] != 0) {
     return fail(ErrorCode::kState, "{} `{}` has failed", part, slots.spec->name);
   }
@@ -141,6 +142,7 @@ Status ParameterEdit::make(const ParameterChange& first, std::span<const Paramet
                   parameter_target(group_, member_, first.part, first.index));
   where_ = target.name;
   RAVE_TRY_ASSIGN(plugin::ParamSet next, with_changes(target.specs, target.present, together));
+  // Before the update, while the old values can still be told.
   std::string text = change_text(target, together);
   RAVE_TRY(target.update(next.values()));
   made_.push_back({std::move(target), std::move(next), std::move(text)});

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// What the guard of one robot remembers: stopped or armed, how fast it was told to drive, and which
+// limits act at present.
 #include "robot_guard.hpp"
 
 #include <algorithm>

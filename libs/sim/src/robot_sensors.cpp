@@ -69,6 +69,8 @@ void describe(SensorSlots& slots, double step_s) {
 
 Status configure_virtual(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {
   const SensorSpec& spec = *slots.spec;
+  // One instance for all robots of the group. What a driver remembers of each lies in driver_state,
+  // so the engine can sample robots in any order and on any thread.
   RAVE_TRY(slots.instances.make(spec.virtual_ops->instance, 1));
   VirtualSensorSetup setup;
   setup.host = services_of(context.logs[group.members.front().value()]);
@@ -116,6 +118,7 @@ Status configure_hardware(const GroupContext& context, RobotGroup& group, Sensor
       return spec.hardware_ops->configure(slots.instances.at(m), &setup, &declaration, error);
     }));
     if (declaration.capacity == 0) return fail(ErrorCode::kPlugin, "declared room for 0 records");
+    // Devices of one type may differ; the columns have room for the largest.
     slots.capacity = std::max(slots.capacity, declaration.capacity);
     slots.collect = declaration.collect != 0;
     slots.live = declaration.clock == DriverClock::kLive;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// How old samples are, and when that is too old.
 #include "sensor_age.hpp"
 
 #include <algorithm>

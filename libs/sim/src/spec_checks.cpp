@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What must hold of a specification before an engine or an authority is made of it.
 #include "spec_checks.hpp"
 
 #include <algorithm>
@@ -30,6 +31,7 @@ Status check_world(const EngineSpec& spec) {
   for (const RobotSpec& robot : spec.robots) {
     RAVE_CHECK(robot.type < spec.types.size());
     const RobotType& type = spec.types[robot.type];
+    // Nobody else knows where a real robot is.
     if (!type.simulated && !type.pose_from) {
       return fail(ErrorCode::kInvalidArgument,
                   "robot `{}` is real, so it needs a source of its pose: `pose_from`", robot.name);

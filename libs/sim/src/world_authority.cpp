@@ -17,6 +17,7 @@ Status check_hosts(const EngineSpec& spec, std::span<const std::uint32_t> host_o
     return fail(ErrorCode::kInvalidArgument, "hosts for {} robots, but there are {}",
                 host_of.size(), spec.robots.size());
   }
+  // Hosts are numbered without gaps: arrays by host have one entry each, and each is waited for.
   const std::uint32_t last = *std::max_element(host_of.begin(), host_of.end());
   for (std::uint32_t host = 0; host < last; ++host) {
     if (last < host_of.size() && std::find(host_of.begin(), host_of.end(), host) != host_of.end()) {
@@ -74,6 +75,7 @@ Status WorldAuthority::Impl::check(const HostReport& report) const {
   const auto named = [&](Error error) {
     return tl::unexpected(std::move(error).with_context(fmt::format("host {}", report.host)));
   };
+  // Before all else: the report of a host that failed has nothing but the reason.
   if (report.state > HostState::kDone) {
     return named({ErrorCode::kState, fmt::format("cannot continue: {}", report.text), {}});
   }
@@ -125,6 +127,8 @@ void WorldAuthority::Impl::place_real_robots() {
   for (const HostReport* const report : by_host) {
     for (const PoseReport& pose : report->poses) {
       const std::uint32_t r = pose.robot.value();
+      // A simulated robot with a pose source is believed to be where that says, but is where the
+      // resolver put it.
       if (truth.movers[r].simulated) continue;
       const ReportedPose& reported = pose.reported;
       truth.movers[r].X_WR = {reported.pose.x_m, reported.pose.y_m, reported.pose.yaw_rad};

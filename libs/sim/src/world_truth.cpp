@@ -191,6 +191,8 @@ void WorldTruth::hash_block(std::uint64_t step, std::uint32_t first, std::uint32
   sum = own;
 }
 
+// From the original and not from the present body, so that rounding does not add up over many
+// changes.
 Result<world::Body> WorldTruth::body_at(RobotId robot, double scale) const {
   const auto original = original_bodies_.find(robot.value());
   return world::scaled(

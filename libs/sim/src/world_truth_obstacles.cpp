@@ -39,6 +39,7 @@ Error unknown_obstacle(const world::WorldModel& world, const std::string& name) 
 
 Result<BodyId> WorldTruth::find_obstacle(const ObstacleChange& change) const {
   const world::WorldModel& world = spec.world;
+  // Two obstacles may have one name, as in maps; a number is always one of them.
   if (change.id.valid()) {
     const world::Obstacle* const obstacle = world.obstacle(change.id.value());
     if (obstacle != nullptr && !obstacle->removed) return change.id;
@@ -183,6 +184,7 @@ bool WorldTruth::restore_obstacles() {
   world::WorldModel& world = spec.world;
   if (original_places_.empty() && world.added.empty()) return false;
   if (!world.added.empty()) {
+    // First, since the numbers of the added ones are the last ones; what remains keeps its place.
     world.added.clear();
     snapshot.added_dropped();
   }

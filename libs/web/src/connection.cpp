@@ -236,6 +236,8 @@ void Connection::answer(const Response& response) {
   reply->result(static_cast<unsigned>(response.status));
   reply->set(http::field::content_type, response.type);
   reply->set("Content-Security-Policy", policy());
+  // Defaults for every answer: no guessing of types, no address of this page to others, no window
+  // shared with other pages.
   reply->set("X-Content-Type-Options", "nosniff");
   reply->set("Referrer-Policy", "no-referrer");
   reply->set("Cross-Origin-Opener-Policy", "same-origin");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Parts of HTTP that are read by hand: targets, queries, forms, cookies.
 #include "rave/web/message.hpp"
 
 #include <algorithm>

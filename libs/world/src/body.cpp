@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Bodies of convex shapes. An outline of any form is decomposed once, when it is read.
 #include "rave/world/body.hpp"
 
 #include <algorithm>

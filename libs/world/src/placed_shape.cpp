@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Rays against single shapes, exactly and in double precision, for queries that are few.
 #include "rave/world/placed_shape.hpp"
 
 #include <cmath>

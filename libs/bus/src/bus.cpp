@@ -89,6 +89,7 @@ bool has_domains() { return dds_get_children(DDS_CYCLONEDDS_HANDLE, nullptr, 0) 
 
 Bus::Bus(BusConfig config)
     : config_(std::move(config)), writer_(random_writer_id()), number_(config_.domain) {
+  // Cyclone DDS has one log per process; the first bus gets it.
   if (!config_.beside || !has_domains()) log_ = std::make_unique<CycloneLog>();
 }
 
@@ -353,6 +354,7 @@ void Bus::note_foreign(const std::string& topic) {
 
 void Bus::note_refused(const std::string& topic, std::uint64_t writer, std::string why) {
   ++refused_samples_;
+  // Bounded: who sends nonsense sends much of it, and nobody may be asking for events.
   if (events_.size() < kMaxEvents) {
     events_.push_back({EventKind::kRefused, topic, "", writer, std::move(why)});
   }

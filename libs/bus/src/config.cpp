@@ -159,6 +159,7 @@ std::string security(const std::filesystem::path& folder) {
          "</Cryptographic></Security>";
 }
 
+// Checked here, because Cyclone DDS would only say that it cannot create a participant.
 Status check_certificates(const std::filesystem::path& folder) {
   for (const char* const name : {"identity_ca.pem", "identity.pem", "identity_key.pem",
                                  "permissions_ca.pem", "governance.p7s", "permissions.p7s"}) {

@@ -54,6 +54,7 @@ bool LocalAddress::operator==(const LocalAddress& other) const noexcept {
 }
 
 std::optional<LocalSocket> LocalSocket::open(const LocalAddress& address) {
+  // Non-blocking: a reader that is slow must never stop the sender.
   const int descriptor = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (descriptor < 0) return std::nullopt;
   LocalSocket socket(descriptor);
@@ -82,6 +83,7 @@ LocalDecoder::~LocalDecoder() { dds_sample_free(sample_, type_, DDS_FREE_ALL); }
 
 const void* LocalDecoder::decode(std::span<std::byte> datagram) {
   if (datagram.size() < kLocalHeaderBytes || datagram.size() > kMostLocalBytes) return nullptr;
+  // Any process of the machine may send to this address.
   if (std::memcmp(datagram.data(), kMark.data(), kMark.size()) != 0 ||
       datagram[kMark.size()] != std::byte{topic_}) {
     return nullptr;

@@ -74,8 +74,11 @@ class Expansion {
     // Only the page needs these files and reports missing ones; a replay on another machine works
     // without.
     for (GuiComponentFile& component : scenario.gui.components) {
+      // Absolute, since a recording or a host may be in another folder.
       component.module.value = absolute(beside(folder_, *component.module));
     }
+    // Obstacles and maps of the scenario come after those of the world, so their numbers do not
+    // change when a scenario adds some.
     std::move(scenario.obstacles.begin(), scenario.obstacles.end(),
               std::back_inserter(world.obstacles));
     std::move(scenario.maps.begin(), scenario.maps.end(), std::back_inserter(world.maps));

@@ -63,6 +63,7 @@ class PngDecoder {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_read_fn(png_, this, on_read);
     png_set_user_limits(png_, 0x7FFFFFFF, 0x7FFFFFFF);  // check_image_size() has a better message
+    // A small file may claim texts of gigabytes.
     png_set_chunk_malloc_max(png_, 8U << 20);
     png_read_info(png_, info_);
     width_ = png_get_image_width(png_, info_);

@@ -41,6 +41,7 @@ std::string excerpt(std::string_view text) {
     part.resize(cut);
     part += "...";
   }
+  // The file may be anything; its bytes are shown on a terminal.
   return without_control_characters(part, " ");
 }
 

@@ -84,6 +84,7 @@ std::string inline_text(const RawNode& node) {
   std::string out = "[";
   for (const RawNode& item : node.children()) {
     const std::string text = item.is_mapping() ? std::string{} : inline_text(item);
+    // Longer lists get a line per item.
     if (text.empty() || out.size() + text.size() > 72) return {};
     if (out.size() > 1) out += ", ";
     out += text;

@@ -320,6 +320,7 @@ std::optional<RawNode> parse_yaml(std::string_view text, std::string_view file_n
   TreeBuilder builder(file_name, diagnostics);
   try {
     parse_all(std::string(text), builder);
+    // Only a quoted scalar at the end of the file can be one that was not closed.
     if (const auto& mark = builder.last_quoted(); mark && is_quote_open(text)) {
       throw Abort{{ErrorCode::kParse, "YAML syntax: a quote is not closed", builder.place(*mark)}};
     }

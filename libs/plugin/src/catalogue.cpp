@@ -84,6 +84,7 @@ struct Catalogue::Impl {
   explicit Impl(const Stamp& host_stamp) : host(host_stamp) {}
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
+  // In the reverse order of loading: a later one may depend on an earlier one.
   ~Impl() {
     for (PluginFile* file : std::ranges::reverse_view(load_order)) file->unload();
   }
@@ -108,6 +109,7 @@ std::pair<PluginFile*, bool> Catalogue::Impl::note(const fs::path& path) {
   std::error_code code;
   fs::path absolute = fs::absolute(path, code);
   if (code) absolute = path;
+  // One file under two paths would register its drivers twice.
   fs::path key = fs::canonical(absolute, code);
   if (code) key = absolute;  // A dangling link; reading its stamp reports that.
   auto& file = files[key];
@@ -157,6 +159,7 @@ std::vector<const Driver*> Catalogue::Impl::load_all() {
     for (PluginFile* file : group.files) {
       if (!load(*file)) continue;  // The reason is kept in `rejected`.
       for (const Driver& driver : file->drivers()) {
+        // The first group that has a name hides it in the groups behind.
         found.try_emplace({driver.info.kind, driver.info.name}, &driver);
       }
     }

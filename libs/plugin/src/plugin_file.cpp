@@ -70,6 +70,7 @@ Status check_against_stamp(const std::vector<Driver>& drivers,
                   "RAVE_PLUGIN(...)",
                   to_string(driver->info.kind), name);
     }
+    // The same name is allowed for drivers of different kinds.
     if (std::any_of(drivers.begin(), driver, [&](const Driver& other) {
           return other.info.kind == driver->info.kind && name == other.info.name;
         })) {

@@ -96,6 +96,7 @@ class FileCheck {
   }
 
   /// The checksum of all data also covers records without their own.
+  /// In pieces: a recording may be larger than memory.
   void check_data() {
     Bytes bytes;
     std::uint32_t sum = 0;

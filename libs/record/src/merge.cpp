@@ -271,6 +271,7 @@ void Merger::write_hash(RunRecorder& recorder) {
 void Merger::write_inputs(RunRecorder& recorder, bool before_first) {
   Once<RunInput> once;
   each_item(parts_, topic::kInputs, decode_input, [&](const Part& part, const RunInput& input) {
+    // Inputs before the first step are recorded before it, all others after their step.
     if ((input.step == 0) == before_first) once.add(&part, input);
   });
   for (const RunInput& input : once.items()) static_cast<void>(recorder.input(input));
@@ -298,6 +299,7 @@ bool Merger::was_told(const Part& part, const RunEvent& event) {
 
 Status Merger::write_moment(RunRecorder& recorder) {
   const std::int64_t step_ns = from_seconds(parts_.front()->info.step_s).ns;
+  // Log times are those of steps, so the number of the step follows.
   const auto step = time_ns_ / static_cast<std::uint64_t>(step_ns);
   write_inputs(recorder, true);
   recorder.begin_step(step, SimTime{static_cast<std::int64_t>(time_ns_)});
@@ -394,6 +396,7 @@ Result<std::vector<std::string>> merge_records(const std::vector<fs::path>& part
     return fail(ErrorCode::kParse, "no recording of the run can be read{}{}",
                 unreadable.empty() ? "" : ": ", unreadable.empty() ? "" : unreadable.front().why);
   }
+  // Renamed when it is complete: who opens the run meanwhile finds no half recording.
   fs::path draft = output;
   draft += ".merging";
   auto notes = Merger(std::move(opened), std::move(unreadable)).write(draft);

@@ -180,6 +180,7 @@ void RunRecorder::percept(const Percept& percept) {
                         percept.kind, static_cast<std::uint8_t>(percept.part), header.stamp_ns,
                         header.sequence, header.count, header.fresh, header.dropped, 0, 0, 1, 0},
                        percept.records);
+  // Standard messages exist for ranges; other sensors are in the packed stream only.
   if (percept.kind == kRangesKind && percept.part == PerceptPart::kResult &&
       impl_->views_.sees(percept.robot)) {
     // end_step() reports a failed write.
@@ -319,6 +320,8 @@ Status RunRecorder::flush() { return impl_->file_.flush(); }
 Status RunRecorder::end(std::optional<std::uint64_t> hash) {
   Impl& impl = *impl_;
   Status written = end_step();
+  // The end is a message and metadata: the message for readers in order, the metadata for tools
+  // that read the summary only.
   encode_end(impl.cdr_, {impl.time_, impl.steps_, hash});
   if (written) written = impl.end_.write(impl.file_, impl.time_, impl.cdr_.bytes());
   StringMap about = {{"steps", std::to_string(impl.steps_)}};

@@ -81,6 +81,7 @@ class DataScan {
     return true;
   }
 
+  // What the summary would have said.
   void count(const MessageView& message) {
     Statistics& all = file_.statistics;
     const bool first = all.message_count == 0;
@@ -187,6 +188,7 @@ class DataScan {
 }  // namespace
 
 void scan_data(RecordFile& file) {
+  // A summary that was read in part may be wrong; all is found anew.
   file.schemas.clear();
   file.channels.clear();
   file.chunks.clear();

@@ -48,6 +48,7 @@ Status StandardViews::open(McapWriter& file, const RunInfo& info, const ViewOpti
   RAVE_TRY_ASSIGN(tf_.stream, add_stream(file, "/tf", schema));
   RAVE_TRY(open_scans(file, info));
   RAVE_TRY(open_velocities(file, info));
+  // Mountings do not change, so they are written once, on the topic that viewers keep.
   if (scans_.empty()) return {};
   RAVE_TRY_ASSIGN(Stream fixed, add_stream(file, "/tf_static", schema));
   RAVE_TRY(write_mountings(file, info));
@@ -160,6 +161,7 @@ Status StandardViews::percept(McapWriter& file, SimTime time, const Percept& per
 Status StandardViews::command(McapWriter& file, SimTime time, const CommandRecord& command) {
   std::uint32_t kind = 0;
   double velocity[2] = {};
+  // The kind, a reserved word, then the velocities.
   if (command.command.size() < 8 + sizeof velocity) return {};
   std::memcpy(&kind, command.command.data(), sizeof kind);
   const auto found = velocities_.find(command.robot);

@@ -73,6 +73,7 @@ void WriteQueue::hand_over(std::unique_lock<std::mutex>&) {
   work_.notify_one();
 }
 
+// Attachments and metadata are few and wait behind the chunks, so the file keeps the order.
 void WriteQueue::push(WriteJob job) {
   const std::lock_guard lock(mutex_);
   backlog_bytes_ += waiting_bytes(job);
@@ -187,6 +188,7 @@ void WriteQueue::stop() {
 
 Status WriteQueue::finish(const std::vector<SchemaInfo>& schemas,
                           const std::vector<ChannelInfo>& channels) {
+  // First all that is waiting, then the thread, then the summary: it lists what was written.
   drain();
   stop();
   Status status = file_->finish(schemas, channels);

@@ -55,6 +55,7 @@ Vec2 middle_of(const PageBox& box) noexcept {
 
 void draw_body(Pen& pen, const std::vector<Vec2>& outline, Kind kind, Rgb colour) {
   const PageBox box = bounds_of(outline);
+  // A map of a building has bodies below the width of a line.
   if (std::max(box.width(), box.height()) < 2 * kLeastRadius) {
     pen.disc(middle_of(box), kLeastRadius);
     pen.fill(colour);

@@ -61,6 +61,7 @@ std::vector<Vec2> places_of_hits(const Stage& stage, Kind kind) {
     const Vec2 at = stage.panel.to_page(hit.to_W);
     if (hit.kind != kind || !stage.panel.frame.contains(at)) continue;
     const bool is_same_scan = last != nullptr && last->from_W == hit.from_W;
+    // Hits of different scans are never thinned: two robots may see the same wall.
     if (is_same_scan && squared_norm(at - places.back()) < kLeastSpacing * kLeastSpacing) continue;
     places.push_back(at);
     last = &hit;

@@ -108,6 +108,7 @@ double add_panels(const Picture& picture, double top, Layout& layout) {
 
 Result<Layout> lay_out(const Picture& picture) {
   RAVE_TRY(check_picture(picture));
+  // Text is measured before there is a page: its height decides where the panels begin.
   MeasuringPen measure;
   Layout layout;
   layout.width = kPageWidth;

@@ -129,6 +129,7 @@ void add_bodies(const Picture& picture, std::vector<LegendEntry>& entries) {
         std::count_if(picture.bodies.begin(), picture.bodies.end(), is_of_kind));
     if (count == 0) continue;
     const auto first = std::find_if(picture.bodies.begin(), picture.bodies.end(), is_of_kind);
+    // With the colour of the first one: bodies of a kind mostly have the same.
     const Rgb colour = rgb_of(first->colour, kind);
     entries.push_back({[kind, colour](Pen& pen, const PageBox& box) {
                          if (kind == Kind::kLandmark) {

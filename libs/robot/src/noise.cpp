@@ -70,6 +70,7 @@ struct Terms {
 };
 
 /// Normal numbers per record: one for each field that noise can change.
+/// The numbers are part of the run hash: another order, or one number more, changes all noise.
 template <class Record>
 constexpr std::uint32_t kNormals = 0;
 template <>

@@ -63,6 +63,7 @@ Status check_noise(const NoiseSpec& noise, ReadingKind kind) {
 }
 
 Status check_filter(const FilterSpec& filter, ReadingKind kind) {
+  // A filter needs the same number in each sample; sightings come and go.
   if (detail::filter_fields(kind).count == 0) {
     return fail(ErrorCode::kInvalidArgument,
                 "filter: a sensor of kind `{}` cannot be filtered, because its number of records "
@@ -226,6 +227,7 @@ bool Processing::deliver_some(SimTime now, bool all, std::byte* state, SampleHea
   while (ring.count > 0 && (all || newest == nullptr)) {
     std::byte* const place = slot(state, ring.first);
     const auto& header = *reinterpret_cast<const SampleHeader*>(place);
+    // Samples are in the order of their stamps, so all behind this one are not due either.
     if (SimTime{header.stamp_ns} + latency_ > now) break;
     // Filters see every sample in order, those too that a newer one replaces: their output would
     // otherwise depend on how often somebody looks.
@@ -236,6 +238,7 @@ bool Processing::deliver_some(SimTime now, bool all, std::byte* state, SampleHea
     newest = place;
   }
   if (newest == nullptr) return false;
+  // Of states only the newest is delivered; what it stands for is not counted as lost.
   *out = *reinterpret_cast<const SampleHeader*>(newest);
   out->dropped = ring.dropped;
   ring.dropped = 0;

@@ -51,6 +51,7 @@ T get(const std::byte* at) noexcept {
 
 /// Whole millimetres, clamped to the range of T.
 template <class T>
+// Millimetres in 32 bits reach 2000 km and need half the room of doubles.
 T millimetres(double length_m) noexcept {
   const double mm = std::round(length_m * 1000);
   if (!(mm > static_cast<double>(std::numeric_limits<T>::min()))) {
@@ -88,6 +89,7 @@ std::size_t encode(const RadioPacket& packet, std::span<std::byte> room) noexcep
   if (packet.position) flags |= kHasPosition;
   if (packet.line_of_sight) flags |= kLineOfSight;
   const RadioPacket::Position position = packet.position.value_or(RadioPacket::Position{});
+  // Offsets as in docs/reference/radio-packet.md; the checksum is last and covers all before it.
   std::memcpy(at, kMagic, sizeof kMagic);
   at[2] = kVersion;
   at[3] = static_cast<std::byte>(flags);

@@ -22,6 +22,8 @@ using Rank = std::int32_t;
 constexpr Rank kEmpty = std::numeric_limits<Rank>::max();
 constexpr Rank kNoNumber = kEmpty - 1;
 
+// Integers have one order for all values, NaN included, and vector instructions have minimum and
+// maximum of them.
 Rank rank_of(float x) noexcept {
   const auto bits = std::bit_cast<Rank>(x);
   // The bits of negative floats decrease as their values increase.
@@ -97,6 +99,7 @@ void exponential(double time_constant_s, std::uint32_t capacity, std::int64_t st
   const ExponentialMemory own(memory, capacity);
   // Rays with equal earlier stamps are processed together: usually all of them.
   for (std::size_t first = 0; first < ranges_m.size();) {
+    // Rays differ only if an earlier sample had fewer ranges than this one.
     const std::int64_t before_ns = own.stamp_ns[first];
     std::size_t last = first;
     for (; last < ranges_m.size() && own.stamp_ns[last] == before_ns; ++last) {

@@ -23,6 +23,7 @@ std::string text_of(std::int64_t ns) { return fmt::format("{:.9f} s", SimTime{ns
 
 }  // namespace
 
+// All memory for samples is taken here, so publish() only copies.
 SampleQueue::SampleQueue(ReadingKind kind, std::uint32_t max_records, std::size_t depth,
                          const RunClock* live)
     : max_records_(max_records),
@@ -105,6 +106,8 @@ bool SampleQueue::publish(SimTime stamp, const void* records, std::uint32_t coun
   return true;
 }
 
+// A stepped driver promises that nothing older than t will follow. Without the promise the engine
+// could not tell "no sample" from "not yet".
 void SampleQueue::complete_up_to(SimTime t) noexcept {
   Lock lock(mutex_);
   complete_ns_ = std::max(complete_ns_, t.ns);
@@ -140,6 +143,7 @@ SampleQueue::Wait SampleQueue::wait_complete(SimTime t, std::chrono::millisecond
     // Stamps do not decrease, so a stamp after t proves completeness up to t.
     if (complete_ns_ >= t.ns || newest_ns_ > t.ns) return Wait::kComplete;
     if (failed_ || closed_) return Wait::kFailed;
+    // A full queue is no timeout: the driver cannot go on before samples are taken.
     return count_ == depth_ ? Wait::kFull : Wait::kTimeout;
   };
   if (const Wait now = state(); now != Wait::kTimeout) return now;

@@ -24,6 +24,7 @@ double Steering::free_m(std::span<const Vec2> points_R, double heading_rad,
   for (const Vec2 p_R : points_R) {
     const double along_m = dot(ahead, p_R);
     const double across_m = std::abs(cross(ahead, p_R));
+    // Behind the robot, or beside its lane.
     if (along_m <= 0 || across_m >= half_width_m_) continue;
     // A disc of half the width moves ahead: it touches a point at distance `across` from its line
     // so much before the centre is abreast of it.

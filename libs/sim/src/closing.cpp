@@ -104,6 +104,7 @@ std::vector<ToClose> close_within(std::vector<ToClose> drivers, std::chrono::mil
       for (const std::size_t s : closing->stuck) stuck.push_back(closing->drivers[s]);
       return stuck;
     }
+    // The one that the thread had begun with last; its number is behind `next`.
     closing->stuck.push_back(closing->next - 1);
     ++closing->turn;
     limit = std::min(limit, kLater);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The act phase: commands go through controllers and guards to actuators. Virtual actuators propose
-// velocities, which the resolver limits later; hardware is written to at once.
+// velocities, which the resolver limits later; hardware is written to at the end of the phase, or
+// by the threads of its guards.
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hybrid sensors: the virtual half is computed for the pose and the world at the stamp of the real
-// sample, which is always in the past. So they need the history of poses and obstacles.
+// sample, which lies in the past. So they need the history of poses and obstacles.
 #include <algorithm>
 #include <cstring>
 

@@ -89,6 +89,7 @@ Result<std::unique_ptr<GuardThread>> Engine::Impl::start_guard(RobotGroup& group
     setup.pose.kind = source.spec->kind;
     setup.pose.X_WM = pose_frame(group, robot);
   }
+  // Only live sensors can fall silent by the wall clock; those of a recording follow the run.
   for (std::uint32_t s = 0; s < group.sensors.size(); ++s) {
     const SensorSlots& slots = group.sensors[s];
     if (!slots.max_age_s || !slots.live) continue;
@@ -151,6 +152,7 @@ void Engine::Impl::give_order(RobotGroup& group, std::uint32_t member) {
     ActuatorDemand& demand = order.demands[a];
     demand.command = group.actuators[a].commands[member];
     demand.expected = speaker != nullptr ? speaker->spec->ops->gives : CommandKind::kVelocity;
+    // A robot without a program has no watchdog: nobody has to speak.
     demand.watched = speaker != nullptr && group.program.spec != nullptr;
     demand.given = demand.watched ? guarded.given[group.index_of(*speaker)] : std::nullopt;
   }

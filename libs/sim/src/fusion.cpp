@@ -73,6 +73,7 @@ Status configure_imagined(const SensorSpec& sensor, const SensorInfo& real, Host
   }
   slots.capacity = declaration.capacity;
   slots.uses_fan = declaration.uses_fan != 0;
+  // What the virtual half does not declare is as in the real one.
   imagined = real;
   imagined.bearings_rad = nullptr;
   if (slots.uses_fan) {

@@ -207,7 +207,7 @@ std::uint32_t limit_motion(const GuardSpec& spec, const GuardInput& in, Drive& d
   const bool fenced = !spec.fence_W.empty();
   if ((!fenced && in.neighbours.empty()) || drive == Drive{}) return 0;
   std::uint32_t acted = 0;
-  // Commands far beyond any robot would make the predicted way endless, and with it this function.
+  // Commands far beyond any robot would make the predicted way, and so this function, too long.
   const double delay_s = in.dt_s + spec.reaction_s + in.pose_age_s;
   if (cap(drive, &Drive::v_mps, sane_speed_mps(delay_s, spec.deceleration_mps2))) {
     acted |= bit(GuardLimit::kSpeed);

@@ -24,6 +24,7 @@ constexpr double kMaxPiece_m = 0.05;
 double point_to_segment(Vec2 p, Vec2 a, Vec2 b) noexcept {
   const Vec2 ab = b - a;
   const double length2 = squared_norm(ab);
+  // The foot of the perpendicular, held between both ends.
   const double t = length2 > 0 ? std::clamp(dot(p - a, ab) / length2, 0.0, 1.0) : 0.0;
   return std::sqrt(squared_norm(p - (a + t * ab)));
 }
@@ -122,6 +123,7 @@ bool comes_inward(std::span<const Vec2> fence_W, const GuardPath& path, double r
     // Each step must lead inward, not only the end: a robot outside may not go round a corner
     // further out.
     if (now_m < before_m) return false;
+    // Inside from here on, so the rest of the way is judged like that of any robot inside.
     if (now_m >= -kSlack_m) {
       GuardPath rest = path;
       rest.X_WR = path.at(s_m);

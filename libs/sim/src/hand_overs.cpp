@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a robot changes between its two sets of drivers. It is a chain of stages that advances with
-// the steps; until the exchange, nothing of the robot has changed, and each failure is a refusal.
+// the steps; until the exchange the robot keeps the drivers that it has, and each failure is a
+// refusal.
 #include "hand_overs.hpp"
 
 #include <algorithm>
@@ -202,6 +203,7 @@ bool HandOvers::stands(Twin& twin) {
   const RobotGroup& group = group_of(twin);
   // The command that makes it stand has to reach it first.
   if (now_ <= twin.since) return false;
+  // Of a simulated robot the truth is known; it needs no time of observation.
   if (group.type->simulated) {
     return is_below(truth_.velocity[r], kTrueStill_mps, kTrueStill_radps);
   }

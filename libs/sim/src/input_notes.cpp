@@ -83,9 +83,9 @@ Event noted_obstacle(std::uint64_t step, const ObstacleChange& change, std::stri
 
 Event noted_order(std::uint64_t step, const WorldInput& input, EventKind kind, RunHash& hash) {
   const OrderDetails& order = input.order;
+  // Both kinds are in the key, so that no two inputs of a robot in one step hash alike by chance of
+  // their fields.
   ItemHash item(step, input.robot.value(), HashChannel::kInput,
-                // Both kinds, so that no two inputs of a robot in one step hash alike by chance of
-                // their fields.
                 static_cast<std::uint32_t>(kind) << 8U | static_cast<std::uint32_t>(input.kind));
   for (const Vec2 p_W : order.points_W) {
     item.add(p_W.x);

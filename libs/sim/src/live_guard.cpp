@@ -18,6 +18,7 @@ namespace {
 constexpr double kForgetGap = 0.99;
 constexpr std::int64_t kQuiet_ns = from_seconds(kGuardQuiet_s).ns;
 
+// A stamp ahead of now has age 0; one that is far ahead is judged where it is read.
 double age_s(SimTime now, SimTime then) noexcept { return std::max(0.0, (now - then).seconds()); }
 
 }  // namespace

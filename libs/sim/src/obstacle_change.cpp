@@ -103,6 +103,7 @@ Event obstacle_event(std::uint64_t step, const ObstacleChange& change, std::stri
   const Pose2& X_WB = change.X_WB;
   std::string text = fmt::format("`{}`", change.name);
   if (change.kind != Kind::kRemove) {
+    // All digits, because the text of this event is part of the run hash.
     text += fmt::format(" at ({}, {}), yaw {} rad", X_WB.x, X_WB.y, X_WB.yaw);
   }
   text += note;

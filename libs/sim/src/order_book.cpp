@@ -288,6 +288,7 @@ void OrderBook::look_at_goal(const OrderMoment& moment, RobotId id, OrderedRobot
   const ReportedPose& pose = moment.reported[id.value()];
   const double dx_m = robot.command.value[0] - pose.pose.x_m;
   const double dy_m = robot.command.value[1] - pose.pose.y_m;
+  // A robot whose pose is lost has reached nothing.
   const bool there = pose.known && !pose.stale &&
                      dx_m * dx_m + dy_m * dy_m <= robot.tolerance_m * robot.tolerance_m;
   if (!there) return;

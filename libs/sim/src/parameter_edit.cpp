@@ -78,6 +78,7 @@ Result<ParameterTarget> actuator_target(RobotGroup& group, std::uint32_t index, 
   RAVE_TRY_ASSIGN(ParameterTarget target, device_target(group.actuators, "actuator", index, m));
   ActuatorSlots& slots = group.actuators[index];
   target.update = [&slots, m](std::span<const ParamValue> values) -> Status {
+    // A real actuator takes its parameters when it is opened.
     if (slots.spec->virtual_ops == nullptr) {
       return fail(ErrorCode::kInvalidArgument, "the parameters of a real actuator cannot change");
     }

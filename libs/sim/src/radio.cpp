@@ -11,6 +11,7 @@ namespace {
 /// Packets that one thread takes at a time. Part of no result.
 constexpr std::size_t kBlockSize = 16;
 
+// Sender first: deliveries of a step are sorted by this number.
 std::uint64_t order_of(std::uint32_t endpoint, std::uint32_t sequence) {
   return (std::uint64_t{endpoint} << 32U) | sequence;
 }

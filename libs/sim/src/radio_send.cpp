@@ -57,6 +57,8 @@ void send_waiting(RadioLine& line, std::vector<Endpoint>& endpoints,
     sender.free_ns =
         start.at_ns + sending_ns(packet.cost_bytes, models[sender.model].declaration.byte_rate);
     line.free_ns = start.at_ns + sending_ns(packet.cost_bytes, line_rate);
+    // The slower of both: a message has left when its radio and the shared transmitter are done
+    // with it.
     packet.complete_ns = std::max(sender.free_ns, line.free_ns);
     const auto place = std::upper_bound(line.on_air.begin(), line.on_air.end(), id, ends_earlier);
     line.on_air.insert(place, id);

@@ -111,6 +111,7 @@ void Resolver::move(std::uint32_t id, const Motion2& motion_W, const world::Snap
     notes.push_back({id, BodyId(obstacle_), impact_.normal_W, false});
     rest = scaled(rest, 1 - impact_.fraction);
     const Vec2 d{rest.dx, rest.dy};
+    // normal_W points into the obstacle, so a positive part of the motion presses on it.
     const double into = dot(d, impact_.normal_W);
     // What drives the body into the obstacle is taken away. If that was no translation, it was the
     // turn: the body then slides without turning.

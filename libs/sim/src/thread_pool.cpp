@@ -91,6 +91,8 @@ void ThreadPool::share(std::size_t blocks, const std::function<void(std::size_t,
   work_ = &work;
   const std::size_t workers = threads();
   for (std::size_t worker = 0; worker < workers; ++worker) {
+    // The same cut for the same number of blocks, so each worker finds the data of its blocks in
+    // its cache.
     shares_[worker].next.store(blocks * worker / workers, std::memory_order_relaxed);
     shares_[worker].end = blocks * (worker + 1) / workers;
   }

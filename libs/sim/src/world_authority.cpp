@@ -117,6 +117,7 @@ void WorldAuthority::Impl::finish_step() {
   }
   truth.resolve(step - 1, events);
   hash.merge(truth.hash_poses(step - 1));
+  // Events of the authority alone; those of the hosts are in their own sums.
   finish_events(step - 1, events, hash);
   done_hash = hash;
   done_events.swap(events);

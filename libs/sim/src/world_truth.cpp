@@ -137,6 +137,7 @@ double WorldTruth::place_block(std::uint32_t first, std::uint32_t last) {
     const double before_rad = snapshot.robot(robot).X_WR.yaw;
     const bool turned = std::bit_cast<std::uint64_t>(movers[r].X_WR.yaw) !=
                         std::bit_cast<std::uint64_t>(before_rad);
+    // Compared bit by bit: of -0 and 0 the sine differs in its sign.
     const SinCos turn = turned ? sincos(movers[r].X_WR.yaw) : snapshot.turn_WR(robot);
     const Vec2 over_ground = rotate(turn, {velocity[r].vx, velocity[r].vy});
     snapshot.set_robot(

@@ -97,6 +97,7 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
 };
 
 void Connection::begin() {
+  // Also for the handshake: a client that says nothing holds a place.
   stream_.expires_after(core_.options().idle);
   stream_.handshake([self = shared_from_this()](Error error) {
     if (error) {
@@ -173,6 +174,7 @@ void Connection::dispatch(const Request& request) {
   const Reply reply = [held](const Response& response) { held->answer(response); };
   // A later response has its own timeout; nothing is read meanwhile.
   stream_.expires_after(core_.options().idle);
+  // Slow work is done elsewhere and answered later, because this thread serves all connections.
   if (core_.handler().serve_later(request, reply)) return;
   answer(core_.handler().serve(request));
 }
@@ -215,6 +217,7 @@ void Connection::upgrade(Request request) {
     subprotocol = std::move(answer.subprotocol);
   }
   stream_.set_send_buffer(core_.options().send_buffer_bytes);
+  // From here on the socket belongs to the WebSocket, and cut() must not close it.
   handed_over_ = true;
   serve_websocket(core_, std::move(stream_), std::move(seat_), std::move(request),
                   std::move(subprotocol), message_);

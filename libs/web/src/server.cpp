@@ -135,6 +135,7 @@ ServerCounts ServerImpl::counts() const {
 void ServerImpl::every(std::chrono::milliseconds period, std::function<void()> call) {
   auto timer =
       std::make_shared<Timer>(Timer{asio::steady_timer(core_.io()), period, std::move(call)});
+  // In the thread of the server, which owns the list of timers.
   post([this, timer] {
     timers_.push_back(timer);
     timer->timer.expires_after(timer->period);

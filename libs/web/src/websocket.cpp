@@ -102,6 +102,7 @@ void WebSocket::opened() {
 
 void WebSocket::queue(Out out) {
   if (ended_ || closing_) return;
+  // Payloads are shared by all pages that get them, so a frame for a hundred pages exists once.
   waiting_ += out.payload->size();
   out_.push_back(std::move(out));
   if (waiting_ > core_.options().waiting_bytes) {

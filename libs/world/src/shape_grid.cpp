@@ -60,6 +60,7 @@ void split(std::vector<Vec2> polygon, double largest_m, std::vector<CoverDisc>& 
     const std::vector<Vec2> piece = std::move(waiting.back());
     waiting.pop_back();
     const CoverDisc disc = disc_of(piece);
+    // A limit on the number, since a wall may be kilometres long.
     if (disc.radius_m <= largest_m || pieces.size() + waiting.size() >= kMaxPieces) {
       pieces.push_back(disc);
       continue;

@@ -285,6 +285,8 @@ void Snapshot::index_robots(double farthest_m) {
   rebuild_landmarks();
 }
 
+// Robots that carry codes move, so their landmarks are made anew in each step, behind those of
+// obstacles.
 void Snapshot::rebuild_landmarks() {
   landmarks_.erase(landmarks_.begin() + static_cast<std::ptrdiff_t>(fixed_landmarks_),
                    landmarks_.end());
@@ -319,6 +321,7 @@ RayHit Snapshot::nearest(Vec2 p_W, Vec2 direction, double z_m, double range_max_
     for (const std::uint32_t index : found) {
       const PlacedShape& candidate = shapes_[index];
       if (!contains(layers, candidate.layer) || !candidate.at_height(z_m)) continue;
+      // The bodies at both ends of a line of sight do not obstruct it.
       if (candidate.body == a.value() || candidate.body == b.value()) continue;
       const double range = candidate.kind == ShapeKind::kDisc
                                ? cast_disc(p_W, direction, candidate.centre_W, candidate.radius_m)

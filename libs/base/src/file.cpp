@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files read and written whole.
 #include "rave/base/file.hpp"
 
 #include <fcntl.h>

@@ -19,6 +19,7 @@ Status check_robots(std::string_view list, const rave_wire_PlanarRobots& robots)
   RAVE_TRY(check_numbers(list, "vx_mps", robots.vx_mps, size, kMaxSpeed_mps));
   RAVE_TRY(check_numbers(list, "vy_mps", robots.vy_mps, size, kMaxSpeed_mps));
   RAVE_TRY(check_numbers(list, "wz_radps", robots.wz_radps, size, kMaxTurn_radps));
+  // Columns of different lengths would shift the fields of all robots behind the gap.
   const auto stamps = elements(robots.stamp_ns);
   if (stamps.size() != size) {
     return invalid(
@@ -275,6 +276,7 @@ Status validate(const FindingsPart& sample) {
   if (sample.size == 0 || sample.size > kMost) {
     return invalid(fmt::format("size is {}, not within 1 and {}", sample.size, kMost));
   }
+  // Sizes follow from each other, so every part but the last is full; anything else is refused.
   const std::uint64_t parts = (sample.size + kPart - 1) / kPart;
   if (sample.part >= parts) {
     return invalid(

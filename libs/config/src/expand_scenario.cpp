@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a scenario with its files to one complete description. Whatever reads an expanded scenario
-// needs no other file except the images of maps.
+// needs no other file except those of maps and of components of the page.
 #include <algorithm>
 #include <map>
 

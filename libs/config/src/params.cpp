@@ -30,8 +30,8 @@ std::vector<std::string_view> views_of(const std::vector<std::string>& names) {
 }
 
 /// Calls `f` with the C++ type of a parameter; an enum is a std::string.
+/// One place that knows which C++ type a declared type has; readers, writers and schemas use it.
 template <class F>
-// One place that knows which C++ type a declared type has; readers, writers and schemas use it.
 auto with_type(ParamType type, F&& f) {
   switch (type) {
     case ParamType::kBool:

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG images by libpng.
 #include <png.h>
 
 #include <csetjmp>

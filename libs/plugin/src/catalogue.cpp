@@ -53,6 +53,7 @@ Result<std::vector<fs::path>> plugin_files_of(const fs::path& folder) {
     return fail(ErrorCode::kIo, "cannot list plug-in folder `{}`: {}", folder.string(),
                 code.message());
   }
+  // The order of a folder is that of the file system; sorted, every machine finds the same first.
   std::sort(files.begin(), files.end());
   return files;
 }

@@ -154,6 +154,7 @@ Result<Stamp> parse_stamp(std::string_view bytes) {
   RAVE_TRY_ASSIGN(const Elf64_Ehdr header, read_header(bytes));
   RAVE_TRY_ASSIGN(const std::optional<Elf64_Shdr> section, find_section(bytes, header));
   if (!section) return no_stamp();
+  // The size first: an older or newer stamp has its fields elsewhere.
   if (section->sh_size != sizeof(Stamp)) {
     return fail(ErrorCode::kIncompatible,
                 "its stamp has {} bytes, this version's has {}: rebuild it against this "

@@ -267,8 +267,8 @@ Result<RunInfo> decode_run(Message message) {
   info.started = reader.get_string();
   info.seed = reader.get<std::uint64_t>();
   info.step_s = reader.get<double>();
-  // The number of bytes that an element has at least (a text has 5). So a damaged count cannot
-  // claim more elements than there are bytes.
+  // get_count() is given the least number of bytes of an element (a text has 5), so that a damaged
+  // count cannot claim more elements than there is room for.
   for (auto count = reader.get_count(10); count > 0 && reader.ok(); --count) {
     std::string name = reader.get_string();
     info.versions[std::move(name)] = reader.get_string();

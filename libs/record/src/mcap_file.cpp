@@ -166,6 +166,7 @@ Status McapFile::write_attachment(const AttachmentInfo& info, ByteSpan data) {
   writer.string(info.media_type);
   writer.put(static_cast<std::uint64_t>(data.size()));
   writer.raw(data);
+  // Over all fields of the record before it.
   writer.put(crc32(ByteSpan(out_).subspan(record)));
   writer.end_record(record);
   AttachmentInfo placed = info;

@@ -53,6 +53,8 @@ Status MessageCursor::Impl::open_chunk(std::size_t index) {
     if (inside) chunk->places.push_back({message.log_time_ns, at, content.size()});
     return ok;
   });
+  // Sorted here, since a chunk keeps messages in the order in which they were written. Stable, so
+  // that those of one time keep that order.
   if (!chunk->places.empty()) {
     std::ranges::stable_sort(chunk->places, {}, &Place::log_time_ns);
     heads_.push({chunk->places.front().log_time_ns, index});

@@ -38,6 +38,7 @@ void PoseBatch::add(const RobotPose& robot) {
 }
 
 void PoseBatch::add(const PoseBlock& block) {
+  // Simulated robots without a pose source, whose reported pose is the true one.
   const std::size_t before = poses_.size();
   poses_.resize(before + block.robots);
   PackedPose* const packed = poses_.data() + before;

@@ -58,6 +58,7 @@ Status StandardViews::open(McapWriter& file, const RunInfo& info, const ViewOpti
 Status StandardViews::open_scans(McapWriter& file, const RunInfo& info) {
   std::uint16_t schema = 0;
   for (const RecordedSensor& sensor : info.sensors) {
+    // Others have no standard message; they are in the recording all the same.
     if (sensor.kind != kRangesKind || !sees(sensor.robot) ||
         sensor.robot.value() >= frames_.size() || !evenly_spaced(sensor.bearings_rad)) {
       continue;

@@ -29,8 +29,8 @@ using Context = std::unique_ptr<cairo_t, Release>;
 cairo_status_t append(void* content, const unsigned char* data, unsigned int length) {
   try {
     static_cast<std::string*>(content)->append(data, data + length);
-    // An exception must not pass through the C code of cairo.
   } catch (const std::bad_alloc&) {
+    // An exception must not pass through the C code of cairo.
     return CAIRO_STATUS_NO_MEMORY;
   }
   return CAIRO_STATUS_SUCCESS;
@@ -86,6 +86,7 @@ Status write_png(const Picture& picture, const std::filesystem::path& path, doub
   RAVE_TRY_ASSIGN(const Layout layout, lay_out(picture));
   const double width = std::ceil(layout.width * scale);
   const double height = std::ceil(layout.height * scale);
+  // cairo would only say that the size is invalid.
   if (width > kMostPixels || height > kMostPixels) {
     return fail(ErrorCode::kInvalidArgument, "picture: {} x {} pixels are more than {} a side",
                 width, height, kMostPixels);

@@ -72,6 +72,7 @@ Cell wrapped(std::string_view text, std::size_t width) {
     const std::string_view word = text.substr(0, space);
     text.remove_prefix(space == std::string_view::npos ? text.size() : space + 1);
     if (!line.empty() && columns_of(line) + 1 + columns_of(word) > width) {
+      // A word alone may be wider than the column.
       lines.push_back(clip_to_columns(line, width));
       line = word;
     } else {

@@ -174,6 +174,7 @@ void draw_ends(Stage& stage, const PictureTrack& track) {
   stage.pen.disc(start, 2.6);
   stage.pen.fill_keeping_path(kWhite);
   stage.pen.stroke(colour, 1.2);
+  // No arrow at the end: after the pose was lost nobody knows the direction.
   if (track.pose_lost_t_s) {
     draw_lost_mark(stage.pen, page_at(track, stage.panel, *track.pose_lost_t_s), colour);
     return;

@@ -262,6 +262,7 @@ void Processing::apply_noise(std::span<const NoiseItem> items) const noexcept {
     case ReadingKind::kNone:
       break;
   }
+  // After the noise, which has the number of records that the sensor gave: drop-out changes it.
   if (noise_.dropout_probability > 0) lose(kind_, items, dropout_limit(noise_.dropout_probability));
 }
 

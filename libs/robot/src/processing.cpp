@@ -44,6 +44,7 @@ Status check_amount(const char* name, double value, bool applies, ReadingKind ki
 
 Status check_noise(const NoiseSpec& noise, ReadingKind kind) {
   using enum ReadingKind;
+  // Which terms mean something for a kind of reading.
   const bool posed = kind == kPose || kind == kOdometry;
   const bool angle = posed || kind == kSightings || kind == kNeighbours;
   const bool length = angle || kind == kRanges;

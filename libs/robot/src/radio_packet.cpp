@@ -50,8 +50,8 @@ T get(const std::byte* at) noexcept {
 }
 
 /// Whole millimetres, clamped to the range of T.
+/// Millimetres in 32 bits reach 2000 km and need half the room of doubles.
 template <class T>
-// Millimetres in 32 bits reach 2000 km and need half the room of doubles.
 T millimetres(double length_m) noexcept {
   const double mm = std::round(length_m * 1000);
   if (!(mm > static_cast<double>(std::numeric_limits<T>::min()))) {

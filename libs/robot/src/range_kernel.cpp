@@ -30,8 +30,8 @@ HWY_INLINE void for_all(std::size_t count, const Loop& loop) {
   for (; i < count; ++i) loop(single, i);
 }
 
-template <class D, class V>
 // NaN compares false, so it is not finite either.
+template <class D, class V>
 HWY_INLINE hn::Mask<D> is_finite(D d, V x) {
   return hn::Le(hn::Abs(x), hn::Set(d, kLargest));
 }

@@ -193,6 +193,7 @@ Status HandOvers::check_near(const Twin& twin) const {
   const Pose2 X_after = arrival(twin).X_WR;
   const double apart_m = distance_m(X_before, X_after);
   const double turned_rad = std::abs(wrap_angle(X_after.yaw - X_before.yaw));
+  // Farther apart than this, one of both sets is wrong about the place, and the robot would jump.
   const HandOverLimits& limits = spec_.robots[r].hand_over;
   const bool finite =
       std::isfinite(X_after.x) && std::isfinite(X_after.y) && std::isfinite(X_after.yaw);
@@ -279,6 +280,7 @@ bool HandOvers::close() noexcept {
   bool all = true;
   std::vector<ToClose> open;
   for (Twin& twin : twins_) {
+    // One moment for all of them, so that several that hang do not add up.
     if (!twin.work.ready_by(end)) {
       all = false;
       if (spec_.log == nullptr) continue;

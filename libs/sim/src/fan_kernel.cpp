@@ -169,6 +169,8 @@ HWY_INLINE void cast_polygons(Pieces polygons, const Vec2* vertices_W, const Vec
       sight[i] = seen[i].see(*batch[i], vertices_W, normals_W, place);
       if (sight[i] == Sight::kOutside) edges.put(i, seen[i]);
     }
+    // The edges of the whole batch at once; those of pieces that are not seen from outside are not
+    // used.
     edges.find();
     for (std::size_t i = 0; i < batch.size(); ++i) {
       if (sight[i] == Sight::kInside) keep_all_inside(fan, batch[i]->body);
@@ -212,6 +214,7 @@ void cast_few(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2*
     const auto inside = hn::Set(d, std::numeric_limits<float>::infinity());
     for (std::size_t g = 0; g < kGroups; ++g) keep_nearer(inside, whose, inverse[g], body[g]);
   };
+  // Only the rays stay in registers: each shape is loaded once and met by all of them.
   SeenDisc disc;
   for (const world::ShapePiece* const piece : discs) {
     if (disc.see(*piece, place) == Sight::kInside) {

@@ -67,6 +67,7 @@ Status HandOvers::check(const Twin& twin, DriverSet to) const {
     return fail(ErrorCode::kState, "robot `{}` already has its {} drivers", name,
                 reality_of(target));
   }
+  // The body of a real robot is what it is; it cannot take over one of another size.
   const double scale = truth_.scale_of(twin.robot);
   if (!target.simulated && scale != 1) {
     return fail(ErrorCode::kState, "the body of robot `{}` has `scale` {}; a real one has 1", name,

@@ -91,6 +91,7 @@ Result<std::unique_ptr<LoneSensor>> LoneSensor::make(SensorSpec spec, double ste
 Status LoneSensor::sample(const world::Snapshot& world, RobotId robot, std::uint64_t seed) {
   Parts& its = *parts_;
   if (its.failed || !world.robot(robot).present) return {};
+  // The time since its last sample, whatever that was: the page asks when it wants to.
   const double elapsed_s =
       its.header.sequence == 0 ? 0 : SimTime{world.time().ns - its.header.stamp_ns}.seconds();
   const std::uint32_t sequence = its.header.sequence;

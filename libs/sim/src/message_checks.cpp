@@ -263,6 +263,7 @@ Status check_obstacles(const EngineSpec& spec, const WorldStep& world) {
 }  // namespace
 
 void HostRobots::set_type(RobotId robot, const RobotType& type) {
+  // Both lists stay ascending, because reports are compared with them element by element.
   const auto put = [robot](std::vector<RobotId>& robots, bool is_one) {
     const auto place = std::lower_bound(robots.begin(), robots.end(), robot);
     const bool was_one = place != robots.end() && *place == robot;
@@ -286,6 +287,7 @@ Status check_report(const EngineSpec& spec, const HostRobots& own,
 }
 
 Status check_world_step(const EngineSpec& spec, const WorldStep& world) {
+  // First, since the rest takes the lengths of the columns for granted.
   RAVE_TRY(check_columns(spec, world));
   const std::size_t count = spec.robots.size();
   for (const PushedRobot& pushed : world.pushed) {

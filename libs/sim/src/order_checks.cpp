@@ -137,6 +137,7 @@ Status check_points(const EngineSpec& spec, const WorldInput& input) {
     return wrong(spec, input,
                  path ? path_size_text(count) : fmt::format("{} points; expected one", count));
   }
+  // Of the world as it is now: obstacles may have come or gone since the start.
   const Box box = world_box(spec);
   for (const Vec2 p_W : input.order.points_W) RAVE_TRY(check_point(spec, input, box, p_W));
   const double yaw_rad = input.order.yaw_rad.value_or(0);

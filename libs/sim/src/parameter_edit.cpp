@@ -35,6 +35,7 @@ Result<ParameterTarget> program_target(RobotGroup& group, std::size_t m) {
   ParameterTarget target{
       "program", slots.spec->param_specs, present_values(slots, m), &slots.changed[m], {}};
   if (slots.spec->isolate) {
+    // The process also learns the radius of the body, which it cannot see from where it is.
     target.update = [&slots, m](std::span<const ParamValue> values) {
       return slots.processes[m]->update(values, slots.setups[m].robot.radius_m);
     };

@@ -475,6 +475,7 @@ void ListedFans::cast_together() {
 }
 
 void ListedFans::read(std::size_t asker, std::span<float> ranges, std::span<std::uint32_t> bodies) {
+  // Cast with the whole block already; fans of many rays are cast when they are read.
   if (fan_->rays <= kFewRays) {
     const std::size_t size = fan_->cos.size();
     read_rays(*fan_,

@@ -151,6 +151,7 @@ Status make_sensor(const GroupContext& context, RobotGroup& group, SensorSlots& 
             .with_context(fmt::format("real half (driver `{}`)", slots.spec->hardware_driver())));
   }
   RAVE_TRY(configured);
+  // The processing of the file comes last and so works on what hybrids have fused.
   const double step_s = context.spec.step.seconds();
   describe(slots, step_s);
   if (!slots.spec->processing.empty()) {
@@ -191,6 +192,7 @@ Status open_sensors(GroupContext context, RobotGroup& group) {
         return tl::unexpected(named_error(context, group.members[m], "sensor", slots.spec->name,
                                           slots.spec->hardware_driver(), status.error()));
       }
+      // After success only: a sensor that could not be opened is not closed, unlike a device.
       slots.open[m] = 1;
     }
   }

@@ -93,6 +93,7 @@ Status check_twins(const EngineSpec& spec) {
 Status check_local(const EngineSpec& spec) {
   if (!spec.local) return {};
   RAVE_TRY(check_shared(spec));
+  // A host without robots would have nothing to report, and the authority waits for reports.
   if (spec.local->empty())
     return fail(ErrorCode::kInvalidArgument, "expected at least one robot for the host");
   std::vector<std::uint8_t> seen(spec.robots.size());

@@ -49,6 +49,7 @@ WorldAuthority::Impl::Impl(EngineSpec s, std::vector<std::uint32_t> h)
 void WorldAuthority::Impl::begin() {
   static_cast<void>(truth.restore_obstacles());
   static_cast<void>(truth.restore_bodies());
+  // After the bodies and obstacles of the start are back: it places them.
   truth.begin();
   step = 0;
   events.clear();

@@ -31,6 +31,7 @@ void WorldTruth::begin() {
   pinned_before_.assign(count, 0);
   for (std::uint32_t r = 0; r < count; ++r) {
     const RobotType& type = spec.types[spec.robots[r].type];
+    // A real robot is not in the world before its first pose.
     movers[r] = {
         .X_WR = spec.robots[r].X_WR, .simulated = type.simulated, .present = type.simulated};
     snapshot.set_robot(RobotId(r), {movers[r].X_WR, {}, movers[r].present});

@@ -24,6 +24,7 @@ TextCharacter character_at(std::string_view text, std::size_t at) noexcept {
   unsigned code = first & (0x3fU >> more);
   for (std::size_t i = 1; i <= more; ++i) {
     const unsigned next = static_cast<unsigned char>(text[at + i]);
+    // Not UTF-8: this byte counts alone, and the next one begins anew.
     if ((next & 0xc0U) != 0x80U) return {1, false};
     code = (code << 6U) | (next & 0x3fU);
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A line on standard error that says which plug-in was running when the process crashed.
 #include "rave/base/crash_note.hpp"
 
 #include <unistd.h>
@@ -12,6 +13,7 @@
 namespace rave {
 namespace detail {
 
+// Per thread: a signal of a fault arrives in the thread that caused it.
 constinit thread_local const CrashNote* crash_note = nullptr;
 
 }  // namespace detail
@@ -58,6 +60,7 @@ const char* name_of(int signal) noexcept {
 }
 
 void on_crash(int signal) {
+  // Only functions that are safe in a signal handler: no allocation, no lock, no stdio.
   if (const CrashNote* const note = detail::crash_note) {
     Line line;
     line << "\nrave: crashed (" << name_of(signal) << ") in " << note->part << " `" << note->driver;
@@ -90,6 +93,7 @@ void install_crash_note() noexcept {
   }
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
     struct sigaction action {};
+    // Whoever has set a handler before, such as a sanitizer, keeps it.
     if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;
     action.sa_handler = &on_crash;
     action.sa_flags = SA_ONSTACK | static_cast<int>(SA_RESETHAND);

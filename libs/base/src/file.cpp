@@ -62,6 +62,7 @@ Result<std::string> read_file(const std::filesystem::path& path, std::size_t max
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return system_failure(path, "read");
     if (count == 0) return content;
+    // Read to the end instead of asking for the size: the file may grow meanwhile.
     content.append(buffer, static_cast<std::size_t>(count));
     if (content.size() > max_bytes) {
       return fail(ErrorCode::kIo, "cannot read `{}`: it is larger than {} bytes", path.string(),
@@ -71,6 +72,7 @@ Result<std::string> read_file(const std::filesystem::path& path, std::size_t max
 }
 
 Status write_file_atomically(const std::filesystem::path& path, std::string_view content) {
+  // Beside the target, because rename() replaces a file at once only within a file system.
   std::filesystem::path temporary = path;
   temporary += fmt::format(".{}.part", ::getpid());
   {
@@ -88,6 +90,7 @@ Status write_file_atomically(const std::filesystem::path& path, std::string_view
       }
       rest.remove_prefix(static_cast<std::size_t>(count));
     }
+    // Before rename(): otherwise a power failure can leave the new name with an empty file.
     if (::fsync(file.get()) != 0 && errno != EINVAL) return system_failure(temporary, "flush");
   }
   if (::rename(temporary.c_str(), path.c_str()) != 0) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Suggestions for names that do not exist.
 #include "rave/base/names.hpp"
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 
 namespace rave {
 
+// Insertions, deletions, changes and swaps of neighbours count one each (optimal string alignment).
 int edit_distance(std::string_view a, std::string_view b) {
   // Three rows of the dynamic programming table suffice: a swap looks two rows back.
   std::vector<int> before(b.size() + 1);
@@ -30,6 +32,7 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> candidates) {
   std::string_view best;
+  // A third of the letters may be wrong; beyond that a suggestion would be a guess.
   int best_score = static_cast<int>(std::max<std::size_t>(2, name.size() / 3)) + 1;
   for (const std::string_view candidate : candidates) {
     int score = edit_distance(name, candidate);

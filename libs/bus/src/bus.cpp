@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A member of a DDS domain: its participant, the partitions of its run, and what happens to
+// readers, writers and processes, as events.
 #include "rave/bus/bus.hpp"
 
 #include <algorithm>
@@ -30,6 +32,8 @@ constexpr std::uint32_t kReaderStatus =
 constexpr std::uint32_t kWriterStatus =
     DDS_PUBLICATION_MATCHED_STATUS | DDS_OFFERED_INCOMPATIBLE_QOS_STATUS;
 
+// Hosts are in both partitions, the manager and monitors in one each. So both match hosts, and
+// never each other.
 Qos partitions_of(const RunId& run, Side side) {
   Qos qos(dds_create_qos());
   const std::string run_itself = "rave/" + run.text();
@@ -45,6 +49,7 @@ Qos partitions_of(const RunId& run, Side side) {
 std::vector<dds_instance_handle_t> matched(dds_entity_t entity, bool reads) {
   const auto list = reads ? dds_get_matched_publications : dds_get_matched_subscriptions;
   std::vector<dds_instance_handle_t> handles(16);
+  // The number may grow between two calls, so it is asked again with more room.
   while (true) {
     const dds_return_t count = list(entity, handles.data(), handles.size());
     if (count < 0) return {};
@@ -84,6 +89,7 @@ bool has_domains() { return dds_get_children(DDS_CYCLONEDDS_HANDLE, nullptr, 0) 
 
 Bus::Bus(BusConfig config)
     : config_(std::move(config)), writer_(random_writer_id()), number_(config_.domain) {
+  // Cyclone DDS has one log per process; the first bus gets it.
   if (!config_.beside || !has_domains()) log_ = std::make_unique<CycloneLog>();
 }
 
@@ -99,6 +105,8 @@ Status Bus::open_domain() {
   if (config_.reach == Reach::kHub) return open_hub();
   const std::string settings = cyclone_xml(config_);
   std::uint32_t attempt = 0;
+  // A second bus of one process needs a domain number of its own in Cyclone DDS, which is used
+  // inside this process only.
   do {
     if (config_.beside) number_ = number_beside(config_, attempt);
     domain_ = dds_create_domain(number_, settings.c_str());
@@ -213,6 +221,7 @@ Result<dds_entity_t> Bus::add_endpoint(const TopicSpec& topic, bool reads) {
     return fail(ErrorCode::kIo, "cannot {} {}: {}", reads ? "read" : "write", topic.name,
                 dds_strretcode(entity));
   }
+  // Only these statuses wake a wait set; data have a condition of their own.
   dds_set_status_mask(entity, reads ? kReaderStatus : kWriterStatus);
   endpoint.entity = entity;
   endpoints_.push_back(std::move(endpoint));
@@ -266,6 +275,7 @@ std::vector<BusEvent> Bus::take_events() {
     collect_incompatible(endpoint);
     collect_matches(endpoint);
   }
+  // Somebody has come or gone, so the addresses of the local transport may be others.
   if (events_.size() > before) {
     for (Endpoint& endpoint : endpoints_) meet(endpoint);
   }
@@ -275,6 +285,8 @@ std::vector<BusEvent> Bus::take_events() {
 std::vector<BusProcess> Bus::processes() const { return participants_->all(); }
 
 bool Bus::speaks_for(dds_entity_t reader, dds_instance_handle_t from, std::uint64_t writer) {
+  // Protects from a process that writes the id of another one into its samples: an id belongs to
+  // the participant that announced it.
   const dds_guid_t* const owner = participants_->owner_of(writer);
   if (owner == nullptr) return true;
   Endpoint* const end = endpoint(reader);
@@ -288,6 +300,8 @@ bool Bus::speaks_for(dds_entity_t reader, dds_instance_handle_t from, std::uint6
       return participants_->speaks_for(known.participant, writer);
     });
   }
+  // Bounded, since writers come and go for as long as the process lives; asking DDS again is only
+  // slow.
   if (end->heard.size() >= kMaxEvents) end->heard.clear();
   end->heard.push_back({from, participant});
   return participants_->speaks_for(participant, writer);
@@ -340,6 +354,7 @@ void Bus::note_foreign(const std::string& topic) {
 
 void Bus::note_refused(const std::string& topic, std::uint64_t writer, std::string why) {
   ++refused_samples_;
+  // Bounded: who sends nonsense sends much of it, and nobody may be asking for events.
   if (events_.size() < kMaxEvents) {
     events_.push_back({EventKind::kRefused, topic, "", writer, std::move(why)});
   }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The difference between two clocks from exchanges of four stamps, with a bound of its error. The
+// best exchange of a window counts.
 #include "rave/bus/clock_offset.hpp"
 
 #include <cmath>
@@ -14,6 +16,8 @@ Result<ClockReading> read_clock(const ClockExchange& exchange) {
     return fail(ErrorCode::kInvalidArgument,
                 "impossible clock exchange of {} ns, of which {} ns at the other end", away, held);
   }
+  // As NTP: the offset is exact if both ways took equally long, and wrong by at most half of the
+  // time on the way if not (RFC 5905, section 8).
   const std::int64_t on_the_way = away - held;
   // Halving an odd sum truncates half a nanosecond; rounding the bound up covers it.
   const std::int64_t there = exchange.received_ns - exchange.asked_ns;
@@ -25,6 +29,7 @@ Status ClockOffset::add(const ClockExchange& exchange) {
   entries_.push_back({exchange.heard_ns, reading});
   while (entries_.front().heard_ns < exchange.heard_ns - options_.window.ns) entries_.pop_front();
   // A newer exchange with no larger bound stays better as long as both are in the window.
+  // What remains has ascending bounds, as in a monotone queue.
   while (entries_.size() > 1) {
     const Entry& older = entries_[entries_.size() - 2];
     if (bound_at(older, exchange.heard_ns) < reading.bound) break;
@@ -43,6 +48,7 @@ std::optional<ClockReading> ClockOffset::at(std::int64_t now_ns) const {
   return best;
 }
 
+// Clocks drift apart, so an old exchange is worth less and less.
 Duration ClockOffset::bound_at(const Entry& entry, std::int64_t now_ns) const {
   const auto age_ns = static_cast<double>(now_ns - entry.heard_ns);
   const double drift_ns = std::ceil(std::fabs(age_ns) * options_.max_drift);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The settings of Cyclone DDS, made from those of a run.
 #include "rave/bus/config.hpp"
 
 #include <string_view>
@@ -158,6 +159,7 @@ std::string security(const std::filesystem::path& folder) {
          "</Cryptographic></Security>";
 }
 
+// Checked here, because Cyclone DDS would only say that it cannot create a participant.
 Status check_certificates(const std::filesystem::path& folder) {
   for (const char* const name : {"identity_ca.pem", "identity.pem", "identity_key.pem",
                                  "permissions_ca.pem", "governance.p7s", "permissions.p7s"}) {
@@ -215,6 +217,7 @@ std::string cyclone_xml(const BusConfig& config, int hub) {
       "<CycloneDDS><Domain Id=\"any\">" + general(config) + discovery(config, hub) + internals();
   if (!config.security.empty()) xml += security(config.security);
   xml += "</Domain></CycloneDDS>";
+  // After a comma Cyclone DDS reads another document, whose settings replace those before.
   if (!config.cyclone_settings.empty()) xml += "," + config.cyclone_settings;
   return xml;
 }

@@ -42,6 +42,7 @@ std::optional<std::string> take_mismatch(dds_entity_t entity, bool reads) {
     policy = status.last_policy_id;
     fresh = status.total_count_change;
   }
+  // Only what is new since the last call: DDS keeps the total.
   if (fresh == 0) return std::nullopt;
   const PolicyAdvice advice = advice_for_policy(policy);
   return fmt::format("a {} gets nothing {} us: {} does not match; {}", reads ? "writer" : "reader",

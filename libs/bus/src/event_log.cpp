@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Which events of the bus are worth a line of the log, and how many lines.
 #include "rave/bus/event_log.hpp"
 
 #include <fmt/format.h>
@@ -50,6 +51,8 @@ void EventLog::note(const BusEvent& event, Clock::time_point now) {
   if (!worth || log_ == nullptr) return;
   std::string line = event.line();
   const auto told = told_.find(event.writer);
+  // A faulty sender causes the same event with each of its samples; it is told once, until
+  // something else is worth telling of that sender.
   if (told != told_.end() && told->second == line) return;
   write(LogLevel::kWarning, "bus", line, now);
   if (told_.size() >= kMostWriters && told == told_.end()) told_.erase(told_.begin());
@@ -70,6 +73,7 @@ void EventLog::write(LogLevel level, std::string_view source, std::string_view t
   log_->write(level, source, line);
 }
 
+// A budget that refills by a line per second: other processes must not be able to fill the log.
 bool EventLog::may_write(Clock::time_point now) {
   if (now - refilled_ >= kPerLine) {
     const auto lines = static_cast<std::size_t>((now - refilled_) / kPerLine);

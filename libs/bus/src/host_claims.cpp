@@ -10,6 +10,8 @@ Status HostClaims::claim(std::uint32_t host, std::uint64_t writer) {
     return fail(ErrorCode::kNotFound, "host {} is not one of the {} of the scenario", host,
                 writers_.size());
   }
+  // First come, first served. A process that is lost releases its host, so another may take its
+  // place.
   std::uint64_t& owner = writers_[host];
   if (owner == 0) owner = writer;
   if (owner == writer) return {};

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Datagrams of Unix sockets for the two small messages of lock-step. DDS does discovery and carries
+// what is large, remote or refused here. See docs/explanation/local-transport.md.
 #include "rave/bus/local_transport.hpp"
 
 #include <dds/ddsi/ddsi_cdrstream.h>
@@ -14,6 +16,7 @@
 namespace rave::bus {
 namespace {
 
+/// First bytes of each datagram; the last is the version of the layout.
 constexpr std::array<unsigned char, 7> kMark = {'r', 'a', 'v', 'e', 's', 'w', 1};
 constexpr std::uint32_t kXcdr1 = 1;
 /// After a sample that was too large, or for which some readers had no room, this many samples are
@@ -35,6 +38,9 @@ std::int64_t coarse_ms() noexcept {
 
 }  // namespace
 
+// A name in the abstract namespace of Linux: no file is left behind, and the kernel refuses a
+// second process that wants the same address. It is derived from run, process and topic, so nothing
+// has to be exchanged.
 LocalAddress::LocalAddress(const RunId& run, std::uint64_t writer, std::uint8_t topic) {
   name.sun_family = AF_UNIX;
   // The first byte is 0: the abstract namespace.
@@ -48,6 +54,7 @@ bool LocalAddress::operator==(const LocalAddress& other) const noexcept {
 }
 
 std::optional<LocalSocket> LocalSocket::open(const LocalAddress& address) {
+  // Non-blocking: a reader that is slow must never stop the sender.
   const int descriptor = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (descriptor < 0) return std::nullopt;
   LocalSocket socket(descriptor);
@@ -76,6 +83,7 @@ LocalDecoder::~LocalDecoder() { dds_sample_free(sample_, type_, DDS_FREE_ALL); }
 
 const void* LocalDecoder::decode(std::span<std::byte> datagram) {
   if (datagram.size() < kLocalHeaderBytes || datagram.size() > kMostLocalBytes) return nullptr;
+  // Any process of the machine may send to this address.
   if (std::memcmp(datagram.data(), kMark.data(), kMark.size()) != 0 ||
       datagram[kMark.size()] != std::byte{topic_}) {
     return nullptr;
@@ -108,6 +116,7 @@ void LocalSender::meet(std::vector<std::uint64_t> writers) {
   auto sorted = writers_;
   std::ranges::sort(sorted);
   // If a process has two readers, only one of them has the socket.
+  // An id of 0 is a reader that did not announce its process: it has no socket.
   near_ =
       !sorted.empty() && sorted.front() != 0 && std::ranges::adjacent_find(sorted) == sorted.end();
 }
@@ -121,6 +130,7 @@ std::span<const unsigned char> LocalSender::encode(const void* sample) {
   if (buffer_ == nullptr) {
     dds_ostream_init(&stream, 1024, kXcdr1);
   } else {
+    // The buffer of the last sample is used again; Cyclone DDS makes it longer where needed.
     stream = {buffer_, capacity_, 0, kXcdr1};
   }
   std::ranges::copy(kMark, stream.m_buffer);
@@ -147,6 +157,8 @@ bool LocalSender::send(const void* sample) {
     not_tried_ = kNotTried;
     return false;
   }
+  // All or none: if one reader cannot be reached, DDS sends to all of them, and those who have the
+  // datagram get the sample twice. Messages of lock-step have step numbers, so that does no harm.
   for (const LocalAddress& to : addresses_) {
     if (::sendto(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
                  reinterpret_cast<const sockaddr*>(&to.name), to.size) >= 0) {
@@ -186,12 +198,15 @@ void LocalReceiver::meet(const std::vector<std::uint64_t>& writers) {
   known_ = std::move(known);
 }
 
+// After waiting for one writer there is most likely one datagram; asking for more would cost a
+// system call that only says that there is none.
 std::size_t LocalReceiver::begin_take(std::size_t most) noexcept {
   may_meet_ = true;
   after_wait_ = std::exchange(woken_, false);
   return after_wait_ && writers_.size() <= 1 ? std::min<std::size_t>(most, 1) : most;
 }
 
+// Nor is DDS asked in that case: an empty dds_take costs about as much as the datagram.
 bool LocalReceiver::leaves_dds(bool got) noexcept {
   if (got && after_wait_ && !look_) return true;
   look_ = false;

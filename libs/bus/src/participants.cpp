@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Which processes are in the domain, by what they announce of themselves, and which of them are
+// lost.
 #include "participants.hpp"
 
 #include <fmt/format.h>
@@ -140,6 +142,8 @@ void Participants::judge(std::vector<BusEvent>& events) {
     return;
   }
   told_ = false;
+  // Losses are reported late, after a standstill of this process could have been noticed: it may be
+  // this one that was away.
   for (const auto& [key, who] : missed_) {
     events.push_back({EventKind::kParticipantLost, "", who.name, who.writer, ""});
   }
@@ -187,6 +191,7 @@ void Participants::disappear(const dds_guid_t& guid) {
       break;
     }
   }
+  // Names of the lost are kept, because events of their readers and writers may come later.
   if (gone_.size() >= kMostGone) gone_.erase(gone_.begin());
   gone_.insert(std::move(node));
 }
@@ -196,6 +201,7 @@ const dds_guid_t* Participants::owner_of(std::uint64_t writer) const {
   return owner == owners_.end() ? nullptr : &owner->second;
 }
 
+// An id that nobody has announced protects nobody.
 bool Participants::speaks_for(const dds_guid_t& guid, std::uint64_t writer) const {
   const dds_guid_t* const owner = owner_of(writer);
   return owner == nullptr || key_of(*owner) == key_of(guid);

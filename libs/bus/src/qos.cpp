@@ -15,6 +15,7 @@ Qos make_qos(const QosProfile& profile) {
   dds_qset_reliability(qos.get(),
                        profile.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
                        profile.waits ? DDS_MSECS(500) : 0);
+  // Keep-last: a reader that is slow gets the newest samples.
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, profile.depth);
   dds_qset_resource_limits(qos.get(), DDS_LENGTH_UNLIMITED, kMostInstances, DDS_LENGTH_UNLIMITED);
   if (profile.durable) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What arrives by DDS or by the local transport, attributed to its sender.
 #include "rave/bus/reader.hpp"
 
 #include <cstring>
@@ -31,6 +32,7 @@ std::size_t ReaderCore::begin_take() {
 bool ReaderCore::leaves_dds(bool got) { return short_ != nullptr && short_->leaves_dds(got); }
 
 const void* ReaderCore::take_short(std::size_t& budget) {
+  // A budget, so that a peer that sends without end cannot keep this process from its other work.
   for (; budget > 0; --budget) {
     auto datagram = short_->receive();
     if (!datagram) return nullptr;
@@ -43,6 +45,7 @@ const void* ReaderCore::take_short(std::size_t& budget) {
       bus_->note_stranger();
       continue;
     }
+    // The sample lies in the memory of the decoder until the next one.
     if (const void* const sample = short_->decoder().decode(datagram->bytes)) {
       --budget;
       sender_ = datagram->writer;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Waits for DDS and for sockets at once. A thread of its own waits for DDS and writes to a
+// descriptor, which the owner polls together with its sockets.
 #include "relay.hpp"
 
 #include <poll.h>
@@ -40,6 +42,8 @@ Result<std::unique_ptr<Relay>> Relay::create(dds_entity_t set, dds_entity_t bell
 
 Relay::~Relay() {
   over_ = true;
+  // The thread is in one of two places: it waits for a request, or in the wait set. Both must be
+  // ended.
   ask_.release();
   dds_set_guardcondition(bell_, true);
   if (thread_.joinable()) thread_.join();
@@ -95,6 +99,7 @@ bool Relay::look(Duration most) {
     ::sched_yield();
     const auto before = std::exchange(now, std::chrono::steady_clock::now());
     if (now - before < kLongAway) continue;
+    // A processor that stays busy is tried less and less often.
     const bool again = now - crowded_until_ < crowded_for_;
     crowded_for_ = again ? std::min(2 * crowded_for_, kMostCrowded) : kCrowded;
     crowded_until_ = now + crowded_for_;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Requests of other processes, answered once each. Budgets per sender and for all bound what a
+// faulty one costs.
 #include "rave/bus/request_book.hpp"
 
 #include <algorithm>
@@ -87,6 +89,8 @@ void RequestBook::reply(Asker* asker, Reply reply, Clock::time_point now) {
     }
   }
   if (asker != nullptr) {
+    // Kept for a while: an asker that missed the answer repeats its request, which must not be
+    // carried out twice.
     asker->said = reply;
     asker->said_at = now;
   }
@@ -121,6 +125,7 @@ void RequestBook::hear(const Heard& request, Clock::time_point now) {
   if (asker == nullptr) return;
   const bool in_time = asker->budget.take(kPerSecond, kAtOnce, now) &&
                        (!known || all_.take(kAllPerSecond, kAllAtOnce, now));
+  // A repetition, or an old request that arrives late.
   if (number <= asker->last) {
     if (in_time && asker->said && asker->said->number == number) {
       send(*asker->said, rest_requested(line));

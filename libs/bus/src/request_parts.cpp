@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Answers that are longer than a message, cut into parts and put together again.
 #include "rave/bus/request_parts.hpp"
 
 #include <algorithm>
@@ -40,6 +41,8 @@ bool take_number(std::string_view& text, std::size_t& number) {
 
 }  // namespace
 
+// A long answer does not fit into one message. The asker requests the rest by its first missing
+// byte, so neither side keeps a state for lost parts.
 std::optional<std::string> answer_part(std::string_view answer, std::size_t from) {
   if (from == 0 && answer.size() <= rave_wire_kMaxRequestAnswerBytes) return std::string(answer);
   if (from >= answer.size()) return std::nullopt;
@@ -72,6 +75,7 @@ Status AnswerParts::add(std::string_view message) {
   if (total_ != 0 && total != total_) {
     return refused(fmt::format("it is of {} bytes, and the others of {}", total, total_));
   }
+  // A repetition of what is there already, as after a lost request.
   if (from < text_.size()) return {};
   if (from > text_.size()) {
     return refused(fmt::format("it begins at byte {} instead of {}", from, text_.size()));

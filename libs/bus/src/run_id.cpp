@@ -43,6 +43,7 @@ std::string RunId::text() const { return fmt::format("{:02x}", fmt::join(bytes, 
 
 RunId run_of_number(std::uint64_t number) noexcept {
   RunId run;
+  // Two different hashes of the number, so that near numbers give ids without common bytes.
   const std::array<std::uint64_t, 2> halves = {mix64(number), mix64(~number)};
   run.bytes = std::bit_cast<std::array<std::uint8_t, 16>>(halves);
   return run;
@@ -55,6 +56,7 @@ RunId run_of_name(std::string_view name) noexcept {
 std::uint64_t random_writer_id() {
   std::random_device chance;
   std::uint64_t id = 0;
+  // 0 means that there is no writer.
   while (id == 0) id = (std::uint64_t{chance()} << 32U) | chance();
   return id;
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Samples come from other processes and machines. What passes here has finite numbers, existing
+// kinds and texts that may be shown; whether it makes sense in the run is checked by its reader.
 #include "rave/bus/validate.hpp"
 
 #include <algorithm>
@@ -17,6 +19,7 @@ Status check_robots(std::string_view list, const rave_wire_PlanarRobots& robots)
   RAVE_TRY(check_numbers(list, "vx_mps", robots.vx_mps, size, kMaxSpeed_mps));
   RAVE_TRY(check_numbers(list, "vy_mps", robots.vy_mps, size, kMaxSpeed_mps));
   RAVE_TRY(check_numbers(list, "wz_radps", robots.wz_radps, size, kMaxTurn_radps));
+  // Columns of different lengths would shift the fields of all robots behind the gap.
   const auto stamps = elements(robots.stamp_ns);
   if (stamps.size() != size) {
     return invalid(
@@ -51,6 +54,7 @@ bool convex(std::span<const double> x, std::span<const double> y) {
     bool inside = false;
     for (std::size_t k = 0; k < x.size(); ++k) {
       const double side = ex * (y[k] - y[i]) - ey * (x[k] - x[i]);
+      // Corners on a line are allowed within rounding, but not a polygon without area.
       if (side < -1e-9) return false;
       inside |= side > 1e-12;
     }
@@ -95,6 +99,7 @@ Status check_body(const Sequence& body, bool needed) {
 template <class Message>
 Status check_address(const Message& sample) {
   RAVE_TRY(check_writer(sample));
+  // 0 is no process: such a message would be for nobody, or for everybody by mistake.
   if (sample.target == 0) return invalid("target is 0");
   if (sample.number == 0) return invalid("number is 0");
   return {};
@@ -166,6 +171,7 @@ Status validate(const Command& sample) {
   RAVE_TRY(check_number("vx_mps", sample.vx_mps, kMaxSpeed_mps));
   RAVE_TRY(check_number("vy_mps", sample.vy_mps, kMaxSpeed_mps));
   RAVE_TRY(check_number("wz_radps", sample.wz_radps, kMaxTurn_radps));
+  // Axes of a game controller, which go from -1 to 1.
   for (const double axis : elements(sample.axes)) RAVE_TRY(check_number("axes", axis, 1.0));
   if (sample.lease_ns < 0) return invalid(fmt::format("lease_ns is {}", sample.lease_ns));
   return {};
@@ -270,6 +276,7 @@ Status validate(const FindingsPart& sample) {
   if (sample.size == 0 || sample.size > kMost) {
     return invalid(fmt::format("size is {}, not within 1 and {}", sample.size, kMost));
   }
+  // Sizes follow from each other, so every part but the last is full; anything else is refused.
   const std::uint64_t parts = (sample.size + kPart - 1) / kPart;
   if (sample.part >= parts) {
     return invalid(

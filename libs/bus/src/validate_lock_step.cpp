@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// As validate.cpp, for the messages of lock-step.
 #include <algorithm>
 
 #include "sample_checks.hpp"
@@ -46,6 +47,7 @@ Status check_sent(const rave_wire_SentPackets& sent) {
   const auto packets = elements(sent.packets);
   for (std::size_t i = 0; i < packets.size(); ++i) {
     const auto& packet = packets[i];
+    // In 64 bits: the sum must not wrap.
     if (std::uint64_t{packet.first_byte} + packet.size > sent.bytes._length) {
       return invalid(fmt::format("sent.packets[{}] has {} bytes from {} on, of {}", i, packet.size,
                                  packet.first_byte, sent.bytes._length));
@@ -140,6 +142,7 @@ Status validate(const WorldStep& sample) {
   RAVE_TRY(check_writer(sample));
   if (sample.epoch == 0) return invalid("epoch is 0");
   RAVE_TRY(check_columns(sample));
+  // The columns say how many robots there are; all lists must name robots among them.
   const std::size_t robots = sample.flags._length;
   RAVE_TRY(check_named("pushed", sample.pushed, robots));
   RAVE_TRY(check_named("touches", sample.touches, robots));

@@ -12,6 +12,7 @@ constexpr double kCoarsestCell_m = 1e3;
 
 /// Number of cells of a tile along one side; 0: no such tile.
 std::uint32_t side_of(std::uint32_t cells, std::uint32_t tile) {
+  // In 64 bits: the number comes from another process.
   const std::uint64_t first = std::uint64_t{tile} * rave_wire_kTileCells;
   if (first >= cells) return 0;
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(rave_wire_kTileCells, cells - first));

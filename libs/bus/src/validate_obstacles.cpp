@@ -22,6 +22,7 @@ Status check_shape(const std::string& field, const rave_wire_BodyShape& shape) {
     RAVE_TRY(check_number(field + ".x_m", x[i], kMaxPosition_m));
     RAVE_TRY(check_number(field + ".y_m", y[i], kMaxPosition_m));
   }
+  // A polygon has no radius. An exact zero is required, so that no second meaning creeps in.
   const bool radius = disc ? shape.radius_m > 0 && shape.radius_m <= kMaxPosition_m
                            : std::fpclassify(shape.radius_m) == FP_ZERO;
   if (!radius) return invalid(fmt::format("{}.radius_m is {}", field, shape.radius_m));

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Waits for samples, events, a bell and a stop. Without a local transport one call of DDS does all
+// of it; otherwise the relay does.
 #include "rave/bus/wait_set.hpp"
 
 #include <array>
@@ -58,6 +60,8 @@ Status WaitSet::add_reader(dds_entity_t reader) {
   RAVE_TRY(attach(condition));
   const Bus::Endpoint* const endpoint = bus_->endpoint(reader);
   if (endpoint == nullptr || !endpoint->receiver) return {};
+  // DDS and sockets cannot be waited for in one call. Where a reader has a socket, a relay waits
+  // for DDS in a thread and makes it a descriptor.
   if (!relay_) {
     RAVE_TRY_ASSIGN(relay_, Relay::create(set_, bell_));
   }
@@ -75,6 +79,7 @@ void WaitSet::ring() const noexcept { dds_set_guardcondition(bell_, true); }
 
 Woken WaitSet::wait(Duration timeout, const std::stop_token& stop) {
   auto came = Relay::Came::kNothing;
+  // Before and after: a gap that is longer than the wait means that this process did not run.
   bus_->participants_->standstill().look();
   {
     const std::stop_callback wake(stop, [this] { dds_set_guardcondition(stop_, true); });

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What is sent by the local transport if all readers can be reached with it, otherwise by DDS.
 #include "rave/bus/writer.hpp"
 
 #include "rave/bus/endpoint.hpp"
@@ -25,6 +26,8 @@ WriterCore::~WriterCore() {
 
 bool WriterCore::goes_short(const void* sample) {
   if (short_ == nullptr) return false;
+  // The transport knows the readers by address and DDS by discovery. If the numbers differ, a
+  // reader is on another machine or has just come, and the sample goes by DDS, which reaches all.
   if (short_->due()) {
     const std::size_t count = readers();
     if (short_->readers() != count) bus_->meet(*bus_->endpoint(writer_));

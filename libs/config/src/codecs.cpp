@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// How values of each type are read from a file, written and described. Errors name what was found
+// and what was expected, at the place in the file.
 #include "rave/config/codecs.hpp"
 
 #include <cmath>
@@ -44,6 +46,7 @@ void Codec<double>::read(const ReadContext& context, const RawNode& node, double
                                                        context.options)
                                   : expectation(context.options));
   } else if (std::isnan(*found) || (std::isinf(*found) && !context.options.allow_infinite)) {
+    // YAML has `.inf` and `.nan`; a field says whether infinity means something in it.
     context.wrong(node, number_expectation("a finite number", context.options));
   } else if (!in_range(*found, context.options)) {
     context.wrong(node, expectation(context.options));
@@ -54,6 +57,7 @@ void Codec<double>::read(const ReadContext& context, const RawNode& node, double
 
 void Codec<std::string>::read(const ReadContext& context, const RawNode& node, std::string& value) {
   if (!node.is_text()) {
+    // `name: 12` or `name: true` is no text in YAML; who wrote it most likely forgot the quotes.
     const std::string_view hint = node.is_scalar() ? " (put it in quotes)" : "";
     context.wrong(node, fmt::format("{}{}", expectation(context.options), hint));
   } else if (!in_length(node.scalar().size(), context.options)) {
@@ -83,6 +87,7 @@ void read_signed(const ReadContext& context, const RawNode& node, std::int64_t l
   const std::string expected = number_expectation("a whole number", context.options);
   const bool whole = found || node.is_whole_number();
   if (whole && (!found || *found < low || *found > high)) {
+    // The limits of the type are told only if the field has none of its own.
     const bool limited = context.options.min && context.options.max;
     context.wrong(node, limited ? expected : whole_between(low, high));
   } else if (!whole || !in_range(static_cast<double>(*found), context.options)) {
@@ -182,6 +187,7 @@ int read_enum(const ReadContext& context, const RawNode& node,
   }
   std::string expected = enum_expectation(names);
   if (node.is_text()) {
+    // The nearest name, since most wrong choices are slips of the finger.
     const std::string_view near = nearest_name(node.scalar(), names);
     if (!near.empty()) expected += fmt::format("; did you mean `{}`?", near);
   }
@@ -211,6 +217,7 @@ bool check_map(const ReadContext& context, const RawNode& node, std::string_view
   return false;
 }
 
+// Limits of length are those of the list; limits of numbers are those of its elements.
 FieldOptions element_options(const FieldOptions& options) {
   FieldOptions element = options;
   element.min_items.reset();

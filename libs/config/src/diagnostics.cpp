@@ -12,6 +12,8 @@ void Diagnostics::add(Error error) {
   if (errors_.size() < kMaxErrors) errors_.push_back(std::move(error));
 }
 
+// By line, because a reader goes through the file from the top; stable, since the first of two
+// errors at one place is the cause.
 void Diagnostics::sort() {
   std::stable_sort(errors_.begin(), errors_.end(), [](const Error& a, const Error& b) {
     return std::pair(a.where.line, a.where.column) < std::pair(b.where.line, b.where.column);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// From a scenario with its files to one complete description. Whatever reads an expanded scenario
+// needs no other file except those of maps and of components of the page.
 #include <algorithm>
 #include <map>
 
@@ -17,6 +19,8 @@ class Expansion {
     expanded_.scenario = std::move(scenario);
   }
 
+  // All files are read before anything is refused, so that a user sees all errors at once. What
+  // depends on all of them is checked only if each is right by itself.
   Result<ExpandedScenario> run() && {
     expand_world();
     expand_robots();
@@ -70,13 +74,17 @@ class Expansion {
     // Only the page needs these files and reports missing ones; a replay on another machine works
     // without.
     for (GuiComponentFile& component : scenario.gui.components) {
+      // Absolute, since a recording or a host may be in another folder.
       component.module.value = absolute(beside(folder_, *component.module));
     }
+    // Obstacles and maps of the scenario come after those of the world, so their numbers do not
+    // change when a scenario adds some.
     std::move(scenario.obstacles.begin(), scenario.obstacles.end(),
               std::back_inserter(world.obstacles));
     std::move(scenario.maps.begin(), scenario.maps.end(), std::back_inserter(world.maps));
     scenario.obstacles.clear();
     scenario.maps.clear();
+    // The expanded scenario is complete by itself: names of files that were read are gone.
     scenario.world.reset();
     world.description.clear();
   }
@@ -84,6 +92,7 @@ class Expansion {
   void resolve_maps(std::vector<MapFile>& maps, const fs::path& folder) {
     for (MapFile& map : maps) {
       const fs::path path = beside(folder, *map.file);
+      // Only to report a missing file at its line; the image is read when the world is made.
       (void)read(path, map.file.where);
       map.file.value = absolute(path);
     }
@@ -147,6 +156,7 @@ class Expansion {
     for (std::size_t i = 0; i < count; ++i) {
       ExpandedRobot robot;
       robot.group = group;
+      // One robot has the name of its entry; of several each has a number, from 1.
       robot.name = count == 1 ? *entry.name : fmt::format("{}-{}", *entry.name, i + 1);
       robot.pose = entry.pose;
       if (entry.poses) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// What can be checked only when all files are read: names that refer to each other, and times that
+// must fit the step.
 #include "expansion_checks.hpp"
 
 #include <algorithm>
@@ -57,6 +59,7 @@ class Checks {
   void unique_robots() {
     std::unordered_map<std::string_view, std::size_t> seen;
     for (const ExpandedRobot& robot : expanded_.robots) {
+      // An entry `a-1` clashes with the first of several robots of an entry `a`.
       const auto [first, is_new] = seen.emplace(robot.name, robot.group);
       if (is_new) continue;
       report(expanded_.group_of(robot).name.where, "{}",
@@ -117,6 +120,7 @@ class Checks {
   }
 
   void multiple_of_step(std::string_view key, const Located<double>& time_s) {
+    // In whole nanoseconds: with binary fractions, 0.3 s would be no multiple of 0.1 s.
     const std::int64_t step_ns = from_seconds(*scenario_.step_s).ns;
     const std::int64_t ns = from_seconds(*time_s).ns;
     // A period below half a nanosecond rounds to 0.
@@ -129,6 +133,7 @@ class Checks {
   void robots_exist(std::string_view key, const Located<std::string>& name) {
     std::vector<std::string_view> names;
     for (const ExpandedRobot& robot : expanded_.robots) names.push_back(robot.name);
+    // An entry stands for all its robots.
     for (const RobotGroup& group : expanded_.groups) names.push_back(*group.name);
     if (std::find(names.begin(), names.end(), *name) != names.end()) return;
     report(name.where, "`{}`: there is no robot `{}`{}", key, *name, suggestion(*name, names));

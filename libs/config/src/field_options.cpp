@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Limits and units of fields, as words for errors and documentation.
 #include "rave/config/field_options.hpp"
 
 #include <fmt/format.h>
@@ -36,6 +37,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 22> kUnits =
     {"%", "per cent"},
 }};
 
+// Limits in words, as part of a sentence of an error.
 std::string range_words(const FieldOptions& o) {
   if (o.min && o.max && !o.exclusive_min && !o.exclusive_max) {
     return fmt::format("from {} to {}", number_text(*o.min), number_text(*o.max));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Checks that files of several kinds share.
 #include "file_checks.hpp"
 
 #include <algorithm>
@@ -28,6 +29,7 @@ bool is_variable_name(std::string_view name) noexcept {
 }
 
 void check_name(std::string_view key, std::string_view name, CheckContext& check) {
+  // Names become parts of topics, files and command lines, so they have no other characters.
   const bool usable = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
     return is_letter(c) || is_digit(c) || c == '-' || c == '_';
   });
@@ -67,6 +69,7 @@ void check_outline(const Outline& outline, CheckContext& check) {
   if (!outline.polygon_m) return;
   std::vector<Vec2> corners;
   for (const auto& corner : *outline.polygon_m) corners.push_back({corner[0], corner[1]});
+  // Whether a polygon is usable is known only by decomposing it, as the world will.
   if (const auto pieces = decompose(corners); !pieces) {
     check.error("polygon_m", "`polygon_m`: {}", pieces.error().message);
   }

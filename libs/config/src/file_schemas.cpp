@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// JSON Schemas of the files, made from the same descriptions that read them. Editors use them;
+// robot files additionally allow variables.
 #include <algorithm>
 
 #include "scenario_fields.hpp"
@@ -94,6 +96,7 @@ std::string scenario_schema() {
   for (const char* key : {"properties", "robots", "items", "properties"}) {
     entry = child_of(*entry, key);
   }
+  // Robots written into a scenario have variables as those in files of their own do.
   for (const char* key : {"robot", "twin_robot"}) allow_variables(*child_of(*entry, key));
   return finish(schema, "RAVE scenario file", "scenario.schema.json");
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Maps in the format of map_server of ROS: a YAML file that names an image.
 #include "rave/config/map_image.hpp"
 
 #include "rave/config/fields.hpp"
@@ -70,9 +71,12 @@ void validate(const MapServerFile& c, CheckContext& check) {
 
 /// The state of a cell. Source: http://wiki.ros.org/map_server, "Value Interpretation".
 CellState state_of(std::uint8_t shade, bool opaque, const MapServerFile& file) {
+  // p: the probability that the cell is occupied. Dark is occupied unless negated.
   double p = file.negate.on ? shade / 255.0 : (255 - shade) / 255.0;
+  // In this mode transparency means unknown.
   if (file.mode == MapMode::kScale && !opaque) return CellState::kUnknown;
   if (file.mode == MapMode::kRaw) {
+    // Raw values are per cent, and all above 100 unknown.
     if (shade > 100) return CellState::kUnknown;
     p = shade / 100.0;
   }
@@ -111,6 +115,7 @@ Result<MapImage> read_map_text(std::string_view yaml, const std::filesystem::pat
   Result<GreyImage> image = decode();
   if (!image) {
     Error error = std::move(image).error();
+    // The line that names the image: the image itself has no lines.
     error.where = file.image.where;
     return tl::unexpected<Error>(std::move(error));
   }

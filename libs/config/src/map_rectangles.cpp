@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Occupied cells of a map as few rectangles: a wall of a thousand cells becomes one body.
 #include "rave/config/map_image.hpp"
 
 namespace rave::config {
@@ -59,6 +60,8 @@ std::int64_t area(const CellRectangle& r) { return std::int64_t{r.width} * r.hei
 
 }  // namespace
 
+// Greedy, from the top left: not the fewest rectangles, but each occupied cell is in exactly one,
+// and walls become single ones. Both directions are tried, since walls may run either way.
 std::vector<CellRectangle> cell_rectangles_of(const MapImage& map) {
   Rest rest(map);
   std::vector<CellRectangle> rectangles;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Which type a plain scalar has: a narrow part of the core schema of YAML 1.2, without its octal
+// and hexadecimal numbers.
 #include "numbers.hpp"
 
 #include <fmt/format.h>
@@ -27,6 +29,8 @@ PlainType number_type(std::string_view text) noexcept {
   if (!text.empty() && (text[0] == '+' || text[0] == '-')) text.remove_prefix(1);
   if (text == ".inf" || text == ".Inf" || text == ".INF") return PlainType::kInfinite;
   const std::size_t whole = count_digits(text);
+  // YAML 1.1 reads 010 as eight and YAML 1.2 as ten: here it is a text, and a field of numbers
+  // refuses it.
   if (whole > 1 && text[0] == '0') return PlainType::kText;
   text.remove_prefix(whole);
   if (text.empty()) return whole > 0 ? PlainType::kWhole : PlainType::kText;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Parameters of drivers and programs: read by what the plug-in declares, with the same codecs as
+// the files.
 #include "rave/config/params.hpp"
 
 #include <algorithm>
@@ -28,6 +30,7 @@ std::vector<std::string_view> views_of(const std::vector<std::string>& names) {
 }
 
 /// Calls `f` with the C++ type of a parameter; an enum is a std::string.
+/// One place that knows which C++ type a declared type has; readers, writers and schemas use it.
 template <class F>
 auto with_type(ParamType type, F&& f) {
   switch (type) {
@@ -90,6 +93,7 @@ Status check_default(const FieldSpec& spec) {
   }
   Diagnostics diagnostics;
   const FieldOptions options = options_of(spec);
+  // The default is read as if a file had it, so the same limits apply to both.
   const ReadContext context{diagnostics, options, fmt::format("the default of `{}`", spec.name)};
   (void)read_value(context, node_of(*spec.default_value), spec);
   if (diagnostics.ok()) return {};
@@ -139,6 +143,7 @@ ParamValues read_params(const RawNode& node, std::span<const FieldSpec> specs,
     known.push_back({spec.name, spec.unit});
     if (const RawNode* given = node.find(spec.name)) {
       const FieldOptions options = options_of(spec);
+      // Collected apart, because the name of the plug-in is put before each error.
       Diagnostics found;
       const ReadContext read{found, options, fmt::format("`{}`", spec.name)};
       values.add({spec.name, read_value(read, *given, spec), given->where()});
@@ -169,6 +174,7 @@ Result<ParamValues> read_params(const RawNode& node, std::span<const FieldSpec> 
 
 RawNode write_params(const ParamValues& values, std::span<const FieldSpec> specs) {
   RawNode mapping = RawNode::mapping();
+  // In the order of the declaration, so that the same values give the same text.
   for (const FieldSpec& spec : specs) {
     if (const Param* param = values.find(spec.name)) {
       mapping.append(spec.name, node_of(param->value), field_comment(spec.doc, spec.unit));

@@ -63,6 +63,7 @@ struct Header {
   std::size_t pixels = 0;
 };
 
+// Rounded to the nearest of 256 shades; values above the largest are white.
 std::uint8_t to_shade(std::uint32_t value, std::uint32_t max_value) {
   if (value >= max_value) return 255;
   return static_cast<std::uint8_t>((value * 255U + max_value / 2) / max_value);
@@ -115,6 +116,7 @@ Status read_binary(std::string_view raster, std::string_view name, Header& heade
   header.image.shade.resize(header.pixels);
   for (std::size_t i = 0; i < header.pixels; ++i) {
     std::uint32_t value = static_cast<unsigned char>(raster[i * depth]);
+    // Two bytes per pixel have the more significant one first.
     if (depth == 2) value = (value << 8) | static_cast<unsigned char>(raster[i * depth + 1]);
     header.image.shade[i] = to_shade(value, header.max_value);
   }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Which host runs which robots. All processes of a run compute it from the same scenario, so they
+// agree without a message.
 #include <algorithm>
 #include <optional>
 
@@ -24,6 +26,7 @@ Result<std::vector<PlannedHost>> equal_parts(const ExpandedScenario& scenario) {
   std::vector<PlannedHost> hosts(count);
   for (std::size_t h = 0; h < count; ++h) {
     hosts[h].name = fmt::format("host-{}", h + 1);
+    // Neighbours stay together, and the sizes differ by one at most.
     for (std::size_t r = robots * h / count; r < robots * (h + 1) / count; ++r) {
       hosts[h].robots.push_back(r);
     }

@@ -62,6 +62,7 @@ class PngDecoder {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_read_fn(png_, this, on_read);
     png_set_user_limits(png_, 0x7FFFFFFF, 0x7FFFFFFF);  // check_image_size() has a better message
+    // A small file may claim texts of gigabytes.
     png_set_chunk_malloc_max(png_, 8U << 20);
     png_read_info(png_, info_);
     width_ = png_get_image_width(png_, info_);
@@ -94,6 +95,7 @@ class PngDecoder {
     for (std::size_t i = 0; i < width_; ++i, pixel += channels_) {
       unsigned sum = 0;
       for (std::size_t c = 0; c < colours; ++c) sum += pixel[c];
+      // The mean of the colours, rounded.
       image_.shade.push_back(static_cast<std::uint8_t>((sum + colours / 2) / colours));
       image_.opaque.push_back(!has_alpha || pixel[colours] == 255 ? 1 : 0);
     }

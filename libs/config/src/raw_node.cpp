@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A node of a file: text, number or collection, with its place. Plain scalars keep their text and
+// are typed when they are asked.
 #include "rave/config/raw_node.hpp"
 
 #include <fmt/format.h>
@@ -23,6 +25,7 @@ template <class T>
 std::optional<T> parse_number(std::string_view text) {
   const std::string_view digits = without_plus(text);
   T value{};
+  // from_chars() ignores the locale, under which strtod() may expect a comma.
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
   return value;
@@ -38,6 +41,7 @@ std::string excerpt(std::string_view text) {
     part.resize(cut);
     part += "...";
   }
+  // The file may be anything; its bytes are shown on a terminal.
   return without_control_characters(part, " ");
 }
 
@@ -135,6 +139,7 @@ const RawNode* RawNode::find(std::string_view key) const noexcept {
   return nullptr;
 }
 
+// For errors: what somebody wrote, as they would call it.
 std::string RawNode::found_text() const {
   switch (kind_) {
     case Kind::kNull:
@@ -194,6 +199,7 @@ void RawNode::set_key_where(std::size_t i, int line, int column) {
 
 bool operator==(const RawNode& a, const RawNode& b) {
   if (a.kind_ != b.kind_ || a.children_.size() != b.children_.size()) return false;
+  // Quoted and plain text are equal, a number and a text of the same characters are not.
   if (a.is_scalar() && (a.scalar_ != b.scalar_ || a.is_text() != b.is_text())) return false;
   for (std::size_t i = 0; i < a.keys_.size(); ++i) {
     if (a.keys_[i].name != b.keys_[i].name) return false;

@@ -26,6 +26,7 @@ void check_layers(const std::optional<Located<std::vector<SensedLayer>>>& senses
                   CheckContext& check) {
   if (!senses) return;
   std::vector<SensedLayer> layers = **senses;
+  // A copy is sorted; the order in the file has no meaning.
   std::sort(layers.begin(), layers.end());
   if (std::adjacent_find(layers.begin(), layers.end()) != layers.end()) {
     check.error("senses", "`senses` names a layer twice");
@@ -47,6 +48,7 @@ void validate(const MountFile& c, CheckContext& check) {
 }
 
 void validate(const MedianFilterFile& c, CheckContext& check) {
+  // An even number of readings has no middle.
   if (c.window % 2 == 0) {
     check.error("window", "`window`: found {}, expected an odd number", c.window);
   }
@@ -64,6 +66,8 @@ void validate(const SensorFile& c, CheckContext& check) {
   check_params(c.params, check);
   check_phase(c.period_s, c.phase_s, check);
   check_layers(c.senses, check);
+  // Each key of a hybrid sensor belongs to one half; a key in the wrong place would be ignored
+  // without a word.
   if (c.real.has_value() != c.imagined.has_value()) {
     check.error(c.real ? "real" : "virtual",
                 "found `{}` without `{}`: a hybrid sensor needs both halves",
@@ -130,6 +134,8 @@ void validate(const RobotFile& c, CheckContext& check) {
   check_unique("sensor", c.sensors, check);
   check_unique("actuator", c.actuators, check);
   check_unique("controller", c.controllers, check);
+  // References between parts of a file are checked here, so that an error names a line and not a
+  // driver.
   if (c.pose_from) {
     check_reference("pose_from", "sensor", *c.pose_from, names_of(c.sensors), check);
   }

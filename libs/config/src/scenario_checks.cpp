@@ -44,6 +44,7 @@ void validate(const RobotEntry& c, CheckContext& check) {
     check.error("", "the robot `{}` has more than one of `pose`, `poses` and `scatter`", *c.name);
   }
   const bool has_twin = c.twin || c.twin_robot;
+  // Each twin may be a device of its own, so one file cannot stand for several.
   if (has_twin && (c.poses || c.scatter)) {
     check.error("twin", "`twin` needs a single robot, but `{}` stands for several", *c.name);
   }
@@ -72,6 +73,7 @@ void validate(const GuiComponentFile& c, CheckContext& check) {
 void validate(const ChangeFile& c, CheckContext& check) {
   const int kinds = int{c.robot || c.set || c.hand_over} + int{c.add_obstacle.has_value()} +
                     int{c.move_obstacle.has_value()} + int{c.remove_obstacle.has_value()};
+  // One kind per entry, since the order of entries is the order of the changes.
   if (kinds != 1) {
     check.error("",
                 "a change has {} of `robot` with `set` or `hand_over`, `add_obstacle`, "
@@ -118,6 +120,8 @@ RawNode* find_child(RawNode& mapping, std::string_view key) {
 
 }  // namespace
 
+// Robots written into a scenario have variables like those in files. They are replaced before the
+// scenario is read, because `$(v)` is no number.
 void substitute_inline_robots(RawNode& scenario, Diagnostics& diagnostics) {
   RawNode* robots = find_child(scenario, "robots");
   if (!robots || !robots->is_sequence()) return;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The tree as YAML or JSON. What is written is read back as the same tree, also by readers of YAML
+// 1.1.
 #include <fmt/format.h>
 
 #include <array>
@@ -68,6 +70,7 @@ bool is_plain_word(std::string_view text) {
 
 std::string scalar_text(const RawNode& node) {
   if (node.is_null()) return "null";
+  // A plain scalar is written as it was read, with all its digits.
   if (!node.is_text()) return node.scalar();
   return is_plain_word(node.scalar()) ? node.scalar() : in_quotes(node.scalar());
 }
@@ -81,6 +84,7 @@ std::string inline_text(const RawNode& node) {
   std::string out = "[";
   for (const RawNode& item : node.children()) {
     const std::string text = item.is_mapping() ? std::string{} : inline_text(item);
+    // Longer lists get a line per item.
     if (text.empty() || out.size() + text.size() > 72) return {};
     if (out.size() > 1) out += ", ";
     out += text;
@@ -165,6 +169,7 @@ std::string json_scalar(const RawNode& node) {
   if (const auto whole = node.as_int()) return fmt::format("{}", *whole);
   if (const auto whole = node.as_uint()) return fmt::format("{}", *whole);
   const auto number = node.as_double();
+  // JSON has neither infinity nor NaN.
   return number && std::isfinite(*number) ? number_text(*number) : "null";
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Replaces `$(name)` in a robot file before its structs are read, so that no struct knows of
+// variables.
 #include "rave/config/variables.hpp"
 
 #include <fmt/format.h>
@@ -27,8 +29,10 @@ class Substitution {
     std::string text;
     if (!expand(node, text, whole)) return;
     const SourceLocation where = node.where();
+    // `$(v)` alone takes the type of the variable; within a text it is text.
     node = whole ? *whole : RawNode::text(std::move(text));
     if (!file_) file_ = std::make_shared<const std::string>(where.file);
+    // Errors are reported where the variable is used, not where it was set.
     node.set_where(file_, where.line, where.column);
   }
 

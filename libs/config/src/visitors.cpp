@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The visitors that describe() of each struct goes through: reading, checking, writing, schema.
 #include "rave/config/visitors.hpp"
 
 #include <algorithm>
@@ -18,6 +19,7 @@ bool has_non_finite(const RawNode& node) {
 
 std::string unknown_key_message(std::string_view key, std::span<const KnownKey> known) {
   for (const KnownKey& candidate : known) {
+    // `range` instead of `range_m` is the most likely mistake, and deserves the unit in the answer.
     if (!candidate.unit.empty() && candidate.name.size() > key.size() &&
         candidate.name.starts_with(key) && candidate.name[key.size()] == '_') {
       return fmt::format("unknown key `{}`: unit missing: expected `{}` ({})", key, candidate.name,
@@ -71,6 +73,7 @@ void CheckContext::report(std::string_view key, std::string message) {
 }
 
 const RawNode* Reader::take(std::string_view name, const FieldOptions& options) {
+  // Keys that describe() asks for are the known ones; all others are errors in finish().
   known_.push_back({name, options.unit});
   return mapping_.find(name);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// An expanded scenario as one file, which reads back as the same scenario.
 #include "rave/config/expanded_scenario.hpp"
 #include "scenario_fields.hpp"
 
@@ -48,12 +49,14 @@ std::string write_expanded(const ExpandedScenario& expanded) {
   std::size_t first = 0;
   for (std::size_t group = 0; group < expanded.groups.size(); ++group) {
     std::size_t end = first;
+    // Robots of a group follow each other, in the order of the entries.
     while (end < expanded.robots.size() && expanded.robots[end].group == group) ++end;
     RobotEntry& entry = scenario.robots.emplace_back(entry_of(expanded.groups[group]));
     add_poses(std::span(expanded.robots).subspan(first, end - first), entry);
     first = end;
   }
   RawNode tree = write_node(scenario);
+  // `$(` in values must not be taken for a variable when the text is read again.
   RawNode robots = *tree.find("robots");
   for (std::size_t i = 0; i < robots.size(); ++i) {
     for (const char* const key : {"robot", "twin_robot"}) {

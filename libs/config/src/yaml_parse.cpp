@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// YAML into a tree with places, from the events of yaml-cpp. Stricter than YAML: one document, no
+// tags, no merge keys, no key twice, limits on depth and size.
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
@@ -90,6 +92,8 @@ class TreeBuilder : public YAML::EventHandler {
     if (found == anchors_.end()) {
       throw Abort{{ErrorCode::kParse, "an alias refers to a value that contains it", place(mark)}};
     }
+    // An alias is a copy. Counting it keeps a small file with nested aliases from growing without
+    // limit ("billion laughs").
     count(found->second.size, mark);
     check_depth(static_cast<int>(stack_.size()) + height_of(found->second.node), mark);
     value(found->second.node, mark, 0, 0);
@@ -202,6 +206,8 @@ class TreeBuilder : public YAML::EventHandler {
 
   void key(Frame& frame, const RawNode& node, const YAML::Mark& mark) {
     frame.has_key = true;
+    // Until the key turns out to be good. Its value still comes as an event and must be dropped
+    // with it.
     frame.drop = true;
     frame.key_mark = mark;
     if (!node.is_scalar()) {
@@ -320,6 +326,7 @@ std::optional<RawNode> parse_yaml(std::string_view text, std::string_view file_n
   TreeBuilder builder(file_name, diagnostics);
   try {
     parse_all(std::string(text), builder);
+    // Only a quoted scalar at the end of the file can be one that was not closed.
     if (const auto& mark = builder.last_quoted(); mark && is_quote_open(text)) {
       throw Abort{{ErrorCode::kParse, "YAML syntax: a quote is not closed", builder.place(*mark)}};
     }

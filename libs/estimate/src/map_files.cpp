@@ -6,6 +6,7 @@
 namespace rave::estimate {
 namespace {
 
+/// The shades that map_saver of ROS writes: 0, 254 and 205.
 constexpr char kOccupied = '\x00';
 constexpr char kFree = '\xfe';
 constexpr char kUnknown = '\xcd';
@@ -15,6 +16,7 @@ constexpr char kUnknown = '\xcd';
 std::string map_image(const OccupancyGrid& grid, const MapThresholds& thresholds) {
   const GridFrame& frame = grid.frame();
   std::string image = fmt::format("P5\n{} {}\n255\n", frame.columns, frame.rows);
+  // Images begin at the top, grids at the origin, which is the lower left corner.
   for (int row = frame.rows - 1; row >= 0; --row) {
     for (int column = 0; column < frame.columns; ++column) {
       const double p = grid.probability(column, row);

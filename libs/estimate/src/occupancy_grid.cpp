@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// An occupancy grid: sums of log odds per cell (S. Thrun, W. Burgard, D. Fox, Probabilistic
+// Robotics, 2005, chapter 9). Beams are followed from cell to cell (J. Amanatides and A. Woo,
+// Eurographics 1987).
 #include "rave/estimate/occupancy_grid.hpp"
 
 #include <algorithm>
@@ -51,6 +54,8 @@ OccupancyGrid::OccupancyGrid(const GridFrame& frame, const BeamModel& model)
 
 void OccupancyGrid::add(const ScanView& scan) {
   RAVE_CHECK(scan.bearings_rad.size() == scan.ranges_m.size());
+  // The number of the scan marks cells that it has changed, so nothing has to be cleared between
+  // scans; the sign tells an end from a passage.
   ++scan_;
   const auto direction_of = [&](std::size_t i) {
     const SinCos turn = sincos(scan.X_WS.yaw + scan.bearings_rad[i]);
@@ -81,8 +86,10 @@ void OccupancyGrid::mark_end(Vec2 p_W) {
   const double y = std::floor((p_W.y - frame_.origin_W.y) / frame_.resolution_m);
   if (!(x >= 0 && x < frame_.columns && y >= 0 && y < frame_.rows)) return;
   const std::size_t at = index(static_cast<int>(x), static_cast<int>(y));
+  // Once per scan, however many beams end here: beams of one scan are no independent evidence.
   if (last_scan_[at] == -scan_) return;
   last_scan_[at] = -scan_;
+  // Limited, so that a cell can be learnt anew when something has moved.
   log_odds_[at] = std::min(log_odds_[at] + model_.log_odds_hit, model_.log_odds_limit);
 }
 
@@ -95,6 +102,7 @@ void OccupancyGrid::trace(Vec2 from_W, Vec2 direction, double length_m) {
   int row = static_cast<int>(y);
   Stride along_x = stride_of(x, direction.x, frame_.resolution_m);
   Stride along_y = stride_of(y, direction.y, frame_.resolution_m);
+  // From border to border of the cells, always the nearer one of both axes.
   while (true) {
     pass(column, row);
     const bool to_x = along_x.next_m < along_y.next_m;

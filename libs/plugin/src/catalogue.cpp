@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Finds drivers by name. Stamps say which file provides what; a file is loaded when one of its
+// drivers is needed.
 #include "rave/plugin/catalogue.hpp"
 
 #include <algorithm>
@@ -51,6 +53,7 @@ Result<std::vector<fs::path>> plugin_files_of(const fs::path& folder) {
     return fail(ErrorCode::kIo, "cannot list plug-in folder `{}`: {}", folder.string(),
                 code.message());
   }
+  // The order of a folder is that of the file system; sorted, every machine finds the same first.
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -82,6 +85,7 @@ struct Catalogue::Impl {
   explicit Impl(const Stamp& host_stamp) : host(host_stamp) {}
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
+  // In the reverse order of loading: a later one may depend on an earlier one.
   ~Impl() {
     for (PluginFile* file : std::ranges::reverse_view(load_order)) file->unload();
   }
@@ -106,6 +110,7 @@ std::pair<PluginFile*, bool> Catalogue::Impl::note(const fs::path& path) {
   std::error_code code;
   fs::path absolute = fs::absolute(path, code);
   if (code) absolute = path;
+  // One file under two paths would register its drivers twice.
   fs::path key = fs::canonical(absolute, code);
   if (code) key = absolute;  // A dangling link; reading its stamp reports that.
   auto& file = files[key];
@@ -131,6 +136,7 @@ Result<const Driver*> Catalogue::Impl::find_in(const Group& group,
   }
   const PluginFile* refused = nullptr;
   for (PluginFile* file : group.files) {
+    // The stamp names what a file provides, so only the file that is needed is loaded.
     if (!file->claims(name)) continue;
     if (!file->error()) {
       RAVE_TRY(load(*file));
@@ -139,6 +145,8 @@ Result<const Driver*> Catalogue::Impl::find_in(const Group& group,
       }
       return nullptr;
     }
+    // Another file of the folder may provide it; if none does, the reason why this one cannot be
+    // used is the answer.
     refused = file;
   }
   if (refused != nullptr) return tl::unexpected(*refused->error());
@@ -152,6 +160,7 @@ std::vector<const Driver*> Catalogue::Impl::load_all() {
     for (PluginFile* file : group.files) {
       if (!load(*file)) continue;  // The reason is kept in `rejected`.
       for (const Driver& driver : file->drivers()) {
+        // The first group that has a name hides it in the groups behind.
         found.try_emplace({driver.info.kind, driver.info.name}, &driver);
       }
     }
@@ -164,6 +173,7 @@ std::vector<const Driver*> Catalogue::Impl::load_all() {
 Error Catalogue::Impl::unknown(std::span<const DriverKind> kinds, std::string_view name) {
   std::vector<std::string_view> names;
   std::string other_kinds;
+  // Everything is loaded only now, to suggest a name: the run ends anyway.
   for (const Driver* driver : load_all()) {
     const std::string_view driver_name = driver->info.name;
     if (wanted(kinds, driver->info.kind)) {

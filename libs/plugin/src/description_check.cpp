@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What a plug-in says of itself must be complete, because users see nothing else of it.
 #include "description_check.hpp"
 
 #include <algorithm>
@@ -95,6 +96,7 @@ Status check_description(const DriverInfo& info, const void* ops) {
   if (!is_snake_case(info.name)) {
     return fail(ErrorCode::kPlugin, "driver name `{}` is not lower_snake_case", info.name);
   }
+  // Numbers come from foreign code, so an enum may have a value that it does not name.
   if (static_cast<std::uint32_t>(info.kind) >= kDriverKindCount) {
     return fail(ErrorCode::kPlugin, "driver `{}` has the unknown kind {}", info.name,
                 static_cast<std::uint32_t>(info.kind));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Descriptions of parameters, as `rave describe` and the reference page show them.
 #include "rave/plugin/params_text.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@ namespace {
 
 /// Larger limits mean "no limit": the largest double or integer.
 bool is_unlimited(const ParamSpec& spec, double limit) noexcept {
+  // 2^53: up to here doubles are whole numbers without gaps.
   const double far = spec.type == ParamType::kInteger ? 9007199254740992.0 : 1e300;
   return !(std::abs(limit) < far);
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A plug-in: its stamp is compared before it is loaded, and what it registers is compared with its
+// stamp.
 #include "plugin_file.hpp"
 
 #include <cxxabi.h>
@@ -68,6 +70,7 @@ Status check_against_stamp(const std::vector<Driver>& drivers,
                   "RAVE_PLUGIN(...)",
                   to_string(driver->info.kind), name);
     }
+    // The same name is allowed for drivers of different kinds.
     if (std::any_of(drivers.begin(), driver, [&](const Driver& other) {
           return other.info.kind == driver->info.kind && name == other.info.name;
         })) {
@@ -88,6 +91,8 @@ Status check_against_stamp(const std::vector<Driver>& drivers,
 }  // namespace
 
 PluginFile::PluginFile(std::filesystem::path path, const Stamp& host) : path_(std::move(path)) {
+  // Read from the file without loading it: dlopen() would already run code of a plug-in that does
+  // not fit.
   const Result<Stamp> stamp = read_stamp(path_);
   if (!stamp) {
     refuse(stamp.error());
@@ -100,6 +105,8 @@ PluginFile::PluginFile(std::filesystem::path path, const Stamp& host) : path_(st
 PluginFile::~PluginFile() { unload(); }
 
 bool PluginFile::claims(std::string_view name) const {
+  // A file without a readable stamp is asked by its name, so that its error is shown to who wants
+  // that driver.
   if (provides_.empty()) return path_.stem() == name;
   return std::find(provides_.begin(), provides_.end(), name) != provides_.end();
 }
@@ -153,6 +160,7 @@ Status PluginFile::register_drivers() {
 }
 
 void PluginFile::unload() noexcept {
+  // First, because descriptions point into the library.
   drivers_.clear();
   if (handle_ != nullptr) ::dlclose(handle_);
   handle_ = nullptr;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reads the stamp of a plug-in from its ELF file without loading it: code built for another
+// interface must not run at all.
 #include "rave/plugin/stamp.hpp"
 
 #include <elf.h>
@@ -57,6 +59,7 @@ tl::unexpected<Error> no_stamp() {
               kSection);
 }
 
+// The file may be anything, so each number in it is checked against the size before it is used.
 Result<Elf64_Ehdr> read_header(std::string_view bytes) {
   if (!bytes.starts_with(std::string_view(ELFMAG, SELFMAG))) {
     return fail(ErrorCode::kParse, "not a shared library (no ELF file)");
@@ -151,6 +154,7 @@ Result<Stamp> parse_stamp(std::string_view bytes) {
   RAVE_TRY_ASSIGN(const Elf64_Ehdr header, read_header(bytes));
   RAVE_TRY_ASSIGN(const std::optional<Elf64_Shdr> section, find_section(bytes, header));
   if (!section) return no_stamp();
+  // The size first: an older or newer stamp has its fields elsewhere.
   if (section->sh_size != sizeof(Stamp)) {
     return fail(ErrorCode::kIncompatible,
                 "its stamp has {} bytes, this version's has {}: rebuild it against this "
@@ -188,6 +192,7 @@ std::vector<std::string> parse_provides(const Stamp& stamp) {
 
 Status check_stamp(const Stamp& plugin, const Stamp& host) {
   std::string differences;
+  // All differences at once: one rebuild should settle all of them.
   const auto add = [&](std::string_view text) {
     if (!differences.empty()) differences += "; ";
     differences += text;
@@ -198,6 +203,7 @@ Status check_stamp(const Stamp& plugin, const Stamp& host) {
                     "it against this installation",
                     plugin.robot_interface, host.robot_interface));
   }
+  // 0: a plug-in without virtual drivers, which does not care about that interface.
   if (plugin.virtual_interface != 0 && plugin.virtual_interface != host.virtual_interface) {
     add(virtual_difference(plugin.virtual_interface, host.virtual_interface));
   }

@@ -73,6 +73,7 @@ std::vector<std::string> wrap(std::string_view text, std::size_t width) {
       }
       lines.emplace_back();
     }
+    // A word that is wider than the column is cut, or the table would lose its shape.
     while (width_of(word) > width) {
       const std::size_t cut = bytes_of(word, width);
       lines.back() = word.substr(0, cut);

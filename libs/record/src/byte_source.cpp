@@ -37,6 +37,8 @@ Status ByteSource::read(std::uint64_t offset, std::uint64_t size, Bytes& out) co
     out.assign(found.begin(), found.end());
     return {};
   }
+  // Within the size of the file, which is checked above, so a damaged length cannot use up the
+  // memory.
   out.resize(size);
   std::uint64_t done = 0;
   while (done < size) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reads all of a file and compares every checksum that is there.
 #include "check_file.hpp"
 
 #include <fmt/format.h>
@@ -19,11 +20,13 @@ class FileCheck {
     checked_.damages = file.damages;
   }
 
+  // From the parts to the whole: damage is reported at the smallest record that has it.
   CheckedFile run() {
     if (file_.ended && !file_.summed) unsummed("index");
     for (const AttachmentInfo& attachment : file_.attachments) check_attachment(attachment);
     for (const MetadataInfo& metadata : file_.metadata) check_metadata(metadata);
     for (const ChunkInfo& chunk : file_.chunks) check_chunk(chunk);
+    // If a chunk is damaged, its messages are missing anyway.
     if (messages_ != file_.statistics.message_count && checked_.damages.empty()) {
       damage(fmt::format("`{}` states {} messages; it has {}", source_.name(),
                          file_.statistics.message_count, messages_));
@@ -93,6 +96,7 @@ class FileCheck {
   }
 
   /// The checksum of all data also covers records without their own.
+  /// In pieces: a recording may be larger than memory.
   void check_data() {
     Bytes bytes;
     std::uint32_t sum = 0;

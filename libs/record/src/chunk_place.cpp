@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// What the summary says of a chunk, read back from the file: a long run has too many chunks to keep
+// this in memory.
 #include "chunk_place.hpp"
 
 #include <unistd.h>
@@ -33,6 +35,7 @@ constexpr std::size_t kLongestHead = kRecordHead + 8 + 8 + 8 + 4 + 4 + 4 + 8;
 
 }  // namespace
 
+// The head of a chunk and its message indexes have all that the index of the chunk needs.
 Result<ChunkInfo> read_back(int fd, const ChunkPlace& place, const std::string& path,
                             Bytes& buffer) {
   const auto changed = [&] {

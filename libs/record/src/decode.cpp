@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// From bytes of a recording to values. The bytes may be damaged or from another program, so every
+// count and offset is checked against the bytes that are there.
 #include <map>
 
 #include "cdr_time.hpp"
@@ -29,6 +31,7 @@ template <class Packed, class Item>
   step.time = get_time(reader);
   step.step = reader.get<std::uint64_t>();
   version = reader.get<std::uint32_t>();
+  // What follows has the layout of the version, so nothing of another one can be read.
   if (version != kLayoutVersion) return {};
   return reader.get_packed<Packed>(reader.get<std::uint32_t>());
 }
@@ -119,9 +122,12 @@ Result<StepOf<RobotPose>> decode_poses(Message message) {
   std::uint32_t version = 0;
   const auto packed = get_step<PackedPose>(reader, step, version);
   if (reader.ok() && version != kLayoutVersion) return other_version(topic::kPoses, version);
+  // Aligns the second array to 8.
   static_cast<void>(reader.get<std::uint32_t>());
   const auto truths = reader.get_packed<PackedTruePose>(reader.get<std::uint32_t>());
   if (!reader.ok()) return malformed(topic::kPoses);
+  // True poses are few: only of robots whose reported pose differs. They are in the order of the
+  // robots.
   auto truth = truths.begin();
   step.items.reserve(packed.size());
   for (const PackedPose& p : packed) {
@@ -261,6 +267,8 @@ Result<RunInfo> decode_run(Message message) {
   info.started = reader.get_string();
   info.seed = reader.get<std::uint64_t>();
   info.step_s = reader.get<double>();
+  // get_count() is given the least number of bytes of an element (a text has 5), so that a damaged
+  // count cannot claim more elements than there is room for.
   for (auto count = reader.get_count(10); count > 0 && reader.ok(); --count) {
     std::string name = reader.get_string();
     info.versions[std::move(name)] = reader.get_string();

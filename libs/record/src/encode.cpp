@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// From values to CDR, in the layouts that ros_schemas.cpp describes. A change of a layout with
+// packed arrays needs another kLayoutVersion.
 #include "encode.hpp"
 
 #include "cdr_time.hpp"
@@ -9,6 +11,7 @@ void encode_step_head(CdrWriter& writer, SimTime time, std::uint64_t step, std::
   writer.clear();
   put_time(writer, time);
   writer.put(step);
+  // Also aligns the packed array behind the count to 8 bytes.
   writer.put(kLayoutVersion);
   writer.put_count(count);
 }
@@ -28,6 +31,7 @@ void encode_variances(CdrWriter& writer, SimTime time, std::uint64_t step,
   encode_step_head(writer, time, step, robots.size());
   for (const PoseVariance& robot : robots) {
     writer.put(robot.robot.value());
+    // Aligns the doubles of the element.
     writer.put(std::uint32_t{0});
     writer.put(robot.xy_m2);
     writer.put(robot.yaw_rad2);
@@ -72,6 +76,7 @@ void encode_chat(CdrWriter& writer, SimTime time, const RunChat& chat) {
 void encode_console(CdrWriter& writer, const ConsoleLine& line) {
   writer.clear();
   put_time(writer, line.time);
+  // Levels of rcl_interfaces/msg/Log: 10 debug, 20 info, 30 warning, 40 error.
   writer.put(static_cast<std::uint8_t>(10 + 10 * static_cast<int>(line.level)));
   writer.put_string(line.source);
   writer.put_string(line.text);

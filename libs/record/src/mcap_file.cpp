@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Writes the records of an MCAP file (https://mcap.dev/spec): header, chunks with their message
+// indexes, attachments and metadata as they come, and at the end a summary that lists them.
 #include "mcap_file.hpp"
 
 #include <fcntl.h>
@@ -25,6 +27,7 @@ McapFile::~McapFile() {
 Result<std::unique_ptr<McapFile>> McapFile::create(const std::filesystem::path& path,
                                                    std::string_view profile,
                                                    std::string_view library) {
+  // Readable, too: the summary at the end is made from chunks that are read back.
   const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (fd < 0) {
     const int code = errno;
@@ -61,6 +64,7 @@ Status McapFile::append(ByteSpan bytes) {
     rest = rest.subspan(static_cast<std::size_t>(count));
   }
   offset_ += bytes.size();
+  // The data end record has a sum over all bytes of the file before it.
   data_crc_ = crc32(bytes, data_crc_);
   return {};
 }
@@ -74,6 +78,7 @@ void McapFile::put_chunk_record(const Chunk& chunk, std::optional<int> zstd_leve
     const std::size_t size =
         ZSTD_compressCCtx(compressor_, compressed_.data(), compressed_.size(), chunk.records.data(),
                           chunk.records.size(), *zstd_level);
+    // Data that do not shrink are stored as they are; an error of the compressor costs no data.
     if (ZSTD_isError(size) == 0 && size < chunk.records.size()) {
       info.compression = "zstd";
       data = ByteSpan(compressed_).first(size);
@@ -94,6 +99,7 @@ void McapFile::put_chunk_record(const Chunk& chunk, std::optional<int> zstd_leve
 }
 
 void McapFile::put_message_indexes(const Chunk& chunk, ChunkInfo& info) {
+  // One index per channel, each in the order of time.
   sorted_ = chunk.entries;
   std::stable_sort(sorted_.begin(), sorted_.end(), [](const auto& a, const auto& b) {
     return a.channel != b.channel ? a.channel < b.channel : a.log_time_ns < b.log_time_ns;
@@ -138,11 +144,14 @@ Status McapFile::write_chunk(const Chunk& chunk, std::optional<int> zstd_level) 
     info.start_ns = low->log_time_ns;
     info.end_ns = high->log_time_ns;
   }
+  // Chunk and indexes in one call: if writing fails, append() removes both.
   out_.clear();
   put_chunk_record(chunk, zstd_level, info);
   put_message_indexes(chunk, info);
   RAVE_TRY(append(out_));
   count(chunk, info);
+  // Only the place: what the summary needs is read back at the end, so memory hardly grows with the
+  // length of a run.
   chunks_.push_back({info.offset, info.message_index_length});
   return {};
 }
@@ -157,6 +166,7 @@ Status McapFile::write_attachment(const AttachmentInfo& info, ByteSpan data) {
   writer.string(info.media_type);
   writer.put(static_cast<std::uint64_t>(data.size()));
   writer.raw(data);
+  // Over all fields of the record before it.
   writer.put(crc32(ByteSpan(out_).subspan(record)));
   writer.end_record(record);
   AttachmentInfo placed = info;
@@ -188,6 +198,8 @@ Status McapFile::put_summary(const std::vector<SchemaInfo>& schemas,
     std::uint64_t start;
     std::uint64_t length;
   };
+  // Records of one kind are one group, and the offsets of the groups let readers load only those
+  // that they need.
   std::vector<Group> groups;
   const auto group = [&](std::uint8_t code, const auto& items, auto put) {
     const std::size_t start = out_.size();
@@ -224,6 +236,7 @@ Status McapFile::put_summary(const std::vector<SchemaInfo>& schemas,
   const std::size_t record = writer.begin_record(opcode::kFooter);
   writer.put(offset_);
   writer.put(offsets_start);
+  // The place of the checksum, which covers the summary and the footer up to this place.
   writer.put(std::uint32_t{0});
   writer.end_record(record);
   const ByteSpan summed = ByteSpan(out_).first(out_.size() - sizeof(std::uint32_t));

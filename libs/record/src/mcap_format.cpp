@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+// Records of MCAP as bytes and back, field by field as in https://mcap.dev/spec.
 #include "mcap_format.hpp"
 
 namespace rave::record {
 
+// Fields in the order of the specification, numbers little-endian.
 void put_schema(Bytes& out, const SchemaInfo& schema) {
   ByteWriter writer(out);
   const std::size_t record = writer.begin_record(opcode::kSchema);
@@ -87,6 +89,7 @@ void put_statistics(Bytes& out, const Statistics& statistics, std::size_t schema
   writer.end_record(record);
 }
 
+// Readers look at ok() once, at the end: after a field that is cut, all others are empty.
 bool get_schema(ByteSpan content, SchemaInfo& schema) {
   ByteReader reader(content);
   schema.id = reader.get<std::uint16_t>();
@@ -112,6 +115,7 @@ bool get_chunk_index(ByteSpan content, ChunkInfo& chunk) {
   chunk.end_ns = reader.get<std::uint64_t>();
   chunk.offset = reader.get<std::uint64_t>();
   chunk.length = reader.get<std::uint64_t>();
+  // A map has its size in bytes, not in elements.
   ByteReader offsets(reader.raw(reader.get<std::uint32_t>()));
   while (offsets.ok() && offsets.rest() > 0) {
     const auto channel = offsets.get<std::uint16_t>();

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A recording as its users see it. What has been read is constant and shared, so cursors may
+// outlive the reader.
 #include "rave/record/mcap_reader.hpp"
 
 #include <algorithm>
@@ -25,6 +27,7 @@ namespace {
   }
   const auto code = reader.get<std::uint8_t>();
   const auto size = reader.get<std::uint64_t>();
+  // The size comes from the file and is compared with it before memory is allocated.
   if (code != opcode::kHeader || size > source.size() - bytes.size()) {
     return fail(ErrorCode::kParse, "`{}`: there is no complete header at offset {}", source.name(),
                 kMagic.size());
@@ -52,6 +55,7 @@ Result<McapReader> McapReader::open_source(std::unique_ptr<ByteSource> source,
   file->source = std::move(source);
   file->options = options;
   RAVE_TRY(read_header(*file));
+  // Without a usable summary the data are scanned: slower, but all that is there can be read.
   if (const Status summary = read_summary(*file); !summary) {
     if (!summary.error().message.empty()) file->damages.push_back(summary.error().message);
     scan_data(*file);
@@ -122,6 +126,7 @@ Result<std::string> McapReader::read_attachment(const AttachmentInfo& attachment
     return fail(ErrorCode::kParse, "`{}`: there is no complete attachment at offset {}",
                 source.name(), attachment.offset);
   }
+  // 0 means that the writer made no checksum.
   if (crc != 0 && crc32(ByteSpan(bytes).first(end).subspan(kRecordHead)) != crc) {
     return fail(ErrorCode::kParse, "`{}`: the attachment at offset {} does not match its checksum",
                 source.name(), attachment.offset);

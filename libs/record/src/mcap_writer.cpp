@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The producer's side of a recording: ids of schemas and channels, and messages into the open
+// chunk.
 #include "rave/record/mcap_writer.hpp"
 
 #include "write_queue.hpp"
@@ -59,6 +61,7 @@ Result<std::uint16_t> McapWriter::add_schema(std::string_view name, std::string_
   }
   SchemaInfo schema{static_cast<std::uint16_t>(impl_->schemas.size() + 1), std::string(name),
                     std::string(encoding), std::string(data)};
+  // Into the chunk as well as into the summary: a file without its end can still be understood.
   impl_->queue.append([&](Chunk& chunk) { put_schema(chunk.records, schema); });
   impl_->schemas.push_back(std::move(schema));
   return impl_->schemas.back().id;
@@ -92,6 +95,7 @@ Status McapWriter::write_parts(std::uint16_t channel, std::uint32_t sequence,
                                std::uint64_t log_time_ns, std::uint64_t publish_time_ns,
                                std::span<const std::span<const std::byte>> parts) {
   if (auto usable = impl_->usable(); !usable) {
+    // The run goes on without its recording; how much is missing is counted.
     impl_->queue.count_dropped();
     return usable;
   }
@@ -103,6 +107,7 @@ Status McapWriter::write_parts(std::uint16_t channel, std::uint32_t sequence,
   for (const auto part : parts) size += part.size();
   impl_->queue.append([&](Chunk& chunk) {
     chunk.entries.push_back({log_time_ns, chunk.records.size(), channel});
+    // The head of a message has fixed places, and this is done for each message of a run.
     std::array<std::byte, kRecordHead + kMessageHead> head;
     head[0] = std::byte{opcode::kMessage};
     std::memcpy(&head[1], &size, 8);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// One recording from those of several processes. Each step takes from each part what that process
+// knows best: a host its robots, the authority the world.
 #include "rave/record/merge.hpp"
 
 #include <algorithm>
@@ -127,6 +129,7 @@ Status Merger::check() const {
   if (!(first.info.step_s >= 1e-9 && first.info.step_s < 1e9)) {
     return fail(ErrorCode::kParse, "`{}` does not state the step", first.path.string());
   }
+  // The scenario, seed, step and robots identify a run; starting times differ between processes.
   for (const auto& part : parts_) {
     if (part->info.scenario == first.info.scenario && part->info.seed == first.info.seed &&
         part->info.step_s == first.info.step_s && part->info.robots == first.info.robots) {
@@ -164,6 +167,7 @@ Status Merger::learn_hosts() {
   StringMap all;
   for (const auto& part : parts_) {
     const StringMap known = metadata_of(part->reader, kHostsMetadata);
+    // Each process records which host has which robots, so one readable part is enough.
     all.insert(known.begin(), known.end());
   }
   for (const auto& [host, robots] : all) hosts_.push_back(host);
@@ -199,6 +203,8 @@ Status Merger::describe(RunRecorder& recorder) {
   return {};
 }
 
+// Messages of one step have the same log time in all parts. So the parts are read side by side, one
+// moment after the other.
 bool Merger::next_moment() {
   time_ns_ = std::numeric_limits<std::uint64_t>::max();
   for (const auto& part : parts_) {
@@ -218,6 +224,7 @@ void Merger::write_poses(RunRecorder& recorder) {
     for (const RobotPose& pose : step.items) {
       const std::uint32_t r = pose.robot.value();
       if (r >= poses_.size()) continue;
+      // Several parts may have a pose of the same robot; that of its own host counts.
       const bool own = owner_[r] != nullptr && *owner_[r] == part.host;
       if (poses_[r] && !own) continue;
       poses_[r] = pose;
@@ -252,6 +259,7 @@ void Merger::write_hash(RunRecorder& recorder) {
   RunHash sum;
   std::size_t known = 0;
   each_item(parts_, topic::kHash, decode_hash, [&](const Part&, const StepHash& step) {
+    // The run hash is a sum over items, each of which one process adds.
     sum.merge(RunHash::of_value(step.hash));
     ++known;
   });
@@ -263,6 +271,7 @@ void Merger::write_hash(RunRecorder& recorder) {
 void Merger::write_inputs(RunRecorder& recorder, bool before_first) {
   Once<RunInput> once;
   each_item(parts_, topic::kInputs, decode_input, [&](const Part& part, const RunInput& input) {
+    // Inputs before the first step are recorded before it, all others after their step.
     if ((input.step == 0) == before_first) once.add(&part, input);
   });
   for (const RunInput& input : once.items()) static_cast<void>(recorder.input(input));
@@ -290,6 +299,7 @@ bool Merger::was_told(const Part& part, const RunEvent& event) {
 
 Status Merger::write_moment(RunRecorder& recorder) {
   const std::int64_t step_ns = from_seconds(parts_.front()->info.step_s).ns;
+  // Log times are those of steps, so the number of the step follows.
   const auto step = time_ns_ / static_cast<std::uint64_t>(step_ns);
   write_inputs(recorder, true);
   recorder.begin_step(step, SimTime{static_cast<std::int64_t>(time_ns_)});
@@ -386,6 +396,7 @@ Result<std::vector<std::string>> merge_records(const std::vector<fs::path>& part
     return fail(ErrorCode::kParse, "no recording of the run can be read{}{}",
                 unreadable.empty() ? "" : ": ", unreadable.empty() ? "" : unreadable.front().why);
   }
+  // Renamed when it is complete: who opens the run meanwhile finds no half recording.
   fs::path draft = output;
   draft += ".merging";
   auto notes = Merger(std::move(opened), std::move(unreadable)).write(draft);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Messages in the order of time from chunks that may overlap. Only chunks around the present time
+// are in memory.
 #include "message_cursor.hpp"
 
 #include <algorithm>
@@ -18,6 +20,7 @@ MessageCursor::Impl::Impl(std::shared_ptr<const RecordFile> file, MessageFilter 
   for (std::size_t i = 0; i < file_->chunks.size(); ++i) {
     if (wanted(file_->chunks[i])) waiting_.push_back(i);
   }
+  // Backward, so that the next one is taken from the end.
   std::ranges::sort(waiting_, [this](std::size_t a, std::size_t b) {
     const auto& first = file_->chunks[a];
     const auto& second = file_->chunks[b];
@@ -27,6 +30,7 @@ MessageCursor::Impl::Impl(std::shared_ptr<const RecordFile> file, MessageFilter 
 
 bool MessageCursor::Impl::wanted(const ChunkInfo& chunk) const {
   if (chunk.end_ns < filter_.from_ns || chunk.start_ns > filter_.to_ns) return false;
+  // A chunk whose channels are not known may have all of them.
   if (filter_.channels.empty() || chunk.channels.empty()) return true;
   return std::ranges::any_of(chunk.channels, [this](const auto& channel) {
     return std::ranges::binary_search(filter_.channels, channel.first);
@@ -49,6 +53,8 @@ Status MessageCursor::Impl::open_chunk(std::size_t index) {
     if (inside) chunk->places.push_back({message.log_time_ns, at, content.size()});
     return ok;
   });
+  // Sorted here, since a chunk keeps messages in the order in which they were written. Stable, so
+  // that those of one time keep that order.
   if (!chunk->places.empty()) {
     std::ranges::stable_sort(chunk->places, {}, &Place::log_time_ns);
     heads_.push({chunk->places.front().log_time_ns, index});
@@ -60,10 +66,13 @@ Status MessageCursor::Impl::open_chunk(std::size_t index) {
 }
 
 Result<std::optional<MessageView>> MessageCursor::Impl::next() {
+  // The last message was a view into this chunk, so it could not be freed before.
   if (spent_) {
     open_[*spent_].reset();
     spent_.reset();
   }
+  // Chunks may overlap in time. Those that begin no later than the next message are open, and the
+  // earliest message of all of them is next; the others wait unread.
   while (!waiting_.empty() &&
          (heads_.empty() || file_->chunks[waiting_.back()].start_ns <= heads_.top().log_time_ns)) {
     const std::size_t index = waiting_.back();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The messages of a recording, all those of one moment together.
 #include "rave/record/moment_cursor.hpp"
 
 namespace rave::record {
@@ -23,6 +24,7 @@ Result<bool> MomentCursor::next() {
   }
   if (!ahead_) return false;
   time_ns_ = ahead_time_ns_;
+  // One message is read ahead: only it tells that a moment is over.
   while (ahead_ && ahead_time_ns_ == time_ns_) {
     messages_[ahead_topic_].push_back(*std::move(ahead_));
     RAVE_TRY(take());

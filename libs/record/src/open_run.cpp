@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The one recording of a run, merged anew when its parts have changed.
 #include <algorithm>
 
 #include "rave/record/merge.hpp"
@@ -21,6 +22,7 @@ std::vector<fs::path> parts_in(const fs::path& folder) {
   }
   std::ranges::sort(hosts, {}, [](const fs::path& record) {
     std::string name = record.parent_path().filename().string();
+    // By length first: host-10 comes after host-9.
     return std::pair(name.size(), name);
   });
   if (!hosts.empty() && fs::is_regular_file(folder / "world.mcap", error)) {
@@ -38,6 +40,7 @@ bool is_made_of(const fs::path& merged, const std::vector<fs::path>& parts) {
     std::error_code error;
     const auto name = part.lexically_proximate(merged.parent_path()).generic_string();
     const auto known = files.find(name);
+    // Sizes are enough to notice a part that has grown since, as in a run that was still going on.
     return known != files.end() && known->second == std::to_string(fs::file_size(part, error));
   });
   return same && files.size() == parts.size();

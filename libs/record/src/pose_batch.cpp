@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Poses of a step, packed. A true pose is stored only where it differs from the reported one.
 #include "pose_batch.hpp"
 
 #include <bit>
@@ -27,6 +28,7 @@ void PoseBatch::add(const RobotPose& robot) {
   }
   if (!robot.true_pose) return;
   packed.flags |= kHasTrue;
+  // Of most robots both poses are equal; the second one is then not stored.
   if (robot.reported_pose && same_bits(*robot.true_pose, *robot.reported_pose)) {
     packed.flags |= kTrueIsReported;
   } else {
@@ -36,6 +38,7 @@ void PoseBatch::add(const RobotPose& robot) {
 }
 
 void PoseBatch::add(const PoseBlock& block) {
+  // Simulated robots without a pose source, whose reported pose is the true one.
   const std::size_t before = poses_.size();
   poses_.resize(before + block.robots);
   PackedPose* const packed = poses_.data() + before;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// An open file: its summary, and its chunks on demand.
 #include "record_file.hpp"
 
 #include <zstd.h>
@@ -12,6 +13,7 @@ namespace rave::record {
 void note_schema(RecordFile& file, SchemaInfo schema) {
   const auto at = std::lower_bound(file.schemas.begin(), file.schemas.end(), schema.id,
                                    [](const auto& known, auto id) { return known.id < id; });
+  // The first description of an id counts; later chunks repeat it.
   if (schema.id == 0 || (at != file.schemas.end() && at->id == schema.id)) return;
   file.schemas.insert(at, std::move(schema));
 }
@@ -112,6 +114,7 @@ namespace {
 
 Status read_summary(RecordFile& file) {
   const ByteSource& source = *file.source;
+  // The end of a file has a fixed size, so the footer is found without reading the rest.
   constexpr std::uint64_t kTail = kRecordHead + kFooterSize + 8;
   Bytes tail;
   const auto cut = [&] {
@@ -169,6 +172,7 @@ Status read_summary(RecordFile& file) {
 }
 
 Status load_chunk(const RecordFile& file, const ChunkInfo& chunk, Bytes& records, bool* summed) {
+  // Messages outside of chunks: the same records without a frame.
   if (chunk.bare) return file.source->read(chunk.offset, chunk.length, records);
   Bytes bytes;
   RAVE_TRY(file.source->read(chunk.offset, chunk.length, bytes));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What `rave info` says of a recording.
 #include "rave/record/record_summary.hpp"
 
 #include <algorithm>
@@ -86,6 +87,7 @@ Result<RecordSummary> describe_record(const fs::path& path, RecordLook look) {
   summary.file_bytes = reader.file_size();
   summary.ended = reader.ended();
   summary.damages = reader.damages();
+  // Reads every byte, and those of all parts, so only where it is asked for.
   if (look == RecordLook::kAll) look_at_all(reader, path, summary);
   summary.profile = reader.profile();
   summary.library = reader.library();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Sets of robots as text, such as `0-9,12`: robots of a host mostly have numbers in a row.
 #include "rave/record/robot_ranges.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Finds rows again in what was read, so that a merged recording is no larger than its parts.
 #include "rows.hpp"
 
 namespace rave::record {
@@ -17,6 +18,8 @@ RowBytes bytes_of(const Percept& percept) { return percept.records; }
 RowBytes bytes_of(const CommandRecord& command) { return command.command; }
 
 /// The number of items from `begin` on that form one row.
+/// Decoding has cut the rows of a recording into items that point into one message. Items that
+/// follow each other in ids and in memory were one row, and are written as one again.
 template <class Item>
 std::uint32_t row_length(const std::vector<Item>& items, std::size_t begin) {
   const Item& first = items[begin];
@@ -38,6 +41,7 @@ std::uint32_t row_length(const std::vector<Item>& items, std::size_t begin) {
 void add_rows(const std::vector<Percept>& percepts, RunRecorder& recorder) {
   for (std::size_t i = 0; i < percepts.size();) {
     const Percept& first = percepts[i];
+    // Halves of hybrid sensors are never in rows.
     const std::uint32_t robots = first.part == PerceptPart::kResult ? row_length(percepts, i) : 1;
     if (robots == 1) {
       recorder.percept(first);

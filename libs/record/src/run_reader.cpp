@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What a recording says of its run, and the samples and poses of one robot.
 #include "rave/record/run_reader.hpp"
 
 #include <algorithm>
@@ -41,6 +42,7 @@ Result<RunInfo> read_run_info(const McapReader& reader) {
   const auto& attachments = reader.attachments();
   const auto yaml = std::ranges::find(attachments, "scenario.yaml", &AttachmentInfo::name);
   if (yaml != attachments.end()) {
+    // A recording without its scenario can still be looked at, only not replayed.
     if (auto text = reader.read_attachment(*yaml)) run->expanded_scenario = *std::move(text);
   }
   const auto inputs = std::ranges::find(reader.metadata(), "rave.inputs", &MetadataInfo::name);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Records a run. Within a step, data are gathered by stream; end_step() writes one message per
+// stream, whatever the number of robots.
 #include "rave/record/run_record.hpp"
 
 #include <mutex>
@@ -39,11 +41,13 @@ struct Batch {
   Status write(McapWriter& file, CdrWriter& cdr, SimTime time, std::uint64_t step) {
     if (elements.empty()) return {};
     auto size = static_cast<std::uint32_t>(records.size());
+    // Blocks come behind the copied bytes, so their offsets are known only now.
     for (const std::size_t element : block_elements) {
       elements[element].offset = size;
       size += elements[element].size;
     }
     encode_step_head(cdr, time, step, elements.size());
+    // The parts are not put together first: the writer copies each into its chunk.
     parts.assign({cdr.bytes(), std::as_bytes(std::span(elements)),
                   std::as_bytes(std::span(&size, 1)), std::span<const std::byte>(records)});
     parts.insert(parts.end(), blocks.begin(), blocks.end());
@@ -114,6 +118,7 @@ Status RunRecorder::Impl::begin(const RunInfo& info, const ViewOptions& views) {
   RAVE_TRY(add(console_, topic::kConsole, kLogSchema));
   RAVE_TRY(views_.open(file_, info, views));
   const std::string_view yaml = info.expanded_scenario;
+  // With the expanded scenario a recording can be replayed without any file of the run.
   RAVE_TRY(file_.add_attachment("scenario.yaml", "application/yaml",
                                 std::as_bytes(std::span(yaml.data(), yaml.size()))));
   StringMap about = {{"scenario", info.scenario},
@@ -133,6 +138,7 @@ Status RunRecorder::Impl::write_console() {
   {
     const std::lock_guard lock(console_mutex_);
     if (console_lines_.empty()) return {};
+    // Log lines come from any thread and get the time of the step that is being written.
     lines.swap(console_lines_);
   }
   Status status;
@@ -174,6 +180,7 @@ void RunRecorder::percept(const Percept& percept) {
                         percept.kind, static_cast<std::uint8_t>(percept.part), header.stamp_ns,
                         header.sequence, header.count, header.fresh, header.dropped, 0, 0, 1, 0},
                        percept.records);
+  // Standard messages exist for ranges; other sensors are in the packed stream only.
   if (percept.kind == kRangesKind && percept.part == PerceptPart::kResult &&
       impl_->views_.sees(percept.robot)) {
     // end_step() reports a failed write.
@@ -248,6 +255,7 @@ Status RunRecorder::input(const RunInput& input) {
 }
 
 Status RunRecorder::chat(const RunChat& chat) {
+  // Streams that most runs do not need are made with their first message.
   if (!impl_->chat_) {
     RAVE_TRY_ASSIGN(const auto schema, add_schema(impl_->file_, kChatSchema));
     RAVE_TRY_ASSIGN(impl_->chat_, add_stream(impl_->file_, topic::kChat, schema));
@@ -312,6 +320,8 @@ Status RunRecorder::flush() { return impl_->file_.flush(); }
 Status RunRecorder::end(std::optional<std::uint64_t> hash) {
   Impl& impl = *impl_;
   Status written = end_step();
+  // The end is a message and metadata: the message for readers in order, the metadata for tools
+  // that read the summary only.
   encode_end(impl.cdr_, {impl.time_, impl.steps_, hash});
   if (written) written = impl.end_.write(impl.file_, impl.time_, impl.cdr_.bytes());
   StringMap about = {{"steps", std::to_string(impl.steps_)}};

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Lists what is in a recording that has no summary: one that is being written, or whose process was
+// killed.
 #include <algorithm>
 #include <set>
 
@@ -15,6 +17,8 @@ class DataScan {
  public:
   explicit DataScan(RecordFile& file) noexcept : file_(file) {}
 
+  // Records are frames of code and length, so a file without its end is read from one to the next
+  // up to the first that is not whole.
   void run() {
     std::uint64_t at = file_.data_begin;
     const std::uint64_t end = file_.source->size();
@@ -28,6 +32,7 @@ class DataScan {
         file_.data_end = at;
         return;
       }
+      // Code 0 does not exist; a block of zeros is what a file system can leave after a crash.
       if (code == 0 || size > end - at - kRecordHead) return cut(at);
       if (!take(code, at, size)) return cut(at);
       at += kRecordHead + size;
@@ -76,6 +81,7 @@ class DataScan {
     return true;
   }
 
+  // What the summary would have said.
   void count(const MessageView& message) {
     Statistics& all = file_.statistics;
     const bool first = all.message_count == 0;
@@ -127,6 +133,7 @@ class DataScan {
     if (!get_message(content_, message)) return false;
     count(message);
     const std::uint64_t length = kRecordHead + size;
+    // Messages in a row count as one chunk, so that readers need not know that there are bare ones.
     if (!file_.chunks.empty()) {
       ChunkInfo& last = file_.chunks.back();
       if (last.bare && last.offset + last.length == at && last.length < kBareBytes) {
@@ -181,6 +188,7 @@ class DataScan {
 }  // namespace
 
 void scan_data(RecordFile& file) {
+  // A summary that was read in part may be wrong; all is found anew.
   file.schemas.clear();
   file.channels.clear();
   file.chunks.clear();

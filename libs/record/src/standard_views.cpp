@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The same data in standard messages of ROS, at a lower rate, so that foreign viewers show a
+// recording without knowing RAVE.
 #include "standard_views.hpp"
 
 #include <algorithm>
@@ -46,6 +48,7 @@ Status StandardViews::open(McapWriter& file, const RunInfo& info, const ViewOpti
   RAVE_TRY_ASSIGN(tf_.stream, add_stream(file, "/tf", schema));
   RAVE_TRY(open_scans(file, info));
   RAVE_TRY(open_velocities(file, info));
+  // Mountings do not change, so they are written once, on the topic that viewers keep.
   if (scans_.empty()) return {};
   RAVE_TRY_ASSIGN(Stream fixed, add_stream(file, "/tf_static", schema));
   RAVE_TRY(write_mountings(file, info));
@@ -55,6 +58,7 @@ Status StandardViews::open(McapWriter& file, const RunInfo& info, const ViewOpti
 Status StandardViews::open_scans(McapWriter& file, const RunInfo& info) {
   std::uint16_t schema = 0;
   for (const RecordedSensor& sensor : info.sensors) {
+    // Others have no standard message; they are in the recording all the same.
     if (sensor.kind != kRangesKind || !sees(sensor.robot) ||
         sensor.robot.value() >= frames_.size() || !evenly_spaced(sensor.bearings_rad)) {
       continue;
@@ -92,6 +96,7 @@ Status StandardViews::open_velocities(McapWriter& file, const RunInfo& info) {
 
 bool StandardViews::due(Paced& paced, SimTime time, std::int64_t period_ns) noexcept {
   if (time.ns < paced.next_ns) return false;
+  // Kept on a grid of periods, and no burst after a gap.
   paced.next_ns = std::max(paced.next_ns, time.ns - period_ns) + period_ns;
   if (paced.next_ns <= time.ns) paced.next_ns = time.ns + period_ns;
   return true;
@@ -102,6 +107,7 @@ void StandardViews::put_transform(SimTime time, std::string_view parent, std::st
   put_time(cdr_, time);
   cdr_.put_string(parent);
   cdr_.put_string(child);
+  // A turn about z by yaw is the quaternion (0, 0, sin(yaw/2), cos(yaw/2)).
   for (const double value : {X.x, X.y, z_m, 0.0, 0.0, sin(X.yaw / 2), cos(X.yaw / 2)}) {
     cdr_.put(value);
   }
@@ -139,6 +145,7 @@ Status StandardViews::percept(McapWriter& file, SimTime time, const Percept& per
   cdr_.clear();
   put_time(cdr_, SimTime{percept.header.stamp_ns});
   cdr_.put_string(scan.frame);
+  // The fourth is the time between rays: all of a reading have one stamp.
   for (const float value : {scan.angle_min, scan.angle_max, scan.increment, 0.0F, scan.period,
                             scan.range_min, scan.range_max}) {
     cdr_.put(value);
@@ -155,6 +162,7 @@ Status StandardViews::percept(McapWriter& file, SimTime time, const Percept& per
 Status StandardViews::command(McapWriter& file, SimTime time, const CommandRecord& command) {
   std::uint32_t kind = 0;
   double velocity[2] = {};
+  // The kind, a reserved word, then the velocities.
   if (command.command.size() < 8 + sizeof velocity) return {};
   std::memcpy(&kind, command.command.data(), sizeof kind);
   const auto found = velocities_.find(command.robot);

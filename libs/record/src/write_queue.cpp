@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The thread that compresses and writes. The producer fills one open chunk; full ones wait here.
+// The gate protects the open chunk, the mutex all else, so that a message costs no mutex.
 #include "write_queue.hpp"
 
 #include <algorithm>
@@ -23,6 +25,8 @@ std::size_t waiting_bytes(const WriteJob& job) {
 
 }  // namespace
 
+// The run must not wait for its recording. So a writer that falls behind compresses less and less;
+// only a full backlog makes the producer wait.
 std::optional<int> level_for(const McapWriterOptions& options, std::size_t backlog_bytes) noexcept {
   if (backlog_bytes > options.backlog_bytes / 2) return std::nullopt;
   if (backlog_bytes > options.backlog_bytes / 10) return std::min(options.zstd_level, kLightLevel);
@@ -41,6 +45,8 @@ WriteQueue::~WriteQueue() { stop(); }
 
 void WriteQueue::hand_over_waiting() {
   std::unique_lock lock(mutex_);
+  // A chunk that is larger than the whole backlog passes when the queue is empty; otherwise it
+  // would wait for ever.
   const auto room = [this] {
     return backlog_bytes_ == 0 ||
            backlog_bytes_ + open_->records.size() <= options_.backlog_bytes || failed_;
@@ -56,6 +62,7 @@ void WriteQueue::hand_over(std::unique_lock<std::mutex>&) {
   if (open_->records.empty()) return;
   backlog_bytes_ += open_->records.size();
   jobs_.emplace_back(std::move(open_));
+  // Chunks go round between both threads, so that a run in steady state allocates nothing.
   if (spare_.empty()) {
     open_ = std::make_unique<Chunk>();
     open_->records.reserve(options_.chunk_bytes + options_.chunk_bytes / 4);
@@ -66,6 +73,7 @@ void WriteQueue::hand_over(std::unique_lock<std::mutex>&) {
   work_.notify_one();
 }
 
+// Attachments and metadata are few and wait behind the chunks, so the file keeps the order.
 void WriteQueue::push(WriteJob job) {
   const std::lock_guard lock(mutex_);
   backlog_bytes_ += waiting_bytes(job);
@@ -92,6 +100,7 @@ void WriteQueue::drain() {
 }
 
 Status WriteQueue::perform(WriteJob& job, std::size_t backlog_bytes) {
+  // After a failure nothing more is written: a gap in the file would look like a gap in the run.
   if (failed_) {
     if (const auto* chunk = std::get_if<std::unique_ptr<Chunk>>(&job)) {
       dropped_.fetch_add((*chunk)->entries.size(), std::memory_order_relaxed);
@@ -121,6 +130,8 @@ void WriteQueue::work() {
   while (true) {
     work_.wait_until(lock, next_flush_, [this] { return !jobs_.empty() || stop_; });
     if (jobs_.empty() && stop_) return;
+    // Nothing has come for a while: what is in the open chunk goes to the file, so that a process
+    // that is killed loses at most an interval.
     if (jobs_.empty()) {
       next_flush_ = Clock::now() + interval;
       lock.unlock();
@@ -133,6 +144,7 @@ void WriteQueue::work() {
     busy_ = true;
     const std::size_t backlog_bytes = backlog_bytes_;
     lock.unlock();
+    // Before perform(): what it counts is still there.
     const std::size_t bytes = waiting_bytes(job);
     const Status status = perform(job, backlog_bytes);
     if (!status) note_failure(status.error());
@@ -176,6 +188,7 @@ void WriteQueue::stop() {
 
 Status WriteQueue::finish(const std::vector<SchemaInfo>& schemas,
                           const std::vector<ChannelInfo>& channels) {
+  // First all that is waiting, then the thread, then the summary: it lists what was written.
   drain();
   stop();
   Status status = file_->finish(schemas, channels);

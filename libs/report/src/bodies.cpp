@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Bodies of the world, and labels beside what they name.
 #include <algorithm>
 #include <limits>
 
@@ -19,6 +20,7 @@ void hatch(Pen& pen, const std::vector<Vec2>& outline, Rgb colour) {
   // Bounds the number of lines for a body that fills the page at a high zoom.
   const double spacing = std::max(kSpacing, (box.width() + reach) / 200);
   std::vector<Vec2> ends;
+  // Lines at 45 degrees, from the lower edge to the upper one; the clip cuts them to the outline.
   for (double x = box.x0 - reach; x < box.x1; x += spacing) {
     ends.push_back({x, box.y1});
     ends.push_back({x + reach, box.y0});
@@ -53,6 +55,7 @@ Vec2 middle_of(const PageBox& box) noexcept {
 
 void draw_body(Pen& pen, const std::vector<Vec2>& outline, Kind kind, Rgb colour) {
   const PageBox box = bounds_of(outline);
+  // A map of a building has bodies below the width of a line.
   if (std::max(box.width(), box.height()) < 2 * kLeastRadius) {
     pen.disc(middle_of(box), kLeastRadius);
     pen.fill(colour);
@@ -89,6 +92,7 @@ void label_beside(Stage& stage, Vec2 anchor, double clearance, std::string_view 
   const Vec2 nearest = {std::clamp(anchor.x, box->x0, box->x1),
                         std::clamp(anchor.y, box->y0, box->y1)};
   const double reach = clearance + 4;
+  // Too far to be understood without a line to what it names.
   if (squared_norm(nearest - anchor) > reach * reach) {
     stage.pen.line(anchor, nearest);
     stage.pen.stroke(style.colour, 0.6, 0.9);

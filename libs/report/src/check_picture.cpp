@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Numbers and texts of a picture may come from any recording, so they are checked before anything
+// is drawn.
 #include "check_picture.hpp"
 
 #include <cmath>
@@ -28,6 +30,7 @@ Status check_time(double t_s, std::string_view what, std::string_view label) {
 }
 
 Status check_text(std::string_view text, std::string_view what) {
+  // cairo would refuse the whole picture.
   if (is_utf8(text)) return {};
   return fail(ErrorCode::kInvalidArgument, "picture: the {} is not valid UTF-8", what);
 }

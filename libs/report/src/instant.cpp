@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What robots and sensors see at one moment.
 #include <algorithm>
 #include <cmath>
 
@@ -60,6 +61,7 @@ std::vector<Vec2> places_of_hits(const Stage& stage, Kind kind) {
     const Vec2 at = stage.panel.to_page(hit.to_W);
     if (hit.kind != kind || !stage.panel.frame.contains(at)) continue;
     const bool is_same_scan = last != nullptr && last->from_W == hit.from_W;
+    // Hits of different scans are never thinned: two robots may see the same wall.
     if (is_same_scan && squared_norm(at - places.back()) < kLeastSpacing * kLeastSpacing) continue;
     places.push_back(at);
     last = &hit;
@@ -90,6 +92,7 @@ void draw_robot(Pen& pen, const std::vector<Vec2>& outline, Vec2 centre, Vec2 no
                 Rgb colour) {
   const bool is_light = kind != Kind::kRecordedRobot && kind != Kind::kHunter;
   pen.path(outline, true);
+  // A white border first, so that robots that touch each other can be told apart.
   pen.stroke_keeping_path(kWhite, 2.6, 0.9);
   pen.fill_keeping_path(is_light ? lighter(colour, 0.75) : colour);
   pen.stroke(colour, 1.1);
@@ -133,6 +136,7 @@ void draw_sighting(Pen& pen, Vec2 from, Vec2 to, const std::optional<Vec2>& tube
 
 void draw_instant(Stage& stage) {
   const PictureInstant& instant = *stage.picture.instant;
+  // What covers most is drawn first; hits last, since they are small and the point of the picture.
   draw_fans(stage);
   draw_trails(stage, instant.t_s);
   draw_bodies(stage, false);
@@ -172,6 +176,7 @@ void label_instant(Stage& stage) {
   const auto is_strong = [](const PictureRobot& robot) {
     return robot.kind == Kind::kRecordedRobot || robot.kind == Kind::kHunter;
   };
+  // Real robots and hunters get the free places first; the others are labelled only if all can be.
   const auto strong = static_cast<std::size_t>(
       std::count_if(instant.robots.begin(), instant.robots.end(), is_strong));
   if (strong <= kMostLabels) {

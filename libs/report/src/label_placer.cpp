@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Places labels beside what they name, without overlaps.
 #include "label_placer.hpp"
 
 #include <algorithm>
@@ -79,10 +80,13 @@ std::optional<PageBox> LabelPlacer::place(Vec2 anchor, double width, double heig
                                           double clearance) {
   std::optional<PageBox> best;
   double best_cost = 0;
+  // Greedy: each label takes the cheapest of 32 places and blocks it for those after it. A place
+  // costs what it covers, its distance, and an unusual direction.
   for (const double farther : kFarther) {
     for (std::size_t i = 0; i < kDirections.size(); ++i) {
       const PageBox box = box_beside(anchor, kDirections[i], clearance + farther, width, height);
       double cost = weight_under(box) + 0.4 * farther + 0.15 * static_cast<double>(i);
+      // The cheap tests first: most places lose by their cost alone.
       if ((best && cost >= best_cost) || !is_free(box)) continue;
       if (is_nearer_to_another(box, anchor)) cost += kMisleading;
       if (best && cost >= best_cost) continue;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Sizes of a page from its content, in units of the page; panels have the same scale for x and y.
 #include "rave/report/layout.hpp"
 
 #include <algorithm>
@@ -83,6 +84,7 @@ double add_panels(const Picture& picture, double top, Layout& layout) {
   if (has_tracks(picture) || !picture.instant) contents.push_back(PanelContent::kTracks);
   if (picture.instant) contents.push_back(PanelContent::kInstant);
 
+  // Wide worlds fit above each other, tall ones beside each other.
   const bool beside = contents.size() == 2 && aspect >= kSideBySideFrom;
   const double whole = kPageWidth - kLeft - kRight;
   const double width = beside ? 0.5 * (whole - kBetween) : whole;
@@ -106,6 +108,7 @@ double add_panels(const Picture& picture, double top, Layout& layout) {
 
 Result<Layout> lay_out(const Picture& picture) {
   RAVE_TRY(check_picture(picture));
+  // Text is measured before there is a page: its height decides where the panels begin.
   MeasuringPen measure;
   Layout layout;
   layout.width = kPageWidth;

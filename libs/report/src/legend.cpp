@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The legend draws its symbols with the functions that draw the picture, so that both look alike.
 #include "legend.hpp"
 
 #include <algorithm>
@@ -128,6 +129,7 @@ void add_bodies(const Picture& picture, std::vector<LegendEntry>& entries) {
         std::count_if(picture.bodies.begin(), picture.bodies.end(), is_of_kind));
     if (count == 0) continue;
     const auto first = std::find_if(picture.bodies.begin(), picture.bodies.end(), is_of_kind);
+    // With the colour of the first one: bodies of a kind mostly have the same.
     const Rgb colour = rgb_of(first->colour, kind);
     entries.push_back({[kind, colour](Pen& pen, const PageBox& box) {
                          if (kind == Kind::kLandmark) {
@@ -232,6 +234,7 @@ std::vector<PlacedGroup> placed_in(const std::vector<LegendGroup>& groups, std::
 std::size_t rows_of(const std::vector<LegendGroup>& groups) {
   if (groups.empty()) return 0;
   std::size_t rows = 2;
+  // Ends, since with enough rows each group fits into one column.
   while (placed_in(groups, rows).empty()) ++rows;
   return rows;
 }

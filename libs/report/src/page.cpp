@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A page: head, panels, legend, caption.
 #include "page.hpp"
 
 #include "legend.hpp"
@@ -58,6 +59,7 @@ void draw_panel(Pen& pen, const Picture& picture, const Panel& panel, char lette
   LabelPlacer labels(panel.frame);
   Stage stage{picture, panel, pen, labels};
   const bool is_instant = panel.content == PanelContent::kInstant;
+  // Bodies, tracks and rays may leave the panel; labels may not, as the placer knows the frame.
   pen.clip(panel.frame);
   draw_grid(stage);
   if (is_instant) {
@@ -77,6 +79,7 @@ void draw_panel(Pen& pen, const Picture& picture, const Panel& panel, char lette
       : is_instant ? fmt::format("What the sensors see at t = {:g} s", picture.instant->t_s)
                    : "Where the robots drove";
   if (letter != 0) heading = fmt::format("({})  {}", letter, heading);
+  // Last and not clipped: axis numbers are outside of the frame.
   draw_frame(stage, heading, !beside);
 }
 

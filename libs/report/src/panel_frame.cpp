@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Grid, axes and scale of a panel.
 #include <cmath>
 
 #include "stage.hpp"
@@ -12,6 +13,7 @@ constexpr double kLeastLabelSpacing = 30;
 template <class Draw>
 void for_multiples(double step_m, double low_m, double high_m, Draw draw) {
   const double first = std::ceil(low_m / step_m);
+  // Multiplied and not added up, so that rounding does not grow along the axis.
   for (double k = first; k * step_m <= high_m; k += 1) draw(k * step_m);
 }
 
@@ -49,6 +51,7 @@ void draw_scale_bar(Stage& stage, double step_m) {
 
 }  // namespace
 
+// 1, 2 or 5 times a power of ten: numbers that people read without effort.
 double nice_step_m(double least_m) noexcept {
   double decade = 1;
   while (decade > least_m) decade /= 10;

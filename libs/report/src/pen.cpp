@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Drawing with cairo. One description gives SVG and PNG with the same geometry.
 #include "pen.hpp"
 
 #include <array>
@@ -41,6 +42,7 @@ void Pen::path(const std::vector<Vec2>& points, bool closed) {
   if (closed) cairo_close_path(cr_);
 }
 
+// One path for all, since in an SVG each path is an element.
 void Pen::polygons(const std::vector<Vec2>& corners, double scale,
                    const std::vector<Vec2>& places) {
   cairo_new_path(cr_);
@@ -143,6 +145,7 @@ void Pen::text(Vec2 at, std::string_view text, const TextStyle& style) {
   const std::string terminated(text);
   cairo_new_path(cr_);
   cairo_move_to(cr_, left, at.y);
+  // A white border around the letters keeps them legible on lines and hatching.
   if (style.halo) {
     cairo_text_path(cr_, terminated.c_str());
     stroke(kWhite, 0.3 * style.size, 0.9);
@@ -157,6 +160,7 @@ std::string Pen::fit(std::string_view text, double width, const TextStyle& style
   if (text_width(text, style) <= width) return std::string(text);
   std::size_t columns = columns_of(text);
   std::string shorter(text);
+  // Character by character, because letters have different widths.
   while (columns > 1 && text_width(shorter, style) > width) {
     shorter = clip_to_columns(text, --columns);
   }
@@ -179,6 +183,7 @@ std::vector<std::string> Pen::wrap(std::string_view text, double width, const Te
     }
   }
   if (!line.empty()) lines.push_back(line);
+  // A single word may still be too long.
   for (std::string& each : lines) each = fit(each, width, style);
   return lines;
 }

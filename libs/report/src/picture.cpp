@@ -30,6 +30,7 @@ cairo_status_t append(void* content, const unsigned char* data, unsigned int len
   try {
     static_cast<std::string*>(content)->append(data, data + length);
   } catch (const std::bad_alloc&) {
+    // An exception must not pass through the C code of cairo.
     return CAIRO_STATUS_NO_MEMORY;
   }
   return CAIRO_STATUS_SUCCESS;
@@ -71,6 +72,7 @@ Status write_svg(const Picture& picture, const std::filesystem::path& path) {
         cairo_svg_surface_create_for_stream(append, &content, layout.width, layout.height));
     cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
     RAVE_TRY(draw_on(surface.get(), picture, layout, 1));
+    // Only then everything has been written to the stream.
     cairo_surface_finish(surface.get());
     RAVE_TRY(check_cairo(cairo_surface_status(surface.get())));
   }
@@ -84,6 +86,7 @@ Status write_png(const Picture& picture, const std::filesystem::path& path, doub
   RAVE_TRY_ASSIGN(const Layout layout, lay_out(picture));
   const double width = std::ceil(layout.width * scale);
   const double height = std::ceil(layout.height * scale);
+  // cairo would only say that the size is invalid.
   if (width > kMostPixels || height > kMostPixels) {
     return fail(ErrorCode::kInvalidArgument, "picture: {} x {} pixels are more than {} a side",
                 width, height, kMostPixels);

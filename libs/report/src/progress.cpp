@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The progress line of a run, in the width of the terminal.
 #include "rave/report/progress.hpp"
 
 #include <fmt/format.h>
@@ -69,6 +70,7 @@ std::string format_progress(const Progress& progress, std::size_t width) {
   parts.push_back(
       {fmt::format("{} {}", progress.robots, progress.robots == 1 ? "robot" : "robots"), 3});
 
+  // Parts are left out until the rest fits; the share and the time stay longest.
   int priority = 3;
   while (priority > 0 && columns_of(joined(parts, priority)) > width) --priority;
   std::string line = clip_to_columns(joined(parts, priority), width);
@@ -80,6 +82,7 @@ std::string format_progress(const Progress& progress, std::size_t width) {
     line += kBetween;
     line += clip_to_columns(text, width - used - kBetween.size());
   }
+  // Padded, so that a shorter line covers the one before.
   return line + std::string(width - columns_of(line), ' ');
 }
 

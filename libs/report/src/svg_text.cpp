@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What cairo leaves out of an SVG: title and description, and numbers that are the same each time.
 #include "svg_text.hpp"
 
 #include <cctype>
@@ -9,6 +10,8 @@
 namespace rave::report {
 namespace {
 
+// cairo numbers surfaces over the life of the process. Numbered anew, the same picture is the same
+// file.
 std::string with_surfaces_renumbered(const std::string& svg) {
   static constexpr std::string_view kWord = "surface";
   std::map<std::string, std::size_t> numbers;
@@ -86,6 +89,7 @@ std::string finished_svg(std::string svg, const Picture& picture) {
   const std::size_t root = svg.find("<svg");
   const std::size_t end = root == std::string::npos ? root : svg.find('>', root);
   if (end == std::string::npos) return svg;
+  // Title and description are what screen readers and search find of an SVG.
   const std::string words =
       fmt::format("\n<title>{}</title>\n<desc>{}</desc>", xml_escaped(picture.title),
                   xml_escaped(description_of(picture)));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tables for terminals.
 #include "rave/report/table.hpp"
 
 #include <fmt/format.h>
@@ -56,6 +57,8 @@ Widths widths_of(const Table& table, const std::optional<std::size_t>& limit) {
   std::vector<bool> may_wrap;
   for (const TableColumn& column : table.columns) may_wrap.push_back(column.may_wrap);
   constexpr std::size_t kReadable = 12;
+  // First the columns whose text may wrap, down to a readable width; if that is not enough, all of
+  // them.
   shrink(widths, may_wrap, *limit, kReadable);
   shrink(widths, std::vector<bool>(widths.size(), true), *limit, 1);
   return widths;
@@ -69,6 +72,7 @@ Cell wrapped(std::string_view text, std::size_t width) {
     const std::string_view word = text.substr(0, space);
     text.remove_prefix(space == std::string_view::npos ? text.size() : space + 1);
     if (!line.empty() && columns_of(line) + 1 + columns_of(word) > width) {
+      // A word alone may be wider than the column.
       lines.push_back(clip_to_columns(line, width));
       line = word;
     } else {
@@ -80,6 +84,8 @@ Cell wrapped(std::string_view text, std::size_t width) {
   return lines;
 }
 
+// Widths in columns of the terminal, not in bytes: fmt would count neither wide nor combining
+// characters.
 std::string aligned(const std::string& text, std::size_t width, Align align) {
   const std::size_t room = width - std::min(width, columns_of(text));
   std::size_t before = 0;

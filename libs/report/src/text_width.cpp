@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// How many columns a text takes on a terminal.
 #include "text_width.hpp"
 
 #include <algorithm>
@@ -33,6 +34,7 @@ CodePoint decode(std::string_view text) noexcept {
     if ((byte(i) & 0xC0U) != 0x80U) return {lead, 1, false};
     value = (value << 6U) | (byte(i) & 0x3FU);
   }
+  // Longer forms than necessary, surrogates and numbers beyond Unicode are invalid (RFC 3629).
   static constexpr std::array<std::uint32_t, 5> kLeast = {0, 0, 0x80, 0x800, 0x10000};
   const bool valid =
       value >= kLeast[bytes] && value <= 0x10FFFF && !(value >= 0xD800 && value <= 0xDFFF);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tracks of robots: lines, ticks of time, gaps, ends. Points that nobody could see are left out, so
+// that a long run stays a small file.
 #include <algorithm>
 #include <cmath>
 
@@ -49,6 +51,7 @@ std::vector<Vec2> simplified(const std::vector<Vec2>& points, double tolerance) 
   if (points.size() < 3) return points;
   std::vector<bool> keep(points.size(), false);
   keep.front() = keep.back() = true;
+  // A stack of chords to be examined: a track of a million points would be too deep for recursion.
   std::vector<std::pair<std::size_t, std::size_t>> open = {{0, points.size() - 1}};
   while (!open.empty()) {
     const auto [first, last] = open.back();
@@ -94,6 +97,7 @@ std::vector<Run> runs_of(const PictureTrack& track, const Panel& panel, double t
     const bool in_gap = last != nullptr && is_in_gap(track, last->t_s, point.t_s);
     if (runs.empty() || runs.back().in_gap != in_gap) {
       const Vec2 start = last == nullptr ? p : panel.to_page(last->X_WB.position());
+      // The last point of a part is always drawn, even if it is too near to the one before.
       if (is_pending) runs.back().points.push_back(pending);
       runs.push_back({in_gap, {start}});
       is_pending = false;
@@ -121,6 +125,7 @@ void draw_line(Stage& stage, const PictureTrack& track) {
     run.points = simplified(run.points, look.is_strong ? 0.08 : 0.12);
   }
   for (const Run& run : runs) {
+    // White edges of all parts first, so that none covers the line of another.
     if (!look.is_strong || run.in_gap) continue;
     stage.pen.path(run.points, false);
     stage.pen.stroke(kWhite, look.width + 1.6, 0.85);
@@ -169,6 +174,7 @@ void draw_ends(Stage& stage, const PictureTrack& track) {
   stage.pen.disc(start, 2.6);
   stage.pen.fill_keeping_path(kWhite);
   stage.pen.stroke(colour, 1.2);
+  // No arrow at the end: after the pose was lost nobody knows the direction.
   if (track.pose_lost_t_s) {
     draw_lost_mark(stage.pen, page_at(track, stage.panel, *track.pose_lost_t_s), colour);
     return;
@@ -277,6 +283,7 @@ void label_tracks(Stage& stage) {
     label_beside(stage, page_at(*track, stage.panel, *track->pose_lost_t_s), 6,
                  fmt::format("pose lost at {:.1f} s", *track->pose_lost_t_s), style);
   }
+  // Names before times: they take the better places.
   for (const PictureTrack* track : tracks) label_times(stage, *track);
 }
 

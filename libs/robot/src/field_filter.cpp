@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Filters for single numbers and angles, one state per field.
 #include "field_filter.hpp"
 
 #include <algorithm>
@@ -77,6 +78,7 @@ double FieldFilter::median(double x, bool angle, std::byte* memory) const noexce
     // Angles relative to the last output, so that the wrap from pi to -pi is not a jump.
     sorted[i] = angle ? wrap_angle(history[i] - own.output) : history[i];
   }
+  // Of an even number the lower one: the output is always a reading that was made.
   auto* const middle = sorted.data() + (own.filled - 1) / 2;
   std::nth_element(sorted.data(), middle, sorted.data() + own.filled, before);
   own.output = angle ? wrap_angle(own.output + *middle) : *middle;
@@ -86,6 +88,8 @@ double FieldFilter::median(double x, bool angle, std::byte* memory) const noexce
 double FieldFilter::exponential(double x, std::int64_t stamp_ns, bool angle,
                                 std::byte* memory) noexcept {
   auto& own = *reinterpret_cast<ExponentialState*>(memory);
+  // No return ends the mean: it must not pull a later obstacle away, nor be pulled near by an
+  // earlier one.
   if (!std::isfinite(x)) {
     own = {};
     return x;
@@ -95,10 +99,12 @@ double FieldFilter::exponential(double x, std::int64_t stamp_ns, bool angle,
     return x;
   }
   const std::int64_t dt_ns = stamp_ns - own.stamp_ns;
+  // The exponential is computed again only when the interval changes, which it hardly does.
   if (dt_ns != dt_ns_) {
     dt_ns_ = dt_ns;
     gain_ = 1.0 - exp(-static_cast<double>(dt_ns) * 1e-9 / filter_.time_constant_s);
   }
+  // First-order low pass for any interval: gain 1 - exp(-dt/T).
   own.output = angle ? wrap_angle(own.output + gain_ * wrap_angle(x - own.output))
                      : own.output + gain_ * (x - own.output);
   own.stamp_ns = stamp_ns;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Noise of the robot file, for many samples at once. Each number has a fixed place in the stream of
+// its sample; see docs/explanation/determinism.md.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -40,6 +42,7 @@ class Term {
   }
   template <class Real>
   void angle(Real& x, float normal) const noexcept {
+    // Wrapping alone could change the bits of an angle that has no noise.
     if (!scatters() && !rounds()) return;
     x = static_cast<Real>(wrap_angle(rounded(x + sigma_ * double{normal})));
   }
@@ -67,6 +70,7 @@ struct Terms {
 };
 
 /// Normal numbers per record: one for each field that noise can change.
+/// The numbers are part of the run hash: another order, or one number more, changes all noise.
 template <class Record>
 constexpr std::uint32_t kNormals = 0;
 template <>
@@ -89,6 +93,7 @@ void disturb_pose(Posed& pose, const Terms& terms, const float* normals) noexcep
   terms.length.plain(pose.x_m, normals[0]);
   terms.length.plain(pose.y_m, normals[1]);
   terms.angle.angle(pose.yaw_rad, normals[2]);
+  // Noise of the file is known, so the reading says so; variances of independent errors add.
   pose.variance_xy_m2 += terms.length.variance();
   pose.variance_yaw_rad2 += terms.angle.variance();
 }
@@ -124,6 +129,7 @@ void disturb_all(Items items, const Terms& terms) noexcept {
     return;
   }
   if (!terms.round()) return;
+  // Rounding without noise draws no random numbers.
   constexpr float kNothing[kEach] = {};
   for (const NoiseItem& item : items) {
     auto* const records = static_cast<Record*>(item.records);
@@ -136,6 +142,7 @@ void disturb_ranges(Items items, const NoiseSpec& noise, const RangeLimits& limi
   const auto min_m = static_cast<float>(limits.min_m);
   const auto max_m = static_cast<float>(limits.max_m);
   const auto finish = [=](float* ranges_m, std::uint32_t count) {
+    // Noise, then rounding, then the limits of the sensor, as in a real one.
     if (quantum_m > 0) detail::round_ranges(ranges_m, count, quantum_m);
     detail::limit_ranges(ranges_m, count, min_m, max_m);
   };
@@ -157,6 +164,7 @@ void disturb_ranges(Items items, const NoiseSpec& noise, const RangeLimits& limi
 }
 
 /// A record is lost if its random word is at most this.
+/// P(word <= limit) = (limit + 1) / 2^32.
 std::uint32_t dropout_limit(double probability) noexcept {
   return static_cast<std::uint32_t>(std::ceil(probability * 0x1p32) - 1);
 }
@@ -183,6 +191,8 @@ void thin_out(Items items, std::uint32_t limit) noexcept {
   drop_out(items, all_records, [limit](const NoisePiece& piece, const std::uint32_t* words) {
     auto* const records = static_cast<Record*>(piece.item->records);
     std::uint32_t& kept = piece.item->header->count;
+    // A sample may come in several pieces. Records move forward only, so no piece overwrites what
+    // is still to be read.
     if (piece.first == 0) kept = 0;
     for (std::uint32_t i = 0; i < piece.count; ++i) {
       if (words[i] > limit) records[kept++] = records[piece.first + i];
@@ -252,6 +262,7 @@ void Processing::apply_noise(std::span<const NoiseItem> items) const noexcept {
     case ReadingKind::kNone:
       break;
   }
+  // After the noise, which has the number of records that the sensor gave: drop-out changes it.
   if (noise_.dropout_probability > 0) lose(kind_, items, dropout_limit(noise_.dropout_probability));
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Noise, latency and filters behind a sensor, in this order. The state of all stages is one block
+// of bytes per robot, so that no sample allocates.
 #include "rave/robot/processing.hpp"
 
 #include <algorithm>
@@ -32,6 +34,7 @@ Status check_amount(const char* name, double value, bool applies, ReadingKind ki
     return fail(ErrorCode::kInvalidArgument,
                 "noise: `{}` is {}; it must be a finite number of at least 0", name, value);
   }
+  // Noise without effect is a mistake in the file: somebody believes that it is there.
   if (value > 0 && !applies) {
     return fail(ErrorCode::kInvalidArgument, "noise: `{}` has no effect on a sensor of kind `{}`",
                 name, to_string(kind));
@@ -41,6 +44,7 @@ Status check_amount(const char* name, double value, bool applies, ReadingKind ki
 
 Status check_noise(const NoiseSpec& noise, ReadingKind kind) {
   using enum ReadingKind;
+  // Which terms mean something for a kind of reading.
   const bool posed = kind == kPose || kind == kOdometry;
   const bool angle = posed || kind == kSightings || kind == kNeighbours;
   const bool length = angle || kind == kRanges;
@@ -60,6 +64,7 @@ Status check_noise(const NoiseSpec& noise, ReadingKind kind) {
 }
 
 Status check_filter(const FilterSpec& filter, ReadingKind kind) {
+  // A filter needs the same number in each sample; sightings come and go.
   if (detail::filter_fields(kind).count == 0) {
     return fail(ErrorCode::kInvalidArgument,
                 "filter: a sensor of kind `{}` cannot be filtered, because its number of records "
@@ -102,6 +107,7 @@ std::size_t filter_memory(const FilterSpec& filter, ReadingKind kind, std::uint3
   return std::size_t{capacity} * detail::filter_fields(kind).count * detail::filter_memory(filter);
 }
 
+// As many samples as can be under way during the latency, and the one that is just due.
 std::uint64_t ring_depth(Duration latency, Duration period) {
   if (period.ns == 0) return std::max(kIrregularDepth, ring_depth(latency, kIrregularPeriod));
   return static_cast<std::uint64_t>((latency.ns + period.ns - 1) / period.ns + 1);
@@ -137,6 +143,8 @@ Result<Processing> Processing::make(const ProcessingSpec& spec, ReadingKind kind
   made.slot_size_ = sizeof(SampleHeader) + whole_words(records_size);
   const std::uint64_t depth = ring_depth(made.latency_, from_seconds(period_s));
   // All factors are far below 2^48, and the sum is checked before the next one could overflow it.
+  // A wrong unit in the file, such as milliseconds taken for seconds, would otherwise use up the
+  // memory.
   bool fits = depth <= kLargestState / made.slot_size_;
   std::size_t size = sizeof(Ring) + (fits ? depth * made.slot_size_ : 0);
   for (const FilterSpec& filter : spec.filters) {
@@ -173,6 +181,7 @@ std::byte* Processing::slot(std::byte* state, std::uint32_t index) const noexcep
 std::byte* Processing::enqueue(const SampleHeader& raw, const void* records,
                                std::byte* state) const noexcept {
   auto& ring = *reinterpret_cast<Ring*>(state);
+  // An irregular source may give more than was reckoned with. The oldest is lost and counted.
   if (ring.count == depth_) {
     const auto& lost = *reinterpret_cast<const SampleHeader*>(slot(state, ring.first));
     ring.dropped += lost.count + lost.dropped;
@@ -219,7 +228,10 @@ bool Processing::deliver_some(SimTime now, bool all, std::byte* state, SampleHea
   while (ring.count > 0 && (all || newest == nullptr)) {
     std::byte* const place = slot(state, ring.first);
     const auto& header = *reinterpret_cast<const SampleHeader*>(place);
+    // Samples are in the order of their stamps, so all behind this one are not due either.
     if (SimTime{header.stamp_ns} + latency_ > now) break;
+    // Filters see every sample in order, those too that a newer one replaces: their output would
+    // otherwise depend on how often somebody looks.
     for (const Stage& stage : stages_) filter(stage, header, place + sizeof(SampleHeader), state);
     ring.dropped += header.dropped;
     ring.first = (ring.first + 1) % depth_;
@@ -227,6 +239,7 @@ bool Processing::deliver_some(SimTime now, bool all, std::byte* state, SampleHea
     newest = place;
   }
   if (newest == nullptr) return false;
+  // Of states only the newest is delivered; what it stands for is not counted as lost.
   *out = *reinterpret_cast<const SampleHeader*>(newest);
   out->dropped = ring.dropped;
   ring.dropped = 0;
@@ -248,6 +261,7 @@ void Processing::filter(const Stage& stage, const SampleHeader& header, void* re
   const std::size_t each = detail::filter_memory(stage.filter);
   const detail::FilterFields fields = detail::filter_fields(kind_);
   auto* record = static_cast<double*>(records);
+  // Each field of each record has its own state, one behind the other.
   for (std::uint32_t i = 0; i < header.count; ++i, record += record_size_ / sizeof(double)) {
     for (std::uint32_t k = 0; k < fields.count; ++k, memory += each) {
       record[k] = run(record[k], header.stamp_ns, k == fields.angle, memory);

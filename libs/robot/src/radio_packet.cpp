@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Messages of robots as bytes for radios, in a fixed layout (docs/reference/radio-packet.md): the
+// receiver may be another program on another processor.
 #include "rave/robot/radio_packet.hpp"
 
 #include <algorithm>
@@ -19,6 +21,7 @@ constexpr unsigned kKindMask = 0x3;
 constexpr unsigned kHasPosition = 0x4;
 constexpr unsigned kLineOfSight = 0x8;
 
+// CRC-32 of IEEE 802.3, as in zlib and Ethernet: reversed polynomial 0xEDB88320.
 constexpr std::array<std::uint32_t, 256> crc_table() {
   std::array<std::uint32_t, 256> table{};
   for (std::uint32_t i = 0; i < 256; ++i) {
@@ -47,6 +50,7 @@ T get(const std::byte* at) noexcept {
 }
 
 /// Whole millimetres, clamped to the range of T.
+/// Millimetres in 32 bits reach 2000 km and need half the room of doubles.
 template <class T>
 T millimetres(double length_m) noexcept {
   const double mm = std::round(length_m * 1000);
@@ -61,6 +65,7 @@ T millimetres(double length_m) noexcept {
 
 }  // namespace
 
+// FNV-1a, 32 bits. 0 stands for nobody, so no name has it.
 std::uint32_t radio_name_hash(std::string_view name) noexcept {
   std::uint32_t hash = 0x811C9DC5U;
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x01000193U;
@@ -84,6 +89,7 @@ std::size_t encode(const RadioPacket& packet, std::span<std::byte> room) noexcep
   if (packet.position) flags |= kHasPosition;
   if (packet.line_of_sight) flags |= kLineOfSight;
   const RadioPacket::Position position = packet.position.value_or(RadioPacket::Position{});
+  // Offsets as in docs/reference/radio-packet.md; the checksum is last and covers all before it.
   std::memcpy(at, kMagic, sizeof kMagic);
   at[2] = kVersion;
   at[3] = static_cast<std::byte>(flags);
@@ -118,6 +124,7 @@ std::optional<RadioPacket> decode_radio_packet(std::span<const std::byte> bytes)
     return std::nullopt;
   }
   const auto flags = std::to_integer<unsigned>(at[3]);
+  // Bits that this version does not know are refused: a later one may change what the packet means.
   if (flags > (kKindMask | kHasPosition | kLineOfSight) || (flags & kKindMask) > 2) {
     return std::nullopt;
   }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Filters for ranges, by column: the same place of all rays lies together, so that vector
+// instructions treat many rays at once.
 #include "range_filter.hpp"
 
 #include <algorithm>
@@ -20,6 +22,8 @@ using Rank = std::int32_t;
 constexpr Rank kEmpty = std::numeric_limits<Rank>::max();
 constexpr Rank kNoNumber = kEmpty - 1;
 
+// Integers have one order for all values, NaN included, and vector instructions have minimum and
+// maximum of them.
 Rank rank_of(float x) noexcept {
   const auto bits = std::bit_cast<Rank>(x);
   // The bits of negative floats decrease as their values increase.
@@ -65,6 +69,8 @@ void median(std::uint32_t window, std::uint32_t capacity, std::span<float> range
       own.next[ray] = own.next[ray] + 1 == window ? 0 : own.next[ray] + 1;
       own.filled[ray] = std::min(own.filled[ray] + 1, window);
     }
+    // The oldest value of each window leaves its sorted row and the new one enters, for up to 64
+    // rays at once. A full sort for each sample would take far longer.
     exchange_in_order(own.sorted + first, capacity, window, count,
                       {old.data(), fresh.data(), below.data()});
     for (std::uint32_t ray = first; ray < first + count; ++ray) {
@@ -93,6 +99,7 @@ void exponential(double time_constant_s, std::uint32_t capacity, std::int64_t st
   const ExponentialMemory own(memory, capacity);
   // Rays with equal earlier stamps are processed together: usually all of them.
   for (std::size_t first = 0; first < ranges_m.size();) {
+    // Rays differ only if an earlier sample had fewer ranges than this one.
     const std::int64_t before_ns = own.stamp_ns[first];
     std::size_t last = first;
     for (; last < ranges_m.size() && own.stamp_ns[last] == before_ns; ++last) {

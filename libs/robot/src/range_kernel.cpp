@@ -30,6 +30,7 @@ HWY_INLINE void for_all(std::size_t count, const Loop& loop) {
   for (; i < count; ++i) loop(single, i);
 }
 
+// NaN compares false, so it is not finite either.
 template <class D, class V>
 HWY_INLINE hn::Mask<D> is_finite(D d, V x) {
   return hn::Le(hn::Abs(x), hn::Set(d, kLargest));
@@ -98,6 +99,8 @@ void exchange_all(std::int32_t* sorted, std::size_t stride, std::size_t window, 
                                : hn::Set(d, std::numeric_limits<std::int32_t>::min());
       const auto above = k + 1 < window ? hn::LoadU(d, here + stride + i)
                                         : hn::Set(d, std::numeric_limits<std::int32_t>::max());
+      // Without branches: of the present value, its neighbour and the new reading, the one that has
+      // this rank afterwards.
       const auto from_above = hn::Max(s, hn::Min(fresh, above));
       const auto from_below = hn::Min(s, hn::Max(fresh, below));
       const auto larger = hn::IfThenElse(hn::Lt(s, old), s, from_above);
@@ -115,6 +118,7 @@ void blend(float* ranges, std::size_t count, double gain, double* outputs) {
     const auto x = hn::PromoteTo(d, range);
     const auto before = hn::LoadU(d, outputs + i);
     const auto moved = hn::Add(before, hn::Mul(hn::Set(d, gain), hn::Sub(x, before)));
+    // NaN is not equal to itself: there is no earlier output, and this one starts the mean.
     const auto now = hn::IfThenElse(hn::Eq(before, before), moved, x);
     const auto finite = hn::Le(hn::Abs(x), hn::Set(d, double{kLargest}));
     const auto none = hn::Set(d, std::numeric_limits<double>::quiet_NaN());

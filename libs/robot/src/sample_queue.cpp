@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The queue between the thread of a hardware driver and the engine. Stepped: nothing is lost, and
+// the producer waits. Live: the newest counts, and the oldest is lost.
 #include "rave/robot/sample_queue.hpp"
 
 #include <algorithm>
@@ -21,6 +23,7 @@ std::string text_of(std::int64_t ns) { return fmt::format("{:.9f} s", SimTime{ns
 
 }  // namespace
 
+// All memory for samples is taken here, so publish() only copies.
 SampleQueue::SampleQueue(ReadingKind kind, std::uint32_t max_records, std::size_t depth,
                          const RunClock* live)
     : max_records_(max_records),
@@ -38,6 +41,7 @@ std::byte* SampleQueue::records_of(std::size_t slot) noexcept {
 
 bool SampleQueue::wait_until(SimTime t) noexcept {
   Lock lock(mutex_);
+  // A stepped driver goes ahead as fast as the queue has room; the step takes samples by stamp.
   if (live_ == nullptr) return !closed_;
   producer_waits_ = true;
   while (!closed_ && live_->now() < t) {
@@ -55,6 +59,7 @@ bool SampleQueue::refused(SimTime stamp, std::uint32_t count) {
   if (count > max_records_) {
     why = fmt::format("holds {} records, more than the {} that were declared", count, max_records_);
   } else if (stamp.ns < newest_ns_) {
+    // Samples are taken by stamp; one from before the last step could not be taken any more.
     why = "came after one of " + text_of(newest_ns_) + "; stamps must not step back";
   } else if (live_ == nullptr && stamp.ns <= complete_ns_) {
     why = "came after the driver had declared samples complete up to " + text_of(complete_ns_);
@@ -63,6 +68,7 @@ bool SampleQueue::refused(SimTime stamp, std::uint32_t count) {
   }
   ++dropped_;
   dropped_since_next_ += count;
+  // The first complaint is kept: it is closest to the cause.
   if (complaint_.empty()) {
     complaint_ = fmt::format("the sample of {} was dropped: it {}", text_of(stamp.ns), why);
   }
@@ -81,6 +87,7 @@ bool SampleQueue::publish(SimTime stamp, const void* records, std::uint32_t coun
   if (closed_) return false;
   if (refused(stamp, count)) return true;
   if (live_ != nullptr) {
+    // Live: the newest is worth most, and a driver must not be blocked by a slow run.
     if (count_ == depth_) lose_oldest();
   } else if (count_ == depth_) {
     producer_waits_ = true;
@@ -91,6 +98,7 @@ bool SampleQueue::publish(SimTime stamp, const void* records, std::uint32_t coun
   const std::size_t slot = (first_ + count_) % depth_;
   ++count_;
   newest_ns_ = stamp.ns;
+  // Guards judge silence by arrival, since stamps may come from the clock of the device.
   if (live_ != nullptr) arrival_ns_ = steady_ns(std::chrono::steady_clock::now());
   headers_[slot] = {stamp.ns, ++sequence_, count, 0, 0};
   if (count > 0) std::memcpy(records_of(slot), records, std::size_t{count} * record_size_);
@@ -98,6 +106,8 @@ bool SampleQueue::publish(SimTime stamp, const void* records, std::uint32_t coun
   return true;
 }
 
+// A stepped driver promises that nothing older than t will follow. Without the promise the engine
+// could not tell "no sample" from "not yet".
 void SampleQueue::complete_up_to(SimTime t) noexcept {
   Lock lock(mutex_);
   complete_ns_ = std::max(complete_ns_, t.ns);
@@ -133,6 +143,7 @@ SampleQueue::Wait SampleQueue::wait_complete(SimTime t, std::chrono::millisecond
     // Stamps do not decrease, so a stamp after t proves completeness up to t.
     if (complete_ns_ >= t.ns || newest_ns_ > t.ns) return Wait::kComplete;
     if (failed_ || closed_) return Wait::kFailed;
+    // A full queue is no timeout: the driver cannot go on before samples are taken.
     return count_ == depth_ ? Wait::kFull : Wait::kTimeout;
   };
   if (const Wait now = state(); now != Wait::kTimeout) return now;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The readings of all range sensors of a robot, in its frame.
 #include "rave/robot/scan.hpp"
 
 #include <algorithm>
@@ -26,6 +27,7 @@ Scan::Scan(const Setup& setup) {
     if (info.bearings_rad == nullptr) continue;
     for (std::uint32_t i = 0; i < info.capacity; ++i) {
       const double axis_rad = info.X_RS.yaw + info.bearings_rad[i];
+      // A cone is its axis and its two edges: the nearest thing may be anywhere in between.
       const double spread_rad = 0.5 * info.cone_rad;
       sensor.rays.push_back(
           {info.X_RS.position(),

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// How a program finds its sensors, controllers and communicators at the start.
 #include "rave/robot/setup.hpp"
 
 #include "rave/base/names.hpp"
@@ -16,6 +17,7 @@ Result<std::uint32_t> Setup::find_sensor(ReadingKind kind, std::string_view name
   std::vector<std::string_view> fitting;
   for (std::uint32_t i = 0; i < raw_->sensor_count; ++i) {
     if (raw_->sensors[i].kind != kind) continue;
+    // Without a name the first of the kind: most robots have one.
     if (name.empty() || name == raw_->sensors[i].name) return i;
     fitting.emplace_back(raw_->sensors[i].name);
   }

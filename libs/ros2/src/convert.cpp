@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Between ROS 2, which is spatial, and RAVE, whose robots stay level.
 #include "rave/ros2/convert.hpp"
 
 #include <algorithm>
@@ -27,6 +28,7 @@ std::int64_t nanoseconds(const Time& time) noexcept {
 Time time_of(std::int64_t nanoseconds) noexcept {
   constexpr std::int64_t kLast =
       std::int64_t{std::numeric_limits<std::int32_t>::max()} * kSecond_ns;
+  // Seconds have 32 bits in ROS 2; beyond them time stands still instead of wrapping.
   const std::int64_t held = std::clamp<std::int64_t>(nanoseconds, 0, kLast);
   Time time{};
   time.sec = static_cast<std::int32_t>(held / kSecond_ns);
@@ -45,6 +47,7 @@ Attitude attitude_of(const Quaternion& q) noexcept {
   const double y_x = 2 * (q.w * q.z + q.x * q.y);
   const double z_z = q.w * q.w - q.x * q.x - q.y * q.y + q.z * q.z;
   const double norm2 = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+  // Yaw is the direction of the x axis seen from above, tilt the angle between both z axes.
   return {wrap_angle(atan2(y_x, x_x)), acos(std::clamp(z_z / norm2, -1.0, 1.0))};
 }
 

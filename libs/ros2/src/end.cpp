@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A reader or writer of a topic.
 #include "rave/ros2/end.hpp"
 
 #include <utility>
@@ -21,6 +22,7 @@ End::End(End&& other) noexcept
       reads_(other.reads_),
       entity_(std::exchange(other.entity_, 0)) {}
 
+// Swapped, so that the end of `other` removes what this one had.
 End& End::operator=(End&& other) noexcept {
   std::swap(participant_, other.participant_);
   std::swap(type_, other.type_);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Names of topics and types in ROS 2 and on the wire.
 #include "rave/ros2/names.hpp"
 
 namespace rave::ros2 {
@@ -57,6 +58,7 @@ std::string word_of(std::string_view text) {
   return word;
 }
 
+// ROS 2 puts `rt` before topics, so that they do not meet those of services or of plain DDS.
 std::string wire_topic(std::string_view whole_name) { return "rt" + std::string(whole_name); }
 
 std::string topic_of_wire(std::string_view wire) {
@@ -64,6 +66,7 @@ std::string topic_of_wire(std::string_view wire) {
   return std::string(wire.substr(kTopicPrefix.size() - 1));
 }
 
+// `pkg::msg::dds_::Name_` on the wire is `pkg/msg/Name` in ROS 2.
 std::string type_of_wire(std::string_view wire) {
   constexpr std::string_view kMiddle = "::dds_::";
   const std::size_t middle = wire.find(kMiddle);

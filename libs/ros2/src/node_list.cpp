@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Announces a node and its topics on `ros_discovery_info`, as ROS 2 nodes do, so that its tools
+// list them.
 #include "rave/ros2/node_list.hpp"
 
 #include <algorithm>
@@ -65,6 +67,7 @@ NodeList::~NodeList() {
 void NodeList::add(dds_entity_t end, bool reads) {
   const std::lock_guard lock(mutex_);
   ends_.push_back({end, reads, guid_of(end)});
+  // Announced later and once, because each announcement has the whole list.
   changed_ = true;
 }
 

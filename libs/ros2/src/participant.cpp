@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A participant in a DDS domain of ROS 2. It needs no ROS 2 installation; names, settings and
+// announcements are those of ROS 2 nodes.
 #include "rave/ros2/participant.hpp"
 
 #include <arpa/inet.h>
@@ -111,6 +113,8 @@ Status Participant::join() {
   if (!has_domains()) log_ = std::make_unique<bus::CycloneLog>();
   const std::string settings = bus::cyclone_xml(config_of(network_));
   std::uint32_t number = kFirstDomain;
+  // Numbers within this process only: several participants, and the bus, may use one domain of the
+  // network.
   do {
     domain_ = dds_create_domain(number, settings.c_str());
   } while (domain_ == DDS_RETCODE_PRECONDITION_NOT_MET && ++number < kFirstDomain + kMostDomains);
@@ -193,6 +197,8 @@ std::string Participant::explain_silence(std::string_view topic, std::string_vie
                                          bool writers) const {
   const std::string wanted = type_of_wire(type);
   const char* const does = writers ? "writes" : "reads";
+  // From the general to the particular: nobody at all, this topic with another type, this type at
+  // another topic.
   if (others_here() == 0) {
     return fmt::format(
         "no other participant is in domain {} at {}; compare ROS_DOMAIN_ID, `interface`, "

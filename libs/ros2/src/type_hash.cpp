@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Hashes of message types (REP 2016), which ROS 2 compares from Iron on.
 #include "rave/ros2/type_hash.hpp"
 
 namespace rave::ros2 {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Messages come from any node, so numbers, lengths and texts are checked before a driver sees them.
 #include "rave/ros2/validate.hpp"
 
 #include <cmath>
@@ -59,6 +60,8 @@ Status check_triple(std::string_view field, const Triple& triple, double limit) 
 }
 
 Status check_rotation(std::string_view field, const Quaternion& q) {
+  // Drivers round, so the length need not be 1; one of 0 is the default of a message that nobody
+  // filled in.
   const double norm = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   if (norm >= kLeastNorm && norm <= kMostNorm) return {};
   return fail(kBad, "{} has the length {}; a rotation has 1", field, norm);

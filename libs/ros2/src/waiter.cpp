@@ -31,6 +31,7 @@ Waiter::~Waiter() {
 }
 
 Result<dds_entity_t> Waiter::watch(dds_entity_t reader) const {
+  // Samples that were read and left there must not wake again.
   constexpr std::uint32_t kUnseen =
       DDS_NOT_READ_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_ANY_INSTANCE_STATE;
   RAVE_TRY_ASSIGN(const dds_entity_t condition, made(dds_create_readcondition(reader, kUnseen)));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What programs say to people, limited per decision and per second.
 #include "answer_book.hpp"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 
 namespace rave::sim {
 
+// Programs decide on many threads; the book collects what they say, and take() puts it in order.
 bool AnswerBook::say(std::uint32_t robot, std::string_view text, bool done) {
   if (text.empty() || text.size() > kMostOrderText) return false;
   try {
@@ -34,6 +36,7 @@ std::vector<AnswerBook::Answer> AnswerBook::take(std::int64_t second) {
   // Which thread was first is chance.
   std::stable_sort(answers.begin(), answers.end(),
                    [](const Answer& a, const Answer& b) { return a.robot < b.robot; });
+  // A program that talks without end would fill log and recording. `done` still counts.
   for (Answer& answer : answers) {
     Spoken& spoken = spoken_[answer.robot];
     if (spoken.second != second) spoken = {second, 0};

@@ -12,6 +12,8 @@
 namespace rave::sim {
 
 void WorldAuthority::Impl::make_changes(WorldStep& world) {
+  // The order of one engine: what was asked since the last step, then obstacles of the scenario,
+  // then its other changes. Whether there is room for one can depend on the one before it.
   for (WorldInput& input : asked) do_input(input, world);
   asked.clear();
   take_over_obstacles(world);
@@ -19,6 +21,8 @@ void WorldAuthority::Impl::make_changes(WorldStep& world) {
   for (; next_change < spec.changes.size() && spec.changes[next_change].step <= step;
        ++next_change) {
     const ScheduledChange& scheduled = spec.changes[next_change];
+    // The rest is up to the host of the robot; check_not_mixed() has seen to it that none is of
+    // both.
     if (scheduled.changes.empty() || !is_of_body(scheduled.changes.front())) continue;
     const Status status = change_body(scheduled.robot, scheduled.changes, Author::kRun, world);
     if (status) continue;
@@ -41,6 +45,7 @@ void WorldAuthority::Impl::make_obstacle_changes(WorldStep& world) {
 void WorldAuthority::Impl::refuse(RobotId robot, const Error& why) {
   events.push_back(
       noted_input(step, robot, EventKind::kChangeRefused, why.text(), Author::kRun, hash));
+  // All are counted, the first ones are kept: a new manager is told them with the world.
   if (refused_count++ < AuthorityState::kMostRefused) refused.push_back(events.back());
 }
 

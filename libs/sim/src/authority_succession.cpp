@@ -21,6 +21,8 @@ AuthorityState WorldAuthority::state(bool with_obstacles) const {
   if (with_obstacles) state.obstacles = authority.history.changes();
   state.refused_count = authority.refused_count;
   state.refused = authority.refused;
+  // Hosts are told the contacts and pins of the last step and keep them, so that the results
+  // outlive this process.
   std::ranges::copy_if(authority.done_events, std::back_inserter(state.done), [](const Event& e) {
     return e.kind == EventKind::kContact || e.kind == EventKind::kPinned;
   });
@@ -30,11 +32,14 @@ AuthorityState WorldAuthority::state(bool with_obstacles) const {
 Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& state) {
   Impl& authority = *impl_;
   RAVE_TRY(check_taken_over(authority.spec, world, state, true));
+  // All that is checked above; from here on the old state is gone.
   authority.begin();
   for (const ResizedRobot& resized : state.scales) {
     RAVE_TRY(authority.truth.put_scale(resized.robot, resized.scale));
   }
   const SimTime now{static_cast<std::int64_t>(world.step) * authority.spec.step.ns};
+  // First what had changed before that world, then what it brought: numbers of added obstacles
+  // follow from the order.
   authority.truth.put_obstacles(state.obstacles, now);
   authority.truth.put_obstacles(world.obstacles, now);
   authority.history = ObstacleHistory(state.obstacles, state.obstacle_changes);
@@ -51,6 +56,7 @@ Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& stat
   authority.refused = state.refused;
   authority.put_refusal_texts(world.step);
   authority.inputs = state.inputs;
+  // What the scenario has up to that step is in the state already.
   const auto& changes = authority.spec.changes;
   while (authority.next_change < changes.size() &&
          changes[authority.next_change].step <= world.step) {

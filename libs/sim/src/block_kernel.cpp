@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Rays of many sensors with few rays each, cast together.
 #include "block_kernel.hpp"
 
 #include <algorithm>
@@ -71,6 +72,8 @@ void cast_padded(const SeenBy& discs, const SeenBy& polygons, const Vec2* vertic
       }
     }
   }
+  // Discs first in every way of casting: of two bodies at equal distance the same one is always
+  // named.
   SeenPolygon polygon;
   for (std::size_t i = 0; i < polygons.pieces.size(); ++i) {
     const world::ShapePiece& piece = *polygons.pieces[i];

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Drivers are closed one after the other in a thread, within a limit each. One that hangs is left
+// behind with its thread, and the run ends without it.
 #include "closing.hpp"
 
 #include <algorithm>
@@ -43,13 +45,17 @@ void close_in_order(Closing& closing, std::size_t turn) {
   while (closing.turn == turn && closing.next < closing.drivers.size()) {
     const ToClose& driver = closing.drivers[closing.next];
     ++closing.next;
+    // Closing a device under a driver that still uses it could crash the process; left open, it
+    // ends with the process.
     if (driver.is_shared && closing.is_in_use(driver)) continue;
     closing.since = Clock::now();
     closing.changed.notify_all();
+    // close() may take any time; the caller has to see `since` meanwhile.
     lock.unlock();
     driver.close(driver.instance);
     lock.lock();
   }
+  // It was given up while it closed the last one; another thread goes on with the others.
   if (closing.turn != turn) return;
   closing.is_done = true;
   closing.changed.notify_all();
@@ -66,6 +72,8 @@ std::thread in_thread(const std::shared_ptr<Closing>& closing) {
 
 }  // namespace
 
+// A thread closes one driver after the other while this one watches. If one does not return in
+// time, its thread is left behind and another continues with the next driver.
 std::vector<ToClose> close_within(std::vector<ToClose> drivers, std::chrono::milliseconds limit,
                                   const void* owner) {
   if (drivers.empty()) return {};
@@ -96,6 +104,7 @@ std::vector<ToClose> close_within(std::vector<ToClose> drivers, std::chrono::mil
       for (const std::size_t s : closing->stuck) stuck.push_back(closing->drivers[s]);
       return stuck;
     }
+    // The one that the thread had begun with last; its number is behind `next`.
     closing->stuck.push_back(closing->next - 1);
     ++closing->turn;
     limit = std::min(limit, kLater);

@@ -81,6 +81,7 @@ void throw_away(RobotGroup& other) {
 /// The program keeps the last sample of the sensor until the new one gives one, and sees numbers
 /// that go on.
 void carry_sample(const SensorSlots& from, SensorSlots& to) {
+  // Numbers also name random numbers: none may be used twice in a run.
   to.sequence[0] = from.sequence[0];
   SampleHeader& header = to.headers[0];
   header = from.headers[0];
@@ -124,6 +125,7 @@ Status HandOvers::restore() {
   }
   for (Twin& twin : twins_) {
     if (twin.state.active != DriverSet::kFirst) {
+      // Before the exchange: what serves now is the other set from then on, and would stay open.
       if (!site_.close_all(take_open(group_of(twin)))) {
         return fail(ErrorCode::kState,
                     "the run cannot restart while drivers of the last run are closing");
@@ -141,6 +143,7 @@ Status HandOvers::restore() {
 /// Maybe in a thread of its own: touches nothing but the set that does not serve.
 Status HandOvers::open_other(Twin& twin) {
   const GroupContext context{spec_, roster_.logs, radio_, &twin.opening};
+  // Made once. Later hand-overs open the same instances again, as a reset does.
   if (!twin.made) {
     Status made = make_body(context, twin.other);
     if (made) made = check_readings(group_of(twin), twin.other);
@@ -169,6 +172,7 @@ Arrival HandOvers::arrival(const Twin& twin) const {
   const Pose2 X_MR{heard.x_m, heard.y_m, heard.yaw_rad};
   if (type.sensors[*type.pose_from].kind == ReadingKind::kOdometry) {
     // Wheels count from wherever they were switched on: that place is chosen so that it fits.
+    // X_WM X_MR = X_WR
     place.X_WM = compose(place.X_WR, inverse(X_MR));
   } else if (twin.heard) {
     place.X_WR = compose(type.X_WM.value_or(Pose2{}), X_MR);
@@ -189,6 +193,7 @@ Status HandOvers::check_near(const Twin& twin) const {
   const Pose2 X_after = arrival(twin).X_WR;
   const double apart_m = distance_m(X_before, X_after);
   const double turned_rad = std::abs(wrap_angle(X_after.yaw - X_before.yaw));
+  // Farther apart than this, one of both sets is wrong about the place, and the robot would jump.
   const HandOverLimits& limits = spec_.robots[r].hand_over;
   const bool finite =
       std::isfinite(X_after.x) && std::isfinite(X_after.y) && std::isfinite(X_after.yaw);
@@ -211,6 +216,7 @@ void HandOvers::exchange(Twin& twin) {
   for (std::size_t s = 0; s < group.sensors.size(); ++s) {
     group.sensor_infos[s].max_age_s = group.sensors[s].info.max_age_s;
   }
+  // The views of the program point to the sensors that have just changed places.
   show_sensors(group);
   const bool first = twin.state.active == DriverSet::kFirst;
   twin.state.active = first ? DriverSet::kTwin : DriverSet::kFirst;
@@ -224,6 +230,7 @@ void HandOvers::change_drivers(Twin& twin) {
   RobotGroup& group = group_of(twin);
   const Pose2 X_before = truth_.movers[r].X_WR;
   const Arrival place = arrival(twin);
+  // The old hardware stands before anything else: from the exchange on nobody commands it.
   site_.halt(group);
   for (std::size_t s = 0; s < group.sensors.size(); ++s) {
     carry_sample(group.sensors[s], twin.other.sensors[s]);
@@ -232,6 +239,8 @@ void HandOvers::change_drivers(Twin& twin) {
   const RobotType& type = *group.type;
   group.X_WM = place.X_WM;
   site_.drivers_changed(twin.robot, place);
+  // After the exchange, twin.other is the set that has served. Guards of the new set start last,
+  // when the old ones no longer know of the robot.
   close_other(twin);
   const Status guarded = site_.start_guards(group);
   if (!guarded && spec_.log != nullptr) {
@@ -271,6 +280,7 @@ bool HandOvers::close() noexcept {
   bool all = true;
   std::vector<ToClose> open;
   for (Twin& twin : twins_) {
+    // One moment for all of them, so that several that hang do not add up.
     if (!twin.work.ready_by(end)) {
       all = false;
       if (spec_.log == nullptr) continue;

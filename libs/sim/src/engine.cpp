@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The life of an engine: checked, made, begun, stepped, reset. The phases of a step are in files of
+// their own, in the order of work().
 #include "rave/sim/engine.hpp"
 
 #include <algorithm>
@@ -40,6 +42,8 @@ bool has_hybrid(const EngineSpec& spec, const std::vector<std::uint8_t>& local) 
   for (std::size_t r = 0; r < local.size(); ++r) {
     if (local[r] == 0) continue;
     runs[spec.robots[r].type] = 1;
+    // A hand-over can put the twin in charge in any step. History cannot be made up later, so it is
+    // kept from the start.
     if (spec.robots[r].twin) runs[*spec.robots[r].twin] = 1;
   }
   for (std::size_t t = 0; t < runs.size(); ++t) {
@@ -65,6 +69,7 @@ Status check(const EngineSpec& spec) {
   RAVE_TRY(check_local(spec));
   const std::vector<std::uint8_t> local = local_robots(spec);
   for (std::size_t r = 0; r < spec.robots.size(); ++r) {
+    // Robots of other hosts have no drivers here; their own host checks them.
     if (local[r] == 0) continue;
     const RobotType& type = spec.types[spec.robots[r].type];
     RAVE_TRY(check_pose_source(type, spec.robots[r].name));
@@ -149,6 +154,8 @@ Engine::Impl::Impl(EngineSpec s)
               [this](const ObstacleChange& change) { obstacle_changed(change); }}) {
   if (spec.live_clock != nullptr) spec.live_clock = &clock_outlet.emplace(*spec.live_clock);
   if (!has_hybrid(spec, roster.local)) return;
+  // The virtual half of a hybrid needs the world at the stamp of the real sample, so the past is
+  // kept for as long as a sample may be late.
   spec.history = std::max(spec.history, kHybridHistory);
   fusion_world = std::make_unique<FusionWorld>(spec.world);
 }
@@ -163,6 +170,8 @@ void Engine::Impl::before_closing(const RobotGroup& group) const {
     for (std::size_t m = 0; m < slots.queues.size(); ++m) {
       const std::string complaint = slots.queues[m]->complaint();
       if (complaint.empty()) continue;
+      // Once, when the driver is closed: one that breaks its contract mostly does so with every
+      // sample.
       spec.log->warn(roster.logs[group.members[m].value()].source,
                      "sensor `{}` (driver `{}`) broke its contract; samples dropped: {}; first: {}",
                      slots.spec->name, slots.spec->hardware_driver(), slots.queues[m]->dropped(),
@@ -186,6 +195,7 @@ void Engine::Impl::tell_withheld(const RobotGroup& group, const SensorSlots& slo
 
 Status Engine::Impl::make() {
   roster.lay_out(spec, spec.log != nullptr ? &log_outlet : nullptr);
+  // Before the groups, because the setup of a program lists its communicators.
   radio = std::make_unique<Radio>(spec, roster.local, roster.logs, pool);
   hand_overs.make(radio.get());
   RAVE_TRY(radio->make());
@@ -195,6 +205,8 @@ Status Engine::Impl::make() {
 
 Status Engine::Impl::reset() {
   tell_complaints();
+  // Robots stand before anything is closed: a driver may take long to close, and what it was told
+  // last would count until then.
   halt();
   RAVE_TRY(hand_overs.restore());
   // All are closed first: what two robots share must be free before one of them opens it again.
@@ -210,9 +222,11 @@ Status Engine::Impl::reset() {
 
 Status Engine::Impl::begin() {
   set_initial_state();
+  // The clock of a live run starts now. Sensors are opened after it, since their stamps are on it.
   if (spec.on_ready) spec.on_ready();
   for (RobotGroup& group : roster.groups) RAVE_TRY(open_sensors(group_context(), group));
   RAVE_TRY(radio->open());
+  // Last, because the guards read the queues of sensors and write to actuators: both must be open.
   return start_guards();
 }
 
@@ -235,6 +249,7 @@ void Engine::Impl::set_initial_state() {
   truth.begin();
   if (host) host->begin();
   reported.assign(count, ReportedPose{});
+  // The velocity of a robot is estimated from its track, so a track is kept even without a history.
   const Duration keep = std::max(spec.history, from_seconds(1.0));
   tracks.assign(count, PoseTrack(keep));
   for (std::uint32_t r = 0; r < count; ++r) {
@@ -290,9 +305,12 @@ Status Engine::Impl::step_alone() {
   RAVE_TRY(ingest());
   phase.ends(Phase::kIngest);
   work(phase);
+  // All proposals are there. No phase before this one has moved a simulated robot, except out of
+  // the way of a real one.
   truth.resolve(step, events);
   phase.ends(Phase::kResolve);
   hash.merge(truth.hash_poses(step));
+  // Last, because the events of resolve() belong to this step, too, and events are hashed in order.
   publish();
   phase.ends(Phase::kPublish);
   ++step;

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// The act phase: commands go through controllers and guards to actuators. Virtual actuators propose
+// velocities, which the resolver limits later; hardware is written to at the end of the phase, or
+// by the threads of its guards.
 #include <algorithm>
 #include <cmath>
 
@@ -65,6 +68,9 @@ void Engine::Impl::act_block(const Block& block, Worker& worker) {
   actuate(group, block, worker);
 }
 
+// Commands stay in the memory of the worker until actuate(), which runs in the same call. Each
+// controller is called once per block, so the cost of crossing into the plug-in is shared by its
+// robots.
 void Engine::Impl::control(RobotGroup& group, const Block& block, Worker& worker) {
   const std::uint32_t count = block.end - block.begin;
   worker.control_outputs.resize(std::max(worker.control_outputs.size(), group.controllers.size()));
@@ -75,6 +81,7 @@ void Engine::Impl::control(RobotGroup& group, const Block& block, Worker& worker
       const ReportedPose& pose = reported[group.members[m].value()];
       ControlInput& input = worker.control_inputs[m - block.begin];
       input.command = slots.last[m];
+      // Before the first command, `command` is kNone, and nothing can be too old.
       input.command_age_s =
           slots.last_step[m] < 0
               ? 0
@@ -84,6 +91,8 @@ void Engine::Impl::control(RobotGroup& group, const Block& block, Worker& worker
       input.velocity = pose.velocity;
       input.dt_s = spec.step.seconds();
     }
+    // The plug-in sets the marks of those that failed and never clears one. The difference tells
+    // who failed in this call, and so for whom there is an event.
     std::uint8_t failed_before[kMemberBlock];
     std::copy(slots.failed.begin() + block.begin, slots.failed.begin() + block.end, failed_before);
     ErrorText error;
@@ -100,6 +109,8 @@ void Engine::Impl::control(RobotGroup& group, const Block& block, Worker& worker
         problem = "gave a command that is not finite";
       }
       if (slots.failed[m] == 0) continue;
+      // A failed controller gives zeros until a reset: a plug-in that threw once has an unknown
+      // state.
       output = {slots.spec->ops->gives, 0, {}};
       if (failed_before[m - block.begin] != 0) continue;
       worker.events.push_back({step, group.members[m], EventKind::kDriverFailed, BodyId(),
@@ -135,8 +146,12 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
       input.dt_s = dt_s;
       input.seed = spec.seed;
       input.robot = r;
+      // The bit keeps the random numbers of actuators apart from those of sensors with the same
+      // index.
       input.device = a | 0x4000'0000U;
       input.step = static_cast<std::uint32_t>(step);
+      // Velocity and contact are those of the last step, because the motion of this one is not
+      // resolved before all robots have proposed.
       input.contact = truth.limited[r];
     }
     if (slots.spec->virtual_ops == nullptr) continue;
@@ -172,6 +187,7 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
 /// The end of a step: what threads gathered, put together.
 void Engine::Impl::publish() {
   for (Worker& worker : workers) {
+    // The hash is a sum, so the order of the threads does not matter. Events are sorted afterwards.
     hash.merge(worker.hash);
     worker.hash = RunHash();
     for (Event& event : worker.events) events.push_back(std::move(event));

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The decide phase: programs of a block are called together, isolated ones in processes of their
+// own. What they command is kept per controller, because controllers run more often than programs.
 #include <algorithm>
 #include <cmath>
 
@@ -29,6 +31,8 @@ void mark_consumed(RobotGroup& group, std::size_t member) {
   for (SensorSlots& slots : group.sensors) slots.headers[member].fresh = 0;
 }
 
+// A program that says nothing in a decision gives no command. Without this, its last command would
+// count as a new one, and the watchdog of the guard would never act.
 void clear_commands(RobotGroup& group, std::size_t member) {
   const std::size_t controllers = group.controllers.size();
   Command* first = group.program.commands.data() + member * controllers;
@@ -45,6 +49,7 @@ void Engine::Impl::decide_block(const Block& block, Worker& worker) {
     return;
   }
   if (!due(program.spec->period_steps, program.spec->phase_steps)) return;
+  // The number of a decision names its random numbers; it counts decisions, not steps.
   const auto decision =
       static_cast<std::uint32_t>((step - program.spec->phase_steps) / program.spec->period_steps);
   for (std::uint32_t m = block.begin; m < block.end; ++m) {
@@ -69,6 +74,7 @@ void Engine::Impl::decide_block(const Block& block, Worker& worker) {
       const bool own_text = error.slot == m - block.begin;
       fail_program(group, m, own_text ? error.text : "threw an exception", worker.events);
     }
+    // A program that fails in this decision gives no command in it, even if it had set some before.
     if (program.failed[m] == 0) accept_commands(group, m, worker.hash);
     mark_consumed(group, m);
   }
@@ -113,6 +119,8 @@ void Engine::Impl::accept_commands(RobotGroup& group, std::size_t member, RunHas
   for (std::size_t c = 0; c < controllers; ++c) {
     const Command& command = program.commands[member * controllers + c];
     ControllerSlots& slots = group.controllers[c];
+    // A command of another kind than the controller accepts is no command. It is not hashed either,
+    // since nothing of it reaches the robot.
     if (command.kind == CommandKind::kNone || command.kind != slots.spec->accepts) continue;
     slots.last[member] = command;
     slots.last_step[member] = static_cast<std::int64_t>(step);

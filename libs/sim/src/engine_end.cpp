@@ -90,6 +90,8 @@ void Engine::Impl::leave_behind() noexcept {
     group.program.instances.clear();
     for (ControllerSlots& controller : group.controllers) controller.instances.clear();
   }
+  // Log and clock belong to the caller and end after this. Drivers that still run find nothing
+  // there.
   log_outlet.cut();
   if (clock_outlet) clock_outlet->cut();
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Hybrid sensors: the virtual half is computed for the pose and the world at the stamp of the real
+// sample, which lies in the past. So they need the history of poses and obstacles.
 #include <algorithm>
 #include <cstring>
 
@@ -28,6 +30,7 @@ std::optional<Pose2> Engine::Impl::own_pose_at(RobotId robot, SimTime stamp,
                                                Duration staleness) const {
   if (history.empty() || stamp < history.front().time) return std::nullopt;
   const std::uint32_t r = robot.value();
+  // show_past() has put it there; fuse() calls it first.
   if (truth.movers[r].simulated) return fusion_world->movers[r].X_WR;
   const auto newest = tracks[r].newest();
   if (!newest || stamp - *newest > staleness) return std::nullopt;
@@ -44,6 +47,7 @@ void Engine::Impl::show_past(SimTime stamp) {
   const HistoryFrame& a = history[i];
   const HistoryFrame& b = history[std::min(i + 1, history.size() - 1)];
   const Duration gap = b.time - a.time;
+  // A stamp after the last frame has no second one: b is a, and s is 0.
   const double s = gap.ns > 0 ? static_cast<double>((stamp - a.time).ns) / double(gap.ns) : 0;
   past_world.movers.resize(truth.movers.size());
   for (std::uint32_t r = 0; r < truth.movers.size(); ++r) {
@@ -98,6 +102,7 @@ void Engine::Impl::sample_virtual_half(const SensorSlots& slots, RobotId robot, 
   item.robot = robot;
   item.device = device;
   item.seed = spec.seed;
+  // As of a virtual sensor, whose numbers of samples begin at 0.
   item.sequence = real.sequence - 1;
   item.capacity = fusion.capacity;
   item.X_WR = X_WR;
@@ -115,6 +120,7 @@ void Engine::Impl::sample_virtual_half(const SensorSlots& slots, RobotId robot, 
   failed = broke != 0;
 }
 
+// The next sample that is delivered counts these as dropped.
 bool Engine::Impl::withhold(FusionSlots& fusion, std::size_t member, const SampleHeader& sample) {
   fusion.withheld[member] += sample.count + sample.dropped;
   return false;
@@ -149,6 +155,8 @@ bool Engine::Impl::fuse(RobotGroup& group, SensorSlots& slots, std::size_t membe
   real.fresh = 1;
   const std::size_t bytes = std::size_t{sample.count} * record_size(slots.spec->kind);
   if (bytes > 0) std::memcpy(real_records, slots.scratch.data(), bytes);
+  // Each half gets its own noise before they are fused: afterwards nothing says which half a
+  // reading is from.
   if (fusion.real_noise) {
     fusion.real_noise->apply_noise(real, real_records,
                                    half_stream(spec, robot, device, kRealHalf, sample));

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The guard of stepped runs and of simulated robots, asked within the act phase. Its time is that
+// of the run. Real robots of live runs have threads: engine_live.cpp.
 #include <algorithm>
 #include <limits>
 
@@ -28,10 +30,13 @@ void Engine::Impl::find_neighbours(RobotId robot, double reach_m, Worker& worker
   worker.neighbours.clear();
   const std::uint32_t r = robot.value();
   const ReportedPose& own = reported[r];
+  // The snapshot searches by origins, the limits are about outlines: both radii come on top.
   const double largest_m = *std::max_element(truth.radius_m.begin(), truth.radius_m.end());
   const double within_m = reach_m + truth.radius_m[r] + largest_m + kOthersWay_m;
   const Vec2 p_W{own.pose.x_m, own.pose.y_m};
   std::uint32_t count = truth.snapshot.robots_within(p_W, within_m, worker.near);
+  // robots_within() says how many there are even if they do not fit, so a second call always
+  // suffices.
   if (count > worker.near.size()) {
     worker.near.resize(count);
     count = truth.snapshot.robots_within(p_W, within_m, worker.near);
@@ -60,6 +65,7 @@ Command Engine::Impl::guarded(const RobotGroup& group, const ActuatorSlots& slot
   GuardInput input;
   input.command = command;
   input.expected = expected;
+  // A program that never spoke is as silent as one that stopped speaking.
   if (controller != nullptr && group.program.spec != nullptr) {
     const std::int64_t given = controller->last_step[member];
     input.command_age_s =
@@ -110,6 +116,7 @@ void Engine::Impl::halt() noexcept {
 }
 
 void Engine::Impl::halt(RobotGroup& group) noexcept {
+  // Their threads write the stop; nobody else may write to these actuators.
   for (const GuardedMember& member : group.guards) {
     if (member.thread) member.thread->stand();
   }

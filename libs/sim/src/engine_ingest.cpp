@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The beginning of a step: hardware samples, the reported poses that follow from them, and the
+// snapshot that all later phases read.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -27,6 +29,8 @@ void take_over(const SensorSlots& slots, const SampleHeader& sample, const std::
 /// sample.
 RandomStream processing_stream(const EngineSpec& spec, RobotId robot, std::uint32_t device,
                                std::uint32_t sequence) {
+  // Drivers draw with `device` alone. The top bit keeps the noise of the robot file apart from
+  // them, so that switching it on changes no other number.
   return {spec.seed, robot.value(), device | 0x8000'0000U, sequence};
 }
 
@@ -46,6 +50,8 @@ PoseReading pose_reading(ReadingKind kind, const std::byte* record) {
 
 Status Engine::Impl::ingest() {
   RAVE_TRY(ingest_sensors(false));
+  // The order is that of cause and effect: samples say where real robots are, these push simulated
+  // robots away, the snapshot shows the result. No later phase of this step changes it.
   refresh_reported();
   truth.make_way();
   truth.note_contacts(step, events);
@@ -78,12 +84,16 @@ Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::s
                           ? SampleQueue::Wait::kComplete
                           : queue.wait_complete(now, spec.host_timeout);
     SampleHeader sample;
+    // All that has come since the last step, oldest first. A sample that fuse() withholds is not
+    // delivered, but it counts as heard: its sensor is alive.
     while (queue.next(now, &sample, slots.scratch.data())) {
       sample.sequence = ++slots.sequence[member];
       slots.heard_ns[member] = sample.stamp_ns;
       if (slots.fusion && !fuse(group, slots, member, sample)) continue;
       accept_hardware_sample(group, slots, member, sample);
     }
+    // Stepped drivers lose nothing: the driver blocks on a full queue, so the room just made lets
+    // it go on.
     if (wait == SampleQueue::Wait::kFull) continue;
     if (wait == SampleQueue::Wait::kTimeout) {
       return fail(ErrorCode::kTimeout,
@@ -101,6 +111,8 @@ Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::s
   if (slots.processing) process_hardware_samples(group, slots, member);
   if (slots.headers[member].fresh == 2) {
     slots.headers[member].fresh = 1;
+    // Once per step and sensor, after the last sample of the step. Intermediate states reach no
+    // program and are not hashed.
     hash_delivery(group, slots, device, member, hash);
   }
   return {};
@@ -162,6 +174,8 @@ void Engine::Impl::process_hardware_samples(RobotGroup& group, SensorSlots& slot
 
 Pose2 Engine::Impl::pose_frame(const RobotGroup& group, RobotId robot) const {
   const SensorSpec& sensor = group.type->sensors[*group.type->pose_from];
+  // Poses are those in the world. Odometry starts at zero where the robot was put, so its frame is
+  // the start pose unless the file says otherwise.
   const Pose2 start = sensor.kind == ReadingKind::kPose ? Pose2{} : spec.robots[robot.value()].X_WR;
   return group.X_WM.value_or(group.type->X_WM.value_or(start));
 }
@@ -174,12 +188,15 @@ void Engine::Impl::note_reported_pose(RobotGroup& group, const SensorSlots& slot
   const RobotId robot = group.members[member];
   const PoseReading reading = pose_reading(slots.spec->kind, record);
   const Pose2 X_WR = compose(pose_frame(group, robot), {reading.x_m, reading.y_m, reading.yaw_rad});
+  // A pose that is not finite would spread to the grids and to every query near it.
   if (!std::isfinite(X_WR.x) || !std::isfinite(X_WR.y) || !std::isfinite(X_WR.yaw)) return;
   ReportedPose& pose = reported[robot.value()];
   pose.pose = {X_WR.x, X_WR.y, X_WR.yaw, reading.variance_xy_m2, reading.variance_yaw_rad2};
   pose.stamp = {header.stamp_ns};
   pose.known = true;
   const bool newer = tracks[robot.value()].add(pose.stamp, X_WR);
+  // The authority and other hosts need each sample, not only the newest pose: their hybrid sensors
+  // look up poses by stamp.
   if (host && newer && !group.type->simulated) {
     host->samples.push_back({robot, pose.stamp, X_WR});
   }
@@ -229,6 +246,8 @@ void Engine::Impl::refresh_told(const Block& block, Worker& worker) {
                  : fmt::format("poses arrive again from {:.2f} s", pose.stamp.seconds())});
       pose.stale = stale;
     }
+    // The velocity is an extrapolation of samples that are too old. Others would dodge a robot that
+    // no longer moves.
     if (stale) pose.velocity = {};
     if (group.type->simulated) continue;
     truth.movers[r].X_WR = {pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad};
@@ -244,6 +263,8 @@ void Engine::Impl::show_world() {
 
 void Engine::Impl::remember() {
   if (spec.history.ns <= 0) return;
+  // One frame is added per step, so dropping one per step keeps the length. Frames are used again:
+  // no allocation in steady state.
   if (!history.empty() && now - history.front().time > spec.history) history.drop_oldest();
   HistoryFrame& frame = history.add();
   frame.time = now;

@@ -18,6 +18,7 @@ void Engine::Impl::body_changed(RobotId robot) {
     fusion_world->world.body_changed(robot);
     fusion_world->valid = false;
   }
+  // Its guard may still read the old one; the next order makes a new one.
   if (!guard_bodies.empty()) guard_bodies[robot.value()].reset();
   if (!roster.is_local(robot)) return;
   roster.group_of(robot).program.setups[roster.member_of(robot)].robot.radius_m =
@@ -33,6 +34,8 @@ void Engine::Impl::obstacle_changed(const ObstacleChange& change) {
 
 void Engine::Impl::restore_world() {
   if (truth.restore_obstacles()) {
+    // Snapshots of the past may show obstacles that are gone; new ones begin with the world of the
+    // start.
     past.world.reset();
     if (fusion_world) fusion_world = std::make_unique<FusionWorld>(spec.world);
   }
@@ -56,6 +59,7 @@ void Engine::Impl::drivers_changed(RobotId robot, const Arrival& place) {
                  place.stamp,
                  true,
                  false};
+  // The velocity would otherwise be estimated across the jump between the two pose sources.
   tracks[r].clear();
   tracks[r].add(place.stamp, place.X_WR);
   // Who armed the robot before armed another one.
@@ -183,6 +187,7 @@ bool Engine::show_reality(RobotId robot, bool simulated) {
   if (engine.spec.types[its.type].simulated == simulated) return true;
   if (!its.twin || engine.spec.types[*its.twin].simulated != simulated) return false;
   std::swap(its.type, *its.twin);
+  // set_reality() makes a robot present; whether its host reports it is another matter.
   const bool present = engine.truth.movers[r].present;
   engine.truth.set_reality(robot, simulated, engine.truth.movers[r].X_WR);
   engine.truth.movers[r].present = present;

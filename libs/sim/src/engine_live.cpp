@@ -52,6 +52,8 @@ Status Engine::Impl::start_guards() {
 Status Engine::Impl::start_guards(RobotGroup& group) {
   group.guards.clear();
   if (spec.live_clock == nullptr || group.type->simulated) return {};
+  // Filled apart and moved over at the end. If a thread cannot be started, the group has no guards,
+  // and those that were started end with this list.
   std::vector<GuardedMember> started(group.members.size());
   bool any = false;
   for (std::size_t m = 0; m < group.members.size(); ++m) {
@@ -59,6 +61,8 @@ Status Engine::Impl::start_guards(RobotGroup& group) {
     RAVE_TRY_ASSIGN(started[m].thread, start_guard(group, m));
     for (const ControllerSlots& controller : group.controllers) {
       std::optional<SimTime>& given = started[m].given.emplace_back();
+      // Controllers stay in a hand-over, so they may already have commands; the age of these counts
+      // on.
       const std::int64_t last = controller.last_step[m];
       if (last >= 0) given = step_time(static_cast<std::uint64_t>(last));
     }
@@ -85,6 +89,7 @@ Result<std::unique_ptr<GuardThread>> Engine::Impl::start_guard(RobotGroup& group
     setup.pose.kind = source.spec->kind;
     setup.pose.X_WM = pose_frame(group, robot);
   }
+  // Only live sensors can fall silent by the wall clock; those of a recording follow the run.
   for (std::uint32_t s = 0; s < group.sensors.size(); ++s) {
     const SensorSlots& slots = group.sensors[s];
     if (!slots.max_age_s || !slots.live) continue;
@@ -147,10 +152,12 @@ void Engine::Impl::give_order(RobotGroup& group, std::uint32_t member) {
     ActuatorDemand& demand = order.demands[a];
     demand.command = group.actuators[a].commands[member];
     demand.expected = speaker != nullptr ? speaker->spec->ops->gives : CommandKind::kVelocity;
+    // A robot without a program has no watchdog: nobody has to speak.
     demand.watched = speaker != nullptr && group.program.spec != nullptr;
     demand.given = demand.watched ? guarded.given[group.index_of(*speaker)] : std::nullopt;
   }
   order.holds = robot_guards[robot.value()].holds();
+  // The world of a late step is as old as its lateness, which set_world_age() has stated.
   order.world_time = work_began - world_age;
   order.reported = reported[robot.value()];
   order.radius_m = truth.radius_m[robot.value()];
@@ -169,6 +176,8 @@ void Engine::Impl::fill_neighbours(RobotId robot, const RobotGroup& group, Guard
   GuardInput input;
   input.command = order.demands.front().command;
   input.velocity = order.reported.velocity;
+  // The worst case of all that the thread may see before the next order, so the reach is an upper
+  // bound: the oldest pose that still counts and the longest gap.
   input.pose_age_s = group.type->staleness.seconds();
   input.dt_s = LiveGuard::kLongestGap_s;
   Worker& worker = workers.front();
@@ -182,6 +191,8 @@ void Engine::Impl::fill_neighbours(RobotId robot, const RobotGroup& group, Guard
   }
 }
 
+// The thread may still read a body when a hand-over or a resize replaces it here. So each order
+// shares the body that it was made with, and a new one is a new object.
 std::shared_ptr<const world::Body> Engine::Impl::guard_body(RobotId robot) {
   std::shared_ptr<const world::Body>& body = guard_bodies[robot.value()];
   if (!body) body = std::make_shared<const world::Body>(spec.world.robots[robot.value()]);
@@ -198,6 +209,7 @@ void Engine::Impl::hear_guard(RobotGroup& group, std::uint32_t member) {
   for (std::size_t a = 0; a < group.actuators.size(); ++a) {
     ActuatorSlots& slots = group.actuators[a];
     const WrittenCommand& written = guarded.news.written[a];
+    // Recordings show what reached the actuator, not what the controller wanted.
     slots.commands[member] = written.command;
     if (slots.spec->hardware_ops == nullptr) continue;
     const std::string_view text =

@@ -10,6 +10,7 @@ namespace rave::sim {
 /// Adds to the poses of `past` what is not interpolated, from the last frame up to `stamp`.
 void Engine::Impl::look_back(SimTime stamp) {
   const HistoryFrame* frame = nullptr;
+  // From the newest backward: who looks back mostly asks about the last steps.
   for (std::size_t i = history.size(); i > 0 && frame == nullptr; --i) {
     if (history[i - 1].time <= stamp) frame = &history[i - 1];
   }
@@ -68,6 +69,7 @@ Result<SampleHeader> Engine::sample_at(RobotId robot, std::uint32_t sensor, SimT
     engine.past.world = std::make_unique<world::Snapshot>(engine.spec.world);
     engine.past.obstacles = engine.truth.journal.revision();
   }
+  // Several sensors are asked about the same moment, so the world of the last question is kept.
   if (!engine.past.valid || engine.past.world->time() != stamp) {
     for (std::uint32_t r = 0; r < engine.truth.movers.size(); ++r) {
       const auto pose = pose_at(RobotId(r), stamp);
@@ -85,6 +87,7 @@ Result<SampleHeader> Engine::sample_at(RobotId robot, std::uint32_t sensor, SimT
     header.count = slots.capacity;
     return header;
   }
+  // A state of its own: a question about the past changes nothing in the run.
   std::vector<std::byte> state(slots.spec->virtual_ops->state_size);
   SampleItem item;
   item.robot = robot;

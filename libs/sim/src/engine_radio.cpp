@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// When in a step messages are delivered and collected; what happens to them in between is in
+// radio.cpp.
 #include "engine_impl.hpp"
 #include "radio.hpp"
 
@@ -15,6 +17,7 @@ void Engine::Impl::deliver_messages() {
 void Engine::Impl::carry_messages() {
   if (radio->empty()) return;
   const RadioMoment moment = radio_moment();
+  // By robot and not by group: the order of the messages must not depend on types or hosts.
   for (std::uint32_t r = 0; r < truth.movers.size(); ++r) {
     if (!roster.is_local(RobotId(r))) continue;
     const ProgramSlots& program = roster.group_of(RobotId(r)).program;

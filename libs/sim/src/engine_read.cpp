@@ -18,6 +18,7 @@ Pose2 Engine::true_pose(RobotId robot) const noexcept {
   return impl_->truth.movers[robot.value()].X_WR;
 }
 bool Engine::is_local(RobotId robot) const noexcept { return impl_->roster.is_local(robot); }
+// Of one of several hosts the last complete step: the present one is still being computed.
 std::span<const Event> Engine::events() const noexcept {
   return impl_->host ? impl_->host->events : impl_->events;
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The sense phase, by blocks of robots on all threads. It reads the snapshot of the step, which
+// nobody changes meanwhile, and writes the samples of its own robots only.
 #include <algorithm>
 #include <optional>
 
@@ -9,6 +11,7 @@
 namespace rave::sim {
 
 void Engine::Impl::sense() {
+  // Once per step and for all sensors: each call measures the motion since the call before.
   moves_m = motion_watch.look(truth.snapshot);
   pool.for_each_block(roster.blocks.size(), sense_effort, [this](std::size_t b, unsigned w) {
     sense_block(roster.blocks[b], workers[w]);
@@ -17,12 +20,15 @@ void Engine::Impl::sense() {
 
 void Engine::Impl::sense_block(const Block& block, Worker& worker) {
   RobotGroup& group = roster.groups[block.group];
+  // Sensor by sensor, not robot by robot: the fan table and the code of a driver stay in the cache
+  // for the whole block.
   for (std::uint32_t device = 0; device < group.sensors.size(); ++device) {
     SensorSlots& slots = group.sensors[device];
     if (!slots.is_virtual()) continue;
     if (due(slots.spec->period_steps, slots.spec->phase_steps)) {
       sample_members(group, slots, device, block, worker);
     }
+    // With latency, a sample of an earlier step may come due in a step without sampling.
     if (!slots.queued()) continue;
     for (std::uint32_t m = block.begin; m < block.end; ++m) {
       deliver(group, slots, device, m, worker);
@@ -44,7 +50,10 @@ const NearLists* Engine::Impl::find_places(const RobotGroup& group, SensorSlots&
                      truth.snapshot.turn_WR(members[i]), sensor.X_RS.position(), mounting);
     worker.places_W[i] = worker.places[i].p_WS;
   }
+  // Single long rays are followed through the grid; a list of all that is within their range would
+  // be longer than what they pass.
   if (walk_pays(truth.snapshot, slots.fan)) return nullptr;
+  // A sensor that samples every n steps sees n steps of motion between two uses of its lists.
   const double margin_m = NearLists::margin_for(moves_m * sensor.period_steps,
                                                 0.25 * static_cast<double>(slots.fan.range_max_m));
   if (margin_m == 0) return nullptr;
@@ -76,10 +85,13 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
   const CrashScope scope(whose);
   for (std::uint32_t m = block.begin; m < block.end; ++m) {
     const RobotId robot = group.members[m];
+    // A real robot without a pose is not in the world; its sensors cannot be placed.
     if (slots.failed[m] != 0 || !truth.movers[robot.value()].present) continue;
     const bool direct = !slots.queued();
     SampleHeader& header = direct ? slots.headers[m] : slots.raw_headers[m];
     std::byte* records = direct ? slots.records_of(m) : slots.raw_records_of(m);
+    // Programs see sequence numbers from 1, since 0 means that there was no sample yet. Random
+    // numbers count from 0.
     const std::uint32_t sequence = slots.sequence[m]++;
     header = {now.ns, sequence + 1, 0, 1, 0};
     const Pose2& X_WR = truth.movers[robot.value()].X_WR;
@@ -125,6 +137,8 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
       hash_delivery(group, slots, device, m, worker.hash);
       note_reported_pose(group, slots, m, header, records);
     } else {
+      // Noise waits for the whole block, because random numbers are drawn with vector instructions
+      // for many samples at once. Each sample has its own stream, so this changes no number.
       worker.noise.push_back(
           {&header, records,
            RandomStream(spec.seed, robot.value(), device | 0x8000'0000U, sequence)});
@@ -169,6 +183,7 @@ void Engine::Impl::hash_delivery(const RobotGroup& group, SensorSlots& slots, st
   const SampleHeader& header = slots.headers[member];
   const std::size_t bytes = std::size_t{header.count} * record_size(slots.spec->kind);
   std::byte* records = slots.records_of(member);
+  // For the test that one changed bit of one percept changes the hash: flip_percept_bit().
   if (slots.flip[member] != 0 && bytes > 0) {
     records[0] ^= std::byte{1};
     slots.flip[member] = 0;

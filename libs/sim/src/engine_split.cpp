@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A step of one of several hosts, cut in two: propose() ends a step and reads the samples of the
+// next one, apply() begins that with the world of the authority. See docs/explanation/lock-step.md.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -21,6 +23,7 @@ std::optional<ObstacleChange> left_to_do(const world::WorldModel& world,
   if (obstacle->removed) return std::nullopt;
   if (change.kind == Kind::kRemove) return change;
   const Pose2& X_WB = obstacle->X_WB;
+  // An exact comparison: one is a copy of the other, never computed again.
   const bool there =
       X_WB.x == change.X_WB.x && X_WB.y == change.X_WB.y && X_WB.yaw == change.X_WB.yaw;
   if (there) return std::nullopt;
@@ -45,6 +48,7 @@ Status Engine::propose(HostReport& report) {
   PhaseTimer phase(engine.spec.phase_clock, engine.phase_times);
   Status status = engine.propose(report, phase);
   if (status) return {};
+  // The authority must learn of the failure, or it would wait for this host until its timeout.
   report.begin(engine.step);
   report.state = HostState::kFailed;
   report.text = status.error().text();
@@ -55,6 +59,8 @@ Status Engine::Impl::propose(HostReport& report, PhaseTimer& phase) {
   if (host->begun) {
     // Inputs since the step began are events of it.
     input_log.add_to(events);
+    // The world of this step has come with apply(). While this host computes, the authority waits
+    // for the reports of all.
     work(phase);
     publish();
     phase.ends(Phase::kPublish);
@@ -84,6 +90,7 @@ Status Engine::Impl::propose(HostReport& report, PhaseTimer& phase) {
 
 void Engine::Impl::fill_report(HostReport& report) {
   report.begin(step);
+  // The first report opens the run: no step has been computed, so nobody has proposed anything.
   if (step > 0) {
     Proposals& all = report.proposals;
     for (const RobotId robot : host->simulated) {
@@ -101,6 +108,7 @@ void Engine::Impl::fill_report(HostReport& report) {
   host->sent.clear();
   report.samples.swap(host->samples);
   host->samples.clear();
+  // By robot and stamp, so that the bits of the report do not depend on the order of the groups.
   std::sort(report.samples.begin(), report.samples.end(), [](const auto& a, const auto& b) {
     return std::tie(a.robot, a.stamp) < std::tie(b.robot, b.stamp);
   });
@@ -182,10 +190,13 @@ Status Engine::Impl::apply(const WorldStep& world, bool was_there, PhaseTimer& p
     // Who hears a message is decided in the world in which it was sent.
     const RadioMoment moment{
         step - 1, step_time(step - 1), host->reported_at_sending, &truth.snapshot, &hash, &events};
+    // This comes before the changes: truth.snapshot still shows the step in which the messages were
+    // sent.
     RAVE_TRY(radio->receive(moment, world.sent));
   }
   phase.ends(Phase::kRadio);
   RAVE_TRY(make_changes(world));
+  // Bodies and obstacles first, since the poses of the authority were found with the new ones.
   adopt(world);
   if (spec.own_authority && was_there) RAVE_TRY(take_newer_samples());
   show_world();
@@ -229,6 +240,8 @@ void Engine::Impl::do_input(const WorldInput& input) {
   const Status status = input.kind == WorldInput::Kind::kChange
                             ? inputs.change(step, input.robot, input.changes, input.author)
                             : order(input);
+  // The authority has accepted the request for all, and only this host knows that it cannot be
+  // done. The refusal reaches the authority with the next report.
   if (!status) host->refusals.push_back({input.sequence, status.error().text()});
 }
 
@@ -239,6 +252,7 @@ void Engine::Impl::adopt(const WorldStep& world) {
     truth.movers[r].present = (flags & WorldStep::kPresent) != 0;
     truth.velocity[r] = {world.vx_mps[r], world.vy_mps[r], world.wz_radps[r]};
     truth.limited[r] = (flags & WorldStep::kLimited) != 0 ? 1 : 0;
+    // Touching robots are few, so only these are in the message; all others touch nothing.
     truth.touch[r] = {};
     // Told as a robot that is alone is told: before it is pushed out of anybody's way.
     if (!spec.types[spec.robots[r].type].pose_from) refresh_true(r);
@@ -249,6 +263,7 @@ void Engine::Impl::adopt(const WorldStep& world) {
   for (const TouchPoint& point : world.touches) {
     truth.touch[point.robot.value()] = {true, point.direction_W};
   }
+  // A host has the poses of its own robots itself, and in a live run newer ones.
   for (const PoseReport& pose : world.poses) {
     if (!roster.is_local(pose.robot)) reported[pose.robot.value()] = pose.reported;
   }

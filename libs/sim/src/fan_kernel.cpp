@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Rays of one sensor against the shapes near it, compiled once per instruction set. No operation is
+// fused or approximated, so all sets give the same bits.
 #include "fan_kernel.hpp"
 
 #include <algorithm>
@@ -38,6 +40,8 @@ struct Buckets {
     for (std::size_t i = 0; i < kBatch; i += hn::Lanes(d)) {
       const auto px = hn::LoadU(d, x + i);
       const auto py = hn::LoadU(d, y + i);
+      // The operations of bearing_scale() in the same order. A bucket that differed by rounding
+      // from that of index_of() could leave out a ray at the edge of a shape.
       const auto sum = hn::Add(hn::Abs(px), hn::Abs(py));
       const auto part = hn::IfThenElse(hn::Gt(sum, zero), hn::Div(px, sum), one);
       const auto scale =
@@ -63,6 +67,8 @@ struct DiscEdges {
     for (std::size_t i = 0; i < kBatch; i += hn::Lanes(d)) {
       const auto r = hn::LoadU(floats, discs.radius + i);
       const auto out = hn::LoadU(d, discs.outside + i);
+      // Tangents of a disc at c: c turned by the angle whose sine is r/d and whose cosine is t/d,
+      // with t = sqrt(d^2 - r^2). Only the direction counts, so nothing is divided by d.
       const auto tangent = hn::DemoteTo(floats, hn::Sqrt(hn::Max(out, hn::Zero(d))));
       const auto cx = hn::LoadU(floats, discs.centre.x + i);
       const auto cy = hn::LoadU(floats, discs.centre.y + i);
@@ -113,6 +119,8 @@ HWY_INLINE void cast_between(const FanView& fan, std::int32_t right, std::int32_
     cast(std::size_t{0}, fan.padded);
     return;
   }
+  // The edges give buckets, not rays, so some rays beside the shape are tried in vain. Whether a
+  // ray meets it is decided by `seen`, never by the index.
   const std::size_t group = ~(hn::Lanes(d) - 1);
   const std::size_t first = fan.first_ray[right];
   const std::size_t last = fan.first_ray[left + 1];
@@ -120,6 +128,7 @@ HWY_INLINE void cast_between(const FanView& fan, std::int32_t right, std::int32_
     if (first < last) cast(first & group, last);
     return;
   }
+  // The shape lies across the bearing of +-pi: its rays are at both ends of the table.
   if (last > 0) cast(std::size_t{0}, last);
   if (first < fan.first_ray[kBearingBuckets]) cast(first & group, fan.padded);
 }
@@ -160,6 +169,8 @@ HWY_INLINE void cast_polygons(Pieces polygons, const Vec2* vertices_W, const Vec
       sight[i] = seen[i].see(*batch[i], vertices_W, normals_W, place);
       if (sight[i] == Sight::kOutside) edges.put(i, seen[i]);
     }
+    // The edges of the whole batch at once; those of pieces that are not seen from outside are not
+    // used.
     edges.find();
     for (std::size_t i = 0; i < batch.size(); ++i) {
       if (sight[i] == Sight::kInside) keep_all_inside(fan, batch[i]->body);
@@ -203,6 +214,7 @@ void cast_few(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Vec2*
     const auto inside = hn::Set(d, std::numeric_limits<float>::infinity());
     for (std::size_t g = 0; g < kGroups; ++g) keep_nearer(inside, whose, inverse[g], body[g]);
   };
+  // Only the rays stay in registers: each shape is loaded once and met by all of them.
   SeenDisc disc;
   for (const world::ShapePiece* const piece : discs) {
     if (disc.see(*piece, place) == Sight::kInside) {
@@ -233,6 +245,8 @@ void cast_pieces(Pieces discs, Pieces polygons, const Vec2* vertices_W, const Ve
                  const FanPlace& place, const FanView& fan) {
 #if !HWY_HAVE_SCALABLE
   constexpr std::size_t kLanes = hn::MaxLanes(Floats());
+  // One instance per number of registers: a loop of unknown length would keep the results in
+  // memory.
   if (fan.first_ray == nullptr && fan.padded == kRayPadding) {
     cast_few<kRayPadding / kLanes>(discs, polygons, vertices_W, normals_W, place, fan);
     return;
@@ -253,6 +267,8 @@ void finish_ranges(const FanView& fan, RangeLimits limits, float* ranges_m, std:
   const auto farthest = hn::Set(d, limits.max_m);
   const auto none = hn::Set(d, std::numeric_limits<float>::infinity());
   for (std::size_t ray = 0; ray < fan.padded; ray += hn::Lanes(d)) {
+    // 1/0 is +infinity and so beyond every limit: no return. Inside a body 1/infinity is 0, which
+    // becomes the least range.
     const auto range = hn::Div(one, hn::LoadU(d, fan.inverse + ray));
     const auto beyond = hn::Gt(range, farthest);
     hn::StoreU(hn::IfThenElse(beyond, none, hn::Max(range, nearest)), d, ranges_m + ray);

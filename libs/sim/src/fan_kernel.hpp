@@ -58,6 +58,8 @@ void finish_ranges(const FanView& fan, RangeLimits limits, float* ranges_m, std:
 /// The bearing as a number that grows with it from 0 at -pi to 4 at pi, without arc tangent.
 inline float bearing_scale(float x, float y) noexcept {
   const float sum = (x < 0 ? -x : x) + (y < 0 ? -y : y);
+  // Grows along each edge of the square |x| + |y| = const, which is passed in the order of
+  // bearings.
   const float part = sum > 0 ? x / sum : 1.0F;
   return y < 0 ? 1 + part : 3 - part;
 }

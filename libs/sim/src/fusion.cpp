@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The parts of a hybrid sensor: a virtual half beside the real one, the noise of each, and the
+// driver that makes one reading of both.
 #include "fusion.hpp"
 
 #include <algorithm>
@@ -35,6 +37,7 @@ Status check_rays(const HybridSpec& spec, const SensorInfo& real, const SensorIn
   std::string difference;
   if (real.capacity == imagined.capacity) {
     for (std::uint32_t i = 0; i < real.capacity && difference.empty(); ++i) {
+      // Wrapped, since one driver may count from -180 degrees and the other from 180.
       const double off_rad = wrap_angle(real.bearings_rad[i] - imagined.bearings_rad[i]);
       if (std::abs(off_rad) <= kSameBearing_rad) continue;
       difference =
@@ -61,6 +64,7 @@ Status configure_imagined(const SensorSpec& sensor, const SensorInfo& real, Host
   setup.layers = sensor.layers;
   setup.period_s = real.period_s;
   setup.z_m = sensor.z_m;
+  // The virtual driver may take its rays and limits from the real device.
   setup.real_half = &real;
   VirtualDeclaration declaration;
   ErrorText error;
@@ -69,6 +73,7 @@ Status configure_imagined(const SensorSpec& sensor, const SensorInfo& real, Host
   }
   slots.capacity = declaration.capacity;
   slots.uses_fan = declaration.uses_fan != 0;
+  // What the virtual half does not declare is as in the real one.
   imagined = real;
   imagined.bearings_rad = nullptr;
   if (slots.uses_fan) {
@@ -146,6 +151,7 @@ Result<std::unique_ptr<FusionSlots>> FusionSlots::make(const SensorSpec& spec,
   const HybridSpec& hybrid = *spec.hybrid;
   auto slots = std::make_unique<FusionSlots>();
   SensorInfo imagined;
+  // The order of dependence: the virtual half needs the real one, the fusion needs both.
   if (auto made = configure_imagined(spec, real, host, *slots, imagined); !made) {
     return tl::unexpected(in_half("virtual", hybrid.virtual_driver, std::move(made).error()));
   }

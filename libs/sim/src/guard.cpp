@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// The limits as a pure function of a command and of what is known of the robot: no clock, no
+// memory, no allocation. So the same code serves stepped runs and the guard threads. The formulas
+// are in docs/explanation/guard.md.
 #include "rave/sim/guard.hpp"
 
 #include <algorithm>
@@ -21,6 +24,7 @@ constexpr double kSaneWay_m = 20;
 constexpr double kCrawl_mps = 1e-4;
 /// A robot that is measured to drive faster than this is not standing.
 constexpr double kMoving_mps = 0.02;
+/// 2^-16 of any sane speed is near kCrawl_mps: more halvings would find nothing that drives.
 constexpr int kHalvings = 16;
 /// Spacing at which distances to other robots are looked at.
 constexpr double kLook_m = 2e-3;
@@ -49,6 +53,7 @@ bool cap(Drive& drive, double Drive::*value, double limit) noexcept {
   const double size = std::abs(drive.*value);
   if (!(size > limit)) return false;
   drive = scaled(drive, limit / size);
+  // limit / size * size may exceed the limit by a bit.
   drive.*value = std::clamp(drive.*value, -limit, limit);
   return true;
 }
@@ -56,6 +61,7 @@ bool cap(Drive& drive, double Drive::*value, double limit) noexcept {
 /// The largest speed from which a robot stands after kSaneWay_m.
 double sane_speed_mps(double delay_s, double deceleration_mps2) noexcept {
   const double a = deceleration_mps2;
+  // Solves v t + v^2 / (2 a) = s for v.
   return std::sqrt(a * a * delay_s * delay_s + 2 * a * kSaneWay_m) - a * delay_s;
 }
 
@@ -78,9 +84,11 @@ class Motion {
   /// The limits that the robot would breach if it were not told to brake now.
   [[nodiscard]] std::uint32_t braking_needed() const noexcept {
     const Drive now{in_.velocity.vx, in_.velocity.wz};
+    // The measured velocity, whatever was commanded: after a push or a slide it can be higher.
     const double speed = std::abs(now.v_mps);
     if (!(speed > kMoving_mps)) return 0;
     // A little less than what was allowed, or rounding would make it brake at each limit.
+    // Without the step in_.dt_s: the stop would be commanded now, not after one more step.
     const double way = speed * spec_.reaction_s + blind_way_m(now) + braking_way_m(speed);
     return forbidding(now, 0.99 * way - 1e-4, false);
   }
@@ -91,6 +99,7 @@ class Motion {
   }
   /// What it may have gone since its pose was taken.
   [[nodiscard]] double blind_way_m(const Drive& drive) const noexcept {
+    // The speed since the pose is unknown; each of the three is a speed that it may have had.
     return in_.pose_age_s *
            std::max({std::abs(drive.v_mps), std::abs(in_.velocity.vx), in_.fastest_mps});
   }
@@ -106,6 +115,8 @@ class Motion {
     const GuardPath path{in_.X_WR, drive.v_mps, drive.w_radps, std::max(way_m, 0.0)};
     if (!spec_.fence_W.empty()) {
       const double step_m = std::abs(drive.v_mps) * in_.dt_s;
+      // After a contact the body may slide along an obstacle, where no arc leads. So the next step
+      // may use up the clearance at most, in any direction.
       const bool slides = commanded && in_.touching && step_m > std::max(clearance_m_, 0.0) &&
                           !leads_inward(path, step_m);
       if (slides || !stays_inside(spec_.fence_W, path, in_.radius_m)) {
@@ -127,11 +138,14 @@ class Motion {
     for (const GuardNeighbour& other : in_.neighbours) {
       const double other_mps = std::sqrt(other.velocity_W.vx * other.velocity_W.vx +
                                          other.velocity_W.vy * other.velocity_W.vy);
+      // No distance shrinks faster than this. So a clearance of c m holds for c / closing_mps, and
+      // that time can be left out (conservative advancement).
       const double closing_mps = speed + turning * in_.radius_m + other_mps;
       if (closing_mps <= 0) continue;
       for (double t_s = 0; t_s < time_s;) {
         t_s = std::min(t_s + kLook_m / closing_mps, time_s);
         const double clear_m = worst_m(drive, other, t_s);
+        // A distance that is not a number forbids, too.
         if (!(clear_m >= 0)) return false;
         t_s += std::max(0.0, clear_m / closing_mps - kLook_m / closing_mps);
       }
@@ -146,6 +160,8 @@ class Motion {
     const Pose2 X_later = integrate(in_.X_WR, {drive.v_mps, 0, drive.w_radps}, t_s);
     Pose2 X_WB = other.X_WB;
     double worst = above_limit(X_later, other, X_WB);
+    // The other is extrapolated for as long as this robot needs to obey, not longer: the guard
+    // looks again before that.
     const double ahead_s = std::min(t_s, in_.dt_s + spec_.reaction_s);
     X_WB.x += ahead_s * other.velocity_W.vx;
     X_WB.y += ahead_s * other.velocity_W.vy;
@@ -159,6 +175,7 @@ class Motion {
     };
     const double later_m = apart_m(X_later);
     if (later_m >= spec_.separation_m) return later_m - spec_.separation_m;
+    // Nearer than allowed: only what takes it no nearer than it is now.
     return later_m - std::min(apart_m(in_.X_WR), spec_.separation_m);
   }
 
@@ -174,6 +191,7 @@ Drive slowed(const Motion& motion, const Drive& wanted) noexcept {
   const auto at = [&](double share) {
     return may_turn ? Drive{share * wanted.v_mps, wanted.w_radps} : scaled(wanted, share);
   };
+  // Slower is safer along the same curve, so the allowed shares are an interval from 0.
   double low = 0;
   double high = 1;
   for (int i = 0; i < kHalvings; ++i) {
@@ -189,6 +207,7 @@ std::uint32_t limit_motion(const GuardSpec& spec, const GuardInput& in, Drive& d
   const bool fenced = !spec.fence_W.empty();
   if ((!fenced && in.neighbours.empty()) || drive == Drive{}) return 0;
   std::uint32_t acted = 0;
+  // Commands far beyond any robot would make the predicted way, and so this function, too long.
   const double delay_s = in.dt_s + spec.reaction_s + in.pose_age_s;
   if (cap(drive, &Drive::v_mps, sane_speed_mps(delay_s, spec.deceleration_mps2))) {
     acted |= bit(GuardLimit::kSpeed);
@@ -196,6 +215,7 @@ std::uint32_t limit_motion(const GuardSpec& spec, const GuardInput& in, Drive& d
   if (cap(drive, &Drive::w_radps, kSaneTurn_radps)) acted |= bit(GuardLimit::kTurn);
   const Motion motion(spec, in);
   const std::uint32_t braking = motion.braking_needed();
+  // A command to stand or to drive back brakes by itself and may lead away from the limit.
   if (braking != 0 && drive.v_mps * in.velocity.vx > 0) {
     drive = {};
     return acted | braking;
@@ -215,6 +235,8 @@ auto first_lost(const GuardInput& in) noexcept {
 
 /// Why the robot has to stand; kGuardLimits: it need not.
 std::uint32_t hold_reason(const GuardSpec& spec, const GuardInput& in) noexcept {
+  // The order decides which reason is told: first what people did, then what the robot lacks.
+  // Comparisons are negated so that an age that is not a number counts as too old.
   if (in.stopped) return static_cast<std::uint32_t>(GuardLimit::kStopped);
   if (!in.armed) return static_cast<std::uint32_t>(GuardLimit::kUnarmed);
   if (!in.pose_known) return static_cast<std::uint32_t>(GuardLimit::kPoseLost);
@@ -265,6 +287,8 @@ GuardOutput guard(const GuardSpec& spec, const GuardInput& input) noexcept {
   if (reason < kGuardLimits) {
     if (velocity) output.command = velocity_command(0, 0);
     const auto asks = [](double value) { return value != 0; };
+    // A limit acts, and is an event, only if it changes something: not for a robot that stands
+    // anyway.
     const bool moves =
         input.command.kind != CommandKind::kNone &&
         std::any_of(std::begin(input.command.value), std::end(input.command.value), asks);
@@ -276,6 +300,7 @@ GuardOutput guard(const GuardSpec& spec, const GuardInput& input) noexcept {
   output.command = input.command;
   if (!velocity || input.command.kind == CommandKind::kNone) return output;
   const Drive wanted{input.command.value[0], input.command.value[1]};
+  // Plain caps first: what fence and separation have to predict is then already slower.
   Drive drive = wanted;
   if (cap(drive, &Drive::v_mps, spec.max_speed_mps)) output.acted |= bit(GuardLimit::kSpeed);
   if (cap(drive, &Drive::w_radps, spec.max_turn_radps)) output.acted |= bit(GuardLimit::kTurn);

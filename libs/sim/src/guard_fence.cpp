@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Whether a disc that drives along an arc stays inside a polygon. Where the border is far, the free
+// distance is skipped; near it, short pieces of the arc are compared exactly with its edges.
 #include "guard_fence.hpp"
 
 #include <algorithm>
@@ -22,6 +24,7 @@ constexpr double kMaxPiece_m = 0.05;
 double point_to_segment(Vec2 p, Vec2 a, Vec2 b) noexcept {
   const Vec2 ab = b - a;
   const double length2 = squared_norm(ab);
+  // The foot of the perpendicular, held between both ends.
   const double t = length2 > 0 ? std::clamp(dot(p - a, ab) / length2, 0.0, 1.0) : 0.0;
   return std::sqrt(squared_norm(p - (a + t * ab)));
 }
@@ -31,6 +34,7 @@ bool segments_cross(Vec2 a, Vec2 b, Vec2 c, Vec2 d) noexcept {
   const double abd = cross(b - a, d - a);
   const double cda = cross(d - c, a - c);
   const double cdb = cross(d - c, b - c);
+  // Touching without crossing may be missed here; the distances from the end points catch it.
   return ((abc > 0) != (abd > 0)) && ((cda > 0) != (cdb > 0));
 }
 
@@ -47,6 +51,8 @@ struct Piece {
   [[nodiscard]] bool passes(Vec2 u) const noexcept {
     const Vec2 first = from - centre;
     const Vec2 last = to - centre;
+    // The last term excludes the opposite side of the circle. It suffices because a piece turns by
+    // less than a quarter.
     return sense * cross(first, u) >= 0 && sense * cross(u, last) >= 0 && dot(first, u) > 0;
   }
 
@@ -114,7 +120,10 @@ bool comes_inward(std::span<const Vec2> fence_W, const GuardPath& path, double r
   for (double s_m = 0; s_m < length_m;) {
     s_m = std::min(s_m + look_m, length_m);
     const double now_m = inside_distance(fence_W, path.at(s_m).position()) - radius_m;
+    // Each step must lead inward, not only the end: a robot outside may not go round a corner
+    // further out.
     if (now_m < before_m) return false;
+    // Inside from here on, so the rest of the way is judged like that of any robot inside.
     if (now_m >= -kSlack_m) {
       GuardPath rest = path;
       rest.X_WR = path.at(s_m);
@@ -128,6 +137,7 @@ bool comes_inward(std::span<const Vec2> fence_W, const GuardPath& path, double r
 
 }  // namespace
 
+// integrate() along the exact arc: s metres take s / |v| seconds, whatever the sign of v.
 Pose2 GuardPath::at(double s_m) const noexcept {
   return v_mps == 0 ? X_WR : integrate(X_WR, {v_mps, 0, w_radps}, s_m / std::abs(v_mps));
 }
@@ -151,15 +161,19 @@ double inside_distance(std::span<const Vec2> fence_W, Vec2 p_W) noexcept {
 bool stays_inside(std::span<const Vec2> fence_W, const GuardPath& path, double radius_m) noexcept {
   const double clearance_m = inside_distance(fence_W, path.X_WR.position()) - radius_m;
   if (path.v_mps == 0 || !(path.length_m > 0)) return true;
+  // Outside (put there, or fenced in later): forbidding every motion would leave it there.
   if (clearance_m < -kSlack_m) return comes_inward(fence_W, path, radius_m, clearance_m);
   // A whole circle says everything.
   double length_m = path.length_m;
+  // Half the radius of the body: an arc that crossed an edge between its ends would have an end
+  // nearer to the edge than the radius. See Piece::distance_to().
   double piece_m = std::min(kMaxPiece_m, 0.5 * radius_m);
   if (path.w_radps != 0) {
     const double circle_m = std::abs(path.v_mps / path.w_radps);
     length_m = std::min(length_m, 2 * kPi * circle_m);
     piece_m = std::min(piece_m, kMaxPieceTurn_rad * circle_m);
   }
+  // A body or a circle without size must not make the loop endless.
   piece_m = std::max(piece_m, 1e-9);
   double free_m = clearance_m;
   for (double s_m = 0; s_m < length_m;) {

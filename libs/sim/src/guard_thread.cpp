@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The thread of a guard. It shares orders and news with the engine under a mutex that is held for a
+// swap only, and calls drivers without it.
 #include "guard_thread.hpp"
 
 #include <pthread.h>
@@ -40,6 +42,7 @@ Result<std::unique_ptr<GuardThread>> GuardThread::start(Setup setup, std::string
     return fail(ErrorCode::kIo, "cannot start the thread of the guard of robot `{}`: {}", robot,
                 e.what());
   }
+  // A refusal is no error: most systems grant no real-time priority. The engine tells the user.
   guard->has_priority_ = raise_priority(guard->thread_);
   return guard;
 }
@@ -52,6 +55,8 @@ GuardThread::~GuardThread() {
 void GuardThread::give_order() {
   {
     const std::lock_guard lock(mutex_);
+    // Three orders go round: the one that the engine fills, the latest, and the one in use. So
+    // neither side waits while the other works on its own.
     std::swap(next_, latest_);
     fresh_ = true;
     woken_ = true;
@@ -91,6 +96,7 @@ void GuardThread::look(GuardNews& news) {
     news.lost_sensor = news_.lost_sensor;
     news.written = news_.written;
   }
+  // An atomic and not under the mutex: a driver that hangs must be noticed while it hangs.
   const std::int64_t since_ns = writing_since_ns_;
   news.stuck = {};
   if (since_ns != kNotWriting) news.stuck = {setup_.clock->now().ns - since_ns};
@@ -98,6 +104,7 @@ void GuardThread::look(GuardNews& news) {
 
 void GuardThread::run() {
   auto due = Clock::now();
+  // A new order is served at once and does not shift the periodic checks.
   for (;;) {
     bool stands = false;
     bool ends = false;
@@ -113,9 +120,11 @@ void GuardThread::run() {
       ends = retired_;
       stands = stands_ || retired_;
     }
+    // Before the first order there is no command, and a driver may not expect one.
     if (ordered_) write_all(stands);
     if (ends) return;
     const auto now = Clock::now();
+    // After a pause of the process there is one check, not one for each period missed.
     if (now >= due) due = std::max(due + std::chrono::nanoseconds(setup_.period.ns), now);
   }
 }
@@ -129,6 +138,7 @@ void GuardThread::write_all(bool stands) {
     guard_.limit(order_, now, allowed_);
   }
   for (std::size_t a = 0; a < count; ++a) write(a, allowed_[a], now);
+  // Only now: while drivers write, the engine may give orders.
   const std::lock_guard lock(mutex_);
   news_.begun |= guard_.take_begun();
   news_.lost_sensor = guard_.lost_sensor();
@@ -144,6 +154,7 @@ void GuardThread::write(std::size_t actuator, const Command& command, SimTime no
   writing_since_ns_ = kNotWriting;
   WrittenCommand& written = written_[actuator];
   written.command = command;
+  // The text of the first failure stays, until a write succeeds.
   if (failed && !written.failed) written.text = error.text;
   written.failed = failed;
 }

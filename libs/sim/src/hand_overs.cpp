@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// How a robot changes between its two sets of drivers. It is a chain of stages that advances with
+// the steps; until the exchange the robot keeps the drivers that it has, and each failure is a
+// refusal.
 #include "hand_overs.hpp"
 
 #include <algorithm>
@@ -64,6 +67,7 @@ Status HandOvers::check(const Twin& twin, DriverSet to) const {
     return fail(ErrorCode::kState, "robot `{}` already has its {} drivers", name,
                 reality_of(target));
   }
+  // The body of a real robot is what it is; it cannot take over one of another size.
   const double scale = truth_.scale_of(twin.robot);
   if (!target.simulated && scale != 1) {
     return fail(ErrorCode::kState, "the body of robot `{}` has `scale` {}; a real one has 1", name,
@@ -90,6 +94,7 @@ Status HandOvers::ask(std::uint64_t step, RobotId robot, DriverSet to, const Aut
   begin_stage(*twin, Twin::Stage::kOpening);
   // Nobody else shall wait for hardware. A stepped run waits.
   const bool beside = spec_.live_clock != nullptr && has_hardware(spec_.types[twin->type_of(to)]);
+  // The set may still be closing after an earlier hand-over; it must be closed before it is opened.
   auto open = [this, twin, before = std::move(twin->work)] {
     before.wait();
     return open_other(*twin);
@@ -102,6 +107,8 @@ void HandOvers::begin_stage(Twin& twin, Twin::Stage stage) {
   twin.stage = stage;
   twin.since = now_;
   twin.moved_at = twin.since;
+  // Only from here on does the robot stand. While devices are being opened it goes on with its
+  // task.
   guards_[twin.robot.value()].hold(stage == Twin::Stage::kStanding);
 }
 
@@ -129,6 +136,9 @@ void HandOvers::skip_to(std::uint64_t step) {
   }
 }
 
+// One stage after the other, and several in one step if nothing has to be waited for: open, listen,
+// stand, exchange. Once it is open, the other set is listened to in every step, so that a failure
+// ends the hand-over before anything has changed.
 void HandOvers::advance(Twin& twin) {
   if (twin.stage == Twin::Stage::kOpening) {
     if (!twin.work.ready()) {
@@ -194,6 +204,7 @@ bool HandOvers::stands(Twin& twin) {
   const RobotGroup& group = group_of(twin);
   // The command that makes it stand has to reach it first.
   if (now_ <= twin.since) return false;
+  // Of a simulated robot the truth is known; it needs no time of observation.
   if (group.type->simulated) {
     return is_below(truth_.velocity[r], kTrueStill_mps, kTrueStill_radps);
   }
@@ -201,6 +212,7 @@ bool HandOvers::stands(Twin& twin) {
   const bool obeys = std::any_of(group.actuators.begin(), group.actuators.end(),
                                  [](const ActuatorSlots& slots) { return slots.obeys[0] != 0; });
   if (!obeys) return true;
+  // Reported poses come late and are noisy: one still reading is not standing.
   if (!moves_seen(group, r)) return now_ - twin.moved_at >= kSeenToStand;
   twin.moved_at = now_;
   return false;
@@ -211,6 +223,7 @@ bool HandOvers::moves_seen(const RobotGroup& group, std::uint32_t robot) const {
   const ReportedPose& pose = reported_[robot];
   if (!pose.known || pose.stale) return true;
   if (!is_below(pose.velocity, kReportedStill_mps, kReportedStill_radps)) return true;
+  // An actuator that failed may not have received the command to stand.
   for (const ActuatorSlots& slots : group.actuators) {
     if (slots.failed[0] != 0) return true;
   }

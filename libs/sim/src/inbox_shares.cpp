@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Fair inboxes for messages from devices: who sends most makes room first.
 #include "inbox_shares.hpp"
 
 #include <algorithm>
@@ -46,12 +47,15 @@ std::uint32_t InboxShares::make_room(Mailbox& box, std::uint32_t from, std::size
   if (bytes > box.max_bytes || fits(box, bytes)) return 0;
   // Nobody goes for one that would not fit even then.
   const std::uint32_t mine = count_of(from);
+  // Tried on a copy: if there is no room even then, nothing has been taken out.
   std::vector<Share> left = shares_;
   std::vector<std::uint32_t> going;  // newest first
   std::vector<bool> goes(box.count);
   std::size_t used = box.bytes;
   while (box.count - going.size() >= box.max_messages || bytes > box.max_bytes - used) {
     const auto most = std::ranges::max_element(left, {}, &Share::count);
+    // With fewer than two more than the new sender, the exchange would only turn the unfairness
+    // round.
     if (most == left.end() || most->count < mine + 2) return 0;
     std::uint32_t newest = box.count - 1;
     while (goes[newest] || box.heads[newest].from != most->from) --newest;
@@ -60,6 +64,7 @@ std::uint32_t InboxShares::make_room(Mailbox& box, std::uint32_t from, std::size
     used -= box.heads[newest].size;
     --most->count;
   }
+  // From the back, so that the numbers of those before stay right.
   std::ranges::sort(going, std::greater());
   for (const std::uint32_t message : going) take_out(box, message);
   shares_ = std::move(left);

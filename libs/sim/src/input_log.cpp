@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Inputs since the last step. They become events of the step that begins next, because each event
+// belongs to one step.
 #include "input_log.hpp"
 
 #include <utility>
@@ -34,6 +36,7 @@ void InputLog::note_order(std::uint64_t step, const WorldInput& input, EventKind
 
 void InputLog::count_order(std::uint64_t step, const WorldInput& input, EventKind kind) {
   count(input.author);
+  // In the hash, but no event: a stick gives many orders a second.
   static_cast<void>(noted_order(step, input, kind, hash_));
 }
 

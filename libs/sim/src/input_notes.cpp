@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// What people and the scenario did, as events and in the run hash. Both are made here alone, so
+// that an engine and the authority of several hosts give the same sums.
 #include "input_notes.hpp"
 
 #include <utility>
@@ -54,6 +56,7 @@ void add_shape(ItemHash& item, const world::Shape& shape) {
 
 void add_body(ItemHash& item, const world::Body& body) {
   item.add(static_cast<std::uint64_t>(body.layer));
+  // One more than the code, so that no code differs from code 0.
   item.add(body.code ? std::uint64_t{1} + static_cast<std::uint32_t>(*body.code) : 0);
   item.add(body.code_z0_m);
   item.add(body.code_z1_m);
@@ -72,6 +75,7 @@ Event noted_obstacle(std::uint64_t step, const ObstacleChange& change, std::stri
   if (change.kind != ObstacleChange::Kind::kRemove) {
     for (const double number : {X_WB.x, X_WB.y, X_WB.yaw}) item.add(number);
   }
+  // Of a known obstacle the number says which body it is.
   if (change.kind == ObstacleChange::Kind::kAdd) add_body(item, change.body);
   hash.add(item);
   return event;
@@ -79,6 +83,8 @@ Event noted_obstacle(std::uint64_t step, const ObstacleChange& change, std::stri
 
 Event noted_order(std::uint64_t step, const WorldInput& input, EventKind kind, RunHash& hash) {
   const OrderDetails& order = input.order;
+  // Both kinds are in the key, so that no two inputs of a robot in one step hash alike by chance of
+  // their fields.
   ItemHash item(step, input.robot.value(), HashChannel::kInput,
                 static_cast<std::uint32_t>(kind) << 8U | static_cast<std::uint32_t>(input.kind));
   for (const Vec2 p_W : order.points_W) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The guard in wall time: it takes the newest sample of the pose sensor itself and does not rely on
+// the step.
 #include "live_guard.hpp"
 
 #include <algorithm>
@@ -16,6 +18,7 @@ namespace {
 constexpr double kForgetGap = 0.99;
 constexpr std::int64_t kQuiet_ns = from_seconds(kGuardQuiet_s).ns;
 
+// A stamp ahead of now has age 0; one that is far ahead is judged where it is read.
 double age_s(SimTime now, SimTime then) noexcept { return std::max(0.0, (now - then).seconds()); }
 
 }  // namespace
@@ -53,6 +56,7 @@ void LiveGuard::look_where(const GuardOrder& order, SimTime now) {
     const PoseReading read = pose_reading(pose_.kind, record);
     const Pose2 X_WR = compose(pose_.X_WM, {read.x_m, read.y_m, read.yaw_rad});
     const bool finite = std::isfinite(X_WR.x) && std::isfinite(X_WR.y) && std::isfinite(X_WR.yaw);
+    // The same sample is read many times; add() leaves out what is not newer.
     if (finite) static_cast<void>(track_.add({header.stamp_ns}, X_WR));
   }
   const auto stamp = track_.newest();
@@ -76,6 +80,7 @@ void LiveGuard::look_at_sensors() {
 /// Others have gone on since the world that they stand in, or have stopped there.
 void LiveGuard::look_around(const GuardOrder& order, double world_age_s) {
   neighbours_ = order.neighbours;
+  // Beyond the timeout `world_lost` decides what the robot does.
   const double since_s = std::min(world_age_s, limits_.world_timeout_s);
   for (const GuardNeighbour& other : order.neighbours) {
     if (other.velocity_W.vx == 0 && other.velocity_W.vy == 0) continue;
@@ -89,6 +94,7 @@ void LiveGuard::limit(const GuardOrder& order, SimTime now, std::span<Command> a
   note_gap(now);
   look_where(order, now);
   look_at_sensors();
+  // Without a pose in the step, the engine could not say who is near: as good as no pose here.
   if (limits_.separation_m >= 0 && !order.sees_others) input_.pose_known = false;
   input_.world_age_s = age_s(now, order.world_time);
   look_around(order, input_.world_age_s);
@@ -98,6 +104,7 @@ void LiveGuard::limit(const GuardOrder& order, SimTime now, std::span<Command> a
   guard_.set_holds(order.holds);
   for (std::size_t a = 0; a < order.demands.size(); ++a) {
     const ActuatorDemand& demand = order.demands[a];
+    // A copy for each actuator; the spans point to what all share.
     GuardInput input = input_;
     input.neighbours = neighbours_;
     input.sensors = ages_;

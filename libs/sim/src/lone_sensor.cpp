@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A virtual sensor without an engine, for a person who tries one beside the run. Nothing of it
+// reaches the run or its hash.
 #include "rave/sim/lone_sensor.hpp"
 
 #include <algorithm>
@@ -71,6 +73,7 @@ Result<std::unique_ptr<LoneSensor>> LoneSensor::make(SensorSpec spec, double ste
     info.capacity = declaration.fan.ray_count / declaration.fan.rays_per_reading;
     describe_fan(declaration, info);
   }
+  // A person may try any parameters; what would take seconds per sample is refused.
   if (info.capacity > kMostRecords || (parts->uses_fan && declaration.fan.ray_count > kMostRays)) {
     return fail(ErrorCode::kInvalidArgument,
                 "the sensor has {} readings of {} rays; expected at most {} of {}", info.capacity,
@@ -88,6 +91,7 @@ Result<std::unique_ptr<LoneSensor>> LoneSensor::make(SensorSpec spec, double ste
 Status LoneSensor::sample(const world::Snapshot& world, RobotId robot, std::uint64_t seed) {
   Parts& its = *parts_;
   if (its.failed || !world.robot(robot).present) return {};
+  // The time since its last sample, whatever that was: the page asks when it wants to.
   const double elapsed_s =
       its.header.sequence == 0 ? 0 : SimTime{world.time().ns - its.header.stamp_ns}.seconds();
   const std::uint32_t sequence = its.header.sequence;

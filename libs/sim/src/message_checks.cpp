@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Everything that comes from another process is checked here before any of it is used. A report or
+// world that does not pass changes nothing.
 #include "message_checks.hpp"
 
 #include <algorithm>
@@ -41,6 +43,8 @@ Status check_robots(const EngineSpec& spec, std::span<const RobotId> expected,
                     const Robots& robots, Number number_of, std::string_view what) {
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const std::uint32_t robot = number_of(robots[i]);
+    // The rest of the loop finds out what is wrong, for the error: in a right report it is never
+    // reached.
     if (i < expected.size() && expected[i].value() == robot) continue;
     if (robot >= host_of.size())
       return wrong(spec, robot, fmt::format("{}, but it does not exist", what));
@@ -106,6 +110,7 @@ Status check_samples(const EngineSpec& spec, std::uint64_t step,
     if (!is_finite(sample.X_WR)) return wrong(spec, robot, "a sample that is not finite");
     if (sample.stamp.ns > time_ns(spec, step))
       return wrong(spec, robot, "a sample from the future");
+    // Strictly ascending: no sample twice, and the same order on every host.
     if (before != nullptr &&
         std::tie(sample.robot, sample.stamp) <= std::tie(before->robot, before->stamp)) {
       return wrong(spec, robot, "samples out of order");
@@ -123,6 +128,7 @@ Status check_packet(const EngineSpec& spec, std::uint64_t step, const SentPacket
     return wrong(spec, robot, "a message of a communicator that it does not have");
   }
   if (packet.size > SentPacket::kMostBytes ||
+      // In 64 bits: the sum of two numbers from another process may not fit into 32.
       std::uint64_t{packet.first_byte} + packet.size > sent.bytes.size()) {
     return wrong(spec, robot, "a message with missing bytes");
   }
@@ -132,6 +138,7 @@ Status check_packet(const EngineSpec& spec, std::uint64_t step, const SentPacket
         packet.range_m >= 0 && std::isfinite(packet.antenna_z_m))) {
     return wrong(spec, robot, "a message with a position or range that is not finite");
   }
+  // The report of step n has what left its sender in step n - 1.
   const std::int64_t begin_ns = time_ns(spec, step) - spec.step.ns;
   if (packet.complete_ns < begin_ns || packet.complete_ns > begin_ns + spec.step.ns ||
       packet.stamp_ns > begin_ns) {
@@ -195,6 +202,7 @@ Status check_inputs(const EngineSpec& spec, const WorldStep& world) {
 }
 
 /// Which obstacles there are while changes are made one after the other.
+/// Numbers depend on the changes before, so a list is checked as a whole, without making one.
 class ObstacleRoll {
  public:
   /// As the world is now.
@@ -255,6 +263,7 @@ Status check_obstacles(const EngineSpec& spec, const WorldStep& world) {
 }  // namespace
 
 void HostRobots::set_type(RobotId robot, const RobotType& type) {
+  // Both lists stay ascending, because reports are compared with them element by element.
   const auto put = [robot](std::vector<RobotId>& robots, bool is_one) {
     const auto place = std::lower_bound(robots.begin(), robots.end(), robot);
     const bool was_one = place != robots.end() && *place == robot;
@@ -278,6 +287,7 @@ Status check_report(const EngineSpec& spec, const HostRobots& own,
 }
 
 Status check_world_step(const EngineSpec& spec, const WorldStep& world) {
+  // First, since the rest takes the lengths of the columns for granted.
   RAVE_TRY(check_columns(spec, world));
   const std::size_t count = spec.robots.size();
   for (const PushedRobot& pushed : world.pushed) {
@@ -307,6 +317,8 @@ Status check_world_step(const EngineSpec& spec, const WorldStep& world) {
 
 Status check_told_obstacles(const EngineSpec& spec, const WorldStep& world,
                             const AuthorityState& state) {
+  // A manager leaves them out of most worlds, because they are long. A late host needs a world that
+  // has them.
   if (state.obstacles.empty() && state.obstacle_changes > 0) {
     return fail(ErrorCode::kInvalidArgument,
                 "obstacles had changed {} times before this world, but the changes are missing",
@@ -324,6 +336,7 @@ Status check_told_obstacles(const EngineSpec& spec, const WorldStep& world,
 Status check_taken_over(const EngineSpec& spec, const WorldStep& world, const AuthorityState& state,
                         bool needs_obstacles) {
   WorldStep bare = world;
+  // These are relative to the obstacles of `state` and not to those that this process has now.
   bare.obstacles.clear();
   RAVE_TRY(check_world_step(spec, bare));
   if (needs_obstacles) RAVE_TRY(check_told_obstacles(spec, world, state));

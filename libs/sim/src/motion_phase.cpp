@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The broad phase: moves the robots for which each test of the resolver must end without a hit. The
+// bounds are derived in docs/explanation/motion.md.
 #include "motion_phase.hpp"
 
 #include <algorithm>
@@ -27,6 +29,8 @@ bool is_beyond(const world::Snapshot& snapshot, const world::ShapePiece& piece, 
   const Vec2* const vertices = snapshot.vertices_W() + piece.first_vertex;
   const Vec2* const normals = snapshot.normals_W() + piece.first_vertex;
   for (std::uint32_t k = 0; k < piece.vertex_count; ++k) {
+    // n.(p - v) is a lower bound of the distance from the polygon, near corners a loose one. That
+    // only sends some free robots to the resolver.
     if (dot(normals[k], p_W - vertices[k]) > reach_m) return true;
   }
   return false;
@@ -47,6 +51,7 @@ void MotionPhase::run(const world::Snapshot& snapshot, double dt_s, const Motion
   const Step step{snapshot, dt_s, robots};
   pool_->for_each_block(blocks, measure_effort_,
                         [this, &step](std::size_t b, unsigned) { measure(step, b); });
+  // Two passes, since how far a robot has to look depends on the fastest of all.
   slack_m_ = 0;
   for (const double slack_m : block_slack_m_) slack_m_ = std::max(slack_m_, slack_m);
   moves_m_ = std::max(slack_m_, watch_.look(snapshot));
@@ -55,6 +60,7 @@ void MotionPhase::run(const world::Snapshot& snapshot, double dt_s, const Motion
   notes.clear();
   resolved_ = 0;
   const auto begin = way_.begin();
+  // In the order of ids, on one thread: from here on each robot depends on those before it.
   for (auto it = std::find(begin, way_.end(), kToResolve); it != way_.end();
        it = std::find(it + 1, way_.end(), kToResolve)) {
     resolve(step, static_cast<std::uint32_t>(it - begin), notes);
@@ -96,6 +102,7 @@ const NearLists* MotionPhase::find_near(const Step& step, std::size_t block) {
   const std::size_t count = std::min(kBlock, way_.size() - first);
   std::array<Vec2, kBlock> places_W;
   for (std::uint32_t i = 0; i < count; ++i) {
+    // From the snapshot, not from the movers: other blocks may be moving theirs.
     places_W[i] = world.robot(RobotId(first + i)).X_WR.position();
   }
   NearLists& lists = near_[block];
@@ -109,6 +116,8 @@ const NearLists* MotionPhase::find_near(const Step& step, std::size_t block) {
     const std::uint32_t robot = first + i;
     const bool asks = step.robots.movers[robot].simulated;
     const double reach_m = look_m(resolver_->radius_m(robot) + slack_m_) + margin_m;
+    // Numbers of pieces stay valid for as long as the lists hold, because a new index of obstacles
+    // begins a new generation.
     if (asks) {
       world.for_each_standing_near(places_W[i], reach_m,
                                    [&](const world::ShapePiece& piece) { lists.add(piece.index); });
@@ -131,6 +140,7 @@ MotionPhase::Way MotionPhase::try_to_go(const Step& step, std::uint32_t robot,
   if (!mover.simulated) return kStands;
   step.robots.touch[robot] = {};
   const Twist2& twist = step.robots.proposal[robot];
+  // A robot that stands meets nothing by its own motion; whoever comes near it stops at it.
   if (twist == Twist2{}) {
     step.robots.velocity[robot] = {};
     step.robots.limited[robot] = 0;
@@ -160,6 +170,7 @@ bool MotionPhase::may_meet(const Step& step, std::uint32_t robot, std::uint32_t 
   const Vec2 apart = step.snapshot.robot(RobotId(other)).X_WR.position() -
                      step.robots.movers[robot].X_WR.position();
   const double reach_m = reach_m_[robot] + reach_m_[other] + kApart_m;
+  // Not `<=`: a place that is not a number counts as near.
   return !(squared_norm(apart) > reach_m * reach_m);
 }
 
@@ -208,11 +219,15 @@ void MotionPhase::resolve(const Step& step, std::uint32_t robot, std::vector<Con
   const Twist2& twist = step.robots.proposal[robot];
   const Pose2 X_wanted = integrate(X_before, twist, step.dt_s);
   const std::size_t first = notes.size();
+  // The resolver follows the chord of the arc. Only a robot that meets nothing gets the end of the
+  // exact arc.
   resolver_->move(robot, {X_wanted.x - X_before.x, X_wanted.y - X_before.y, twist.wz * step.dt_s},
                   step.snapshot, slack_m_, step.robots.movers, notes, way_);
   const bool limited = notes.size() > first;
   step.robots.limited[robot] = limited ? 1 : 0;
   if (limited) {
+    // advance() adds angles. What the actuator is told is the velocity that leads along the arc
+    // from the old pose to the new one.
     mover.X_WR.yaw = wrap_angle(mover.X_WR.yaw);
     step.robots.velocity[robot] = twist_between(X_before, mover.X_WR, step.dt_s);
   } else {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Chooses the pieces near a sensor from the columns of a grid, 4 to 16 at a time.
 #include "near_kernel.hpp"
 
 // Compiled once for each set of instructions.
@@ -20,6 +21,8 @@ using Floats = hn::CappedTag<float, world::kPiecePadding>;
 template <class V>
 HWY_INLINE auto in_field(const NearField& field, V dx, V dy, V reach) {
   const Floats d;
+  // Edges are unit vectors, so cross products are distances from the lines through them. What lies
+  // behind the sensor may pass; it costs time and changes no reading.
   const auto from_right =
       hn::Sub(hn::Mul(hn::Set(d, field.right_x), dy), hn::Mul(hn::Set(d, field.right_y), dx));
   const auto to_left =
@@ -48,6 +51,7 @@ std::size_t select_near(const world::ShapeGrid& grid, const world::CellBlock& bl
       const auto reach = hn::Add(own, radius);
       auto near = hn::Le(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(reach, reach));
       if (field.field.limited) near = hn::And(near, in_field(field, dx, dy, own));
+      // The last vector of a row reads into the next one, or into the padding of the columns.
       const auto in_row = hn::FirstN(d, row.end - i);
       count += hn::CompressStore(hn::Iota(words, i), hn::RebindMask(words, hn::And(near, in_row)),
                                  words, found + count);

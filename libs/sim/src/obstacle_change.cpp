@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Changes of obstacles come from files, people and other processes. What is wrong by itself is
+// found here; whether there is room is up to the world.
 #include "rave/sim/obstacle_change.hpp"
 
 #include <cmath>
@@ -30,6 +32,7 @@ Status check_name(const ObstacleChange& change) {
 
 Status check_number(const ObstacleChange& change, std::string_view what, double value, double most,
                     std::string_view unit) {
+  // Not a number compares false and is refused with the rest.
   if (std::abs(value) <= most) return {};
   return fail(ErrorCode::kInvalidArgument, "obstacle `{}`: {} is {}; expected within +-{} {}",
               change.name, what, value, most, unit);
@@ -76,6 +79,7 @@ Status check_body(const ObstacleChange& change) {
                 "obstacle `{}` reaches {} m from its origin; expected at most {} m", change.name,
                 body.radius_m(), ObstacleChange::kLargest_m);
   }
+  // An obstacle on a layer of robots would be sensed as one.
   if (body.layer != Layer::kVirtualObstacles && body.layer != Layer::kMappedReal) {
     return wrong("its layer is one of robots; expected `virtual_obstacles` or `mapped_real`");
   }
@@ -99,6 +103,7 @@ Event obstacle_event(std::uint64_t step, const ObstacleChange& change, std::stri
   const Pose2& X_WB = change.X_WB;
   std::string text = fmt::format("`{}`", change.name);
   if (change.kind != Kind::kRemove) {
+    // All digits, because the text of this event is part of the run hash.
     text += fmt::format(" at ({}, {}), yaw {} rad", X_WB.x, X_WB.y, X_WB.yaw);
   }
   text += note;

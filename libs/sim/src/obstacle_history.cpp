@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// All changes of obstacles since the start, shortened to what is left of them, for a host that
+// comes late.
 #include "rave/sim/obstacle_history.hpp"
 
 namespace rave::sim {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Where obstacles were in the past, as a list of changes that can be gone through in both
+// directions.
 #include "obstacle_journal.hpp"
 
 namespace rave::sim {
@@ -28,6 +30,8 @@ void ObstacleJournal::clear() noexcept {
   first_ = 0;
 }
 
+// A snapshot of the past goes from the revision that it shows to the wanted one, forward or
+// backward, change by change: cheaper than placing all obstacles anew.
 void ObstacleJournal::show(world::Snapshot& world, std::uint64_t& shown,
                            std::uint64_t wanted) const {
   if (shown == wanted) return;

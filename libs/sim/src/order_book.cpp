@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Orders of people: given to the program if it takes their kind, otherwise to a controller in the
+// place of the program. Controllers get them again in each step, as if a program spoke.
 #include "order_book.hpp"
 
 #include <algorithm>
@@ -73,7 +75,9 @@ OrderSet OrderBook::takes(RobotId robot) const {
 
 Status OrderBook::take(std::uint64_t step, const WorldInput& input, const GuardHolds& holds,
                        bool handed_over) {
+  // A text moves nothing, so a robot that stands may get one.
   if (input.kind == InputKind::kText) return take_text(step, input);
+  // Refused and not kept: a robot must not begin to drive by an old order when it is released.
   if (holds.stopped) {
     return refused_order(spec_, input, ErrorCode::kState,
                          "it is stopped; a stop holds until it is released");
@@ -101,6 +105,7 @@ Status OrderBook::take_motion(std::uint64_t step, const WorldInput& input) {
   const RobotGroup& group = roster_.group_of(input.robot);
   const std::size_t m = roster_.member_of(input.robot);
   const bool drive = input.kind == InputKind::kDrive;
+  // The program first: it knows about its task what a controller does not.
   if (!drive && takes_by_program(group, m, order_kind(input.kind))) {
     give_to_program(step, input);
     return {};
@@ -216,6 +221,7 @@ void OrderBook::show(std::uint64_t step) {
       robot.waiting.clear();
       continue;
     }
+    // Orders wait for the next decision of the program, which may be some steps away.
     if (!is_due(step, program.spec->period_steps, program.spec->phase_steps)) continue;
     robot.show();
     program.items[m].orders = robot.items.data();
@@ -238,6 +244,8 @@ void OrderBook::take_answers(const OrderMoment& moment, AnswerBook& answers) {
   std::uint32_t of_robot = RobotId::kNone;
   for (AnswerBook::Answer& answer : answers.take(static_cast<std::int64_t>(moment.now.seconds()))) {
     const RobotId id(answer.robot);
+    // Answers are sorted by robot; the number tells those of one robot in one step apart in the
+    // hash.
     number = answer.robot == of_robot ? number + 1 : 0;
     of_robot = answer.robot;
     ItemHash item(moment.step, answer.robot, HashChannel::kCommand, 0x8000'0000U | number);
@@ -262,11 +270,14 @@ void OrderBook::steer(const OrderMoment& moment) {
     const std::size_t m = roster_.member_of(RobotId(r));
     ControllerSlots& own = group.controllers[*robot.controller];
     const auto present = static_cast<std::int64_t>(moment.step);
+    // A program that goes on commanding another controller of the actuator must not win.
     for (ControllerSlots& slots : group.controllers) {
       // The one that was given a command last speaks to the actuator.
       if (slots.spec->actuator != own.spec->actuator) continue;
       slots.last_step[m] = std::min(slots.last_step[m], present - 1);
     }
+    // Given anew in each step, so that its age is 0: nobody has to repeat an order for the
+    // watchdog.
     own.last[m] = robot.command;
     own.last_step[m] = present;
     if (!robot.driven && !robot.reached) look_at_goal(moment, RobotId(r), robot);
@@ -277,6 +288,7 @@ void OrderBook::look_at_goal(const OrderMoment& moment, RobotId id, OrderedRobot
   const ReportedPose& pose = moment.reported[id.value()];
   const double dx_m = robot.command.value[0] - pose.pose.x_m;
   const double dy_m = robot.command.value[1] - pose.pose.y_m;
+  // A robot whose pose is lost has reached nothing.
   const bool there = pose.known && !pose.stale &&
                      dx_m * dx_m + dy_m * dy_m <= robot.tolerance_m * robot.tolerance_m;
   if (!there) return;

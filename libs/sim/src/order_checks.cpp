@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Orders come from people and from other processes, so their numbers, texts and places are checked
+// before anything is done. Both the engine and the authority use these checks.
 #include "order_checks.hpp"
 
 #include <algorithm>
@@ -76,6 +78,7 @@ const world::Obstacle* obstacle_at(const world::WorldModel& world, const world::
         squared_norm(p_W - obstacle.X_WB.position()) > radius_m * radius_m + 1e-9) {
       continue;
     }
+    // A point and not the body of the robot: how near it can come is found out by driving there.
     if (covers(obstacle.body, transform_back(obstacle.X_WB, p_W), z0_m, z1_m)) return &obstacle;
   }
   return nullptr;
@@ -103,6 +106,7 @@ Status check_point(const EngineSpec& spec, const WorldInput& input, const Box& b
     return wrong(spec, input,
                  fmt::format("({}, {}) is not a point; expected metres", p_W.x, p_W.y));
   }
+  // A slip of the decimal point would otherwise send a robot away for good.
   if (p_W.x < box.low.x || p_W.x > box.high.x || p_W.y < box.low.y || p_W.y > box.high.y) {
     return wrong(spec, input,
                  fmt::format("({:.2f}, {:.2f}) is outside the world; expected x from {:.2f} to "
@@ -133,6 +137,7 @@ Status check_points(const EngineSpec& spec, const WorldInput& input) {
     return wrong(spec, input,
                  path ? path_size_text(count) : fmt::format("{} points; expected one", count));
   }
+  // Of the world as it is now: obstacles may have come or gone since the start.
   const Box box = world_box(spec);
   for (const Vec2 p_W : input.order.points_W) RAVE_TRY(check_point(spec, input, box, p_W));
   const double yaw_rad = input.order.yaw_rad.value_or(0);
@@ -178,6 +183,8 @@ OrderKind order_kind(WorldInput::Kind kind) noexcept {
   }
 }
 
+// What another process may send at all. Whether an order makes sense is check_order(), whose errors
+// are for people.
 bool is_order_formed(const WorldInput& input) noexcept {
   const OrderDetails& order = input.order;
   bool formed = is_order(input.kind) && order.text.size() <= kMostOrderText &&
@@ -203,6 +210,7 @@ Status check_order(const EngineSpec& spec, const WorldInput& input) {
                 "the name of the author has {} bytes, or control characters; expected at most {}",
                 name.size(), kMostOrderAuthor);
   }
+  // Only a cancellation may be meant for all robots: nobody can send all of them to one place.
   const bool for_all = input.kind == InputKind::kCancel && !input.robot.valid();
   if (!for_all && input.robot.value() >= spec.robots.size()) {
     return fail(ErrorCode::kInvalidArgument, "`{}` needs a robot",

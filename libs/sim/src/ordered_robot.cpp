@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Orders that wait for the next decision of a program, and as the program sees them.
 #include <algorithm>
 
 #include "order_book.hpp"
@@ -8,6 +9,7 @@ namespace rave::sim {
 
 void OrderedRobot::wait_for_program(const WorldInput& input) {
   const bool text = input.kind == WorldInput::Kind::kText;
+  // The newest motion replaces those before it; texts are all kept, up to a limit.
   if (!text) {
     std::erase_if(waiting,
                   [](const WorldInput& one) { return one.kind != WorldInput::Kind::kText; });

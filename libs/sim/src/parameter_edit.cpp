@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Parameters of running parts. They are tried on the plug-in at once; until keep() is called, the
+// end of an edit gives all parts their former values back.
 #include "parameter_edit.hpp"
 
 #include <algorithm>
@@ -33,6 +35,7 @@ Result<ParameterTarget> program_target(RobotGroup& group, std::size_t m) {
   ParameterTarget target{
       "program", slots.spec->param_specs, present_values(slots, m), &slots.changed[m], {}};
   if (slots.spec->isolate) {
+    // The process also learns the radius of the body, which it cannot see from where it is.
     target.update = [&slots, m](std::span<const ParamValue> values) {
       return slots.processes[m]->update(values, slots.setups[m].robot.radius_m);
     };
@@ -51,6 +54,7 @@ Result<ParameterTarget> device_target(std::vector<Slots>& devices, std::string_v
     return fail(ErrorCode::kNotFound, "the robot has no {} with this number", part);
   }
   Slots& slots = devices[index];
+  // A plug-in that failed is not called again.
   if (slots.failed[m] != 0) {
     return fail(ErrorCode::kState, "{} `{}` has failed", part, slots.spec->name);
   }
@@ -75,6 +79,7 @@ Result<ParameterTarget> actuator_target(RobotGroup& group, std::uint32_t index, 
   RAVE_TRY_ASSIGN(ParameterTarget target, device_target(group.actuators, "actuator", index, m));
   ActuatorSlots& slots = group.actuators[index];
   target.update = [&slots, m](std::span<const ParamValue> values) -> Status {
+    // A real actuator takes its parameters when it is opened.
     if (slots.spec->virtual_ops == nullptr) {
       return fail(ErrorCode::kInvalidArgument, "the parameters of a real actuator cannot change");
     }
@@ -125,6 +130,7 @@ std::string change_text(const ParameterTarget& target,
 
 }  // namespace
 
+// All changes of one part in one call, since a plug-in may accept only some combinations.
 Status ParameterEdit::make(const ParameterChange& first, std::span<const ParameterChange> changes) {
   const std::pair key{first.part, first.index};
   if (std::find(seen_.begin(), seen_.end(), key) != seen_.end()) return {};
@@ -138,6 +144,7 @@ Status ParameterEdit::make(const ParameterChange& first, std::span<const Paramet
                   parameter_target(group_, member_, first.part, first.index));
   where_ = target.name;
   RAVE_TRY_ASSIGN(plugin::ParamSet next, with_changes(target.specs, target.present, together));
+  // Before the update, while the old values can still be told.
   std::string text = change_text(target, together);
   RAVE_TRY(target.update(next.values()));
   made_.push_back({std::move(target), std::move(next), std::move(text)});

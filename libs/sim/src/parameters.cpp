@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Values of parameters that people change during a run, checked against what the plug-in declared.
 #include "parameters.hpp"
 
 #include <algorithm>
@@ -85,6 +86,7 @@ Status check_value(const ParamSpec& spec, const ParameterValue& value) {
       }
       return {};
     case ParamType::kInteger:
+      // Whole numbers are kept as doubles, exactly up to 2^53.
       if (number == nullptr || *number != std::floor(*number)) {
         return wrong_type(spec, "a whole number");
       }
@@ -115,9 +117,11 @@ Result<plugin::ParamSet> with_changes(std::span<const ParamSpec> specs,
       return fail(ErrorCode::kNotFound, "there is no parameter `{}`{}", change->name,
                   suggestion(change->name, names));
     }
+    // All are checked before a set is made, so that an error changes nothing.
     RAVE_TRY(check_value(specs[static_cast<std::size_t>(spec - names.begin())], change->value));
   }
   plugin::ParamSet set;
+  // A plug-in always gets all its parameters: the present ones with the changes in place.
   for (const ParamSpec& spec : specs) {
     const ParameterChange* changed = nullptr;
     for (const ParameterChange* const change : changes) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A step of the radio: deliver, collect, send, reach. What a phase does is in
+// docs/explanation/radio.md; the models and devices are made in radio_make.cpp.
 #include "radio.hpp"
 
 #include <algorithm>
@@ -9,6 +11,7 @@ namespace {
 /// Packets that one thread takes at a time. Part of no result.
 constexpr std::size_t kBlockSize = 16;
 
+// Sender first: deliveries of a step are sorted by this number.
 std::uint64_t order_of(std::uint32_t endpoint, std::uint32_t sequence) {
   return (std::uint64_t{endpoint} << 32U) | sequence;
 }
@@ -36,6 +39,7 @@ RadioCounts& RadioCounts::operator+=(const RadioCounts& other) noexcept {
 }
 
 void Radio::deliver(const RadioMoment& moment) {
+  // Observers of the last step have read the traces, which refer to the bytes of these packets.
   for (const std::uint32_t packet : done_) packets_.release(packet);
   done_.clear();
   traces_.clear();
@@ -52,6 +56,8 @@ void Radio::deliver(const RadioMoment& moment) {
 void Radio::hand_over(const RadioMoment& moment, Endpoint& to, MessageHead head,
                       std::uint32_t packet) {
   const std::span<const std::byte> bytes = packets_.bytes_of(packet);
+  // Anybody may send to a device, so no sender may crowd out the others. In a stepped run the order
+  // of the messages is fixed, and the last ones are lost.
   if (live_) {
     const std::uint32_t pushed_out = to.shares.make_room(to.in, head.from, bytes.size());
     counts_.delivered -= pushed_out;
@@ -94,6 +100,7 @@ void Radio::collect(const RadioMoment& moment, RobotId robot, bool accepted) {
   for (std::uint32_t e = first_endpoint_[robot.value()]; e < first_endpoint_[robot.value() + 1];
        ++e) {
     Endpoint& endpoint = endpoints_[e];
+    // The program has decided, so it has read its inbox.
     endpoint.in.clear();
     endpoint.shares.clear();
     if (accepted) {
@@ -122,6 +129,7 @@ void Radio::offer(const RadioMoment& moment, Endpoint& sender, const MessageHead
   }
   StoredPacket packet;
   packet.head = message;
+  // Sender, number and stamp are set here: a program cannot speak in the name of another robot.
   packet.head.from = sender.robot;
   packet.head.sequence = sequence;
   packet.head.stamp_ns = moment.now.ns;
@@ -152,6 +160,7 @@ void Radio::send_out(const RadioMoment& moment) {
     }
     ++counts_.sent;
     carried_.push_back(packet);
+    // The position when the last byte leaves, which the receiver measures its distance from.
     packets_[packet].origin = origin_of(moment, sender);
     const MessageHead& head = packets_[packet].head;
     trace({RobotId(head.from),
@@ -190,6 +199,7 @@ void Radio::carry(const RadioMoment& moment) {
 /// Fills `reaches_` and `arrivals_` with what becomes of the packets in `carried_`.
 void Radio::find_receivers(const RadioMoment& moment) {
   for (Channel& channel : channels_) channel.placed = false;
+  // Only broadcasts with a range need the grid, and only on their channels.
   for (const std::uint32_t packet : carried_) {
     const StoredPacket& sent = packets_[packet];
     if (sent.origin.range_m > 0 && sent.head.to.kind != RecipientKind::kRobot) {
@@ -198,6 +208,7 @@ void Radio::find_receivers(const RadioMoment& moment) {
   }
   const std::size_t blocks = (carried_.size() + kBlockSize - 1) / kBlockSize;
   if (reaches_.size() < blocks) reaches_.resize(blocks);
+  // Those of an earlier step with more blocks must not report their failure again.
   for (std::size_t b = blocks; b < reaches_.size(); ++b) reaches_[b].failed_model = kNobody;
   pool_.for_each_block(blocks, effort_, [&](std::size_t b, unsigned) {
     Reach& found = reaches_[b];
@@ -209,6 +220,7 @@ void Radio::find_receivers(const RadioMoment& moment) {
     for (std::size_t i = b * kBlockSize; i < end; ++i) reach(carried_[i], moment, found);
   });
   for (std::size_t b = 0; b < blocks; ++b) {
+    // In the order of the blocks, whichever thread was first.
     const Reach& found = reaches_[b];
     counts_ += found.counts;
     for (std::size_t i = 0; i < found.deliveries.size(); ++i) {

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// Messages through devices: packets that come in are checked, attributed and judged by the
+// receiver; messages that go out are encoded. These runs are live, so nothing here has to be
+// repeatable.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -101,6 +104,8 @@ void Radio::hear_packet(const RadioMoment& moment, RadioLine& line, const RadioP
       (packet.to == RecipientKind::kRobot && packet.recipient == name_hash_[line.robot]) ||
       (packet.to == RecipientKind::kTeam && !robot.team.empty() &&
        packet.recipient == radio_name_hash(robot.team));
+  // A radio also receives what is not for it: other networks, its own echo, other channels, other
+  // robots. That is counted and not an error.
   if (packet.network != line.declaration.network || packet.sender == name_hash_[line.robot] ||
       found == line.senders.end() || !for_us) {
     ++counts_.foreign;
@@ -120,6 +125,7 @@ void Radio::hear_packet(const RadioMoment& moment, RadioLine& line, const RadioP
     return;
   }
   StoredPacket stored;
+  // The time of this host: the clock of the sender may be another one.
   stored.head.stamp_ns = moment.now.ns;
   stored.head.from = from;
   stored.head.sequence = packet.sequence;
@@ -134,6 +140,7 @@ bool Radio::in_reach(const RadioMoment& moment, const Endpoint& to, const RadioP
                      std::uint32_t from) {
   const RadioDeclaration& receiver = models_[to.model].declaration;
   const ReportedPose& there = moment.reported[to.robot];
+  // The rule of reach_one(), with what the packet says instead of what the sender's host knows.
   const bool sight = packet.line_of_sight || receiver.line_of_sight != 0;
   const std::optional<Vec2> said = position_of(moment, packet, from);
   LinkQuery query;
@@ -187,6 +194,7 @@ void Radio::transmit(const RadioMoment& moment, RadioLine& line, std::uint32_t p
   out.channel = channels_[sender.channel].hash;
   out.to = stored.head.to.kind;
   const std::uint32_t to = stored.head.to.robot;
+  // Numbers of robots mean nothing outside the scenario; names are sent as hashes.
   if (out.to == RecipientKind::kRobot) {
     const std::size_t robots = spec_.robots.size();
     if (to < robots) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The fixed part of the radio: models by type, endpoints by robot and communicator, lines by robot
+// and transmitter, channels by name. Their numbers are the same on all hosts.
 #include <algorithm>
 #include <utility>
 
@@ -10,6 +12,7 @@ namespace rave::sim {
 namespace {
 
 Status check(const RadioDeclaration& radio) {
+  // A packet has 16 bits for the size of a message; the other limits bound the memory of mailboxes.
   const bool sound = radio.range_m >= 0 && radio.byte_rate >= 0 && radio.max_messages > 0 &&
                      radio.max_message_bytes > 0 && radio.max_message_bytes <= 0xFFFFU &&
                      radio.max_mailbox_bytes >= radio.max_message_bytes &&
@@ -31,6 +34,7 @@ Error Radio::named(std::uint32_t robot, std::string_view kind, std::string_view 
 }
 
 Status Radio::make() {
+  // One entry more than robots: the endpoints of robot r are those from its entry to the next.
   first_endpoint_.assign(spec_.robots.size() + 1, 0);
   first_line_.assign(spec_.robots.size() + 1, 0);
   infos_.resize(spec_.types.size());
@@ -41,6 +45,7 @@ Status Radio::make() {
   return {};
 }
 
+// One model for all robots of a type: link() gets all that differs by robot in its query.
 Status Radio::make_models() {
   models_of_.resize(spec_.types.size());
   for (std::uint32_t r = 0; r < spec_.robots.size(); ++r) {
@@ -101,6 +106,8 @@ Status Radio::make_robot(std::uint32_t robot) {
     Endpoint endpoint;
     endpoint.robot = robot;
     endpoint.device = c;
+    // Robots of other hosts have endpoints, too, so that endpoints have the same numbers on every
+    // host.
     endpoint.model = local_[robot] != 0 ? models_of_[t][c] : kNobody;
     endpoint.line = first + communicator.transmitter;
     endpoint.team = team_of(robot);
@@ -112,6 +119,7 @@ Status Radio::make_robot(std::uint32_t robot) {
       channel.name = communicator.name;
       channel.hash = radio_name_hash(communicator.name);
     }
+    // In the order of the file, which decides between messages that could begin at the same time.
     lines_[endpoint.line].senders.push_back(static_cast<std::uint32_t>(endpoints_.size()));
     endpoints_.push_back(std::move(endpoint));
   }
@@ -120,6 +128,7 @@ Status Radio::make_robot(std::uint32_t robot) {
   return {};
 }
 
+// One allocation for all boxes, in the order in which they are read. Programs get pointers into it.
 void Radio::lay_out_mailboxes() {
   std::size_t heads = 0;
   std::size_t bytes = 0;
@@ -165,6 +174,7 @@ void Radio::clear() {
     if (line.port) line.port->clear();
   }
   for (RadioModel& model : models_) model.failed = false;
+  // Strangers of the last run get their numbers anew, in the order in which they are heard.
   std::erase_if(by_hash_, [&](const auto& known) { return known.second >= spec_.robots.size(); });
   foreign_.clear();
   packets_.begin(longest_message_);
@@ -186,7 +196,9 @@ Status Radio::configure_line(RadioLine& line) {
   RAVE_TRY(called([&](ErrorText* error) {
     return line.spec->ops->configure(line.instance.at(0), &setup, &line.declaration, error);
   }));
+  // Carried by the engine itself: no queue, no device to open.
   if (line.declaration.in_process != 0) return {};
+  // A device follows the wall clock, and lock-step must not.
   if (spec_.local && !spec_.own_authority) {
     return fail(ErrorCode::kInvalidArgument,
                 "is a device, which follows the wall clock; robots of several hosts in lock-step "
@@ -228,6 +240,7 @@ Status Radio::open() {
   for (RadioLine& line : lines_) {
     if (local_[line.robot] == 0) continue;
     Status status;
+    // Configured once; a reset opens the same devices again.
     if (!configured_) status = configure_line(line);
     if (status && line.declaration.in_process == 0) status = open_line(line);
     if (!status) {

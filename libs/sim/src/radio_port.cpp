@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The queue between the thread of a device and the engine. It has a fixed size, and a sender that
+// floods loses its own packets and not those of others.
 #include "radio_port.hpp"
 
 #include <algorithm>
@@ -52,6 +54,7 @@ void RadioPort::receive(const std::byte* packet, std::uint64_t size) noexcept {
     ++overruns_;
     return;
   }
+  // The thread of the driver never waits for the engine; what is too much is dropped.
   if (free_.empty()) drop_one();
   Slot& slot = slots_[free_.back()];
   slot.size = size;
@@ -95,6 +98,7 @@ bool RadioPort::next(std::span<const std::byte>& packet) {
   queue_.erase(queue_.begin());
   free_.push_back(oldest);
   uncount_one(held_, slots_[oldest].sender);
+  // Swapped out, so that the caller can read the bytes without the lock until its next call.
   std::swap(taken_, slots_[oldest]);
   packet = std::span(taken_.bytes).first(taken_.size);
   return true;
@@ -129,12 +133,15 @@ void RadioPort::clear() {
   failure_.clear();
 }
 
+// The window of the last 64 sequence numbers of each sender, one bit each, as in the protection of
+// IPsec against replay (RFC 4303, section 3.4.3). Radios may repeat packets and change their order.
 bool RepeatFilter::accept(std::uint32_t sender, std::uint32_t channel, std::uint32_t boot,
                           std::uint32_t sequence) {
   // Anybody may send, so what is remembered is bounded.
   if (heard_.size() >= kMaxSenders) heard_.clear();
   const auto [it, first] = heard_.try_emplace((std::uint64_t{sender} << 32U) | channel);
   Heard& heard = it->second;
+  // A sender that was started again counts from the beginning.
   if (first || heard.boot != boot) {
     heard = {boot, sequence, 1};
     return true;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Which robots hear a message, and when it arrives. Runs on many threads, so it writes only to the
+// Reach of its own block.
 #include <algorithm>
 #include <cmath>
 
@@ -29,6 +31,7 @@ void Radio::place(Channel& channel, const RadioMoment& moment) {
   }
   // Cells as large as the reach of most, but not many more cells than robots.
   const double extent_m = items_.empty() ? 0 : std::max(high.x - low.x, high.y - low.y);
+  // With n robots about (4 sqrt(n))^2 = 16 n cells at most.
   const double sparse_m = extent_m / (4 * std::sqrt(static_cast<double>(items_.size()) + 1));
   channel.grid.build(items_, std::max({channel.largest_range_m, sparse_m, 0.1}));
 }
@@ -57,8 +60,10 @@ void Radio::find_candidates(const StoredPacket& sent, Reach& reach) const {
   if (range_m == 0) {
     found = channel.members;
   } else if (sent.origin.located) {
+    // A sender with a range and without a place reaches nobody.
     channel.grid.for_each_near(sent.origin.p_W, range_m,
                                [&](const world::ShapePiece& item) { found.push_back(item.shape); });
+    // By endpoint, as without a grid.
     std::sort(found.begin(), found.end());
   }
   std::erase_if(found, [&](std::uint32_t e) {
@@ -83,6 +88,7 @@ LinkAnswer Radio::ask(std::uint32_t model, const LinkQuery& query, Reach& reach)
   answer.arrives = 0;
   if (asked.failed) return answer;
   ErrorText error;
+  // The ring of arrivals has room for kMaxSteps; rounding and the step of sending need some of it.
   const double max_delay_s = static_cast<double>(Arrivals::kMaxSteps - 4) * spec_.step.seconds();
   if (asked.spec->ops->link(asked.instance.at(0), &query, &answer, 1, &error) == 0) {
     if (answer.delay_s >= 0 && answer.delay_s <= max_delay_s) return answer;
@@ -90,6 +96,7 @@ LinkAnswer Radio::ask(std::uint32_t model, const LinkQuery& query, Reach& reach)
          .out = 0;
   }
   answer.arrives = 0;
+  // Kept and told later: this runs on many threads, and events are made on one.
   if (reach.failed_model == kNobody) {
     reach.failed_model = model;
     reach.failure = error.text;
@@ -139,6 +146,8 @@ void Radio::reach_one(std::uint32_t packet, const Endpoint& to, std::uint32_t to
     return;
   }
   const std::int64_t arrival_ns = sent.complete_ns + from_seconds(answer.delay_s).ns;
+  // Rounded up to a step, and never the step in which it was sent: no robot may see in step k what
+  // another did in step k.
   const std::int64_t steps = (arrival_ns + spec_.step.ns - 1) / spec_.step.ns;
   reach.arrivals.push_back(std::max(moment.step + 1, static_cast<std::uint64_t>(steps)));
   reach.deliveries.push_back(

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// When messages leave: rates of communicators and of transmitters that several share.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,6 +23,7 @@ Start next_start(const RadioLine& line, const std::vector<Endpoint>& endpoints,
     if (!sender.has_waiting()) continue;
     const std::int64_t at_ns = std::max(
         {sender.free_ns, line.free_ns, packets[sender.waiting[sender.first_waiting]].queued_ns});
+    // Of equal ones the first in the list, which is that of the first communicator in the file.
     if (at_ns < first.at_ns) first = {at_ns, e};
   }
   return first;
@@ -43,6 +45,9 @@ void send_waiting(RadioLine& line, std::vector<Endpoint>& endpoints,
   const auto ends_earlier = [&](std::uint32_t a, std::uint32_t b) {
     return packets[a].complete_ns < packets[b].complete_ns;
   };
+  // A simulation by events within the step: who may begin first sends next and occupies its own
+  // radio and the transmitter for as long as each needs. Whole nanoseconds, so nothing depends on
+  // the step.
   for (;;) {
     const Start start = next_start(line, endpoints, packets);
     if (start.endpoint == kNobody || start.at_ns >= until_ns) break;
@@ -52,10 +57,13 @@ void send_waiting(RadioLine& line, std::vector<Endpoint>& endpoints,
     sender.free_ns =
         start.at_ns + sending_ns(packet.cost_bytes, models[sender.model].declaration.byte_rate);
     line.free_ns = start.at_ns + sending_ns(packet.cost_bytes, line_rate);
+    // The slower of both: a message has left when its radio and the shared transmitter are done
+    // with it.
     packet.complete_ns = std::max(sender.free_ns, line.free_ns);
     const auto place = std::upper_bound(line.on_air.begin(), line.on_air.end(), id, ends_earlier);
     line.on_air.insert(place, id);
   }
+  // What began in this step may end in a later one; it stays on the air until then.
   std::size_t done = 0;
   for (; done < line.on_air.size(); ++done) {
     StoredPacket& packet = packets[line.on_air[done]];

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Messages of several hosts in lock-step: sent by the host of the sender, judged by each host for
+// its own receivers in the step after.
 #include <algorithm>
 
 #include "radio.hpp"
@@ -43,6 +45,7 @@ void Radio::write_sent(SentPackets& sent) {
 Status Radio::receive(const RadioMoment& moment, const SentPackets& sent) {
   carried_.clear();
   std::uint32_t longest = 0;
+  // Every host has the messages of all, its own included, and decides for its own receivers only.
   for (const SentPacket& packet : sent.packets) longest = std::max(longest, packet.size);
   packets_.widen(longest);
   for (const SentPacket& packet : sent.packets) {
@@ -60,6 +63,7 @@ Status Radio::receive(const RadioMoment& moment, const SentPackets& sent) {
                      packet.located != 0,
                      packet.line_of_sight != 0};
     const std::span<const std::byte> bytes = sent.bytes_of(packet);
+    // Computed anew: it goes into the run hash and is not taken from another process.
     stored.content_hash = content_hash(bytes);
     carried_.push_back(packets_.add(stored, bytes));
   }

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// Readings of range sensors: gather what is near, cast the rays, reduce them to readings.
+// docs/explanation/ranges.md has the algorithm; the arithmetic is in fan_kernel.cpp and
+// block_kernel.cpp.
 #include "rave/sim/range_engine.hpp"
 
 #include <algorithm>
@@ -26,6 +29,8 @@ std::vector<std::uint16_t> index_of(const FanTable& fan) {
   float before = -1;
   for (std::uint32_t ray = 0; ray < fan.rays; ++ray) {
     const float scale = bearing_scale(fan.cos[ray], fan.sin[ray]);
+    // The index needs rays in order. Fans of drivers with another order work without it, only
+    // slower.
     if (scale < before) return {};
     before = scale;
     for (const std::size_t bucket = bearing_bucket(scale); next <= bucket; ++next) {
@@ -55,6 +60,7 @@ FanField field_of(const FanQuery& query) {
 }
 
 /// Up to here from the grid's origin the floats of PieceColumns are fine enough to choose by.
+/// Below this, a place is rounded by at most 2^-14 m (0.06 mm), well below kRounding_m.
 constexpr double kFloatReach_m = 2048;
 /// So much farther than the range candidates may lie, as PieceColumns have it.
 constexpr double kRounding_m = 1e-3;
@@ -127,6 +133,7 @@ void collect(const world::ShapeGrid& grid, const Surroundings& around, Candidate
              FanScratch& scratch) {
   const world::PieceColumns columns = grid.columns();
   const Vec2 p = around.p_W - columns.origin;
+  // Written so that a place that is not a number takes this way, too.
   if (!(std::abs(p.x) < kFloatReach_m && std::abs(p.y) < kFloatReach_m)) {
     grid.for_each_near(around.p_W, around.reach_m + kRounding_m,
                        [&](const world::ShapePiece& piece) {
@@ -148,6 +155,7 @@ void collect(const world::ShapeGrid& grid, const Surroundings& around, Candidate
                         static_cast<float>(around.left_W.y)};
   const std::size_t count =
       select_near(grid, grid.cells_near(around.p_W, around.reach_m), field, scratch.near.data());
+  // One more than needed: add() writes each piece to both lists and then counts it in one.
   make_room(scratch, count + 1);
   for (std::size_t i = 0; i < count; ++i) candidates.add(grid.piece(scratch.near[i]));
 }
@@ -178,6 +186,7 @@ void collect(const world::Snapshot& world, const Surroundings& around, Candidate
 /// foresee it. A shape of several pieces is listed once, by any of them, and always taken.
 inline unsigned in_sight(const world::ShapePiece& piece, const Surroundings& around) noexcept {
   const Vec2 apart = piece.centre_W - around.p_W;
+  // The edges of the field are unit vectors, so a cross product is the distance from the edge.
   const double own_m = static_cast<double>(piece.radius_m) + kRounding_m;
   const double reach_m = around.reach_m + own_m;
   auto seen = static_cast<unsigned>(squared_norm(apart) <= reach_m * reach_m);
@@ -214,6 +223,7 @@ void join_cones(const FanTable& fan, const FanView& view) {
     const std::size_t first = reading * fan.rays_per_reading;
     std::size_t nearest = first;
     for (std::size_t ray = first; ray < first + fan.rays_per_reading; ++ray) {
+      // Readings are written in front of rays that are still to be read: reading <= first holds.
       if (view.inverse[ray] > view.inverse[nearest]) nearest = ray;
     }
     view.inverse[reading] = view.inverse[nearest];
@@ -230,6 +240,7 @@ FanTable FanTable::make(const FanQuery& query, LayerMask layers) {
   fan.range_min_m = static_cast<float>(query.range_min_m);
   fan.range_max_m = static_cast<float>(query.range_max_m);
   fan.layers = layers;
+  // Padding has the direction (0, 0). It meets discs and polygons at 1/range = 0: never.
   fan.cos.resize(padded(query.ray_count));
   fan.sin.resize(padded(query.ray_count));
   for (std::uint32_t i = 0; i < query.ray_count; ++i) {
@@ -332,6 +343,8 @@ LookCost cost_of(const world::Snapshot& world, const FanTable& fan) noexcept {
   for (const world::ShapeGrid* const grid : {&world.standing(), &world.moving()}) {
     const auto size = static_cast<double>(grid->size());
     const double reach_m = range_m + grid->largest_radius_m();
+    // select_near() looks at the rows of a square about the sensor; only those in the disc become
+    // candidates.
     const double pieces = std::min(size, 4 * reach_m * reach_m * grid->pieces_per_m2());
     const double disc = std::min(size, kPi * reach_m * reach_m * grid->pieces_per_m2());
     const double most_rows = grid->rows();
@@ -343,6 +356,7 @@ LookCost cost_of(const world::Snapshot& world, const FanTable& fan) noexcept {
         std::min(most_rows, (0.64 * length_m + 2 * grid->largest_radius_m()) / grid->cell_m() + 1);
     cost.along +=
         kBeside * std::min(size, width_m * length_m * grid->pieces_per_m2()) + kRow * rows_beside;
+    // Expected number of discs that a line of this length meets: its mean free path is 1 / (2 r n).
     met += 2 * grid->mean_radius_m() * length_m * grid->pieces_per_m2();
   }
   cost.along = fan.rays * (kPart + cost.along + kCandidate * met);
@@ -379,8 +393,11 @@ void cast_fan_along(const world::Snapshot& world, const FanTable& fan, const Sen
       collect_along(world, place.p_WS, direction, part, candidates, scratch);
     }
     put_in_order(scratch);
+    // After the last part all candidates are known, and the cast behind the loop is the final one.
     if (!(part.to_m < part.end_m)) break;
     cast_rays(world, fan, place, scratch);
+    // A hit farther than this could still be hidden by a piece of the next part. The margins cover
+    // the rounding of places and directions; range <= sure_m is tested without a division.
     const double sure_m = part.to_m - 2 * kRounding_m - 1e-6 * part.to_m;
     for (std::uint32_t ray = 0; ray < fan.rays; ++ray) {
       if (static_cast<double>(scratch.inverse[ray]) * sure_m >= 1) open &= ~(1U << ray);
@@ -402,6 +419,7 @@ void list_near(const world::Snapshot& world, const FanTable& fan, double z_m,
   lists.begin(world, places_W, margin_m);
   for (std::size_t i = 0; i < places_W.size(); ++i) {
     Surroundings around;
+    // No field: robots turn while the list holds, so it has what is near on all sides.
     around.p_W = places_W[i];
     around.reach_m = static_cast<double>(fan.range_max_m) + margin_m;
     collect(world, around, {fan, static_cast<float>(z_m), world.body_of(owners[i]), scratch},
@@ -457,6 +475,7 @@ void ListedFans::cast_together() {
 }
 
 void ListedFans::read(std::size_t asker, std::span<float> ranges, std::span<std::uint32_t> bodies) {
+  // Cast with the whole block already; fans of many rays are cast when they are read.
   if (fan_->rays <= kFewRays) {
     const std::size_t size = fan_->cos.size();
     read_rays(*fan_,

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Motion with contacts, one robot after the other: move until a hit, slide along it, push out of
+// real robots. See docs/explanation/motion.md.
 #include "resolver.hpp"
 
 #include <algorithm>
@@ -41,6 +43,7 @@ Pose2 Resolver::pose_of(std::uint32_t body, const world::Snapshot& snapshot,
 Pose2 Resolver::pose_in_turn(std::uint32_t body, std::uint32_t id,
                              std::span<const Mover> movers) const {
   const auto robot = static_cast<std::uint32_t>(body - model_->obstacles.size());
+  // Had there been no broad phase, that robot would not have moved yet.
   if (!ahead_.empty() && model_->is_robot(body) && robot > id && ahead_[robot] == kAhead) {
     return snapshot_->robot(RobotId(robot)).X_WR;
   }
@@ -52,6 +55,8 @@ void Resolver::find_near(std::uint32_t id, Vec2 p_W, double reach_m,
   snapshot.gather(p_W, reach_m, found_);
   near_.clear();
   const auto self = static_cast<std::uint32_t>(model_->obstacles.size()) + id;
+  // Shapes come in ascending order and those of a body are next to each other, so one comparison
+  // removes doubles.
   for (const std::uint32_t shape : found_) {
     const std::uint32_t body = snapshot.shape(shape).body;
     if (body != self && (near_.empty() || near_.back() != body)) near_.push_back(body);
@@ -67,12 +72,14 @@ bool Resolver::advance_until_hit(std::uint32_t id, const Motion2& motion, std::s
   for (const std::uint32_t body : near_) {
     if (body == ignored_) continue;
     const Pose2 X_WB = pose_in_turn(body, id, movers);
+    // A cheap test first. The broad phase relies on exactly this bound (kPassOver_m).
     if (model_->is_robot(body)) {
       const double reach = length_m + radius_m_[self] + radius_m_[body] + kPassOver_m;
       if (squared_norm(X_WB.position() - mover.X_WR.position()) > reach * reach) continue;
     }
     const Impact impact = world::time_of_impact(model_->robots[id], mover.X_WR, motion,
                                                 model_->body(body), X_WB, kLimits);
+    // At equal fractions the first one found stops it; their order is fixed.
     if (impact.hit && (!hit || impact.fraction < impact_.fraction)) {
       hit = true;
       impact_ = impact;
@@ -91,6 +98,7 @@ void Resolver::move(std::uint32_t id, const Motion2& motion_W, const world::Snap
   Mover& mover = movers[id];
   const double length_m = std::sqrt(motion_W.dx * motion_W.dx + motion_W.dy * motion_W.dy);
   const auto self = static_cast<std::uint32_t>(model_->obstacles.size()) + id;
+  // Once for all slides: what remains of the motion only gets shorter.
   find_near(id, mover.X_WR.position(), radius_m_[self] + length_m + slack_m + kLookAround_m,
             snapshot);
   ignored_ = BodyId::kNone;
@@ -103,6 +111,7 @@ void Resolver::move(std::uint32_t id, const Motion2& motion_W, const world::Snap
     notes.push_back({id, BodyId(obstacle_), impact_.normal_W, false});
     rest = scaled(rest, 1 - impact_.fraction);
     const Vec2 d{rest.dx, rest.dy};
+    // normal_W points into the obstacle, so a positive part of the motion presses on it.
     const double into = dot(d, impact_.normal_W);
     // What drives the body into the obstacle is taken away. If that was no translation, it was the
     // turn: the body then slides without turning.
@@ -119,7 +128,10 @@ bool Resolver::push_out(std::uint32_t real, std::uint32_t id, std::span<Mover> m
   for (int push = 0; push < kMaxPushes; ++push) {
     const Separation gap = world::separation(model_->robots[real], movers[real].X_WR,
                                              model_->robots[id], movers[id].X_WR);
+    // The shortest way out of one overlap can lead into another body, so it is tried again from
+    // there.
     const double missing = kLimits.skin_m - gap.distance_m;
+    // Rounding leaves a fraction of the skin missing; less than 0.1 um needs no push.
     if (!(missing > 1e-7)) return true;
     Motion2 away{missing * gap.normal_W.x, missing * gap.normal_W.y, 0};
     for (int slide = 0; slide < kMaxSlides; ++slide) {
@@ -146,6 +158,7 @@ double Resolver::make_way(std::uint32_t id, const world::Snapshot& snapshot, dou
   snapshot_ = &snapshot;
   const auto obstacles = static_cast<std::uint32_t>(model_->obstacles.size());
   find_near(id, movers[id].X_WR.position(), radius_m_[obstacles + id] + slack_m + 1e-3, snapshot);
+  // A copy, because find_near() below is asked again for each robot of the crowd.
   crowd_.clear();
   for (const std::uint32_t body : near_) {
     if (model_->is_robot(body) && movers[body - obstacles].simulated) {
@@ -157,10 +170,12 @@ double Resolver::make_way(std::uint32_t id, const world::Snapshot& snapshot, dou
     const Separation gap = world::separation(model_->robots[id], movers[id].X_WR,
                                              model_->robots[robot], movers[robot].X_WR);
     if (gap.distance_m >= kLimits.skin_m) continue;
+    // As far as all pushes together can lead, plus what those before it were pushed by.
     find_near(robot, movers[robot].X_WR.position(),
               radius_m_[obstacles + robot] + kMaxPushes * (kLimits.skin_m - gap.distance_m) +
                   slack_m + pushed_m + 1e-3,
               snapshot);
+    // It overlaps the real robot, which is what the pushes end; as an obstacle it would block them.
     ignored_ = obstacles + id;
     const Vec2 p_before = movers[robot].X_WR.position();
     const bool free = push_out(id, robot, movers);
@@ -177,6 +192,7 @@ void Resolver::probe(std::uint32_t id, const world::Snapshot& snapshot, double s
   const auto obstacles = static_cast<std::uint32_t>(model_->obstacles.size());
   find_near(id, movers[id].X_WR.position(), radius_m_[obstacles + id] + slack_m + within_m,
             snapshot);
+  // The nearest one only: one direction is told, and a contact sensor has no more.
   Separation least;
   least.distance_m = within_m;
   std::uint32_t nearest = BodyId::kNone;

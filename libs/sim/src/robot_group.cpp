@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// From a robot type to instances of its drivers. The order is that of dependence: devices, sensors,
+// controllers, actuators, program. Each call into a plug-in has a crash note, which names the robot
+// and driver if it ends the process.
 #include "robot_group.hpp"
 
 #include <algorithm>
@@ -13,6 +16,8 @@ namespace rave::sim {
 HostServices services_of(RobotLog& log) {
   HostServices services;
   services.context = &log;
+  // A plain function and a pointer: nothing of C++ but the calling convention crosses the edge of a
+  // plug-in.
   services.log = [](void* context, LogLevel level, const char* text, std::uint64_t size) {
     const auto* robot = static_cast<const RobotLog*>(context);
     if (robot->sink != nullptr) robot->sink->write(level, robot->source, {text, size});
@@ -49,6 +54,7 @@ RobotInfo info_of(const GroupContext& context, RobotId id) {
   return info;
 }
 
+// Views are pointers into the columns of the sensors, so programs read samples without a copy.
 void show_sensors(RobotGroup& group) {
   const std::size_t sensors = group.sensors.size();
   for (std::size_t m = 0; m < group.members.size(); ++m) {
@@ -70,6 +76,7 @@ Status configure_device(const GroupContext& context, RobotGroup& group, DeviceSl
   setup.param_count = slots.spec->params.values().size();
   setup.folder = group.type->folder.c_str();
   void* const instance = slots.instances.at(member);
+  // What sensors and actuators of this device get, as the common base that they know.
   slots.bases.push_back(slots.spec->ops->base(instance));
   const CrashNote whose =
       crash_note_of(context, group.members[member], "device", slots.spec->driver);
@@ -131,6 +138,7 @@ Status start_controllers(const GroupContext& context, RobotGroup& group) {
   for (ControllerSlots& slots : group.controllers) {
     RAVE_TRY(slots.instances.make(slots.spec->ops->instance, count));
     slots.last.assign(count, Command{});
+    // Never: no command has been given.
     slots.last_step.assign(count, -1);
     slots.changed.clear();
     slots.changed.resize(count);
@@ -181,6 +189,7 @@ Status start_actuators(const GroupContext& context, RobotGroup& group) {
     slots.changed.resize(count);
     slots.commands.assign(count, Command{});
     slots.failed.assign(count, 0);
+    // Virtual actuators obey. A real one says after it was opened, and a recorded one never does.
     slots.obeys.assign(count, 1);
     slots.open.assign(count, 0);
     for (std::size_t m = 0; m < count; ++m) {
@@ -203,6 +212,7 @@ void lay_out_program(const GroupContext& context, RobotGroup& group) {
   group.robot_names.clear();
   for (const RobotSpec& robot : context.spec.robots)
     group.robot_names.push_back(robot.name.c_str());
+  // The items below point into these arrays, so none of them may grow from here on.
   slots.commands.assign(count * controllers, Command{});
   slots.views.resize(count * sensors);
   slots.items.assign(count, DecideItem{});
@@ -247,6 +257,7 @@ Status start_programs(const GroupContext& context, RobotGroup& group) {
   const bool isolated = static_cast<bool>(slots.spec->isolate);
   slots.processes.clear();
   slots.instances.clear();
+  // All instances in one array with a fixed stride, so that a block is one call into the plug-in.
   if (!isolated) RAVE_TRY(slots.instances.make(slots.spec->ops->instance, group.members.size()));
   for (std::size_t m = 0; m < group.members.size(); ++m) {
     Status status;
@@ -273,6 +284,8 @@ Status start_programs(const GroupContext& context, RobotGroup& group) {
   return {};
 }
 
+// Programs last: what they are told of sensors, controllers and radio must be there, and their
+// first decision may command.
 Status start_devices(const GroupContext& context, RobotGroup& group) {
   RAVE_TRY(open_devices(context, group));
   RAVE_TRY(start_controllers(context, group));
@@ -310,6 +323,7 @@ Status open_body(GroupContext context, RobotGroup& group) {
 
 Status make_group(GroupContext context, RobotGroup& group) {
   RAVE_TRY(make_body(context, group));
+  // A copy, which stays when a hand-over exchanges the sensors: a program is told only once.
   for (const SensorSlots& slots : group.sensors) group.sensor_infos.push_back(slots.info);
   group.controllers.resize(group.type->controllers.size());
   for (std::size_t c = 0; c < group.controllers.size(); ++c) {
@@ -321,6 +335,7 @@ Status make_group(GroupContext context, RobotGroup& group) {
   return start_devices(context, group);
 }
 
+// The same instances are started again; only what start() and open() make is new.
 Status reset_group(GroupContext context, RobotGroup& group) {
   clear_sensors(group);
   return start_devices(context, group);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// What the guard of one robot remembers: stopped or armed, how fast it was told to drive, and which
+// limits act at present.
 #include "robot_guard.hpp"
 
 #include <algorithm>
@@ -11,6 +13,7 @@ bool RobotGuard::stop() noexcept { return !std::exchange(holds_.stopped, true); 
 
 bool RobotGuard::release(bool armed) noexcept {
   if (!std::exchange(holds_.stopped, false)) return false;
+  // A robot that has to be armed has to be armed again after a stop.
   holds_.armed = armed;
   return true;
 }
@@ -34,6 +37,7 @@ GuardOutput RobotGuard::limit(const GuardSpec& limits, GuardInput input) noexcep
 /// What the way since the pose depends on, and whether it still stands where it was stopped by
 /// something.
 void RobotGuard::recall(GuardInput& input) noexcept {
+  // Since a new pose only the last command has been driven; the faster ones before are in the pose.
   if (input.pose_stamp != pose_stamp_) fastest_mps_ = told_mps_;
   pose_stamp_ = input.pose_stamp;
   input.fastest_mps = fastest_mps_;
@@ -52,6 +56,7 @@ std::uint32_t RobotGuard::begin(std::uint32_t acted, std::int64_t now,
   std::uint32_t beginning = 0;
   for (std::uint32_t i = 0; i < kGuardLimits; ++i) {
     if ((acted >> i & 1U) == 0) continue;
+    // Each time counts as the last one, so a limit that flickers is one event until it rests.
     if (now - last_[i] > quiet) beginning |= 1U << i;
     last_[i] = now;
   }

@@ -69,6 +69,8 @@ void describe(SensorSlots& slots, double step_s) {
 
 Status configure_virtual(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {
   const SensorSpec& spec = *slots.spec;
+  // One instance for all robots of the group. What a driver remembers of each lies in driver_state,
+  // so the engine can sample robots in any order and on any thread.
   RAVE_TRY(slots.instances.make(spec.virtual_ops->instance, 1));
   VirtualSensorSetup setup;
   setup.host = services_of(context.logs[group.members.front().value()]);
@@ -116,6 +118,7 @@ Status configure_hardware(const GroupContext& context, RobotGroup& group, Sensor
       return spec.hardware_ops->configure(slots.instances.at(m), &setup, &declaration, error);
     }));
     if (declaration.capacity == 0) return fail(ErrorCode::kPlugin, "declared room for 0 records");
+    // Devices of one type may differ; the columns have room for the largest.
     slots.capacity = std::max(slots.capacity, declaration.capacity);
     slots.collect = declaration.collect != 0;
     slots.live = declaration.clock == DriverClock::kLive;
@@ -125,6 +128,7 @@ Status configure_hardware(const GroupContext& context, RobotGroup& group, Sensor
     slots.info.bearings_rad = declaration.bearings_rad;
     slots.info.cone_rad = declaration.cone_rad;
   }
+  // Such a driver delivers by its own clock, so a stepped run could not be repeated.
   if (slots.live && context.spec.live_clock == nullptr) {
     return fail(ErrorCode::kState, "follows the wall clock, but the run is stepped");
   }
@@ -147,6 +151,7 @@ Status make_sensor(const GroupContext& context, RobotGroup& group, SensorSlots& 
             .with_context(fmt::format("real half (driver `{}`)", slots.spec->hardware_driver())));
   }
   RAVE_TRY(configured);
+  // The processing of the file comes last and so works on what hybrids have fused.
   const double step_s = context.spec.step.seconds();
   describe(slots, step_s);
   if (!slots.spec->processing.empty()) {
@@ -187,6 +192,7 @@ Status open_sensors(GroupContext context, RobotGroup& group) {
         return tl::unexpected(named_error(context, group.members[m], "sensor", slots.spec->name,
                                           slots.spec->hardware_driver(), status.error()));
       }
+      // After success only: a sensor that could not be opened is not closed, unlike a device.
       slots.open[m] = 1;
     }
   }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Robots of one type are a group and share arrays; blocks are parts of groups. Robots of other
+// hosts are in no group.
 #include "roster.hpp"
 
 #include <algorithm>
@@ -21,6 +23,8 @@ void Roster::lay_out(const EngineSpec& spec, LogSink* log) {
     }
     group_index[r] = index;
     member_index[r] = static_cast<std::uint32_t>(groups[index].members.size());
+    // Ascending ids within a group, so that rows of a recording and blocks have neighbours side by
+    // side.
     groups[index].members.emplace_back(r);
   }
   for (std::uint32_t g = 0; g < groups.size(); ++g) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// What people and the scenario change between two steps. A change of several parts is made
+// completely or not at all.
 #include "run_inputs.hpp"
 
 #include <algorithm>
@@ -17,6 +19,7 @@ void RunInputs::begin() {
 }
 
 void RunInputs::make_scheduled(std::uint64_t step) {
+  // Obstacles before bodies, as the authority of several hosts does it: both give the same hash.
   const auto& obstacles = parts_.spec.obstacle_changes;
   for (; next_obstacle_ < obstacles.size() && obstacles[next_obstacle_].step <= step;
        ++next_obstacle_) {
@@ -30,6 +33,7 @@ void RunInputs::make_scheduled(std::uint64_t step) {
   }
 }
 
+// One of several hosts: bodies and obstacles are changed by the authority and come with its world.
 void RunInputs::make_scheduled_here(std::uint64_t step) {
   const auto& changes = parts_.spec.changes;
   for (; next_change_ < changes.size() && changes[next_change_].step <= step; ++next_change_) {
@@ -70,6 +74,8 @@ Status RunInputs::change(std::uint64_t step, RobotId robot,
     const Status made = edit.make(change, changes);
     if (!made) return refused(made.error(), edit.where());
   }
+  // The body last: it is the only change that cannot be taken back by `edit`, which undoes the
+  // others if it is refused.
   std::string text;
   if (scale != nullptr) {
     const double before = parts_.truth.scale_of(robot);
@@ -129,6 +135,7 @@ void RunInputs::stop(std::uint64_t step, RobotId robot, const Author& author) {
     const std::size_t m = parts_.roster.member_of(one);
     if (group.has_guard(m)) group.guards[m].thread->stand();
     parts_.log.note(step, one, EventKind::kStopped, "", author);
+    // An order does not go on by itself when the robot is released.
     parts_.orders.end(one, author);
   });
 }

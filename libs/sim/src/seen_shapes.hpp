@@ -52,6 +52,7 @@ HWY_INLINE Point to_sensor(const FanPlace& place, Vec2 p_W) {
 template <class V, class W>
 HWY_INLINE void keep_nearer(V inverse, std::uint32_t body, V& nearest, W& nearest_body) {
   const hn::DFromV<W> words;
+  // Strictly greater: of two equal ones the first stays, so the order of candidates decides.
   const auto nearer = hn::Gt(inverse, nearest);
   nearest = hn::IfThenElse(nearer, inverse, nearest);
   nearest_body = hn::IfThenElse(hn::RebindMask(words, nearer), hn::Set(words, body), nearest_body);
@@ -92,6 +93,7 @@ struct SeenDisc {
     const auto ahead = hn::Add(hn::Mul(cx, cos), hn::Mul(cy, sin));
     const auto aside = hn::Sub(hn::Mul(cx, sin), hn::Mul(cy, cos));
     const auto root = hn::Sub(hn::Set(d, radius * radius), hn::Mul(aside, aside));
+    // root < 0: the ray passes beside the disc. ahead <= 0: the disc lies behind the sensor.
     const auto met = hn::And(hn::Gt(ahead, zero), hn::Ge(root, zero));
     const auto half = hn::Sqrt(hn::Max(root, zero));
     return hn::IfThenElseZero(met, hn::Mul(hn::Add(ahead, half), hn::Set(d, scale)));
@@ -123,6 +125,8 @@ struct SeenPolygon {
     const auto along = [&](std::size_t e) HWY_ATTR {
       return hn::Add(hn::Mul(hn::Set(d, x[e]), cos), hn::Mul(hn::Set(d, y[e]), sin));
     };
+    // The polygon is the intersection of half planes, so a ray enters it where it has crossed the
+    // last of the lines of facing edges: at the largest range, which is the least inverse.
     auto nearest = hn::Min(hn::Min(along(0), along(1)), along(2));
     for (std::size_t e = 3; e < count; ++e) nearest = hn::Min(nearest, along(e));
     return hn::IfThenElseZero(met, nearest);
@@ -136,6 +140,8 @@ struct FacingRow {
   std::uint8_t leftmost;
   std::uint8_t rightmost;
 };
+/// By the word of facing edges, edge 0 in bit 0. Words 0 and 15 are no row at all, 5 and 10 are not
+/// one row; these go the general way.
 inline constexpr FacingRow kRowsOfFour[16] = {
     {{0xff, 0, 0}, 0, 0}, {{0, 0, 0}, 0, 1},    {{1, 1, 1}, 1, 2},    {{0, 1, 1}, 0, 2},
     {{2, 2, 2}, 2, 3},    {{0xff, 0, 0}, 0, 0}, {{1, 2, 2}, 1, 3},    {{0, 1, 2}, 0, 3},
@@ -163,10 +169,14 @@ HWY_INLINE Sight SeenPolygon::see(const world::ShapePiece& piece, const Vec2* ve
     auto vy = hn::Zero(d);
     auto nx = hn::Zero(d);
     auto ny = hn::Zero(d);
+    // Reads beyond the last vertex of this polygon are allowed (kVertexPadding); `all` drops their
+    // bits.
     hn::LoadInterleaved2(d, &vertices[i].x, vx, vy);
     hn::LoadInterleaved2(d, &normals[i].x, nx, ny);
     const auto dx = hn::Sub(vx, sensor_x);
     const auto dy = hn::Sub(vy, sensor_y);
+    // c = n.(v - p), with n outward: negative where the sensor is on the outer side of the edge. In
+    // double, because this sign decides what is seen.
     const auto c = hn::Add(hn::Mul(nx, dx), hn::Mul(ny, dy));
     facing |= std::uint64_t{bits_of(d, hn::Lt(c, hn::Zero(d)))} << i;
     const auto scale = hn::DemoteTo(floats, hn::Div(hn::Set(d, 1.0), c));
@@ -197,6 +207,7 @@ HWY_INLINE Sight SeenPolygon::see(const world::ShapePiece& piece, const Vec2* ve
   } else {
     // The edges that face the sensor are one row; it begins at the left vertex and ends at the
     // right.
+    // before: the words turned by one edge; vertex i is the beginning of edge i.
     const std::uint64_t before = (facing << 1U) | (facing >> (n - 1U));
     const std::uint64_t begin = facing & ~before;
     const std::uint64_t end = ~facing & before & all;

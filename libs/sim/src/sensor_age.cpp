@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// How old samples are, and when that is too old.
 #include "sensor_age.hpp"
 
 #include <algorithm>
@@ -30,12 +31,14 @@ Result<std::optional<double>> max_age_s(const SensorSpec& sensor,
   if (sensor.timing == SampleTiming::kPeriodic && !(period_s > 0 && std::isfinite(period_s))) {
     return fail(ErrorCode::kPlugin, "is periodic, but declared a period of {} s", period_s);
   }
+  // RobotType::staleness limits its age already.
   if (is_pose_source) return std::optional<double>();
   return std::max(kPeriods * period_s, kLeast_s);
 }
 
 double live_age_s(const SampleQueue& queue, bool judged_by_link) {
   if (judged_by_link) return queue.failed() ? kInfinite_s : 0;
+  // By arrival, not by stamp: stamps of a device may come from another clock.
   const auto arrival = queue.newest_arrival();
   if (!arrival) return kInfinite_s;
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - *arrival).count();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What must hold of a specification before an engine or an authority is made of it.
 #include "spec_checks.hpp"
 
 #include <algorithm>
@@ -30,6 +31,7 @@ Status check_world(const EngineSpec& spec) {
   for (const RobotSpec& robot : spec.robots) {
     RAVE_CHECK(robot.type < spec.types.size());
     const RobotType& type = spec.types[robot.type];
+    // Nobody else knows where a real robot is.
     if (!type.simulated && !type.pose_from) {
       return fail(ErrorCode::kInvalidArgument,
                   "robot `{}` is real, so it needs a source of its pose: `pose_from`", robot.name);
@@ -74,6 +76,7 @@ Status check_twins(const EngineSpec& spec) {
     for (std::size_t s = 0; s < first.sensors.size(); ++s) {
       RAVE_CHECK(first.sensors[s].kind == twin.sensors[s].kind);
     }
+    // The two sets change places group by group, so the robot must be alone in its group.
     for (std::size_t other = 0; other < spec.robots.size(); ++other) {
       RAVE_CHECK(other == r || (spec.robots[other].type != spec.robots[r].type &&
                                 spec.robots[other].type != *spec.robots[r].twin));
@@ -90,6 +93,7 @@ Status check_twins(const EngineSpec& spec) {
 Status check_local(const EngineSpec& spec) {
   if (!spec.local) return {};
   RAVE_TRY(check_shared(spec));
+  // A host without robots would have nothing to report, and the authority waits for reports.
   if (spec.local->empty())
     return fail(ErrorCode::kInvalidArgument, "expected at least one robot for the host");
   std::vector<std::uint8_t> seen(spec.robots.size());

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Threads for the loops of a step. Each has the same share of the blocks in each loop, so that
+// their data stay in the cache of its processor; those who are done early help the others.
 #include "rave/sim/thread_pool.hpp"
 
 #include <algorithm>
@@ -71,6 +73,7 @@ void ThreadPool::for_each_block(std::size_t blocks, Effort& effort,
     for (std::size_t block = 0; block < blocks; ++block) work(block, 0);
     return;
   }
+  // A guess that may be outdated by now: it decides only whether sharing is likely to pay.
   const bool awake = asleep_.load(std::memory_order_relaxed) == 0;
   const bool worth = awake ? effort.is_worth_sharing() : effort.is_worth_waking();
   if (blocks < 2 || !(always_ || worth)) {
@@ -88,6 +91,8 @@ void ThreadPool::share(std::size_t blocks, const std::function<void(std::size_t,
   work_ = &work;
   const std::size_t workers = threads();
   for (std::size_t worker = 0; worker < workers; ++worker) {
+    // The same cut for the same number of blocks, so each worker finds the data of its blocks in
+    // its cache.
     shares_[worker].next.store(blocks * worker / workers, std::memory_order_relaxed);
     shares_[worker].end = blocks * (worker + 1) / workers;
   }
@@ -96,12 +101,15 @@ void ThreadPool::share(std::size_t blocks, const std::function<void(std::size_t,
   bool wake = false;
   {
     const std::lock_guard lock(mutex_);
+    // Releases work_, the shares and the counters to the workers. Under the mutex, so that no
+    // worker goes to sleep between its look at the round and the notification.
     round_.fetch_add(1, std::memory_order_release);
     wake = asleep_.load(std::memory_order_relaxed) > 0;
   }
   if (wake) wake_.notify_all();
   take_blocks(0);
   const auto all_done = [this] { return busy_.load(std::memory_order_acquire) == 0; };
+  // The acquire of busy_ makes visible what the workers wrote.
   if (may_look_ && look_for(all_done)) return;
   std::unique_lock lock(mutex_);
   done_.wait(lock, all_done);
@@ -114,6 +122,7 @@ void ThreadPool::take_blocks(unsigned worker) {
   for (unsigned k = 0; k < workers; ++k) {
     Share& share = shares_[(worker + k) % workers];
     while (true) {
+      // Counts beyond the end when there is none left, at most once per worker; share() resets it.
       const std::size_t block = share.next.fetch_add(1, std::memory_order_relaxed);
       if (block >= share.end) break;
       (*work_)(block, worker);
@@ -139,6 +148,8 @@ void ThreadPool::serve(unsigned worker) {
     }
     ++seen;  // no round begins before all have done the last one
     take_blocks(worker);
+    // The last one wakes the caller. The lock is taken so that the caller cannot miss it between
+    // its look at busy_ and its sleep.
     if (busy_.fetch_sub(1, std::memory_order_acq_rel) > 1) continue;
     const std::lock_guard lock(mutex_);
     done_.notify_one();

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The authority of a world that several hosts share: resolves the motion of all robots and says
+// what each host has to know for its next step.
 #include "rave/sim/world_authority.hpp"
 
 #include <algorithm>
@@ -15,6 +17,7 @@ Status check_hosts(const EngineSpec& spec, std::span<const std::uint32_t> host_o
     return fail(ErrorCode::kInvalidArgument, "hosts for {} robots, but there are {}",
                 host_of.size(), spec.robots.size());
   }
+  // Hosts are numbered without gaps: arrays by host have one entry each, and each is waited for.
   const std::uint32_t last = *std::max_element(host_of.begin(), host_of.end());
   for (std::uint32_t host = 0; host < last; ++host) {
     if (last < host_of.size() && std::find(host_of.begin(), host_of.end(), host) != host_of.end()) {
@@ -46,6 +49,7 @@ WorldAuthority::Impl::Impl(EngineSpec s, std::vector<std::uint32_t> h)
 void WorldAuthority::Impl::begin() {
   static_cast<void>(truth.restore_obstacles());
   static_cast<void>(truth.restore_bodies());
+  // After the bodies and obstacles of the start are back: it places them.
   truth.begin();
   step = 0;
   events.clear();
@@ -72,6 +76,7 @@ Status WorldAuthority::Impl::check(const HostReport& report) const {
   const auto named = [&](Error error) {
     return tl::unexpected(std::move(error).with_context(fmt::format("host {}", report.host)));
   };
+  // Before all else: the report of a host that failed has nothing but the reason.
   if (report.state > HostState::kDone) {
     return named({ErrorCode::kState, fmt::format("cannot continue: {}", report.text), {}});
   }
@@ -113,6 +118,7 @@ void WorldAuthority::Impl::finish_step() {
   }
   truth.resolve(step - 1, events);
   hash.merge(truth.hash_poses(step - 1));
+  // Events of the authority alone; those of the hosts are in their own sums.
   finish_events(step - 1, events, hash);
   done_hash = hash;
   done_events.swap(events);
@@ -123,6 +129,8 @@ void WorldAuthority::Impl::place_real_robots() {
   for (const HostReport* const report : by_host) {
     for (const PoseReport& pose : report->poses) {
       const std::uint32_t r = pose.robot.value();
+      // A simulated robot with a pose source is believed to be where that says, but is where the
+      // resolver put it.
       if (truth.movers[r].simulated) continue;
       const ReportedPose& reported = pose.reported;
       truth.movers[r].X_WR = {reported.pose.x_m, reported.pose.y_m, reported.pose.yaw_rad};
@@ -147,6 +155,7 @@ void WorldAuthority::Impl::write_poses(WorldStep& world) const {
 }
 
 void WorldAuthority::Impl::write_contacts(WorldStep& world) {
+  // A robot may have been pushed by several real ones; its last place counts.
   std::sort(seen.begin(), seen.end());
   seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
   for (const std::uint32_t r : seen) {
@@ -168,6 +177,7 @@ void WorldAuthority::Impl::write_messages(WorldStep& world) {
       sent.emplace_back(&packet, &report->sent);
     }
   }
+  // In an order that depends neither on the hosts nor on which report came first.
   std::sort(world.poses.begin(), world.poses.end(),
             [](const auto& a, const auto& b) { return a.robot < b.robot; });
   std::sort(world.samples.begin(), world.samples.end(), [](const auto& a, const auto& b) {
@@ -196,15 +206,20 @@ Result<std::unique_ptr<WorldAuthority>> WorldAuthority::create(EngineSpec spec,
 
 Status WorldAuthority::step(std::span<const HostReport* const> reports, WorldStep& world) {
   Impl& authority = *impl_;
+  // Everything is checked before anything changes: after a refusal the right report may follow.
   RAVE_TRY(authority.check(reports));
   WorldTruth& truth = authority.truth;
   world.begin(authority.step, authority.spec.robots.size());
   authority.refusals.clear();
   authority.close_obstacles();
+  // Reports of step n have the proposals of step n - 1 and the real poses of step n. So the last
+  // step ends here, and the next one begins below.
   if (authority.step > 0) authority.finish_step();
   authority.make_changes(world);
   authority.last_obstacles = world.obstacles;
   authority.place_real_robots();
+  // Before make_way(): a robot without a pose source is told where it was before it was pushed. The
+  // places after that are in `pushed`.
   authority.write_poses(world);
   truth.make_way();
   authority.seen.clear();

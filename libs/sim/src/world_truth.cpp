@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The true state of the world, which an engine alone has, or the authority of several hosts: poses,
+// contacts, bodies. It calls the resolver and makes the snapshot.
 #include "world_truth.hpp"
 
 #include <algorithm>
@@ -29,6 +31,7 @@ void WorldTruth::begin() {
   pinned_before_.assign(count, 0);
   for (std::uint32_t r = 0; r < count; ++r) {
     const RobotType& type = spec.types[spec.robots[r].type];
+    // A real robot is not in the world before its first pose.
     movers[r] = {
         .X_WR = spec.robots[r].X_WR, .simulated = type.simulated, .present = type.simulated};
     snapshot.set_robot(RobotId(r), {movers[r].X_WR, {}, movers[r].present});
@@ -58,6 +61,7 @@ void WorldTruth::make_way() {
   snapshot.rebuild();
   for (const std::uint32_t r : real_) {
     if (!movers[r].present) continue;
+    // The snapshot is not built again after each push; it is behind by so much more.
     slack_m_ += resolver.make_way(r, snapshot, slack_m_, movers, notes);
   }
 }
@@ -72,10 +76,12 @@ void WorldTruth::note_contacts(std::uint64_t step, std::vector<Event>& events) {
                         std::string(kPinnedText)});
     }
   }
+  // An event for the beginning of a pin, none while it lasts.
   std::fill(pinned_before_.begin(), pinned_before_.end(), std::uint8_t{0});
   for (const ContactNote& contact : notes) {
     if (contact.pinned) pinned_before_[contact.robot] = 1;
   }
+  // Real robots are where they were reported and keep no skin.
   constexpr double kTouch_m = 1e-3;
   for (const std::uint32_t r : real_) {
     if (!movers[r].present) continue;
@@ -101,6 +107,7 @@ void WorldTruth::show(SimTime now) {
   double farthest_m = 0;
   for (const double block_m : block_moves_m_) farthest_m = std::max(farthest_m, block_m);
   snapshot.index_robots(farthest_m);
+  // From here on the snapshot shows where all robots are.
   slack_m_ = 0;
 }
 
@@ -131,6 +138,7 @@ double WorldTruth::place_block(std::uint32_t first, std::uint32_t last) {
     const double before_rad = snapshot.robot(robot).X_WR.yaw;
     const bool turned = std::bit_cast<std::uint64_t>(movers[r].X_WR.yaw) !=
                         std::bit_cast<std::uint64_t>(before_rad);
+    // Compared bit by bit: of -0 and 0 the sine differs in its sign.
     const SinCos turn = turned ? sincos(movers[r].X_WR.yaw) : snapshot.turn_WR(robot);
     const Vec2 over_ground = rotate(turn, {velocity[r].vx, velocity[r].vy});
     snapshot.set_robot(
@@ -149,6 +157,7 @@ void WorldTruth::resolve(std::uint64_t step, std::vector<Event>& events) {
     touch[contact.robot] = {true, contact.direction_W};
     if (!spec.world.is_robot(contact.other.value())) continue;
     const std::size_t other = contact.other.value() - spec.world.obstacles.size();
+    // The one that was run into touches, too. Real robots are probed by note_contacts().
     if (movers[other].simulated) touch[other] = {true, -contact.direction_W};
   }
   for (const ContactNote& contact : notes) {
@@ -184,6 +193,8 @@ void WorldTruth::hash_block(std::uint64_t step, std::uint32_t first, std::uint32
   sum = own;
 }
 
+// From the original and not from the present body, so that rounding does not add up over many
+// changes.
 Result<world::Body> WorldTruth::body_at(RobotId robot, double scale) const {
   const auto original = original_bodies_.find(robot.value());
   return world::scaled(
@@ -196,6 +207,7 @@ Status WorldTruth::resize(RobotId robot, double scale) {
     return fail(ErrorCode::kInvalidArgument, "a real body cannot change its size");
   }
   RAVE_TRY_ASSIGN(const world::Body body, body_at(robot, scale));
+  // put_scale() is separate, because hosts take over what the authority has checked.
   RAVE_TRY(check_room(robot, body, scale));
   return put_scale(robot, scale);
 }
@@ -214,6 +226,7 @@ Status WorldTruth::check_room(RobotId robot, const world::Body& body, double sca
     if (gap_m >= kApart_m) continue;
     const double before_m =
         world::separation(spec.world.robots[r], movers[r].X_WR, theirs, X_WB).distance_m;
+    // An overlap that was there before, as in a faulty scenario, may stay or shrink.
     if (gap_m >= before_m) continue;
     return fail(ErrorCode::kInvalidArgument, "with `scale` {} it would overlap `{}`", scale,
                 theirs.name.empty() && is_robot ? spec.robots[other_robot].name : theirs.name);
@@ -250,6 +263,7 @@ void WorldTruth::set_reality(RobotId robot, bool simulated, const Pose2& X_WR) {
   body.layer = layer;
   put_body(robot, body);
   const auto original = original_bodies_.find(r);
+  // A later reset restores the body that is kept here, and its layer must be the present one.
   if (original != original_bodies_.end()) original->second.layer = layer;
 }
 

@@ -39,6 +39,7 @@ Error unknown_obstacle(const world::WorldModel& world, const std::string& name) 
 
 Result<BodyId> WorldTruth::find_obstacle(const ObstacleChange& change) const {
   const world::WorldModel& world = spec.world;
+  // Two obstacles may have one name, as in maps; a number is always one of them.
   if (change.id.valid()) {
     const world::Obstacle* const obstacle = world.obstacle(change.id.value());
     if (obstacle != nullptr && !obstacle->removed) return change.id;
@@ -75,6 +76,7 @@ Status WorldTruth::check_new_obstacle(const ObstacleChange& change) const {
                 "there already is an obstacle `{}` (number {}); move it, or choose another name",
                 change.name, same.value());
   }
+  // Sensors tell landmarks by their codes alone, so two of the same code could not be told apart.
   if (change.body.code && same_code != nullptr) {
     return fail(ErrorCode::kInvalidArgument,
                 "`{}` already carries the code {}; expected another code for the obstacle `{}`",
@@ -127,6 +129,8 @@ Result<ObstacleChange> WorldTruth::change_obstacle(ObstacleChange change, SimTim
   if (change.kind == Kind::kAdd) {
     RAVE_TRY(check_new_obstacle(change));
     RAVE_TRY(check_room_for(change, change.body, note));
+    // Numbers are never used again, so a recording or a late host cannot mistake one obstacle for
+    // another.
     change.id = BodyId(spec.world.body_count());
   } else {
     RAVE_TRY_ASSIGN(change.id, find_obstacle(change));
@@ -149,6 +153,7 @@ void WorldTruth::put_obstacles(std::span<const ObstacleChange> changes, SimTime 
     place_obstacle(change, from);
     if (placed) placed(change);
   }
+  // Once for all: it builds the grid of everything that stands.
   snapshot.index_obstacles();
 }
 
@@ -179,6 +184,7 @@ bool WorldTruth::restore_obstacles() {
   world::WorldModel& world = spec.world;
   if (original_places_.empty() && world.added.empty()) return false;
   if (!world.added.empty()) {
+    // First, since the numbers of the added ones are the last ones; what remains keeps its place.
     world.added.clear();
     snapshot.added_dropped();
   }

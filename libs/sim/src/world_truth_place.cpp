@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Robots that people put elsewhere.
 #include <cmath>
 
 #include "rave/math/transform.hpp"
@@ -21,6 +22,7 @@ Status WorldTruth::check_place(RobotId robot, const Pose2& X_WR) const {
     if (other == own || (is_robot ? !movers[other_robot].present : obstacle->removed)) continue;
     const Pose2 X_WB = is_robot ? movers[other_robot].X_WR : obstacle->X_WB;
     const world::Body& theirs = spec.world.body(other);
+    // A cheap test first: the separation of two outlines is costly, and a world may have thousands.
     const double reach_m = body.radius_m() + theirs.radius_m() + kApart_m;
     if (squared_norm(X_WB.position() - X_WR.position()) > reach_m * reach_m) continue;
     if (world::separation(body, X_WR, theirs, X_WB).distance_m >= kApart_m) continue;

@@ -97,6 +97,7 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
 };
 
 void Connection::begin() {
+  // Also for the handshake: a client that says nothing holds a place.
   stream_.expires_after(core_.options().idle);
   stream_.handshake([self = shared_from_this()](Error error) {
     if (error) {
@@ -121,6 +122,7 @@ void Connection::read() {
 
 void Connection::refuse_broken(Error error) {
   const bool large = error == http::error::header_limit || error == http::error::body_limit;
+  // What is no HTTP gets no answer.
   if (!large) return stream_.close();
   message_ = {};
   message_.keep_alive(false);
@@ -135,6 +137,7 @@ void Connection::take() {
   request.method = std::string(message_.method_string());
   for (const auto& field : message_) {
     std::string name(field.name_string());
+    // Names of header fields are not case sensitive (RFC 9110, section 5.1).
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     request.headers.emplace(std::move(name), std::string(field.value()));
@@ -171,6 +174,7 @@ void Connection::dispatch(const Request& request) {
   const Reply reply = [held](const Response& response) { held->answer(response); };
   // A later response has its own timeout; nothing is read meanwhile.
   stream_.expires_after(core_.options().idle);
+  // Slow work is done elsewhere and answered later, because this thread serves all connections.
   if (core_.handler().serve_later(request, reply)) return;
   answer(core_.handler().serve(request));
 }
@@ -195,6 +199,8 @@ std::optional<Response> Connection::refusal(Request& request) {
   }
   const std::string_view origin = request.header("origin");
   const bool socket = beast::websocket::is_upgrade(message_) && request.path == kUsualSocket;
+  // A browser sends cookies with requests of foreign pages, too. What changes something, or opens a
+  // socket, must come from a page of this server (cross-site request forgery).
   const bool writes = request.method == "POST" || socket;
   if (core_.options().own_origin_only && writes && !origin.empty() &&
       origin != fmt::format("{}{}", core_.scheme(), request.header("host"))) {
@@ -211,6 +217,7 @@ void Connection::upgrade(Request request) {
     subprotocol = std::move(answer.subprotocol);
   }
   stream_.set_send_buffer(core_.options().send_buffer_bytes);
+  // From here on the socket belongs to the WebSocket, and cut() must not close it.
   handed_over_ = true;
   serve_websocket(core_, std::move(stream_), std::move(seat_), std::move(request),
                   std::move(subprotocol), message_);
@@ -232,6 +239,8 @@ void Connection::answer(const Response& response) {
   reply->result(static_cast<unsigned>(response.status));
   reply->set(http::field::content_type, response.type);
   reply->set("Content-Security-Policy", policy());
+  // Defaults for every answer: no guessing of types, no address of this page to others, no window
+  // shared with other pages.
   reply->set("X-Content-Type-Options", "nosniff");
   reply->set("Referrer-Policy", "no-referrer");
   reply->set("Cross-Origin-Opener-Policy", "same-origin");

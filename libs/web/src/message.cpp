@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Parts of HTTP that are read by hand: targets, queries, forms, cookies.
 #include "rave/web/message.hpp"
 
 #include <algorithm>
@@ -89,6 +90,7 @@ bool decode_percent(std::string_view text, bool plus_is_space, std::string& out)
     } else if (c == '+' && plus_is_space) {
       c = ' ';
     }
+    // No control character gets into paths, log lines or headers.
     if (is_control(c)) return false;
     out.push_back(c);
   }
@@ -103,6 +105,7 @@ bool parse_target(std::string_view target, std::string& path,
   if (!decode_percent(target.substr(0, mark), false, path)) return false;
   if (path.find('\\') != std::string::npos) return false;
   std::string_view rest(path);
+  // Checked after decoding, since `%2e%2e` is `..` as well.
   while (!rest.empty()) {
     rest.remove_prefix(1);
     const std::string_view part = rest.substr(0, rest.find('/'));
@@ -117,6 +120,7 @@ bool parse_form(std::string_view body, std::map<std::string, std::string>& field
   constexpr std::ptrdiff_t kMostFields = 32;
   fields.clear();
   if (body.size() > kMostBytes) return false;
+  // Before anything is parsed: a map of a million fields would cost seconds.
   if (std::count(body.begin(), body.end(), '&') >= kMostFields) return false;
   return parse_query(body, fields);
 }

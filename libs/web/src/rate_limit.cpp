@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Limits by network, in token buckets.
 #include "rave/web/rate_limit.hpp"
 
 #include <arpa/inet.h>
@@ -17,6 +18,7 @@ constexpr std::string_view kMapped = "::ffff:";
 
 }  // namespace
 
+// A token bucket: refilled at a constant rate up to the burst, computed when it is asked.
 double RateLimit::tokens_of(const Bucket& bucket, Clock::time_point now) const {
   const double gone_s = std::chrono::duration<double>(now - bucket.at).count();
   return std::min(burst_, bucket.tokens + per_s_ * std::max(gone_s, 0.0));
@@ -55,6 +57,7 @@ std::string network_of(const std::string& address) {
   if (inet_pton(AF_INET6, address.substr(0, address.find('%')).c_str(), bytes.data()) != 1) {
     return address;
   }
+  // A customer of a provider has at least a /64 of IPv6, so limits by address would limit nobody.
   std::fill(bytes.begin() + 8, bytes.end(), static_cast<unsigned char>(0));
   std::array<char, INET6_ADDRSTRLEN> text{};
   inet_ntop(AF_INET6, bytes.data(), text.data(), text.size());

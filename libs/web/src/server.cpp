@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// One thread serves all connections. Others hand it work with post().
 #include "rave/web/server.hpp"
 
 #include <fmt/format.h>
@@ -26,6 +27,7 @@ bool Core::is_own_host(std::string_view host) const {
 
 bool Core::has_room(const std::string& network) const {
   if (connections.size() + sockets.size() >= options_.connections) return false;
+  // One network may not take all places from the others.
   const auto found = seats.find(network);
   return found == seats.end() || found->second < options_.connections_per_network;
 }
@@ -84,6 +86,8 @@ Status ServerImpl::listen() {
     error = {};
     acceptor_ = Tcp::acceptor(core_.io());
     if (acceptor_.open(endpoint.protocol(), error)) break;
+    // A server that is started again can use its port at once; a port in use is refused all the
+    // same.
     acceptor_.set_option(asio::socket_base::reuse_address(true), error);
     if (!acceptor_.bind(endpoint, error)) break;
     if (error != asio::error::address_in_use) break;
@@ -105,6 +109,7 @@ void ServerImpl::accept() {
     const auto peer = error ? Tcp::endpoint() : socket.remote_endpoint(gone);
     const std::string address = peer.address().to_string();
     const std::string network = network_of(address);
+    // Refused without an answer: it would cost as much as a request.
     if (!error && !gone && core_.has_room(network) &&
         core_.accepts.take(network, RateLimit::Clock::now())) {
       ++core_.counts.connections;
@@ -130,6 +135,7 @@ ServerCounts ServerImpl::counts() const {
 void ServerImpl::every(std::chrono::milliseconds period, std::function<void()> call) {
   auto timer =
       std::make_shared<Timer>(Timer{asio::steady_timer(core_.io()), period, std::move(call)});
+  // In the thread of the server, which owns the list of timers.
   post([this, timer] {
     timers_.push_back(timer);
     timer->timer.expires_after(timer->period);
@@ -161,6 +167,7 @@ void ServerImpl::stop() {
     for (SocketLink* const socket : std::vector(core_.sockets.begin(), core_.sockets.end())) {
       socket->close(1001, "the server is shutting down");
     }
+    // Sockets get a second for their closing handshake.
     auto bound = std::make_shared<asio::steady_timer>(core_.io(), std::chrono::seconds(1));
     bound->async_wait([this, bound](Error) {
       for (SocketLink* const socket : std::vector(core_.sockets.begin(), core_.sockets.end())) {

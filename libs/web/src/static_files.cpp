@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The files of the page, read and packed once at the start: requests for them never touch the disk.
 #include "rave/web/static_files.hpp"
 
 #include <fmt/format.h>
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20U;
 
+// With `nosniff` browsers run and show only what has the right type.
 std::string type_of(const fs::path& path) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kTypes = {{
       {".html", "text/html; charset=utf-8"},
@@ -78,6 +80,7 @@ Result<StaticFiles> StaticFiles::load(const fs::path& folder) {
     file.type = type_of(it->path());
     file.tag = fmt::format("\"{:016x}\"", content_hash(std::as_bytes(std::span(content))));
     std::string packed = gzipped(content);
+    // Packed once, at the start; a small gain is not worth the work of the browser.
     if (!packed.empty() && packed.size() + 64 < content.size()) {
       file.gzip = std::make_shared<const std::string>(std::move(packed));
     }
@@ -95,6 +98,7 @@ Response StaticFiles::serve(const Request& request) const {
   Response response;
   response.type = file.type;
   response.headers.emplace_back("ETag", file.tag);
+  // Names of built files contain a hash of their content, so such a file never changes.
   const bool forever = request.path.starts_with("/assets/") && !request.path.ends_with(".html");
   response.headers.emplace_back("Cache-Control",
                                 forever ? "public, max-age=31536000, immutable" : "no-cache");

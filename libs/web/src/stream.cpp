@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A connection with or without TLS behind one type, so that the large templates of Beast are
+// compiled once.
 #include "stream.hpp"
 
 #include <boost/asio/ssl/context.hpp>
@@ -47,6 +49,7 @@ void Stream::handshake(std::function<void(Error)> done) {
 
 void Stream::expires_after(std::chrono::steady_clock::duration time) {
   impl_->timer.expires_after(time);
+  // Weak: a timer alone must not keep a connection.
   impl_->timer.async_wait([weak = std::weak_ptr(impl_)](Error error) {
     if (error) return;
     if (const auto impl = weak.lock()) impl->close();
@@ -68,6 +71,7 @@ void Stream::finish(std::function<void()> done) {
     asio::post(get_executor(), end);
     return;
   }
+  // The other side has to answer the end of TLS, and may not.
   expires_after(std::chrono::seconds(2));
   impl_->tls->async_shutdown([end](Error /*error*/) { end(); });
 }
@@ -77,6 +81,7 @@ void Stream::close() noexcept { impl_->close(); }
 void Stream::set_send_buffer(int bytes) {
   Error ignored;
   impl_->socket().set_option(asio::socket_base::send_buffer_size(bytes), ignored);
+  // Small frames go out at once instead of waiting for the answer to the last one (Nagle).
   impl_->socket().set_option(Tcp::no_delay(true), ignored);
 }
 

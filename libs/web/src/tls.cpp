@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Certificate and key of the server, checked at the start and not by the first browser.
 #include "tls.hpp"
 
 #include <arpa/inet.h>
@@ -28,6 +29,7 @@ std::string address_text(const ASN1_OCTET_STRING* address) {
   return good ? text.data() : "";
 }
 
+// Subject alternative names only: browsers ignore the common name.
 std::vector<std::string> names_of(const X509* certificate) {
   const std::unique_ptr<GENERAL_NAMES, NamesFree> names(static_cast<GENERAL_NAMES*>(
       X509_get_ext_d2i(certificate, NID_subject_alt_name, nullptr, nullptr)));
@@ -71,6 +73,7 @@ Result<std::unique_ptr<Tls>> Tls::load(const std::filesystem::path& certificate,
   tls->context_ = std::make_unique<ssl::context>(ssl::context::tls_server);
   SSL_CTX* const raw = tls->context_->native_handle();
   SSL_CTX_set_min_proto_version(raw, TLS1_2_VERSION);
+  // No renegotiation and no compression, which have been attacked.
   SSL_CTX_set_options(raw, SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_COMPRESSION |
                                SSL_OP_CIPHER_SERVER_PREFERENCE | SSL_OP_IGNORE_UNEXPECTED_EOF);
   // Ciphers with forward secrecy and authenticated encryption, as all of TLS 1.3 are.

@@ -69,9 +69,11 @@ class WebSocket final : public SocketLink, public std::enable_shared_from_this<W
 
 void WebSocket::accept(const http::request<http::string_body>& upgrade) {
   const ServerOptions& options = core_.options();
+  // Beast has its own timeout for sockets, with pings; the one of requests would end them.
   stream_.next_layer().expires_never();
   stream_.set_option(websocket::stream_base::timeout{options.idle, options.idle, true});
   stream_.read_message_max(options.message_bytes);
+  // Messages are complete in memory; pieces would only cost headers.
   stream_.auto_fragment(false);
   if (!subprotocol_.empty()) {
     stream_.set_option(
@@ -87,6 +89,8 @@ void WebSocket::accept(const http::request<http::string_body>& upgrade) {
 void WebSocket::opened() {
   core_.sockets.insert(this);
   const Handler::Admission admission = core_.handler().admit(request_);
+  // Refused after the handshake, because a browser does not show a page why an upgrade failed; it
+  // does show the code of a close.
   if (admission.refusal != 0) {
     close(admission.refusal, admission.reason);
   } else {
@@ -98,6 +102,7 @@ void WebSocket::opened() {
 
 void WebSocket::queue(Out out) {
   if (ended_ || closing_) return;
+  // Payloads are shared by all pages that get them, so a frame for a hundred pages exists once.
   waiting_ += out.payload->size();
   out_.push_back(std::move(out));
   if (waiting_ > core_.options().waiting_bytes) {
@@ -114,6 +119,7 @@ void WebSocket::write() {
     if (closing_) start_closing();
     return;
   }
+  // One write at a time, as Beast requires; its handler begins the next one.
   writing_ = true;
   const Out& next = out_.front();
   stream_.text(next.text);
@@ -140,6 +146,7 @@ void WebSocket::read() {
 
 void WebSocket::take(std::string_view message) {
   const bool text = stream_.got_text();
+  // A page that was refused, or is being closed, is no longer heard.
   if (closing_ || id_ == 0) {
     if (!text) close(1003, "text messages only");
     return;
@@ -155,6 +162,7 @@ void WebSocket::take(std::string_view message) {
 
 void WebSocket::close(std::uint16_t code, std::string_view reason) {
   if (ended_ || closing_) return;
+  // A close frame has room for 123 bytes of reason (RFC 6455, section 5.5).
   constexpr std::size_t kMostReason = 120;
   closing_ = websocket::close_reason(
       static_cast<websocket::close_code>(code),

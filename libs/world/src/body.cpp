@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Bodies of convex shapes. An outline of any form is decomposed once, when it is read.
 #include "rave/world/body.hpp"
 
 #include <algorithm>
@@ -72,6 +73,8 @@ Result<Body> scaled(const Body& body, double factor) {
     std::vector<Vec2> corners(shape.vertices().begin(), shape.vertices().end());
     for (Vec2& corner : corners) corner = factor * corner;
     RAVE_TRY_ASSIGN(auto polygon, ConvexPolygon::make(corners));
+    // make() joins corners that are too near to each other. The place of shapes in the snapshot has
+    // room for the corners of the start.
     if (polygon.size() != corners.size()) {
       return fail(ErrorCode::kInvalidArgument, "scaled by {}, a shape of it loses corners", factor);
     }

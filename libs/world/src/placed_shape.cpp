@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+// Rays against single shapes, exactly and in double precision, for queries that are few.
 #include "rave/world/placed_shape.hpp"
 
 #include <cmath>
 
 namespace rave::world {
 
+// Clipping of the ray by the half planes of the edges (M. Cyrus and J. Beck, Computers & Graphics
+// 3, 1978). Normals need no unit length: distance and speed have the same factor.
 double cast_polygon(Vec2 origin, Vec2 direction, std::span<const Vec2> vertices) noexcept {
   double enter = 0;
   double leave = kNoHit;
@@ -16,6 +19,7 @@ double cast_polygon(Vec2 origin, Vec2 direction, std::span<const Vec2> vertices)
     const double distance = dot(outward, a - origin);  // negative: outside this edge
     const double speed = dot(outward, direction);
     if (distance < 0) inside = false;
+    // Parallel to this edge: outside it for its whole length, or not limited by it.
     if (speed == 0) {
       if (distance < 0) return kNoHit;
       continue;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A uniform grid of pieces, built anew in each step by a counting sort. A piece is in the one cell
+// of its centre, so queries look one largest radius farther.
 #include "rave/world/shape_grid.hpp"
 
 #include <algorithm>
@@ -8,6 +10,7 @@
 namespace rave::world {
 namespace {
 
+/// Limits memory: where things are far apart, cells grow instead.
 constexpr double kMaxCells = 1 << 20;
 constexpr std::size_t kMaxPieces = 4096;
 
@@ -25,6 +28,7 @@ Box box_of(std::span<const Vec2> points) {
   return box;
 }
 
+// Not the smallest disc, but found in one pass; its radius is at most sqrt(2) times the smallest.
 CoverDisc disc_of(std::span<const Vec2> points) {
   const Box box = box_of(points);
   CoverDisc disc{0.5 * (box.low + box.high), 0};
@@ -56,6 +60,7 @@ void split(std::vector<Vec2> polygon, double largest_m, std::vector<CoverDisc>& 
     const std::vector<Vec2> piece = std::move(waiting.back());
     waiting.pop_back();
     const CoverDisc disc = disc_of(piece);
+    // A limit on the number, since a wall may be kilometres long.
     if (disc.radius_m <= largest_m || pieces.size() + waiting.size() >= kMaxPieces) {
       pieces.push_back(disc);
       continue;
@@ -129,6 +134,8 @@ void ShapeGrid::build(std::span<const ShapePiece> pieces, double cell_m) {
     sorted_.clear();
     return;
   }
+  // A counting sort: count the pieces of each cell, add up, put each at its place. Pieces of a row
+  // of cells lie one behind the other, so a query reads whole rows.
   begin_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) + 1, 0);
   slots_.resize(pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The bodies of a step, placed and indexed. Obstacles are placed when they change, robots in each
+// step. Queries from many threads read it; nobody writes meanwhile.
 #include "rave/world/snapshot.hpp"
 
 #include <algorithm>
@@ -53,6 +55,8 @@ Snapshot::Snapshot(const WorldModel& model)
   rebuild();
 }
 
+// Each list of first indices has one more entry than there are bodies or shapes, so that the end of
+// the last one needs no special case. Obstacles that come later go in front of these ends.
 void Snapshot::end_shapes() {
   first_shape_.push_back(static_cast<std::uint32_t>(shapes_.size()));
   first_disc_.push_back(static_cast<std::uint32_t>(cover_.size()));
@@ -77,6 +81,7 @@ void Snapshot::add_shapes(std::uint32_t body, const Body& description) {
     placed.first_vertex = static_cast<std::uint32_t>(vertices_.size());
     placed.vertex_count = static_cast<std::uint32_t>(shape.vertices().size());
     first_disc_.push_back(static_cast<std::uint32_t>(cover_.size()));
+    // Two covers: one disc of the whole shape for exact queries, and small ones for the grids.
     const CoverDisc whole = cover(shape, std::numeric_limits<double>::infinity()).front();
     placed.radius_m = whole.radius_m;
     whole_.push_back(whole.centre_B);
@@ -160,6 +165,8 @@ void Snapshot::index_obstacles() {
   }
   fixed_landmarks_ = landmarks_.size();
   rebuild_landmarks();
+  // Pieces are in the order obstacles of the start, robots, added obstacles. Without added ones the
+  // first part is used in place.
   const auto of_start = std::span(pieces_).first(first_disc_[first_shape_[first_robot()]]);
   if (standing_.size() == model_->obstacles.size()) {
     fixed_.build(of_start, kCellSize_m);
@@ -196,6 +203,7 @@ double Snapshot::place(std::uint32_t body, const Body& description, Vec2 p_WB, S
       piece.centre_W = present ? p_WB + rotate(turn, cover_[d].centre_B) : kNowhere;
       piece.pieces = static_cast<std::uint16_t>(present ? discs : 0);
       const double moved_m2 = squared_norm(piece.centre_W - before_W);
+      // A place that is not a number counts as an infinite jump, which voids all lists.
       if (!(moved_m2 <= farthest_m2)) {
         farthest_m2 = std::isnan(moved_m2) ? std::numeric_limits<double>::infinity() : moved_m2;
       }
@@ -235,6 +243,7 @@ void Snapshot::body_changed(RobotId robot) {
     const auto old_count = first_disc_[index + 1] - first_disc_[index];
     cover_.insert(cover_.erase(at, at + old_count), discs.begin(), discs.end());
     const auto more = static_cast<std::uint32_t>(discs.size()) - old_count;  // modulo 2^32
+    // The new shape may have more or fewer pieces; all behind it move.
     for (std::size_t next = index + 1; next < first_disc_.size(); ++next) first_disc_[next] += more;
   }
   make_pieces();
@@ -264,6 +273,7 @@ double Snapshot::place_robots(std::uint32_t first, std::uint32_t last) {
 }
 
 void Snapshot::index_robots(double farthest_m) {
+  // A jump would use up the margin of all lists; a new generation voids them at once.
   if (farthest_m <= kJump_m) {
     drift_m_ += farthest_m;
   } else {
@@ -275,6 +285,8 @@ void Snapshot::index_robots(double farthest_m) {
   rebuild_landmarks();
 }
 
+// Robots that carry codes move, so their landmarks are made anew in each step, behind those of
+// obstacles.
 void Snapshot::rebuild_landmarks() {
   landmarks_.erase(landmarks_.begin() + static_cast<std::ptrdiff_t>(fixed_landmarks_),
                    landmarks_.end());
@@ -298,6 +310,8 @@ RayHit Snapshot::nearest(Vec2 p_W, Vec2 direction, double z_m, double range_max_
   std::vector<std::uint32_t>& found = scratch();
   RayHit hit;
   std::uint32_t nearest = 0;
+  // Part by part, because most rays end early. A hit ends the search once all that could be nearer
+  // lies in the parts that were searched.
   for (RayParts parts = parts_of(p_W, range_max_m); parts.next();) {
     found.clear();
     for_each_along(p_W, direction, parts.from_m, parts.to_m, kRounding_m,
@@ -307,6 +321,7 @@ RayHit Snapshot::nearest(Vec2 p_W, Vec2 direction, double z_m, double range_max_
     for (const std::uint32_t index : found) {
       const PlacedShape& candidate = shapes_[index];
       if (!contains(layers, candidate.layer) || !candidate.at_height(z_m)) continue;
+      // The bodies at both ends of a line of sight do not obstruct it.
       if (candidate.body == a.value() || candidate.body == b.value()) continue;
       const double range = candidate.kind == ShapeKind::kDisc
                                ? cast_disc(p_W, direction, candidate.centre_W, candidate.radius_m)
@@ -378,6 +393,8 @@ std::uint32_t Snapshot::robots_within(Vec2 p_W, double radius_m,
   shapes.clear();
   moving_.for_each_near(p_W, radius_m + largest_robot_m_,
                         [&](const ShapePiece& piece) { shapes.push_back(piece.shape); });
+  // Shapes of a robot are next to each other, so doubles are found by comparing neighbours, and the
+  // result is in the order of the robots.
   std::sort(shapes.begin(), shapes.end());
   const auto obstacle_count = static_cast<std::uint32_t>(model_->obstacles.size());
   std::uint32_t count = 0;

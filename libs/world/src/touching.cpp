@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Distances and impacts of bodies that consist of several convex shapes: the least over all pairs
+// of shapes whose heights overlap.
 #include "rave/world/touching.hpp"
 
 #include <algorithm>
@@ -57,8 +59,10 @@ Impact advance_to_impact(const Shape& a, const Pose2& X_WA, const Motion2& motio
   for (int step = 0; step < kMaxAdvances; ++step) {
     const double approach = dot({motion.dx, motion.dy}, now.normal_W) + turn_bound - kAlong_m;
     const double room = now.distance_m - limits.skin_m;
+    // An existing contact ends the motion only if the motion leads into it.
     const bool touching = room <= limits.tolerance_m;
     if (touching && approach > 0) return {fraction, now.normal_W, now.distance_m, true};
+    // Not approaching: nothing can be reached in the rest of the motion.
     const double next = approach > 0 ? fraction + room / approach : 1;
     if (next >= 1) {
       const Separation end = separation(a, advance(X_WA, motion, 1), b, X_WB);
@@ -82,6 +86,7 @@ Impact shape_impact(const Shape& a, const Pose2& X_WA, const Motion2& motion, co
 
 Separation separation(const Shape& a, const Pose2& X_WA, const Shape& b,
                       const Pose2& X_WB) noexcept {
+  // What passes over or under something never touches it.
   if (!heights_overlap(a, b)) {
     Separation apart;
     apart.distance_m = std::numeric_limits<double>::infinity();

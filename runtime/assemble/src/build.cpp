@@ -108,9 +108,9 @@ std::vector<std::uint8_t> groups_here(const config::ExpandedScenario& scenario,
   return here;
 }
 
+/// Clears all pointers into the memory of plug-ins.
 /// Drivers of other hosts are loaded only to check their parameters and to learn what their sensors
 /// give. Their catalogue and its libraries end soon after, so no pointer into them may stay.
-/// Clears all pointers into the memory of plug-ins.
 void let_go_of_plugins(sim::RobotType& type) {
   for (sim::DeviceSpec& device : type.devices) device.ops = nullptr;
   for (sim::SensorSpec& sensor : type.sensors) {

@@ -11,9 +11,9 @@ const sim::SensorSpec* find_sensor(const sim::RobotType& type, const std::string
   return found == type.sensors.end() ? nullptr : &*found;
 }
 
+/// Checks that the sensor of a touches check gives contacts.
 /// The reader of the scenario has checked that robots and sensors of checks exist. What a sensor
 /// gives is known only now, after its driver has been loaded.
-/// Checks that the sensor of a touches check gives contacts.
 Status check_touches(const config::ExpandedScenario& scenario, const sim::EngineSpec& spec,
                      const config::TouchesCheckFile& check) {
   if (!check.sensor) return {};

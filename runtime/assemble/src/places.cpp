@@ -15,9 +15,9 @@
 namespace rave::runtime {
 namespace {
 
+/// The device number for drawing places.
 /// Random streams are keyed by seed, robot and device. This number is far from those of sensors and
 /// below those of programs (0xffff0000), so places share a stream with neither.
-/// The device number for drawing places.
 constexpr std::uint32_t kPlaceDevice = 0xfffe'0000U;
 constexpr std::uint32_t kMaxTries = 10'000;
 

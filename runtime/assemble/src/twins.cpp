@@ -37,8 +37,8 @@ tl::unexpected<Error> differs(const config::RobotGroup& group, std::string_view 
                  group.name.value, what);
 }
 
-/// A hand-over changes drivers while the program keeps running and the world keeps its body.
 /// What the program and the world must find unchanged.
+/// A hand-over changes drivers while the program keeps running and the world keeps its body.
 Status check_same_robot(const config::RobotGroup& group) {
   const config::RobotFile& first = group.robot;
   const config::RobotFile& twin = group.twin->robot;

@@ -42,6 +42,7 @@ class LiveOnBus final : public LiveEndpoint {
     parts_.states.refuse(state, why);
   }
   void send(bus::World& world) override {
+    // A world that cannot be sent is not repeated, because the next one replaces it.
     static_cast<void>(parts_.worlds.write(world));
     world_ = world.step;
   }
@@ -78,6 +79,7 @@ Result<std::unique_ptr<LiveEndpoint>> LiveEndpoint::open(const LiveManagerOption
   RAVE_TRY(waits.add(pings));
   RAVE_TRY(waits.add(states));
   RAVE_TRY(endpoint->wake(waits));
+  // After all readers exist, since hosts answer at once.
   RAVE_TRY(endpoint->introduce());
   return std::make_unique<LiveOnBus>(
       LiveParts{std::move(endpoint), std::move(worlds), std::move(pongs), std::move(obstacles),

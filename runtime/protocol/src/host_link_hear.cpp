@@ -206,9 +206,9 @@ void HostLink::Impl::look_at_patience() {
   tell(LogLevel::kError, "gives up: " + ending->text);
 }
 
+/// Work that can wait until nothing else is due.
 /// Introductions come before the states of the run, because a state counts only if its manager is
 /// known to be of this run. Losses come last, so that the last words of a lost process still count.
-/// Work that can wait until nothing else is due.
 void HostLink::Impl::look() {
   take_infos();
   if (runs) {

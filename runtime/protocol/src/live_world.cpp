@@ -196,6 +196,8 @@ void LiveWorld::adopt(const ObstacleSight& sight, bool is_new) {
   // A removed obstacle never comes back under its number.
   if (!is_new && (obstacle == nullptr || obstacle->removed)) return;
   if (!is_new && change.kind == Kind::kAdd) {
+    // The manager publishes an added obstacle with its body each time it changes. Here it exists
+    // already, so the rest is a move.
     change.body = {};
     change.kind = Kind::kMove;
     if (!sight.removed) authority_->adopt(change);

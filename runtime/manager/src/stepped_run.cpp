@@ -13,10 +13,6 @@ using Clock = std::chrono::steady_clock;
 using config::LostHost;
 
 /// Wall time of a step at this pace; 0: there is none.
-/// The loop: gather the reports of all hosts for step n, resolve it, begin step n + 1, send its
-/// world. Meanwhile hosts wait for that world; those that do not receive it repeat their report,
-/// and get the world again. All of it is on one thread, and requests are served between the
-/// messages.
 Clock::duration period_of(const sim::EngineSpec& spec, double pace) {
   if (pace <= 0) return {};
   return std::chrono::duration_cast<Clock::duration>(
@@ -220,6 +216,10 @@ runtime::RunStatus SteppedRun::first_status() const {
   return status;
 }
 
+/// The loop: gather the reports of all hosts for step n, resolve it, begin step n + 1, send its
+/// world. Meanwhile hosts wait for that world; those that do not receive it repeat their report,
+/// and get the world again. All of it is on one thread, and requests are served between the
+/// messages.
 Result<ManagerOutcome> SteppedRun::go() {
   tell_state(rave_wire_RUN_GATHERS, fmt::format("waiting for {}", waited_for()));
   // The first reports are those of step 0, or of a later step if these hosts come from a lost

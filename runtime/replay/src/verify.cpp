@@ -57,6 +57,7 @@ Result<std::vector<std::uint64_t>> read_hashes(const record::McapReader& reader)
   std::vector<std::uint64_t> hashes;
   const auto take = [&](const record::MessageView& message) -> Status {
     RAVE_TRY_ASSIGN(const record::StepHash hash, record::decode_hash(message.bytes));
+    // By step without gaps; a duplicate of a merged recording is ignored.
     if (hash.step == hashes.size()) hashes.push_back(hash.hash);
     return {};
   };
@@ -121,6 +122,8 @@ class InputReplay {
   /// they succeeded.
   Status serve(const Again& again, RecordKeeper& keeper, VerifyOutcome& outcome) {
     const std::uint64_t step = again.engine.steps_done();
+    // A request counts from the step that was due when it was made, so it is repeated before that
+    // step.
     for (; next_ < inputs_.size() && inputs_[next_].step <= step; ++next_) {
       const record::RunInput& input = inputs_[next_];
       const auto kind = request_kind(input.kind);
@@ -132,6 +135,7 @@ class InputReplay {
       RAVE_TRY_ASSIGN(const RunRequest request, request_of(*kind, input));
       const auto answer = again.ask(request);
       if (answer) {
+        // The second recording needs the inputs as well, or it would differ from the first.
         keeper.keep(request, step);
       } else {
         outcome.notes.push_back(
@@ -304,6 +308,8 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   compare_inputs(run, outcome);
   if (!outcome.missing.empty()) return outcome;
   RAVE_TRY_ASSIGN(const config::ExpandedScenario scenario, scenario_of(run, record, options));
+  // A live clock is needed to build the scenario at all. It is never asked: a live run is refused
+  // below.
   WallPace pace(0);
   RAVE_TRY_ASSIGN(BuiltScenario built,
                   build(scenario, catalogue, {options.program_runner, options.log, &pace}));
@@ -326,6 +332,7 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   }
   const Again again = of_host ? again_of(*of_host) : again_of(*alone);
   const sim::Engine& engine = again.engine;
+  // Other versions are a note and not an error: the comparison shows whether they matter.
   compare_versions(run, versions_of(engine.spec(), catalogue), outcome);
   RAVE_TRY_ASSIGN(const auto hashes, read_hashes(reader));
   RAVE_TRY_ASSIGN(const Scratch scratch, Scratch::create());
@@ -334,12 +341,15 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   RAVE_TRY_ASSIGN(auto inputs, read_inputs(reader));
   SecondRun second{again, *keeper, kinds};
   const auto& checks = scenario.scenario.checks;
+  // Captures concern robots of several hosts, so the manager records them and a host does not.
   if (checks.capture && !of_host) second.capture.emplace(*checks.capture, scenario);
   if (of_host) of_host->look = [&second] { second.look_back(); };
   RAVE_TRY(run_again(second, InputReplay(std::move(inputs)), hashes, options, outcome));
   RAVE_TRY(keeper->end(engine.hash().value()));
   RAVE_TRY_ASSIGN(const auto written, record::McapReader::open(scratch.file()));
   RAVE_TRY_ASSIGN(const RecordMatch match,
+                  // Compared from the two files, not during the run: both have passed the same
+                  // writer and reader.
                   match_records(reader, written, run, {!end, record::is_merged(reader)}));
   if (match.messages == 0 && !match.difference && !outcome.ended_early) {
     return fail(ErrorCode::kInvalidArgument,

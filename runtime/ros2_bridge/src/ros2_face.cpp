@@ -217,12 +217,15 @@ void Ros2Face::write_static(const sim::Engine& engine) {
 // A failed write does not end the run: the next message follows.
 void Ros2Face::after_step(const StepView& step) {
   const sim::Engine& engine = step.engine;
+  // In each step, so that nodes with `use_sim_time` see time pass evenly.
   if (clock_) {
     ros2::Clock now{};
     now.clock = ros2::time_of(engine.time().ns);
     (void)clock_->write(now);
   }
   for (Robot& robot : robots_) write_new(engine, robot);
+  // Sensors are written when they have a new sample; transforms and poses at a rate, since /tf of
+  // many robots is large.
   if (engine.time().ns < due_ns_) return;
   due_ns_ = engine.time().ns + period_ns_;
   write_transforms(engine);

@@ -90,6 +90,7 @@ Status add_poses(RobotLog& robot, LogFile file, const StreamWindow& window,
   const std::string path = file.path;
   auto poses =
       make_poses(std::move(file), robot.subject, window, from_seconds(options.pose_gap_limit_s).ns);
+  // A real robot without any pose would never exist in the world.
   if (poses.samples.empty()) {
     return fail_at({path, 0, 0}, ErrorCode::kParse,
                    "robot {} has no pose up to the end of the window at {} s", robot.subject,

@@ -15,6 +15,7 @@ using recording::sort_rows;
 using recording::trim;
 using recording::wrap_heading;
 
+// Columns of the logs as the data set documents them; the names appear in messages about a bad row.
 constexpr std::array<Column, 4> kPoseColumns{{{"time [s]", ColumnKind::kStamp},
                                               {"x [m]", ColumnKind::kReal},
                                               {"y [m]", ColumnKind::kReal},
@@ -54,6 +55,8 @@ void count_unknown(StreamReport& report, const std::vector<Sighting>& sightings)
   for (const auto& [code, count] : counts) report.unknown_codes.push_back({code, count});
 }
 
+// The number in the measurement log is a barcode. Reading it as a subject is the classical mistake
+// with this data set, offered so that a check can be shown to notice it.
 int subject_of(int code, CodeMeaning meaning, const Subjects& subjects) noexcept {
   if (meaning == CodeMeaning::kBarcode) return subjects.subject_of_code(code);
   return subjects.code_of_subject(code) >= 0 ? code : kUnknownSubject;

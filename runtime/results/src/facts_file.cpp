@@ -16,6 +16,8 @@ constexpr std::uint32_t kVersion = 3;
 /// The list of members and their order, used for reading and writing: each member is passed to
 /// `archive`.
 template <class Archive>
+// One list serves reading and writing, so the two cannot disagree. A change of it needs another
+// kVersion.
 struct Members {
   Archive& archive;
 
@@ -108,6 +110,7 @@ class Writer {
   void put(std::map<Key, T>& values) {
     cdr_.put_count(values.size());
     for (auto& [key, value] : values) {
+      // Keys of a map are constant, and put() takes the same references as the reader.
       Key copy = key;
       put(copy);
       put(value);
@@ -271,6 +274,7 @@ Result<RunFacts> decode_facts(std::span<const std::byte> bytes, const FactsOf& a
                 "wrote them",
                 version, kVersion);
   }
+  // A folder may have results of an earlier run with the same name.
   if (whose.run_number != about.run_number) {
     return fail(ErrorCode::kState, "the results belong to another scenario or seed");
   }

@@ -70,6 +70,7 @@ void GoalChecks::count_readings(const sim::Engine& engine, Touches& touches) {
     const auto* first = static_cast<const ContactReading*>(sample.records);
     const bool touching = std::any_of(first, first + sample.header->count,
                                       [](const ContactReading& c) { return c.touching != 0; });
+    // A touch counts when it begins. A reading that stays "touching" is the same touch.
     if (touching && !feeler.touching) ++touches.count;
     feeler.touching = touching;
   }
@@ -82,6 +83,7 @@ void GoalChecks::after_step(const StepView& step) {
     ArrivalFacts& facts = arrival.facts;
     if (!engine.is_local(arrival.id)) continue;
     const sim::ReportedPose& pose = engine.reported(arrival.id);
+    // The reported pose, not the true one: the check is the same for real and simulated robots.
     if (!pose.known || facts.time_s) continue;
     const double off_m =
         std::hypot(pose.pose.x_m - arrival.file.x_m, pose.pose.y_m - arrival.file.y_m);
@@ -211,6 +213,7 @@ std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
     std::uint64_t count = i < facts.goals.touches.size() ? facts.goals.touches[i] : 0;
     if (!file.sensor) count = count_contacts(spec, facts.events, robots);
     results.push_back(touches_result(file, count));
+    // A count that is too high already shows that the check fails, whatever is missing besides.
     const bool exceeds = static_cast<std::int64_t>(count) > file.most;
     if (!exceeds) {
       static const std::vector<std::uint32_t> kNone;

@@ -12,6 +12,7 @@ namespace rave::runtime {
 namespace {
 
 void add_guard_row(const Findings& findings, report::Table& table) {
+  // All robots together: a row per robot of a swarm would hide the rest of the table.
   std::map<std::string, std::size_t> total;
   for (const auto& [robot, counts] : guard_counts(findings)) {
     for (const auto& [what, count] : counts) total[what] += count;
@@ -79,6 +80,8 @@ void add_encounter_rows(const Findings& findings, report::Table& table) {
     table.rows.push_back(
         {fmt::format("closest {}", pair),
          fmt::format("{:.3f} m between outlines at {:.2f} s ({} and {})",
+                     // Outlines that overlap have a negative distance, which says nothing to a
+                     // reader of the summary.
                      std::max(encounter.gap_m, 0.0), encounter.time_s,
                      findings.kinds.name(encounter.a), findings.kinds.name(encounter.b))});
   }
@@ -107,6 +110,7 @@ std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
       {"robots", fmt::format("{}: {} real, {} simulated", count, real, count - real)});
   table.rows.push_back(
       {"time", fmt::format("{:.2f} s simulated in {:.2f} s ({:.1f}x)", simulated_s, findings.wall_s,
+                           // A run without steps takes no time.
                            simulated_s / std::max(findings.wall_s, 1e-9))});
   if (const LatenessFacts& late = findings.facts.lateness; late.deadlines > 0) {
     table.rows.push_back({"deadlines", lateness_text(late)});

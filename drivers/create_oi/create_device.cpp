@@ -290,6 +290,7 @@ Status CreateDevice::keep_driving(OiSession& session) {
   }
   const bool in_force = now < order.until;
   const WheelSpeeds speeds = in_force ? order.speeds : WheelSpeeds{};
+  // Counted and logged once, when the order expires, and not for an order to stand.
   if (order_kept_ && !in_force && order.speeds != WheelSpeeds{}) {
     note([](DeviceState& state) { ++state.watchdog_stops; });
     log(LogLevel::kWarning, name() + " received no command for too long; its wheels are stopped");
@@ -301,6 +302,7 @@ Status CreateDevice::keep_driving(OiSession& session) {
     drive_at_ = line::after_seconds(now, options_.refresh_s);
     note([](DeviceState& state) { ++state.drive_commands; });
   }
+  // The loop must wake when the order expires, even if the next repetition is later.
   if (in_force) drive_at_ = std::min(drive_at_, order.until);
   return {};
 }
@@ -330,6 +332,7 @@ Status CreateDevice::keep_mode(OiSession& session) {
     if (order_.speeds.left_mmps + order_.speeds.right_mmps > 0) return {};
   }
   mode_at_ = line::after_seconds(now, kModePause_s);
+  // The present order is sent again behind the change of mode.
   drive_at_ = now;
   return session.send(start_command() + mode_command(options_.mode));
 }

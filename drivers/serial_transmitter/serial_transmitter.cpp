@@ -200,6 +200,7 @@ Result<HostTime> SerialTransmitter::write_due(line::ByteLine& line) {
   while (true) {
     {
       const std::lock_guard lock(mutex_);
+      // send() rings the bell, so a long wait costs no delay.
       if (queue_.empty()) return line::host_now() + kIdle;
       if (line::host_now() < free_at_) return free_at_;
       frame = std::move(queue_.front());
@@ -212,6 +213,8 @@ Result<HostTime> SerialTransmitter::write_due(line::ByteLine& line) {
     ++state_.sent;
     state_.sent_bytes += frame.size();
     if (byte_rate_ > 0) {
+      // The rate is that of the radio behind the line, which may be slower than the line itself.
+      // Idle time is not saved up for a burst.
       const HostTime from = std::max(free_at_, line::host_now());
       free_at_ = line::after_seconds(from, static_cast<double>(frame.size()) / byte_rate_);
     }

@@ -25,6 +25,8 @@ struct Fault {
   std::string message;
 };
 
+// A last line without a newline counts as complete if its last word has as many decimals as that of
+// the row before.
 std::size_t decimals(std::string_view number) noexcept {
   const std::size_t point = number.find('.');
   return point == std::string_view::npos ? 0 : number.size() - point - 1;

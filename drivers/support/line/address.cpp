@@ -25,6 +25,7 @@ constexpr std::array<std::pair<std::int64_t, unsigned>, 13> kSpeeds{{{1200, B120
                                                                      {1000000, B1000000}}};
 
 Result<Address> tcp_address(std::string_view text) {
+  // The last colon: an IPv6 address contains colons itself and stands in brackets.
   const auto colon = text.rfind(':');
   if (colon == std::string_view::npos || colon == 0) {
     return fail(ErrorCode::kInvalidArgument, "`address` must be `host:port`, not `{}`", text);

@@ -23,6 +23,7 @@ using Found = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
 Found look_up(const std::string& host, const std::string& port) {
   addrinfo wanted{};
   wanted.ai_socktype = SOCK_DGRAM;
+  // Numeric only: looking up a name may block for seconds.
   wanted.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE;
   addrinfo* found = nullptr;
   if (::getaddrinfo(host.c_str(), port.c_str(), &wanted, &found) != 0) found = nullptr;
@@ -63,6 +64,8 @@ bool join(int fd, const Peer& group, const addrinfo& own) {
 }
 
 bool is_passing(int error) {
+  // ECONNREFUSED tells that an earlier datagram met no receiver. The peer may start later, so this
+  // is no error of the socket.
   return error == EINTR || error == EAGAIN || error == ECONNREFUSED || error == ENOBUFS;
 }
 

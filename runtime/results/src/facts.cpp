@@ -10,6 +10,9 @@
 namespace rave::runtime {
 namespace {
 
+// The facts of all processes are merged into those that one process would have gathered. Counts are
+// added, extremes compared, and lists sorted as a single engine would have ordered them. So results
+// do not depend on the number of hosts or on the order in which their results arrive.
 template <class T>
 void append(std::vector<T>& into, std::vector<T> from) {
   into.insert(into.end(), std::make_move_iterator(from.begin()),

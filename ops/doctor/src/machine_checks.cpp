@@ -128,6 +128,8 @@ Finding check_domain(const Machine& machine, const bus::BusConfig& config) {
   const unsigned first = first_port(config.domain);
   const unsigned last = last_port(config.domain);
   const std::string range = fmt::format("{}: UDP ports {} to {}", config.domain, first, last);
+  // The kernel gives such ports to any socket that asks for a free one, and a process of the run
+  // then finds it in use.
   const bool shared = machine.first_handed_out && machine.last_handed_out &&
                       first <= *machine.last_handed_out && last >= *machine.first_handed_out;
   if (!shared) return {"domain", Verdict::kGood, range, {}};

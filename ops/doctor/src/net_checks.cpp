@@ -64,6 +64,8 @@ Finding check_peers(const Machine& machine, const bus::BusConfig& config,
     return {"peers", Verdict::kProblem, "without peers and without multicast, no process is found",
             "--peer ADDRESS    # of each machine that takes part, this one included"};
   }
+  // Without multicast a process sends its announcements only to the listed peers, so this machine
+  // must be in the list for its own processes.
   if (!self && !multicast) {
     const std::string own = address_on(machine, config);
     return {"peers", Verdict::kAdvice,
@@ -122,6 +124,8 @@ Finding check_own_way(const Machine& machine, const bus::BusConfig& config) {
     const auto socket = Socket::bind({address, port});
     if (!socket) continue;
     const std::string probe = fmt::format("RAVE doctor {}", bus::RunId::random().text());
+    // To its own address and not to loopback: that is the way packets of processes on one machine
+    // take with this interface.
     static_cast<void>(socket->send(probe, {address, port}));
     std::array<char, 2048> bytes{};
     for (int looks = 0; looks < 50; ++looks) {

@@ -106,7 +106,9 @@ std::string write_probe(const Probe& probe, std::size_t least) {
                {"asked_ns", probe.asked_ns},
                {"received_ns", probe.received_ns}};
   if (probe.kind == Probe::Kind::kAnswer) json["about"] = json_of(probe.about);
+  // ASCII only, so that no terminal or log has to guess the encoding.
   std::string bytes = json.dump(-1, ' ', true, Json::error_handler_t::replace);
+  // Blanks behind JSON mean nothing, so a probe can have any size.
   bytes.resize(std::max(bytes.size(), std::min(least, kLargestProbe)), ' ');
   return bytes;
 }

@@ -30,6 +30,7 @@ class Prober {
  public:
   Prober(const std::string& peer, const ProbeOptions& options)
       : peer_(peer), options_(options), bytes_(kLargestProbe + 1) {
+    // Not to be guessed, so an answer must come from a machine that has received the question.
     std::random_device chance;
     number_ = (std::uint64_t{chance()} << 32U) | chance();
   }

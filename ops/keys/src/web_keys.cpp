@@ -67,6 +67,8 @@ Result<Credential> read_web_authority(const fs::path& folder, std::int64_t now_s
   return authority;
 }
 
+// The page may be read at this moment by a running server, so the new file replaces the old one in
+// one step.
 Status replace_file(const fs::path& file, const std::string& content) {
   fs::path part = file;
   part += ".part";
@@ -93,6 +95,7 @@ Status renew(const NewWebKeys& wanted, const fs::path& folder, const Credential&
                 "changed; create another folder",
                 folder.string(), good.error().message);
   }
+  // Two files cannot be replaced in one step. Between the two the pair does not match.
   RAVE_TRY(replace_file(folder / kServerKey, server.key));
   return replace_file(folder / kServer, server.certificate);
 }

@@ -7,15 +7,15 @@
 #include "rave/base/thread.hpp"
 
 namespace rave::oi {
+// One thread talks to the robot: it connects, reads frames and sends drive commands. Drivers of the
+// robot's sensors are called from it with each frame. The thread of the actuator only leaves an
+// order (`order_mutex_`) and rings the bell, so a slow line never holds up a step.
 namespace {
 
 using line::HostTime;
 using line::ReadEnd;
 using line::Wait;
 
-// One thread talks to the robot: it connects, reads frames and sends drive commands. Drivers of the
-// robot's sensors are called from it with each frame. The thread of the actuator only leaves an
-// order (`order_mutex_`) and rings the bell, so a slow line never holds up a step.
 constexpr Wait kConnect{1000};
 /// After this time without a valid frame the session is restarted.
 constexpr double kSilence_s = 0.5;

@@ -83,11 +83,14 @@ Status ranges_of(const ros2::LaserScan& scan, const Fan& fan, std::span<float> r
 Result<OdometryReading> odometry_of(const ros2::Odometry& message, const Doubt& doubt) {
   RAVE_TRY_ASSIGN(const Pose2 pose, ros2::planar(message.pose.pose));
   const Doubt said = doubt_of(message.pose.covariance, doubt);
-  return OdometryReading{pose.x, pose.y, pose.yaw,
-                         // The twist is in the frame of the body (`child_frame_id`), as RAVE needs
-                         // it.
-                         message.twist.twist.linear.x, message.twist.twist.angular.z,
-                         said.variance_xy_m2, said.variance_yaw_rad2};
+  // The twist of the message is in the frame of the body (`child_frame_id`), as RAVE needs it.
+  return OdometryReading{pose.x,
+                         pose.y,
+                         pose.yaw,
+                         message.twist.twist.linear.x,
+                         message.twist.twist.angular.z,
+                         said.variance_xy_m2,
+                         said.variance_yaw_rad2};
 }
 
 Result<PoseReading> pose_of(const ros2::Odometry& message, const Doubt& doubt) {

@@ -47,11 +47,11 @@ bool ClockOffset::stepped(double device_s, double difference_s) {
 }
 
 void ClockOffset::keep(Point point) {
+  // Only the least delayed sample of each interval can touch the line, so memory and time do not
+  // grow with the rate of samples.
   if (buckets_.empty() || point.x >= bucket_end_s_) {
     buckets_.push_back(point);
     bucket_end_s_ = point.x + options_.bucket_s;
-    // Only the least delayed sample of each interval can touch the line, so memory and time do not
-    // grow with the rate of samples.
   } else if (point.y < buckets_.back().y) {
     buckets_.back() = point;
   }

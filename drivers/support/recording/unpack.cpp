@@ -81,9 +81,9 @@ Result<UnpackedText> unpack_text(std::string_view bytes, const std::string& file
         return failure(file, fmt::format("{} bytes follow the end of the gzip stream", rest));
       }
       if (inflateReset(&stream) != Z_OK) return damaged(file, stream);
+    } else if (stream.avail_in == 0 && stream.avail_out != 0) {
       // All input is used and the end is missing: the file was cut off. What has been unpacked is
       // kept for `accept_cut`.
-    } else if (stream.avail_in == 0 && stream.avail_out != 0) {
       result.cut = true;
       return result;
     }

@@ -135,8 +135,8 @@ bool add_extension(X509* issuer, X509* certificate, int kind, const char* value)
 /// What the key may be used for. Only an authority makes members and signs permissions.
 bool add_extensions(X509* issuer, X509* certificate) {
   const bool authority = issuer == certificate;
-  // "critical": who does not understand the extension must refuse the certificate. "pathlen:0": the
-  // authority makes members, but no further authorities.
+  // "critical": a program that does not understand the extension must refuse the certificate.
+  // "pathlen:0": the authority makes members, but no further authorities.
   return add_extension(issuer, certificate, NID_basic_constraints,
                        authority ? "critical,CA:TRUE,pathlen:0" : "critical,CA:FALSE") &&
          add_extension(

@@ -67,8 +67,8 @@ Result<Credential> read_web_authority(const fs::path& folder, std::int64_t now_s
   return authority;
 }
 
-// The page may be read at this moment by a running server, so the new file replaces the old one in
-// one step.
+// A running server may read the file at this moment, so the new file replaces the old one in one
+// step.
 Status replace_file(const fs::path& file, const std::string& content) {
   fs::path part = file;
   part += ".part";

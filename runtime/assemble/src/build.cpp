@@ -148,10 +148,10 @@ Status add_groups(const config::ExpandedScenario& scenario, plugin::Catalogue& c
     plugin::Catalogue& drivers = others ? *options.others : catalogue;
     RAVE_TRY_ASSIGN(sim::RobotType type, make_type({scenario, drivers, options, built}, group));
     RAVE_TRY_ASSIGN(auto body, make_body(group));
-    body.layer = type.simulated ? Layer::kSimulatedRobots : Layer::kRealRobots;
-    note_oddities(group, body, built);
     // The layer decides which virtual sensors see the robot, so it follows from the drivers and is
     // no key of the robot file.
+    body.layer = type.simulated ? Layer::kSimulatedRobots : Layer::kRealRobots;
+    note_oddities(group, body, built);
     bodies.push_back(std::move(body));
     built.sees.push_back(sees_others(type) ? 1 : 0);
     built.spec.types.push_back(std::move(type));

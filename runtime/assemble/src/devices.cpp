@@ -126,9 +126,9 @@ Status set_plain(const DeviceContext& context, const config::RobotGroup& group,
                    "`virtual:`, each with a `driver`",
                    driver->info.name, sensor.name);
   }
+  sensor.kind = static_cast<ReadingKind>(driver->info.data_kind);
   // The kind of the driver says whether the sensor is real. The robot file does not, so a change of
   // the driver alone turns a simulated robot into a real one.
-  sensor.kind = static_cast<ReadingKind>(driver->info.data_kind);
   if (driver->info.kind == DriverKind::kVirtualSensor) {
     sensor.virtual_ops = static_cast<const VirtualSensorOps*>(driver->ops);
     if (file.max_age_s) {

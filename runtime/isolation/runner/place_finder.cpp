@@ -15,8 +15,8 @@ namespace rave::isolation {
 
 // The search walks the stack from the innermost frame outwards. It takes the first line that
 // belongs to the plug-in and not to a header of a library; if there is none, the first line of the
-// plug-in at all. learn() runs at the start and reads the debug information at the start, so that
-// find() need not do so inside a signal handler.
+// plug-in at all. learn() reads the debug information at the start, so that find() need not do
+// so inside a signal handler.
 struct PlaceFinder::Search {
   PlaceFinder* finder;
   std::uintptr_t pc = 0;              ///< The frame under inspection.

@@ -8,8 +8,8 @@
 namespace rave::isolation {
 namespace {
 
-// The bytes are those of this machine and this build: both sides come from one installation, and
-// create() of the child checks magic and sizes.
+// The bytes have the layout of this machine and this build. ProgramHost::create() checks magic and
+// sizes, in case the runner is of another installation.
 class Writer {
  public:
   template <class T>

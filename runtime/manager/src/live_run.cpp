@@ -64,12 +64,13 @@ void LiveRun::begin_if_ready() {
   }
   if (first_host_ == Clock::time_point{}) first_host_ = Clock::now();
   const std::string waits_for = missing();
+  // The patience for missing hosts counts from the first host, not from the start of this process:
+  // people may start the manager long before the hosts. A standstill of this process is not the
+  // fault of hosts.
   if (waits_for.empty()) {
     begin_in(kLead);
     edits_->begin(false);
     log(LogLevel::kInfo, "all hosts have joined: the run begins");
-    // The patience counts from the first host, not from the start of this process: people may start
-    // the manager long before the hosts. A standstill of this process is not the fault of hosts.
   } else if (Clock::now() - std::max(first_host_, board_->endpoint().silence_counts_from()) >
              std::chrono::nanoseconds(options_.host_timeout.ns)) {
     begin_in(kLead);

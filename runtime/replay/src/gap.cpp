@@ -10,6 +10,10 @@
 #include "rave/math/transform.hpp"
 
 namespace rave::runtime {
+// The comparison has two views. follow() integrates the twin from the first pose to the end: errors
+// of heading add up, so its gap grows with the way. start_anew() puts the twin back at the robot's
+// pose at the beginning of each window: its gaps are those of one window and comparable between
+// drives of different length.
 namespace {
 
 constexpr std::array kMoments_s = {10.0, 30.0, 60.0};
@@ -23,10 +27,6 @@ double degrees_between(const Pose2& a, const Pose2& b) {
 
 /// The velocities of the twin: step `first + i` has `twists[i]`. They do not depend on its pose, so
 /// all windows share them.
-/// The comparison has two views. follow() integrates the twin from the first pose to the end:
-/// errors of heading add up, so its gap grows with the way. start_anew() puts the twin back at the
-/// robot's pose at the beginning of each window: its gaps are those of one window and comparable
-/// between drives of different length.
 struct Drive {
   std::uint64_t first = 0;
   std::int64_t step_ns = 0;

@@ -10,9 +10,6 @@
 namespace rave::runtime {
 namespace {
 
-// The facts of all processes are merged into those that one process would have gathered. Counts are
-// added, extremes compared, and lists sorted as a single engine would have ordered them. So results
-// do not depend on the number of hosts or on the order in which their results arrive.
 template <class T>
 void append(std::vector<T>& into, std::vector<T> from) {
   into.insert(into.end(), std::make_move_iterator(from.begin()),
@@ -227,6 +224,9 @@ void merge_world(std::optional<WorldFacts> from, std::optional<WorldFacts>& into
 
 }  // namespace
 
+// The facts of all processes are merged into those that one process would have gathered. Counts are
+// added, extremes compared, and lists sorted as a single engine would have ordered them. So results
+// do not depend on the number of hosts or on the order in which their results arrive.
 void merge(RunFacts from, RunFacts& into) {
   into.first_step = std::min(into.first_step, from.first_step);
   into.steps = std::max(into.steps, from.steps);

@@ -15,9 +15,9 @@ constexpr std::uint32_t kVersion = 3;
 
 /// The list of members and their order, used for reading and writing: each member is passed to
 /// `archive`.
+/// One list serves reading and writing, so the two cannot disagree. A change of it needs another
+/// kVersion.
 template <class Archive>
-// One list serves reading and writing, so the two cannot disagree. A change of it needs another
-// kVersion.
 struct Members {
   Archive& archive;
 

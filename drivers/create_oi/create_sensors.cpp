@@ -20,6 +20,7 @@ Status DeviceSensor::configure(const HardwareSetup& setup, HardwareDeclaration& 
   device_ = static_cast<CreateDevice*>(setup.device);
   if (device_ == nullptr) return fail(ErrorCode::kState, "has no `device`");
   declaration.clock = DriverClock::kLive;
+  // All sensors of the robot come with each frame of the stream.
   declaration.period_s = kStreamPeriod_s;
   return prepare(setup.parameters(), declaration);
 }

@@ -36,6 +36,7 @@ void read_packet(Packet packet, std::span<const std::uint8_t> data, OiState& sta
       state.voltage_mv = word(data);
       break;
     case Packet::kCurrent:
+      // Signed: negative while discharging.
       state.current_ma = static_cast<std::int16_t>(word(data));
       break;
     case Packet::kTemperature:

@@ -87,7 +87,7 @@ void TopicSensor::publish(std::int64_t stamp_ns, const void* records, std::uint3
   if (sink_ == nullptr) return;
   const line::HostTime now = line::host_now();
   const StreamClock::Taken taken = clock_.take(stamp_ns, line::host_seconds(now));
-  // A stamp of an old message, or of a sender whose clock has just stepped.
+  // Not newer than the message before.
   if (!taken.good) return;
   last_ = now;
   alive_ = true;

@@ -57,6 +57,8 @@ Result<RobotFiles> read_robot(const Folder& folder, int robot, const StreamChoic
                               const LoadOptions& options) {
   const std::string prefix = fmt::format("Robot{}_", robot);
   RobotFiles files;
+  // Only the logs that are asked for: a player of poses must not fail because of a damaged log of
+  // sightings.
   if (streams.poses) {
     RAVE_TRY_ASSIGN(files.poses, folder.read(prefix + "Groundtruth", pose_columns(), options));
   }

@@ -19,6 +19,8 @@ constexpr double kLargestReal = 1e6;
 constexpr int kLargestCode = 1'000'000;
 
 /// Why a row was refused.
+/// A row with a NaN or an infinity is told apart from one that cannot be read, because a recording
+/// may have either and they have different causes.
 struct Fault {
   bool non_finite = false;
   int column = 0;
@@ -90,6 +92,7 @@ class RowReader {
     }
     const auto real = parse_number<double>(text);
     const double least = kind == ColumnKind::kNonNegative ? 0 : -kLargestReal;
+    // Written so that NaN, for which every comparison is false, is refused.
     if (!real || !(*real >= least && *real <= kLargestReal)) return false;
     row.reals[reals++] = *real;
     return true;
@@ -102,6 +105,7 @@ class RowReader {
       names += column.name;
     }
     const bool surplus = tokens.size() > columns_.size();
+    // The column of the first word too many, or the end of the line if words are missing.
     const int at = surplus ? tokens[columns_.size()].column : static_cast<int>(line_length) + 1;
     return {
         false, at,

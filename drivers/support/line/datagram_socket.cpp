@@ -56,6 +56,7 @@ bool join(int fd, const Peer& group, const addrinfo& own) {
   }
   sockaddr_in6 here{};
   std::memcpy(&here, own.ai_addr, sizeof here);
+  // IPv6 names an interface by number and not by address; the scope of a link-local address has it.
   const unsigned interface = here.sin6_scope_id != 0 ? here.sin6_scope_id : ::if_nametoindex("lo");
   const ipv6_mreq request{as<sockaddr_in6>(group.address).sin6_addr, interface};
   return set(fd, IPPROTO_IPV6, IPV6_ADD_MEMBERSHIP, request) &&

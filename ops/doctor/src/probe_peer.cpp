@@ -175,6 +175,8 @@ void Prober::try_sizes(const Socket& socket, ProbeResult& result) {
     probe.want = static_cast<std::uint32_t>(bytes);
     const Asked both = ask(socket, probe, bytes);
     size.there = size.back = both.answer && both.answer->size == bytes && both.size == bytes;
+    // If the large answer is missing, a small one to the same question tells which direction loses
+    // it.
     probe.want = 0;
     if (!size.there) size.there = ask(socket, probe, bytes).answer.has_value();
     result.sizes.push_back(size);
@@ -193,6 +195,7 @@ ProbeResult Prober::go() {
   knock(*socket, result);
   if (result.port != ProbeResult::PortState::kOpen) return result;
   bus::ClockOffset offset;
+  // The one with the shortest way has the least error, as for the time of a run.
   constexpr int kReadings = 8;
   for (int i = 0; i < kReadings; ++i) {
     const Asked asked = ask(*socket, {}, kQuestion);

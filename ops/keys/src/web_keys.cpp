@@ -88,6 +88,8 @@ Validity server_validity(const NewWebKeys& wanted) {
 Status renew(const NewWebKeys& wanted, const fs::path& folder, const Credential& authority) {
   RAVE_TRY_ASSIGN(const Credential server,
                   make_web_server(authority, wanted.names, server_validity(wanted)));
+  // The authority may be an older one with other names. Then browsers would refuse the new
+  // certificate, which is better known now.
   const Status good = check_web_server(authority.certificate, server.certificate, wanted.now_s);
   if (!good) {
     return fail(ErrorCode::kState,

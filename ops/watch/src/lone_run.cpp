@@ -29,6 +29,7 @@ RunView view_of(const std::string& name, const runtime::RunStatus& status, bool 
   view.run = name;
   view.scenario = status.scenario;
   view.timing = Timing::kAlone;
+  // Before the run begins the process answers without a scenario.
   view.phase = status.scenario.empty() ? Phase::kUnknown
                : status.paused         ? Phase::kPaused
                                        : Phase::kGoes;

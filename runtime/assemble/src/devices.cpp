@@ -222,8 +222,8 @@ Status add_controllers(const DeviceContext& context, const config::RobotGroup& g
     const auto actuator_kinds = std::array{DriverKind::kActuator, DriverKind::kVirtualActuator};
     RAVE_TRY_ASSIGN(const Driver* const served,
                     context.catalogue.find(actuator_kinds, actuator.driver));
-    // The command kinds on both sides of a controller are plain numbers in the function tables, so
-    // a mismatch would be read as another struct. It is refused here, before the first step.
+    // The kinds must agree here. A mismatch would otherwise show only during the run, as commands
+    // that the actuator does not understand.
     const auto wanted = static_cast<CommandKind>(served->info.data_kind);
     if (controller.ops->gives != wanted) {
       return fail_at(file.driver.where, ErrorCode::kInvalidArgument,

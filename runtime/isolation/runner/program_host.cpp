@@ -160,6 +160,7 @@ bool ProgramHost::decide(std::uint32_t decision) {
   const ProgramOps& ops = file_->ops();
   std::uint8_t failed = 0;
   ErrorText error;
+  // A batch of one: the interface takes many robots per call, and a child has one.
   ops.decide(instance_.get(), ops.instance.size, &item, 1, &failed, &error);
   for (std::size_t c = 0; c < layout_.communicators.size(); ++c) {
     const Mailbox& out = boxes_[2 * c + 1];

@@ -34,6 +34,7 @@ class LiveOnBus final : public LiveEndpoint {
   void take_pings(const std::function<void(const bus::ClockPing&)>& visit) override {
     parts_.pings.take(visit);
   }
+  // A lost answer costs one reading; the host asks again.
   void answer(bus::ClockPong& pong) override { static_cast<void>(parts_.pongs.write(pong)); }
   void take_states(const std::function<void(const bus::HostState&)>& visit) override {
     parts_.states.take(visit);

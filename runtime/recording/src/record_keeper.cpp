@@ -133,6 +133,8 @@ void RecordKeeper::keep_poses(const sim::Engine& engine) {
         told_truth_[r] != 0 && (!with_real_ || same_bits(engine.snapshot().robots()[r].X_WR,
                                                          engine.reported(RobotId(r)).pose));
     if (in_row) continue;
+    // The robots before this one form a row, which is copied as it lies in the snapshot; this one
+    // is written by itself.
     keep_row(engine, begin, r);
     keep_pose(engine, RobotId(r));
     begin = r + 1;
@@ -152,6 +154,7 @@ void RecordKeeper::keep_pose(const sim::Engine& engine, RobotId robot) {
   pose.robot = robot;
   pose.velocity_W = engine.snapshot().velocity_W(robot);
   const sim::EngineSpec& spec = engine.spec();
+  // The true pose of a real robot is unknown.
   if (spec.types[spec.robots[robot.value()].type].simulated) {
     pose.true_pose = engine.snapshot().pose(robot);
   }

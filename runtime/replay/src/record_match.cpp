@@ -68,6 +68,7 @@ std::string reading_text(const record::Percept& percept) {
   std::string text = fmt::format("stamp {:.9f} s, {} records",
                                  SimTime{percept.header.stamp_ns}.seconds(), percept.header.count);
   const auto kind = static_cast<ReadingKind>(percept.kind);
+  // Ranges are floats, the other plain readings consist of doubles.
   const std::size_t word = kind == ReadingKind::kRanges ? sizeof(float) : sizeof(double);
   const bool plain = kind == ReadingKind::kRanges || kind == ReadingKind::kPose ||
                      kind == ReadingKind::kOdometry || kind == ReadingKind::kVelocity ||

@@ -308,8 +308,6 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   compare_inputs(run, outcome);
   if (!outcome.missing.empty()) return outcome;
   RAVE_TRY_ASSIGN(const config::ExpandedScenario scenario, scenario_of(run, record, options));
-  // A live clock is needed to build the scenario at all. It is never asked: a live run is refused
-  // below.
   WallPace pace(0);
   RAVE_TRY_ASSIGN(BuiltScenario built,
                   build(scenario, catalogue, {options.program_runner, options.log, &pace}));
@@ -348,8 +346,6 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   RAVE_TRY(keeper->end(engine.hash().value()));
   RAVE_TRY_ASSIGN(const auto written, record::McapReader::open(scratch.file()));
   RAVE_TRY_ASSIGN(const RecordMatch match,
-                  // Compared from the two files, not during the run: both have passed the same
-                  // writer and reader.
                   match_records(reader, written, run, {!end, record::is_merged(reader)}));
   if (match.messages == 0 && !match.difference && !outcome.ended_early) {
     return fail(ErrorCode::kInvalidArgument,

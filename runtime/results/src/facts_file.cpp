@@ -180,6 +180,8 @@ bool is_kind(report::Kind kind) {
   return std::ranges::find(report::kAllKinds, kind) != report::kAllKinds.end();
 }
 
+// The bytes may come from another process. Indices are used later to look up names, so each one is
+// checked against the scenario.
 bool fits(const sim::Event& event, const FactsLimits& limits) {
   const bool of_guard =
       event.kind == sim::EventKind::kGuardSlowed || event.kind == sim::EventKind::kGuardStopped;
@@ -195,6 +197,7 @@ bool fits(const sim::Event& event, const FactsLimits& limits) {
 
 template <class T>
 bool robots_fit(const std::vector<T>& items, const FactsLimits& limits) {
+  // Sorted as well, because merging searches these lists by bisection.
   return std::ranges::all_of(items, [&](const T& item) { return item.robot < limits.robots; }) &&
          std::ranges::is_sorted(items, {}, &T::robot);
 }

@@ -131,6 +131,7 @@ Json hosts_json(const Findings& findings) {
 
 Json events_json(const Findings& findings) {
   Json json = Json::object();
+  // A fixed list, so that each run has all keys, with 0 for what did not happen.
   for (const auto kind : {sim::EventKind::kContact,
                           sim::EventKind::kPinned,
                           sim::EventKind::kPoseStale,

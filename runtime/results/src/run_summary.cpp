@@ -52,6 +52,8 @@ void add_sighting_row(const Findings& findings, report::Table& table) {
   const bool holds = runtime::holds(limits, tally) && !findings.any_lost();
   std::vector<std::string_view> blind;
   for (const auto& [robot, own] : facts.by_robot) {
+    // A robot whose camera saw nothing at all has confirmed nothing, which the percentage alone
+    // would hide.
     if (own.total + own.unknown == 0) blind.emplace_back(robot);
   }
   table.rows.push_back(
@@ -110,7 +112,6 @@ std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
       {"robots", fmt::format("{}: {} real, {} simulated", count, real, count - real)});
   table.rows.push_back(
       {"time", fmt::format("{:.2f} s simulated in {:.2f} s ({:.1f}x)", simulated_s, findings.wall_s,
-                           // A run without steps takes no time.
                            simulated_s / std::max(findings.wall_s, 1e-9))});
   if (const LatenessFacts& late = findings.facts.lateness; late.deadlines > 0) {
     table.rows.push_back({"deadlines", lateness_text(late)});

@@ -90,6 +90,7 @@ Result<std::unique_ptr<Ros2Face>> Ros2Face::open(const config::ExpandedScenario&
     if (scenario.groups[robots[r].type].robot.ros2) shown.emplace_back(r);
   }
   const auto here = [&](RobotId robot) { return engine.is_local(robot); };
+  // Without a robot to show there is no participant, which would cost threads and ports.
   if (std::ranges::none_of(shown, here)) return nullptr;
   RAVE_TRY_ASSIGN(auto participant, ros2::Participant::open(network_of(scenario.scenario, host)));
   std::unique_ptr<Ros2Face> face(new Ros2Face(std::move(participant)));
@@ -98,6 +99,7 @@ Result<std::unique_ptr<Ros2Face>> Ros2Face::open(const config::ExpandedScenario&
   for (const RobotId robot : shown) {
     if (here(robot)) RAVE_TRY(face->add(engine, robot));
   }
+  // The host of the first shown robot gives the time; a clock must have one writer.
   RAVE_TRY(face->begin(engine, here(shown.front())));
   return face;
 }
@@ -153,6 +155,7 @@ Status Ros2Face::add_sensors(const sim::Engine& engine, Robot& robot) {
   const auto kind_of = [&](std::uint32_t index) {
     const Ros2Kind kind =
         ros2_kind(*engine.sensor(robot.id, index).info, type.sensors[index].driver);
+    // Without the place of the world on Earth a pose has no latitude and longitude.
     return kind == Ros2Kind::kFix && !earth_ ? Ros2Kind::kNone : kind;
   };
   std::map<Ros2Kind, int> count;
@@ -287,6 +290,7 @@ void Ros2Face::write_transforms(const sim::Engine& engine) {
       (void)robot.own_writer->write(robot.own.odometry(own, reported.stamp));
     }
     // The chain of frames must end at the reported pose of the robot.
+    // map -> odom is what corrects the odometry: X_WB = X_WO * X_OB (REP-105).
     const Pose2 X_WO = robot.odometry ? compose(X_WB, inverse(X_OB)) : Pose2{};
     all.add(map_frame_, robot.odom_frame, X_WO, 0, engine.time());
     all.add(robot.odom_frame, robot.base_frame, X_OB, 0, engine.time());

@@ -79,6 +79,7 @@ Result<std::unique_ptr<Shadows>> Shadows::create(const config::ExpandedScenario&
     shadow.robot = RobotId(r);
     shadow.name = scenario.robots[r].name;
     const bool first = spec.types[spec.robots[r].type].simulated;
+    // The type is made anew, because specs own parts of drivers and cannot be copied.
     const BuildOptions options;
     BuiltScenario scratch;
     RAVE_TRY_ASSIGN(auto type, make_type({scenario, catalogue, options, scratch},
@@ -122,6 +123,8 @@ void Shadows::follow(const StepView& step, Shadow& shadow) {
     shadow.world.reset();
     return;
   }
+  // After the step, in which the twin was put at its place: the comparison begins with the next
+  // pose.
   if (starts) begin(engine, shadow);
   shadow.now.running = running;
   if (running) compare(engine, shadow);

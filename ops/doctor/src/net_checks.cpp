@@ -82,6 +82,8 @@ Finding check_ports(const bus::BusConfig& config) {
   const std::uint32_t domain = std::min(config.domain, kMostDomain);
   const std::uint16_t group = multicast_port(domain);
   const std::string any = "0.0.0.0";
+  // Shared, as Cyclone DDS binds it: all processes of a machine listen at this port. Only a program
+  // that does not share it is in the way.
   if (const auto shared = Socket::bind({any, group}, true); !shared) {
     return {
         "ports", Verdict::kProblem,

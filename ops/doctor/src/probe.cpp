@@ -19,6 +19,8 @@ constexpr std::array<std::string_view, 4> kKinds = {"ask", "answer", "call", "sh
 constexpr std::size_t kLongestText = 256;
 
 /// Reads fields of an object; remembers if one was not as it must be.
+/// Probes come from any machine that reaches the port. Each field must be there and of the right
+/// type, or the whole probe is refused.
 class Fields {
  public:
   explicit Fields(const Json& json) : json_(json), good_(json.is_object()) {}

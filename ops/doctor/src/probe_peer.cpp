@@ -110,6 +110,8 @@ std::optional<std::uint32_t> Prober::look_in_other_domains() {
   if (!socket) return std::nullopt;
   Probe probe;
   probe.number = ++number_;
+  // All other domains are asked at once and one answer is enough, so the question costs one wait
+  // and not one per domain.
   const std::string text = write_probe(probe, kQuestion);
   for (std::uint32_t domain = 0; domain <= kMostDomain; ++domain) {
     if (domain != options_.domain)
@@ -128,6 +130,8 @@ void Prober::knock(const Socket& socket, ProbeResult& result) {
     return;
   }
   if (asked.error) {
+    // "Refused" means that the machine is there and has answered by ICMP; only the listener is
+    // missing.
     const bool refused = asked.error->code == ErrorCode::kNotFound;
     result.port = refused ? ProbeResult::PortState::kRefused : ProbeResult::PortState::kNoWay;
     result.why = asked.error->message;

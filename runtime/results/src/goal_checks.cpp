@@ -211,6 +211,8 @@ std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
     const config::TouchesCheckFile& file = checks.touches[i];
     const std::vector<RobotId> robots = robots_of(scenario, file);
     std::uint64_t count = i < facts.goals.touches.size() ? facts.goals.touches[i] : 0;
+    // With a sensor the robot's own bumper counts, without one the contacts that the world has
+    // seen.
     if (!file.sensor) count = count_contacts(spec, facts.events, robots);
     results.push_back(touches_result(file, count));
     // A count that is too high already shows that the check fails, whatever is missing besides.
@@ -221,6 +223,8 @@ std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
       note_missing(file, robots, silent, spec, facts, results.back());
     }
     if (!file.sensor && !exceeds) note_unknown(facts, results.back());
+    // Contacts are events of the world: where the manager has seen them all, results of a lost host
+    // are not needed.
     if (file.sensor || !facts.has_world) note_lost(robots, spec, lost, results.back());
   }
   std::size_t next = 0;

@@ -51,6 +51,7 @@ void judge_sightings(const Findings& findings, RunOutcome& outcome) {
   const auto& limits = findings.scenario.scenario.checks.sightings;
   if (!limits) return;
   const SightingTally tally = findings.facts.sightings.value_or(SightingFacts()).all();
+  // First: with results missing, the numbers below are too small for a judgement.
   if (findings.any_lost()) {
     fail_check(outcome, false,
                "the sighting check was not evaluated: the results of a host are missing");
@@ -126,6 +127,8 @@ RunOutcome judge(const Findings& findings) {
   outcome.problems.insert(outcome.problems.end(), facts.problems.begin(), facts.problems.end());
   const sim::EngineSpec& spec = findings.spec;
   for (const sim::Event& event : facts.events) {
+    // A program or driver that failed means that the robot did not do what the scenario asks, even
+    // if all checks hold.
     if (!is_loss(event.kind)) continue;
     outcome.problems.push_back(
         fmt::format("robot `{}` at {:.2f} s: {}", spec.robots[event.robot.value()].name,

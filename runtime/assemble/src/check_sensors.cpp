@@ -21,7 +21,7 @@ Status check_touches(const config::ExpandedScenario& scenario, const sim::Engine
     for (const std::size_t r : config::robots_named(scenario, *name)) {
       const sim::RobotType& type = spec.types[spec.robots[r].type];
       const sim::SensorSpec* const sensor = find_sensor(type, **check.sensor);
-      // A robot without such a sensor is permitted: the names of a check may cover several types.
+      // The expansion has refused robots without this sensor already.
       if (sensor == nullptr || sensor->kind == ReadingKind::kContact) continue;
       return fail_at(check.sensor->where, ErrorCode::kInvalidArgument,
                      "`touches`: sensor `{}` of robot `{}` gives {}; expected one that gives {}",

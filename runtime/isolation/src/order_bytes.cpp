@@ -48,7 +48,7 @@ SharedOrders write_orders(const DecideItem& item, std::byte* to) noexcept {
                          order.has_yaw,
                          0};
     const std::size_t bytes = bytes_of(head);
-    // Orders that do not fit are left out. The engine's own limits make that unlikely.
+    // There is room for a path, some texts and their authors. Orders that do not fit are left out.
     if (shared.bytes + bytes > kOrderBytes) break;
     std::byte* at = to + shared.bytes;
     const auto put = [&at](const void* from, std::size_t size) {

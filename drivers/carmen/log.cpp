@@ -56,6 +56,7 @@ std::size_t repeats(const std::vector<ScanRow>& scans, StampOf stamp_of) {
 /// Whether the message stamps of a log are implausible while the logger's are plausible. The two
 /// clocks have different epochs, so one clock is used for the whole log.
 bool is_better_by_logger(const ParsedLog& log) {
+  // 5 %: a good log repeats few stamps, one with a stuck clock nearly all.
   const std::size_t few = log.scans.size() / 20;
   if (repeats(log.scans, [](const ScanRow& scan) { return std::optional(scan.stamp_ns); }) <= few) {
     return false;
@@ -80,6 +81,7 @@ void take_scans(Log& log, ParsedLog& parsed, const StreamWindow& window, double 
     recording::wrap_heading(scan.X_WL, row.line, report);
     log.scans.push_back(scan);
   }
+  // The report counts what the log has; trimming comes after it.
   recording::describe(report, log.scans, window);
   recording::trim(log.scans, window);
   log.beams = parsed.beams;
@@ -88,6 +90,7 @@ void take_scans(Log& log, ParsedLog& parsed, const StreamWindow& window, double 
     const std::size_t first = log.ranges_m.size();
     const bool inside = scan.t_ns >= window.start_ns && scan.t_ns <= window.end_ns;
     for (std::size_t i = 0; i < parsed.beams; ++i) {
+      // The scans have been sorted, their ranges are still in the order of the file.
       const float range_m = parsed.ranges_m[scan.first + i];
       const bool returned = static_cast<double>(range_m) < range_max_m;
       log.no_returns += inside && !returned ? 1 : 0;
@@ -203,6 +206,7 @@ Result<Log> load(const std::filesystem::path& path, const LoadOptions& options) 
 std::vector<double> bearings_rad(std::uint32_t beams, double fov_deg) {
   std::vector<double> bearings(beams, 0.0);
   if (beams < 2) return bearings;
+  // A full circle has as many gaps as rays, because the last ray is followed by the first.
   const auto gaps = static_cast<double>(fov_deg < 360 ? beams - 1 : beams);
   for (std::uint32_t i = 0; i < beams; ++i) {
     bearings[i] = deg_to_rad(fov_deg * (static_cast<double>(i) / gaps - 0.5));

@@ -25,6 +25,8 @@ using recording::Token;
 constexpr double kLargestReal = 1e6;
 constexpr double kLongestRange_m = 1000;
 constexpr std::uint32_t kMostBeams = 100'000;
+// Corrected logs are full of ODOM rows with an invalid stamp right behind a scan. One second
+// separates them from rows that are merely out of order.
 constexpr std::int64_t kJunkLimit_ns = 1'000'000'000;
 /// The words after the content of every message: ipc_timestamp, ipc_hostname, logger_timestamp.
 constexpr std::size_t kTail = 3;
@@ -66,6 +68,7 @@ class LogParser {
     words_ = split(line_text_);
     if (words_.empty() || words_.front().text.front() == '#') return {};
     const std::string_view name = words_.front().text;
+    // Only the row right behind a scan can be such a leftover, so the flag holds for one line.
     const bool behind_scan = behind_scan_;
     behind_scan_ = false;
     if (name == "FLASER") return take_scan();
@@ -81,6 +84,7 @@ class LogParser {
   /// FLASER n r1 … rn x y theta odom_x odom_y odom_theta.
   Status take_scan() {
     RAVE_TRY_ASSIGN(const std::uint32_t beams, beams_of_line());
+    // The number of words follows from the number of ranges, so a line that lost a word is noticed.
     RAVE_TRY(expect_words(2 + beams + 6 + kTail));
     ScanRow row;
     row.line = line_;
@@ -106,6 +110,7 @@ class LogParser {
       return refuse(1, fmt::format("the number of ranges is `{}`: expected 1 to {}",
                                    shown(words_[1].text), kMostBeams));
     }
+    // One sensor has one set of bearings; the log of two lasers under one name cannot be played.
     if (!log_.scans.empty() && *beams != log_.beams) {
       return refuse(
           1, fmt::format("this scan has {} ranges, the scans before it {}", *beams, log_.beams));
@@ -188,6 +193,8 @@ class LogParser {
 
   Status take_cut(std::string_view what) {
     cut_reported_ = true;
+    // By default an incomplete log is an error: a download that broke off would otherwise be a
+    // shorter run.
     if (!accept_cut_) {
       return fail_at({file_, line_, static_cast<int>(line_text_.size()) + 1}, ErrorCode::kParse,
                      "{}; fetch the whole file, or set accept_cut to use the {} whole scans", what,

@@ -7,6 +7,9 @@
 #include "rave/base/thread.hpp"
 
 namespace rave::oi {
+// One thread talks to the robot: it connects, reads frames and sends drive commands. Drivers of the
+// robot's sensors are called from it with each frame. The thread of the actuator only leaves an
+// order (`order_mutex_`) and rings the bell, so a slow line never holds up a step.
 namespace {
 
 using line::HostTime;
@@ -47,6 +50,8 @@ Status CreateDevice::configure(const HardwareDeviceSetup& setup) {
 void CreateDevice::want(std::span<const Packet> packets) {
   for (const Packet packet : packets) {
     const auto id = static_cast<std::uint8_t>(packet);
+    // Several sensors may need the same packet, and a packet requested twice would be in each frame
+    // twice.
     if (std::find(packets_.begin(), packets_.end(), id) == packets_.end()) packets_.push_back(id);
   }
 }
@@ -56,6 +61,8 @@ void CreateDevice::log(LogLevel level, const std::string& text) const { host_.wr
 Status CreateDevice::open() {
   if (!configured_) return fail(ErrorCode::kState, "opened before it was configured");
   if (thread_.joinable()) return fail(ErrorCode::kState, "opened twice; close it first");
+  // Ten bits per byte: 8N1 has a start and a stop bit. The robot sends a frame each 15 ms whether
+  // or not the last one is out; a longer one would be garbled without end.
   const double frame_s = static_cast<double>(StreamDecoder(packets_).frame_size()) * 10 /
                          static_cast<double>(options_.address.baud);
   if (options_.address.is_serial() && frame_s > kStreamPeriod_s) {
@@ -102,6 +109,8 @@ std::string CreateDevice::report() const {
 void CreateDevice::attach(FrameListener& listener) {
   const std::lock_guard lock(listeners_mutex_);
   listeners_.push_back(&listener);
+  // A sensor that is opened while the robot is away would otherwise wait for a failure that was
+  // reported already.
   if (lost_) listener.gone(name() + " is away");
 }
 
@@ -115,6 +124,7 @@ Status CreateDevice::drive(WheelSpeeds speeds, double keep_s) {
     const std::lock_guard lock(order_mutex_);
     order_ = {speeds, line::after_seconds(line::host_now(), keep_s), true};
   }
+  // Only while a session runs. Otherwise the bell would interrupt an attempt to connect.
   if (ringing_) wake_.ring();
   if (lost_)
     return fail(ErrorCode::kIo, "{} is disconnected; its wheels cannot be commanded", name());
@@ -138,6 +148,8 @@ void CreateDevice::run(const std::stop_token& stop) {
     note([](DeviceState& state) { state.connected = false; });
     if (stop.stop_requested() || ended) return;
     note([&](DeviceState& state) { state.trouble = ended.error().message; });
+    // Only a session that had frames resets the waits. A device that accepts and stays silent is
+    // tried less and less often.
     if (last_frame_ != before) {
       backoff.reset();
       log(LogLevel::kWarning, name() + " was lost: " + ended.error().message);
@@ -214,6 +226,7 @@ Status CreateDevice::converse(OiSession& session, const std::stop_token& stop) {
           state.connected = true;
           ++state.connects;
         });
+        // The first frames may still show the mode from before the start commands.
         mode_at_ = line::after_seconds(good, kModePause_s);
         ringing_ = true;
       }
@@ -227,6 +240,7 @@ Status CreateDevice::converse(OiSession& session, const std::stop_token& stop) {
 
 void CreateDevice::take(const Frame& frame, OiSession& session) {
   OiState state = robot_;
+  // The checksum misses one in 256 garbled frames; an impossible mode reveals some of them.
   if (!read_packets(frame.body, state) || state.mode > Mode::kFull) {
     note([](DeviceState& counts) { ++counts.bad_layout; });
     return;
@@ -276,6 +290,7 @@ Status CreateDevice::keep_driving(OiSession& session) {
   }
   const bool in_force = now < order.until;
   const WheelSpeeds speeds = in_force ? order.speeds : WheelSpeeds{};
+  // Counted and logged once, when the order expires, and not for an order to stand.
   if (order_kept_ && !in_force && order.speeds != WheelSpeeds{}) {
     note([](DeviceState& state) { ++state.watchdog_stops; });
     log(LogLevel::kWarning, name() + " received no command for too long; its wheels are stopped");
@@ -287,6 +302,7 @@ Status CreateDevice::keep_driving(OiSession& session) {
     drive_at_ = line::after_seconds(now, options_.refresh_s);
     note([](DeviceState& state) { ++state.drive_commands; });
   }
+  // The loop must wake when the order expires, even if the next repetition is later.
   if (in_force) drive_at_ = std::min(drive_at_, order.until);
   return {};
 }
@@ -316,6 +332,7 @@ Status CreateDevice::keep_mode(OiSession& session) {
     if (order_.speeds.left_mmps + order_.speeds.right_mmps > 0) return {};
   }
   mode_at_ = line::after_seconds(now, kModePause_s);
+  // The present order is sent again behind the change of mode.
   drive_at_ = now;
   return session.send(start_command() + mode_command(options_.mode));
 }

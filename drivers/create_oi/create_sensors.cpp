@@ -20,6 +20,7 @@ Status DeviceSensor::configure(const HardwareSetup& setup, HardwareDeclaration& 
   device_ = static_cast<CreateDevice*>(setup.device);
   if (device_ == nullptr) return fail(ErrorCode::kState, "has no `device`");
   declaration.clock = DriverClock::kLive;
+  // All sensors of the robot come with each frame of the stream.
   declaration.period_s = kStreamPeriod_s;
   return prepare(setup.parameters(), declaration);
 }
@@ -30,6 +31,7 @@ Status DeviceSensor::open(SampleSink& sink) {
   sink_ = &sink;
   last_stamp_ns_ = std::numeric_limits<std::int64_t>::min();
   begin();
+  // Last, because frames may arrive before attach() returns.
   device_->attach(*this);
   return {};
 }
@@ -123,10 +125,13 @@ Status CreateBattery::prepare(const Params& params, HardwareDeclaration& declara
 void CreateBattery::begin() { due_s_ = 0; }
 
 void CreateBattery::take(const OiState& state, double moment_s) {
+  // The device sends the battery with each frame, because a stream has one list of packets. Its
+  // values change slowly.
   if (moment_s < due_s_) return;
   due_s_ = moment_s + period_s_;
   const double charge_ah = state.charge_mah * 1e-3;
   const double capacity_ah = state.capacity_mah * 1e-3;
+  // A capacity of 0 is one that the robot does not know.
   const std::array values{capacity_ah > 0 ? charge_ah / capacity_ah : kUnknown,
                           state.voltage_mv * 1e-3,
                           state.current_ma * 1e-3,

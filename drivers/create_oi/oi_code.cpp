@@ -20,6 +20,7 @@ char byte(unsigned value) { return static_cast<char>(value & 0xffU); }
 
 void add_word(std::string& text, std::int32_t value) {
   const auto bits = static_cast<std::uint32_t>(value);
+  // The protocol is big-endian, two's complement.
   text += byte(bits >> 8U);
   text += byte(bits);
 }
@@ -30,6 +31,7 @@ struct Group {
   std::uint8_t first;
   std::uint8_t last;
 };
+// From the list of sensor packets of the Open Interface specification.
 constexpr std::array<Group, 11> kGroups{{{0, 7, 26},
                                          {1, 7, 16},
                                          {2, 17, 20},

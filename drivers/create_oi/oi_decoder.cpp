@@ -11,6 +11,7 @@ namespace rave::oi {
 namespace {
 
 std::size_t size_with(std::span<const std::uint8_t> packets) {
+  // Header, length and checksum. The packets are known, so the size of a frame is known as well.
   std::size_t size = 3;
   for (const std::uint8_t id : packets) size += 1 + packet_size(id);
   return size;
@@ -37,6 +38,7 @@ void StreamDecoder::drop(std::size_t count) {
 }
 
 bool StreamDecoder::may_begin() const noexcept {
+  // The length byte makes a 19 inside of data less likely to be taken for a beginning.
   return bytes_[0] == kStreamHeader && (bytes_.size() < 2 || bytes_[1] == size_ - 3);
 }
 
@@ -50,6 +52,7 @@ bool StreamDecoder::right_layout() const noexcept {
 }
 
 bool StreamDecoder::whole_frame() {
+  // All bytes of a frame with its header and checksum sum up to 0 modulo 256.
   if (std::accumulate(bytes_.begin(), bytes_.end(), 0U) % 256 != 0) {
     ++counts_.bad_checksum;
     return false;
@@ -76,6 +79,8 @@ const Frame* StreamDecoder::push(std::uint8_t byte, double came_s) {
       }
     }
     ++counts_.skipped;
+    // One byte, not the whole frame: a frame may begin among the bytes of a wrong one. So a lost
+    // byte costs a single frame.
     drop(1);
   }
   return nullptr;

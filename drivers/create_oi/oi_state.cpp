@@ -5,6 +5,7 @@ namespace rave::oi {
 namespace {
 
 std::uint16_t word(std::span<const std::uint8_t> data) noexcept {
+  // Big-endian.
   return static_cast<std::uint16_t>(unsigned{data[0]} << 8U | data[1]);
 }
 
@@ -35,6 +36,7 @@ void read_packet(Packet packet, std::span<const std::uint8_t> data, OiState& sta
       state.voltage_mv = word(data);
       break;
     case Packet::kCurrent:
+      // Signed: negative while discharging.
       state.current_ma = static_cast<std::int16_t>(word(data));
       break;
     case Packet::kTemperature:
@@ -64,6 +66,7 @@ bool read_packets(std::span<const std::uint8_t> body, OiState& state) noexcept {
   while (!body.empty()) {
     const std::uint8_t id = body[0];
     const std::size_t size = packet_size(id);
+    // An unknown packet has an unknown length, so nothing after it can be found.
     if (size == 0 || body.size() < 1 + size) return false;
     read_packet(static_cast<Packet>(id), body.subspan(1, size), state);
     body = body.subspan(1 + size);

@@ -19,6 +19,8 @@ constexpr std::int32_t kNearZero = 40;  // counts
 
 /// The difference of two counter values, modulo 2^16.
 std::int32_t counted(std::uint16_t before, std::uint16_t now) noexcept {
+  // The counters have 16 bits and roll over. The signed difference is right as long as a wheel
+  // turns less than 2^15 counts between two frames, 14.6 m.
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(now - before));
 }
 
@@ -39,6 +41,7 @@ void WheelOdometer::begin(std::uint16_t left_counts, std::uint16_t right_counts,
 /// Uncertainty of the unseen drive: a uniform distribution over the distance that the robot could
 /// drive.
 void WheelOdometer::doubt(double unseen_s) {
+  // A uniform distribution over plus and minus d has the variance d^2 / 3.
   const double far_m = options_.max_wheel_mps * unseen_s;
   const double turn_rad = std::min(2 * far_m / options_.wheel_base_m, kPi);
   covariance_.xx += far_m * far_m / 3;
@@ -57,6 +60,8 @@ bool WheelOdometer::step(std::uint16_t left_counts, std::uint16_t right_counts, 
   const double most =
       kMargin * options_.max_wheel_mps * (dt_s + kSlack_s) * options_.counts_per_m + 2;
   const bool odd = std::max(std::abs(left), std::abs(right)) > most;
+  // A robot that was switched off and on again counts from 0. A jump of both counters to near 0
+  // within normal driving is unlikely.
   const bool zeroed = dt_s > kPause_s && near_zero(left_counts) && near_zero(right_counts) &&
                       std::max(std::abs(left), std::abs(right)) > 2 * kNearZero;
   if (odd) {
@@ -90,6 +95,9 @@ void WheelOdometer::move(double left_m, double right_m) {
   const double right_m2 = per_metre_m * std::abs(right_m);
   const double base_m = options_.wheel_base_m;
   covariance_.grow(length_m, sincos(X_OR_.yaw + 0.5 * turn_rad),
+                   // Variances of l = (a + b) / 2 and of t = (b - a) / base for independent wheels
+                   // a and b, and their covariance. Siegwart and Nourbakhsh, "Introduction to
+                   // Autonomous Mobile Robots", 2004, 5.2.4.
                    {0.25 * (left_m2 + right_m2), (left_m2 + right_m2) / (base_m * base_m),
                     0.5 * (right_m2 - left_m2) / base_m});
   X_OR_ = integrate(X_OR_, {length_m, 0, turn_rad}, 1.0);

@@ -17,6 +17,9 @@ constexpr line::Wait kLook{50};
 constexpr std::size_t kMostComplaints = 1000;
 
 /// The networks that this process has joined.
+/// All robots of a process that use one network share one participant of DDS, because each
+/// participant costs threads, ports and discovery. The robots hear each other directly; DDS does
+/// not return what a process writes itself.
 struct Airs {
   std::mutex mutex;
   std::vector<std::pair<AirOptions, std::weak_ptr<Air>>> all;
@@ -35,6 +38,7 @@ Result<std::shared_ptr<Air>> Air::join(const AirOptions& options) {
   std::erase_if(known.all, [](const auto& entry) { return entry.second.expired(); });
   for (const auto& [of, air] : known.all) {
     if (of != options) continue;
+    // Weak: the network is left when its last robot closes.
     if (auto shared = air.lock()) return shared;
   }
   std::shared_ptr<Air> air(new Air(options));
@@ -93,6 +97,7 @@ Status Air::send(std::span<const std::byte> bytes, const AirPlace& from) {
   }
   {
     const std::lock_guard lock(queue_mutex_);
+    // The queue bounds what the network may owe. A step never waits for the network.
     if (waiting_.bytes.size() + bytes.size() > options_.queue_bytes) {
       ++counts_.not_sent;
       return fail(ErrorCode::kIo, "the queue to the network is full ({} bytes)",
@@ -133,6 +138,8 @@ void Air::write_waiting() {
   writing_.sizes.clear();
   {
     const std::lock_guard lock(queue_mutex_);
+    // Swapped under the lock and written outside of it, so that send() never waits for DDS. Both
+    // keep their memory.
     std::swap(writing_, waiting_);
   }
   std::uint64_t sent = 0;

@@ -34,6 +34,7 @@ bus::Packet sample_of(const RadioPacket& packet, std::uint64_t number) noexcept 
 Result<RadioPacket> packet_of(const bus::Packet& sample, std::uint32_t network,
                               std::size_t max_packet_bytes) {
   const bool everyone = sample.to_kind == rave_wire_TO_EVERYONE;
+  // Names travel as hashes, and 0 stands for none.
   if (sample.from_robot == 0 || sample.communicator == 0 || (!everyone && sample.to_robot == 0)) {
     return fail(ErrorCode::kInvalidArgument, "a name of sender, recipient or communicator is 0");
   }
@@ -48,6 +49,7 @@ Result<RadioPacket> packet_of(const bus::Packet& sample, std::uint32_t network,
   packet.sender = sample.from_robot;
   packet.channel = sample.communicator;
   packet.sequence = sample.sequence_number;
+  // The writer stands for this start of the sending process.
   packet.boot = static_cast<std::uint32_t>(mix64(sample.writer));
   packet.to = static_cast<RecipientKind>(sample.to_kind);
   packet.recipient = everyone ? 0 : sample.to_robot;

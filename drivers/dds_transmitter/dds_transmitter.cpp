@@ -34,6 +34,7 @@ class DdsTransmitter final : public Transmitter {
 
   Status configure(const HardwareSetup& setup, TransmitterDeclaration& declaration) override {
     RAVE_TRY_ASSIGN(const AirOptions options, read_options(setup));
+    // Joined here, before the run begins, because discovery takes some time.
     RAVE_TRY_ASSIGN(air_, Air::join(options));
     place_.host = setup.host;
     place_.network = radio_name_hash(options.network);

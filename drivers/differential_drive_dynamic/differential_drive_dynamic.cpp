@@ -62,6 +62,8 @@ class DifferentialDriveDynamic final : public VirtualActuator {
 
   Twist2 propose(const MotionInput& input) override {
     if (input.dt_s != dt_s_) prepare(input.dt_s);
+    // A contact takes the speed from the wheels. Otherwise the robot would jump to its old speed as
+    // soon as the contact ends.
     if (input.contact != 0) restart_from(input.velocity);
     const WheelSpeeds wanted = wanted_speeds(input.command, separation_m_, max_mps_);
     // Always take two draws, so that slip of one wheel does not change the random numbers of the
@@ -77,8 +79,11 @@ class DifferentialDriveDynamic final : public VirtualActuator {
  private:
   void prepare(double dt_s) {
     dt_s_ = dt_s;
+    // Exact for a command that is constant during the step, so the response does not depend on the
+    // step (Franklin, Powell, Emami-Naeini, "Feedback Control of Dynamic Systems", chapter 3).
     transition_ = second_order_transition(natural_frequency_radps_, damping_ratio_, dt_s);
     lag_ = time_constant_s_ > 0 ? exp(-dt_s / time_constant_s_) : 0;
+    // A Poisson process with this rate: the chance of at least one beginning within a step.
     slip_chance_ = 1.0 - exp(-slip_rate_per_s_ * dt_s);
   }
 

@@ -81,6 +81,8 @@ class GoalPointController final : public Controller {
   }
 
   Command drive(double distance_m, double error_rad, double limit_mps) const {
+    // Far off its heading the robot would drive a wide curve; turning first keeps it near the
+    // straight way.
     if (std::abs(error_rad) > turn_in_place_rad_) {
       return velocity_command(0, std::clamp(heading_gain_per_s_ * error_rad, -max_turn_rate_radps_,
                                             max_turn_rate_radps_));

@@ -22,7 +22,10 @@ void HybridContact::fuse(const FuseItem& item) const {
       result[count++] = imagined[i];
       continue;
     }
+    // "Not touching" of the virtual half adds nothing to what the real half says.
     if (imagined[i].touching == 0) continue;
+    // A virtual touch replaces a record that says nothing, so the number of records stays that of
+    // the bumper.
     ContactReading* const free =
         std::find_if(result, result + count,
                      [](const ContactReading& reading) { return reading.touching == 0; });

@@ -13,6 +13,8 @@ namespace {
 
 double checked(double variance, const char* half, const char* parameter) {
   if (std::isfinite(variance) && variance > 0) return variance;
+  // fuse() returns nothing; the interface of plug-ins catches exceptions and reports the driver as
+  // failed.
   throw std::runtime_error(
       fmt::format("a reading of the {0} half has the variance {1}, so it cannot be weighted: "
                   "expected `{0}_{2}` above 0 in the parameters",
@@ -61,12 +63,15 @@ void HybridPose::fuse(const FuseItem& item) const {
     result = has_real ? real : imagined;
     return;
   }
+  // The minimum-variance mean of two independent measurements: each is weighted by the variance of
+  // the other, and the result has the variance a b / (a + b).
   const double sum_m2 = real.variance_xy_m2 + imagined.variance_xy_m2;
   const double sum_rad2 = real.variance_yaw_rad2 + imagined.variance_yaw_rad2;
   const double share_xy = real.variance_xy_m2 / sum_m2;
   const double share_yaw = real.variance_yaw_rad2 / sum_rad2;
   result.x_m = real.x_m + share_xy * (imagined.x_m - real.x_m);
   result.y_m = real.y_m + share_xy * (imagined.y_m - real.y_m);
+  // Headings are averaged along the shorter turn, or two headings near pi would meet near 0.
   const double turn_rad = wrap_angle(imagined.yaw_rad - real.yaw_rad);
   result.yaw_rad = wrap_angle(real.yaw_rad + share_yaw * turn_rad);
   result.variance_xy_m2 = share_xy * imagined.variance_xy_m2;

@@ -77,6 +77,7 @@ class IndoorPositioning final : public VirtualSensor {
     reading.x_m = item.X_WR.x + sigma_xy_m_ * gaussian(random);
     reading.y_m = item.X_WR.y + sigma_xy_m_ * gaussian(random);
     reading.yaw_rad = wrap_angle(item.X_WR.yaw + sigma_yaw_rad_ * gaussian(random));
+    // The stated variance is the true one, so estimators of programs can be tested against it.
     reading.variance_xy_m2 = sigma_xy_m_ * sigma_xy_m_;
     reading.variance_yaw_rad2 = sigma_yaw_rad_ * sigma_yaw_rad_;
     item.header->count = 1;

@@ -69,6 +69,7 @@ class NeighbourVelocity final : public VirtualSensor {
     const SinCos heading = sincos(X_WS.yaw);
     const Vec2 p_SN = rotate_back(heading, world.pose(other).position() - X_WS.position());
     const Twist2 v_WN = world.velocity_W(other);
+    // Velocity over ground, expressed in the axes of the sensor; the own motion is not subtracted.
     const Vec2 v_WN_S = rotate_back(heading, {v_WN.vx, v_WN.vy});
     NeighbourReading reading;
     reading.robot = other.value();

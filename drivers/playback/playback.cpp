@@ -69,6 +69,8 @@ class Player final : public HardwareSensor {
     }
     if (source.collect) {
       declaration.collect = 1;
+      // Several readings stay together until the program decides, so there must be room for more
+      // than one of them.
       declaration.capacity = std::max(64U, timeline_.largest);
     }
     declaration.clock = live_ ? DriverClock::kLive : DriverClock::kStepped;
@@ -104,6 +106,7 @@ class Player final : public HardwareSensor {
         return;
       }
     }
+    // Nothing more comes, so a stepped run need not wait for this sensor.
     sink.complete_up_to({std::numeric_limits<std::int64_t>::max()});
   }
 

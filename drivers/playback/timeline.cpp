@@ -50,6 +50,7 @@ class Builder {
       timeline_.records.clear();
     }
     auto& samples = timeline_.samples;
+    // The stamps of a sensor must not decrease.
     if (!samples.empty() && at < samples.back().stamp) {
       ++timeline_.left_out;
       return;
@@ -60,6 +61,7 @@ class Builder {
       shift_sightings(std::span(timeline_.records).subspan(offset), -start_.ns);
     }
     const auto count = static_cast<std::uint32_t>(records.size() / size_);
+    // A reading cannot be delivered before its stamp.
     samples.push_back({at, std::max(at, delivered - start_), offset, count});
   }
   [[nodiscard]] Timeline finish() && {

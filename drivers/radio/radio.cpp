@@ -43,6 +43,7 @@ class Radio final : public Communicator {
     declaration.max_queue_bytes = whole("queue_bytes");
     declaration.max_message_bytes = whole("max_message_bytes");
     declaration.max_messages = whole("mailbox_messages");
+    // A mailbox that cannot hold the longest message would lose it always.
     declaration.max_mailbox_bytes = std::max(whole("mailbox_bytes"), declaration.max_message_bytes);
     declaration.antenna_z_m = params.number("antenna_z_m");
     obstructed_range_m_ = params.number("obstructed_range_m");
@@ -69,6 +70,8 @@ class Radio final : public Communicator {
     if (loss_probability_ == 0 && jitter_s_ == 0) return answer;
     RandomStream random = query.random();
     if (random.uniform() < loss_probability_) answer.arrives = 0;
+    // Drawn also for a lost message, so that a change of one parameter does not shift the draws of
+    // the other.
     answer.delay_s += jitter_s_ * random.uniform();
     return answer;
   }

@@ -16,6 +16,7 @@ class ReplayIgnored final : public HardwareActuator {
   }
 
   Status write(const Command& command, SimTime now) override {
+    // "No command" is nothing that could have been obeyed.
     if (command.kind == CommandKind::kNone) return {};
     ++ignored_;
     if (ignored_ == 1) {

@@ -48,12 +48,15 @@ std::vector<double> bearings_of(const Fan& fan) {
 }
 
 float range_of(float range, double min_m, double max_m) noexcept {
+  // REP-117: -infinity is "too close", +infinity "no return", NaN an invalid measurement.
   if (std::isnan(range) || (range < 0 && range != -kNothing)) return kNoReading;
   // Many scanners report 0 for no return.
   if ((range == 0 && min_m > 0) || range > max_m) return kNothing;
   return range < min_m ? static_cast<float>(min_m) : range;
 }
 
+// A scanner whose motor has stopped keeps publishing. Such scans must count as silence, or the
+// guard would take them for free space.
 bool says_something(std::span<const float> ranges) noexcept {
   return std::ranges::any_of(ranges, [](float range) { return range > 0 || range == -kNothing; });
 }
@@ -80,6 +83,7 @@ Status ranges_of(const ros2::LaserScan& scan, const Fan& fan, std::span<float> r
 Result<OdometryReading> odometry_of(const ros2::Odometry& message, const Doubt& doubt) {
   RAVE_TRY_ASSIGN(const Pose2 pose, ros2::planar(message.pose.pose));
   const Doubt said = doubt_of(message.pose.covariance, doubt);
+  // The twist of the message is in the frame of the body (`child_frame_id`), as RAVE needs it.
   return OdometryReading{pose.x,
                          pose.y,
                          pose.yaw,
@@ -102,6 +106,7 @@ Result<PoseReading> pose_of(const ros2::PoseStamped& message, const Doubt& doubt
 std::array<double, 10> imu_values(const ros2::Imu& message) noexcept {
   std::array<double, 10> values{};
   values.fill(kUnknown);
+  // By convention of sensor_msgs/Imu, -1 there marks a value that the device does not measure.
   if (message.orientation_covariance[0] != -1) {
     const ros2::Quaternion& q = message.orientation;
     std::ranges::copy(std::array{q.x, q.y, q.z, q.w}, values.begin());

@@ -13,6 +13,7 @@ Status Ros2Command::prepare(const Params& params, HardwareDeclaration& /*declara
                                                    : make_reader(topic, plain_);
 }
 
+// Only vx and wz: a robot on wheels has no other velocity, and other parts are usually left at 0.
 void Ros2Command::take(const ros2::Twist& twist, std::int64_t stamp_ns) {
   const VelocityReading reading{twist.linear.x, twist.angular.z};
   publish(stamp_ns, &reading, 1);

@@ -33,6 +33,7 @@ void Ros2Device::close() { stop_thread(); }
 void Ros2Device::stop_thread() {
   if (!thread_.joinable()) return;
   thread_.request_stop();
+  // The thread sleeps in its waiter; the bell ends the wait.
   ring();
   thread_.join();
 }
@@ -69,8 +70,11 @@ void Ros2Device::run(const std::stop_token& stop) {
     line::HostTime due = now + kLook;
     {
       const std::lock_guard lock(users_mutex_);
+      // Each user says when it wants to be called next, such as for repeating a command. Messages
+      // end the wait earlier.
       for (TopicUser* const user : users_) due = std::min(due, user->attend(now));
     }
+    // The node information is written again when ends have been added since.
     participant_->announce();
     waiter_->wait(Duration{line::until(due).count() * 1'000'000});
   }

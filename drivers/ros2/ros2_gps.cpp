@@ -18,6 +18,8 @@ Status Ros2Gps::prepare(const Params& params, HardwareDeclaration& /*declaration
     RAVE_TRY(make_reader(params.text("imu_topic"), beside_));
     RAVE_TRY(device().await(*beside_, [this](const ros2::Imu& message) { return hear(message); }));
   }
+  // The run starts only when there is a usable fix, since a robot without a pose cannot be in the
+  // world.
   return device().await(*main_, [this](const ros2::NavSatFix& fix) {
     hear_imu();
     return pose_of(fix).has_value();
@@ -49,6 +51,7 @@ void Ros2Gps::drain() {
     if (reading) {
       publish(ros2::nanoseconds(fix.header.stamp), &*reading, 1);
     } else {
+      // The receiver works even though it has no fix; only silence is a failure.
       note_alive();
     }
   });

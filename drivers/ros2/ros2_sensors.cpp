@@ -9,6 +9,7 @@ namespace rave::ros2_driver {
 
 Status Ros2Laser::prepare(const Params& params, HardwareDeclaration& declaration) {
   RAVE_TRY(begin_reading(params, [this](const ros2::LaserScan& scan) {
+    // The first scan tells the geometry, which ROS 2 publishes nowhere else.
     fan_ = fan_of(scan);
     return true;
   }));
@@ -54,6 +55,8 @@ Status Ros2TfPose::prepare(const Params& params, HardwareDeclaration& /*declarat
   doubt_ = read_doubt(params);
   map_frame_ = params.text("map_frame");
   base_frame_ = params.text("base_frame");
+  // Many nodes publish on /tf, so bursts are longer than on other topics. Static transforms are
+  // sent once and kept for late readers.
   RAVE_TRY(make_reader(params.text("topic"), main_, ros2::kReadMany));
   RAVE_TRY(make_reader(params.text("static_topic"), beside_, ros2::kReadKept));
   return await_chain();

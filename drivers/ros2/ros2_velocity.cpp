@@ -44,6 +44,8 @@ Status Ros2Velocity::open(const DeviceSetup& setup) {
   max_v_mps_ = params.number("max_v_mps");
   max_w_radps_ = params.number("max_w_radps");
   RAVE_TRY_ASSIGN(topic_, device_->topic(params.text("topic")));
+  // Twist and TwistStamped are both in use on cmd_vel, and a writer of the wrong type is never
+  // heard. So the type is that of the robot's reader.
   RAVE_TRY_ASSIGN(const bool stamped, find_stamped(topic_, params.text("message")));
   RAVE_TRY(make_writer(topic_, stamped));
   device_->attach(*this);
@@ -100,6 +102,8 @@ Status Ros2Velocity::write(const Command& command, SimTime /*now*/) {
   std::size_t there = 0;
   {
     const std::lock_guard lock(mutex_);
+    // A changed command is sent at once; an unchanged one only extends its validity, and the thread
+    // repeats it at its own rate.
     changed = !order_.given || v_mps != order_.v_mps || w_radps != order_.w_radps;
     order_ = {v_mps, w_radps, line::after_seconds(line::host_now(), watchdog_s_), true,
               order_.fresh || changed};
@@ -135,6 +139,8 @@ line::HostTime Ros2Velocity::attend(line::HostTime now) {
     }
     order_ = {};
     due_ = now;
+    // Stops are repeated for a while, because a single one may be lost, and end then, because
+    // another node may want to drive.
     quiet_at_ = line::after_seconds(now, kTellToStand_s);
   }
   if (now >= quiet_at_) return line::HostTime::max();

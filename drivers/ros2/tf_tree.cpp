@@ -19,6 +19,8 @@ std::string_view frame(const char* text) {
 
 }  // namespace
 
+// Each frame has one parent (REP-105), so the newest transform by child describes the whole tree.
+// It keeps no history: the pose is that of the newest link.
 Status TfTree::add(const ros2::TfMessage& message, bool is_static) {
   for (const ros2::TransformStamped& each : bus::elements(message.transforms)) {
     const std::string_view child = frame(each.child_frame_id);
@@ -26,6 +28,7 @@ Status TfTree::add(const ros2::TfMessage& message, bool is_static) {
     const std::int64_t stamp_ns = ros2::nanoseconds(each.header.stamp);
     auto found = links_.find(child);
     if (found == links_.end()) {
+      // Bounds the memory for a node that invents frame names.
       if (links_.size() >= kMostFrames) {
         return fail(ErrorCode::kInvalidArgument, "more than {} frames", kMostFrames);
       }
@@ -45,11 +48,14 @@ Result<TfTree::Found> TfTree::find(std::string_view root, std::string_view leaf)
       return fail(ErrorCode::kNotFound, "no transform leads from `{}` to `{}`: `{}` has no parent",
                   root, leaf, at);
     }
+    // Two nodes that publish contradicting trees can make a cycle.
     if (steps >= kLongestChain) {
       return fail(ErrorCode::kNotFound, "the transforms above `{}` form a cycle", leaf);
     }
     if (!link->second.X_PC) return tl::unexpected(link->second.X_PC.error());
+    // From the leaf upwards: each parent is put in front of the product so far.
     found.X_AB = steps == 0 ? *link->second.X_PC : compose(*link->second.X_PC, found.X_AB);
+    // The pose is as new as its newest moving link; static links are true at all times.
     if (!link->second.is_static) found.stamp_ns = std::max(found.stamp_ns, link->second.stamp_ns);
     at = link->second.parent;
   }

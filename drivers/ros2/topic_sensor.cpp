@@ -33,6 +33,8 @@ Status TopicSensor::open(SampleSink& sink) {
     lost_ = false;
     alive_ = false;
   }
+  // The device counts its sensors and those that are silent. If all are silent the robot itself
+  // counts as away, and its drive refuses commands.
   if (!may_be_silent_) device_->count_listening(true);
   for (const dds_entity_t reader : readers()) {
     RAVE_TRY_ASSIGN(const dds_entity_t condition, device_->waiter().watch(reader));
@@ -68,6 +70,7 @@ line::HostTime TopicSensor::attend(line::HostTime now) {
     return line::HostTime::max();
   }
   const line::HostTime lost_at = line::after_seconds(last_, device_->options().timing.lost_after_s);
+  // The time to look again: nothing while it is lost, because only a message can change that.
   if (lost_ || now < lost_at) return lost_ ? line::HostTime::max() : lost_at;
   lost_ = true;
   ++state_.losses;
@@ -84,6 +87,7 @@ void TopicSensor::publish(std::int64_t stamp_ns, const void* records, std::uint3
   if (sink_ == nullptr) return;
   const line::HostTime now = line::host_now();
   const StreamClock::Taken taken = clock_.take(stamp_ns, line::host_seconds(now));
+  // Not newer than the message before.
   if (!taken.good) return;
   last_ = now;
   alive_ = true;

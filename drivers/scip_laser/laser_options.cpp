@@ -26,6 +26,8 @@ Result<ScanRequest> request_for(const LaserOptions& options, const Parameters& d
   request.skipped_scans = options.skip_scans;
   request.range_min_mm = device.range_min_mm;
   request.range_max_mm =
+      // Two characters have 12 bits. The largest number, 4095, means "that far or farther", so 4094
+      // mm is the longest range.
       options.characters == 2 ? std::min(device.range_max_mm, 4094) : device.range_max_mm;
   if (request.first_step < device.first_step || request.last_step > device.last_step ||
       request.first_step > request.last_step) {

@@ -4,6 +4,8 @@
 namespace rave::scip {
 namespace {
 
+// SCIP 2.0 writes numbers in printable characters of six bits each, offset by 0x30, the most
+// significant first.
 constexpr std::uint32_t kFirst = 0x30;
 constexpr std::uint32_t kBits = 6;
 constexpr std::uint32_t kMask = (1U << kBits) - 1;

@@ -38,12 +38,15 @@ void ScipDecoder::reset() noexcept {
   given_out_ = false;
 }
 
+// An empty line ends each reply, and no other line is empty. That is what the decoder synchronises
+// to: after an error it skips until the next empty line.
 const Reply* ScipDecoder::push(char byte) {
   if (std::exchange(given_out_, false)) text_.clear();
   if (byte != '\n') {
     ++line_length_;
     if (skipping_) return nullptr;
     text_.push_back(byte);
+    // Bounds the memory for a device that sends no newline, or another protocol.
     if (line_length_ > kMaxLine || text_.size() > kMaxReply) {
       ++counts_.malformed;
       skipping_ = true;
@@ -70,6 +73,7 @@ const Reply* ScipDecoder::complete() {
     return nullptr;
   }
   const std::string_view status = cut_line(rest);
+  // The answer to SCIP2.0 has a status of one character without a checksum.
   if (status.size() == 1 && reply_.echo.starts_with("SCIP")) {
     reply_.status = status;
   } else if (status.size() != 3) {

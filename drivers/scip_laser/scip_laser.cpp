@@ -104,6 +104,7 @@ Result<Identity> ScipLaser::find_device() {
 Status ScipLaser::configure(const HardwareSetup& setup, HardwareDeclaration& declaration) {
   RAVE_TRY_ASSIGN(options_, read_options(setup.parameters()));
   RAVE_TRY(wake_.open());
+  // The device is asked now, because rays and ranges must be declared before the run begins.
   RAVE_TRY_ASSIGN(identity_, find_device());
   RAVE_TRY_ASSIGN(request_, request_for(options_, identity_.parameters));
   bearings_rad_.clear();
@@ -175,6 +176,8 @@ Status ScipLaser::scan_until_lost(SampleSink& sink, HostTime& last_scan) {
   RAVE_TRY_ASSIGN(line::ByteLine opened, line::ByteLine::open(options_.address, kConnect, &wake_));
   ScipSession session(std::move(opened), &wake_);
   RAVE_TRY_ASSIGN(const Identity identity, session.identify());
+  // The program was told bearings and ranges once. Another device behind the same port would be
+  // read wrongly.
   if (!(identity.parameters == identity_.parameters)) {
     return fail(ErrorCode::kState, "the device has changed: `{}` instead of `{}`",
                 identity.parameters.model, identity_.parameters.model);
@@ -199,6 +202,7 @@ Status ScipLaser::stream(ScipSession& session, SampleSink& sink, HostTime& last_
   while (true) {
     if (!request_.continuous && line::host_now() >= ask_at) {
       RAVE_TRY(session.poll(request_));
+      // The device has a new scan only after its period; asking sooner would repeat the last one.
       ask_at = line::after_seconds(line::host_now(), period_s());
     }
     const HostTime silent_at = line::after_seconds(good, silence_s);
@@ -242,9 +246,12 @@ bool ScipLaser::take(const ScipSession::Next& next, Stretch& stretch, SampleSink
   }
   if (stretch.scans++ == 0) stretch.first_device_s = device_s;
   stretch.last_device_s = device_s;
+  // Arrivals jitter by the line and the operating system; the device's timer does not. The estimate
+  // puts the timer on the host's clock.
   stretch.clock.add(device_s, line::host_seconds(next.arrived));
   const double host_s = device_s + stretch.clock.offset_s(device_s) - options_.timing.latency_s;
   const SimTime stamp = line::run_stamp(sink, host_s);
+  // A better estimate may move the clock back by less than a scan. A sensor's stamps must increase.
   const bool in_order = stamp.ns > last_stamp_ns_;
   if (in_order) {
     last_stamp_ns_ = stamp.ns;

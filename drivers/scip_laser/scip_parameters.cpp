@@ -44,6 +44,7 @@ std::string_view value_of(std::span<const std::string_view> lines, std::string_v
 }
 
 Result<Parameters> parse_parameters(std::span<const std::string_view> lines) {
+  // A duplicate key may come from two replies that were mixed up.
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::string_view key = lines[i].substr(0, lines[i].find(':'));
     for (std::size_t k = 0; k < i; ++k) {

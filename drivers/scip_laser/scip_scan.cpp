@@ -76,6 +76,8 @@ ScanEnd read_scan(const Reply& reply, const ScanRequest& request, Scan& scan) {
   if (!echoes(reply.echo, request)) return ScanEnd::kNoScan;
   const bool accepted = reply.status == "00";
   if (!accepted && reply.status != "99") return ScanEnd::kRefused;
+  // In continuous mode "00" acknowledges the command, and each scan has the status "99". A polled
+  // scan has "00".
   if (request.continuous && accepted) {
     return reply.lines.empty() ? ScanEnd::kNoScan : ScanEnd::kMalformed;
   }

@@ -18,6 +18,8 @@ Status ScipSession::send(std::string_view command) {
 ScipSession::Next ScipSession::next(line::HostTime limit) {
   while (true) {
     while (used_ < have_) {
+      // The time of the chunk with the first byte of the reply: later bytes of a long scan arrive
+      // up to several milliseconds after it.
       if (decoder_.between_replies()) reply_came_ = chunk_came_;
       const Reply* const reply = decoder_.push(room_[used_++]);
       if (reply != nullptr) return {ReadEnd::kBytes, reply, reply_came_};
@@ -38,6 +40,7 @@ Result<const Reply*> ScipSession::ask(std::string_view command, line::Wait limit
     const Next got = next(end);
     switch (got.end) {
       case ReadEnd::kBytes:
+        // Other replies are scans of a stream that an earlier host left running.
         if (got.reply->echo == command) return got.reply;
         break;
       case ReadEnd::kTimeout:
@@ -64,12 +67,15 @@ Result<Identity> ScipSession::identify() {
   decoder_.reset();
   // The empty line ends a command that an earlier host left unfinished.
   RAVE_TRY(send(""));
+  // QT stops a stream that an earlier host left running. SCIP2.0 changes the protocol of devices
+  // that begin with an older one. Not all devices answer all three, so no answer is required.
   for (const std::string_view command : {"QT", "SCIP2.0", "QT"}) {
     const auto answer = ask(command, kPerhaps);
     if (!answer && answer.error().code != ErrorCode::kTimeout) {
       return tl::unexpected<Error>(answer.error());
     }
   }
+  // A reset, because an earlier host may have changed settings.
   RAVE_TRY(ask_well("RS"));
   Identity identity;
   RAVE_TRY_ASSIGN(const Reply* const version, ask_well("VV"));

@@ -6,6 +6,7 @@ namespace rave::serial_transmitter {
 std::uint16_t crc16(std::span<const std::byte> bytes) noexcept {
   std::uint32_t crc = 0xFFFF;
   for (const std::byte byte : bytes) {
+    // Bit by bit: at the rate of a serial line a table would save nothing that counts.
     crc ^= std::to_integer<std::uint32_t>(byte) << 8U;
     for (int bit = 0; bit < 8; ++bit)
       crc = (crc & 0x8000U) != 0 ? (crc << 1U) ^ 0x1021U : crc << 1U;
@@ -20,9 +21,12 @@ void append_frame(std::span<const std::byte> packet, std::vector<std::byte>& out
   std::size_t code_at = out.size();
   std::uint8_t code = 1;  // number of following bytes of the block, plus one
   out.push_back(std::byte{0});
+  // COBS: each block begins with the distance to the next zero, so the data contain none and a zero
+  // always ends a frame.
   const auto put = [&](std::byte byte) {
     if (byte != std::byte{0}) {
       out.push_back(byte);
+      // A block of 254 bytes without a zero ends here; its code 255 means that no zero follows it.
       if (++code < 0xFF) return;
     }
     out[code_at] = std::byte{code};
@@ -52,6 +56,7 @@ bool FrameDecoder::take(std::byte byte) noexcept {
     size_ = 0;
   }
   if (byte == std::byte{0}) return end_frame();
+  // The rest of a frame that is too long is read and dropped; the next zero begins anew.
   if (size_ == buffer_.size()) {
     too_long_ = true;
   } else {

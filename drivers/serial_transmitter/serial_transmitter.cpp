@@ -88,6 +88,7 @@ Status SerialTransmitter::configure(const HardwareSetup& setup,
   byte_rate_ = params.number("byte_rate");
   // Ten bits per byte: eight data bits, a start and a stop bit.
   const double line_rate = serial ? static_cast<double>(params.integer("baud")) / 10 : 0;
+  // The rate of the radio is at most that of the line.
   if (byte_rate_ == 0 || (line_rate > 0 && byte_rate_ > line_rate)) byte_rate_ = line_rate;
   queue_bytes_ = static_cast<std::size_t>(params.integer("queue_bytes"));
   max_packet_bytes_ = static_cast<std::size_t>(params.integer("max_packet_bytes"));
@@ -172,6 +173,7 @@ void SerialTransmitter::run(line::ByteLine line, const std::stop_token& stop) {
     auto again = line::ByteLine::open(address_, kConnect, &wake_);
     if (!again) continue;
     open_line.emplace(*std::move(again));
+    // Half a frame from before the loss must not be joined with new bytes.
     decoder_->restart();
     {
       const std::lock_guard lock(mutex_);
@@ -200,6 +202,7 @@ Result<HostTime> SerialTransmitter::write_due(line::ByteLine& line) {
   while (true) {
     {
       const std::lock_guard lock(mutex_);
+      // send() rings the bell, so a long wait costs no delay.
       if (queue_.empty()) return line::host_now() + kIdle;
       if (line::host_now() < free_at_) return free_at_;
       frame = std::move(queue_.front());
@@ -212,6 +215,8 @@ Result<HostTime> SerialTransmitter::write_due(line::ByteLine& line) {
     ++state_.sent;
     state_.sent_bytes += frame.size();
     if (byte_rate_ > 0) {
+      // The rate is that of the radio behind the line, which may be slower than the line itself.
+      // Idle time is not saved up for a burst.
       const HostTime from = std::max(free_at_, line::host_now());
       free_at_ = line::after_seconds(from, static_cast<double>(frame.size()) / byte_rate_);
     }

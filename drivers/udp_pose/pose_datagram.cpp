@@ -74,6 +74,7 @@ Status read_variance(const Json& object, PoseDatagram& datagram) {
 Status read_names(const Json& object, PoseDatagram& datagram) {
   for (const auto& [key, value] : object.items()) {
     if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
+      // An unknown key may be a misspelt `cov` or `seq`, which would be ignored silently.
       return fail(ErrorCode::kParse, "unknown key; expected body, t, x, y, yaw, cov and seq");
     }
   }
@@ -99,6 +100,7 @@ Result<PoseDatagram> parse_datagram(std::string_view bytes) {
     return fail(ErrorCode::kParse, "longer than {} bytes", kMaxDatagram);
   }
   Guard guard;
+  // Parsed without exceptions: anybody who reaches the port can send garbage at any rate.
   const Json object = Json::parse(
       bytes.begin(), bytes.end(),
       [&guard](int depth, Json::parse_event_t event, Json& parsed) {
@@ -114,6 +116,7 @@ Result<PoseDatagram> parse_datagram(std::string_view bytes) {
   RAVE_TRY_ASSIGN(datagram.x_m, number_at(object, "x", kFarthest_m));
   RAVE_TRY_ASSIGN(datagram.y_m, number_at(object, "y", kFarthest_m));
   RAVE_TRY_ASSIGN(const double yaw_rad, number_at(object, "yaw", kMostYaw_rad));
+  // Some programs count headings on beyond a turn.
   datagram.yaw_rad = wrap_angle(yaw_rad);
   RAVE_TRY(read_variance(object, datagram));
   return datagram;

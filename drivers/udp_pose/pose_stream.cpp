@@ -27,6 +27,8 @@ void PoseStream::restart() {
 PoseStream::Verdict PoseStream::order(const PoseDatagram& datagram) {
   if (any_ && datagram.t_s <= newest_t_s_) {
     if (datagram.t_s == newest_t_s_) return Verdict::kDuplicate;
+    // Old samples that are in order among themselves come from one sender with another clock;
+    // delayed ones would arrive mixed.
     const bool rising = old_in_a_row_ == 0 || datagram.t_s > previous_old_t_s_;
     old_in_a_row_ = rising ? old_in_a_row_ + 1 : 0;
     previous_old_t_s_ = datagram.t_s;
@@ -70,6 +72,7 @@ PoseStream::Taken PoseStream::take(std::string_view bytes, double host_s, PoseDa
   state_.max_delay_s = std::max(state_.max_delay_s, delay_s);
   state_.clock_offset_s = clock_.offset_s();
   state_.clock_drift_ppm = clock_.drift_ppm();
+  // Late samples still count for the clock and the order above; only the program does not get them.
   if (delay_s > max_delay_s_) {
     ++state_.late;
     return {Verdict::kLate, true_s};

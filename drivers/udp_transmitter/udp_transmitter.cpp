@@ -46,6 +46,7 @@ class UdpTransmitter final : public Transmitter {
                     "`group` already has a port: give either `port` or `group`");
       }
       group = *std::move(parsed);
+      // The group is one more address to send to.
       peers_.push_back(*group);
     }
     if (peers_.empty() && port == 0) {
@@ -78,7 +79,9 @@ class UdpTransmitter final : public Transmitter {
       Status status = socket_->send(packet, peer);
       if (!status) worst = std::move(status);
     }
+    // A packet counts as sent only if all peers could be sent to.
     ++(worst ? sent_ : unsent_);
+    // Reported when the state changes, not for each packet.
     if (worst.has_value() == failed_) {
       failed_ = !worst.has_value();
       if (failed_) {

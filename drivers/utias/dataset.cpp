@@ -57,6 +57,8 @@ Result<RobotFiles> read_robot(const Folder& folder, int robot, const StreamChoic
                               const LoadOptions& options) {
   const std::string prefix = fmt::format("Robot{}_", robot);
   RobotFiles files;
+  // Only the logs that are asked for: a player of poses must not fail because of a damaged log of
+  // sightings.
   if (streams.poses) {
     RAVE_TRY_ASSIGN(files.poses, folder.read(prefix + "Groundtruth", pose_columns(), options));
   }
@@ -90,6 +92,7 @@ Status add_poses(RobotLog& robot, LogFile file, const StreamWindow& window,
   const std::string path = file.path;
   auto poses =
       make_poses(std::move(file), robot.subject, window, from_seconds(options.pose_gap_limit_s).ns);
+  // A real robot without any pose would never exist in the world.
   if (poses.samples.empty()) {
     return fail_at({path, 0, 0}, ErrorCode::kParse,
                    "robot {} has no pose up to the end of the window at {} s", robot.subject,

@@ -26,6 +26,7 @@ int robot_number(std::string_view name) noexcept {
   name.remove_prefix(kPrefix.size());
   int number = 0;
   const auto [stop, status] = std::from_chars(name.data(), name.data() + name.size(), number);
+  // The underscore is required, so that `Robot1` does not match `Robot12_…`.
   const bool named = status == std::errc() && stop != name.data() + name.size() && *stop == '_';
   return named && number > 0 ? number : 0;
 }
@@ -76,6 +77,7 @@ Result<LogFile> Folder::read(std::string_view stem, std::span<const Column> colu
   const std::string plain = std::string(stem) + ".dat";
   const std::string packed = plain + ".gz";
   LogFile file;
+  // The packed file is preferred if both exist.
   file.name = is_file(path_ / packed) ? packed : plain;
   const std::filesystem::path path = path_ / file.name;
   file.path = path.string();

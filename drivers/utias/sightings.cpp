@@ -11,6 +11,7 @@ namespace rave::utias {
 SightingLog::SightingLog(std::vector<Sighting> sightings) : sightings_(std::move(sightings)) {
   for (std::size_t i = 0; i < sightings_.size(); ++i) {
     RAVE_CHECK(i == 0 || sightings_[i - 1].t_ns <= sightings_[i].t_ns);
+    // One image has one stamp, so equal stamps are one group.
     if (i == 0 || sightings_[i - 1].t_ns != sightings_[i].t_ns) group_begins_.push_back(i);
   }
 }

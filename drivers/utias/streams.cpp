@@ -15,6 +15,7 @@ using recording::sort_rows;
 using recording::trim;
 using recording::wrap_heading;
 
+// Columns of the logs as the data set documents them; the names appear in messages about a bad row.
 constexpr std::array<Column, 4> kPoseColumns{{{"time [s]", ColumnKind::kStamp},
                                               {"x [m]", ColumnKind::kReal},
                                               {"y [m]", ColumnKind::kReal},
@@ -54,6 +55,8 @@ void count_unknown(StreamReport& report, const std::vector<Sighting>& sightings)
   for (const auto& [code, count] : counts) report.unknown_codes.push_back({code, count});
 }
 
+// The number in the measurement log is a barcode. Reading it as a subject is the classical mistake
+// with this data set, offered so that a check can be shown to notice it.
 int subject_of(int code, CodeMeaning meaning, const Subjects& subjects) noexcept {
   if (meaning == CodeMeaning::kBarcode) return subjects.subject_of_code(code);
   return subjects.code_of_subject(code) >= 0 ? code : kUnknownSubject;
@@ -71,6 +74,8 @@ Stream<std::vector<PoseSample>> make_poses(LogFile file, int robot, const Stream
                                            std::int64_t gap_limit_ns) {
   Stream<std::vector<PoseSample>> stream;
   stream.report = begin_report(file, robot, StreamKind::kPoses, gap_limit_ns);
+  // The same steps for poses and odometry: rows in order, one per stamp, described for the report
+  // as the log has them, and cut to the window last.
   sort_rows(file.log.rows, stream.report);
   drop_duplicates(file.log.rows, window, stream.report);
   stream.samples.reserve(file.log.rows.size());
@@ -109,10 +114,13 @@ Stream<std::vector<Sighting>> make_sightings(LogFile file, int robot, const Stre
   sort_rows(file.log.rows, stream.report);
   for (const LogRow& row : file.log.rows) {
     const int code = row.codes[0];
+    // Several sightings of one image have the same stamp, so duplicates are kept here.
     stream.samples.push_back({row.stamp_ns - window.origin_ns + clock_offset_ns, code,
                               subject_of(code, meaning, subjects), row.reals[0], row.reals[1]});
   }
   describe(stream.report, stream.samples, window);
+  // Not trim(), which keeps the last state before the window: a sighting is an event and not a
+  // state.
   std::erase_if(stream.samples, [&](const Sighting& sighting) {
     return sighting.t_ns < window.start_ns || sighting.t_ns > window.end_ns;
   });

@@ -19,6 +19,9 @@ int find_or(const std::map<int, int>& map, int key, int otherwise) noexcept {
 
 }  // namespace
 
+// A barcode belongs to a subject, and a subject is a robot or a landmark. The data set has these
+// facts in two files and the names of the logs. They are joined and checked here, because a wrong
+// pair would let a camera see tubes at wrong places without any error.
 Result<Subjects> Subjects::join(std::span<const LogRow> barcodes, const std::string& barcode_file,
                                 std::span<const LogRow> landmarks, const std::string& landmark_file,
                                 std::span<const int> robots) {
@@ -30,6 +33,8 @@ Result<Subjects> Subjects::join(std::span<const LogRow> barcodes, const std::str
       return refuse(barcode_file, 0, fmt::format("robot {} has no row with its barcode", robot));
     }
   }
+  // The other direction: a barcode of nothing that is known is an error of the file, not a subject
+  // to be ignored.
   for (const LogRow& row : barcodes) {
     const int subject = row.codes[0];
     const bool is_landmark = std::any_of(subjects.landmarks_.begin(), subjects.landmarks_.end(),
@@ -46,6 +51,7 @@ Result<Subjects> Subjects::join(std::span<const LogRow> barcodes, const std::str
 Status Subjects::add_barcodes(std::span<const LogRow> rows, const std::string& file) {
   for (const LogRow& row : rows) {
     const auto [subject, code] = row.codes;
+    // 0 stands for "belongs to nothing" in sightings.
     if (subject == kUnknownSubject) {
       return refuse(file, row.line, "subject numbers start at 1, found 0");
     }

@@ -19,12 +19,16 @@ constexpr double kLargestReal = 1e6;
 constexpr int kLargestCode = 1'000'000;
 
 /// Why a row was refused.
+/// A row with a NaN or an infinity is told apart from one that cannot be read, because a recording
+/// may have either and they have different causes.
 struct Fault {
   bool non_finite = false;
   int column = 0;
   std::string message;
 };
 
+// A last line without a newline counts as complete if its last word has as many decimals as that of
+// the row before.
 std::size_t decimals(std::string_view number) noexcept {
   const std::size_t point = number.find('.');
   return point == std::string_view::npos ? 0 : number.size() - point - 1;
@@ -88,6 +92,7 @@ class RowReader {
     }
     const auto real = parse_number<double>(text);
     const double least = kind == ColumnKind::kNonNegative ? 0 : -kLargestReal;
+    // Written so that NaN, for which every comparison is false, is refused.
     if (!real || !(*real >= least && *real <= kLargestReal)) return false;
     row.reals[reals++] = *real;
     return true;
@@ -100,6 +105,7 @@ class RowReader {
       names += column.name;
     }
     const bool surplus = tokens.size() > columns_.size();
+    // The column of the first word too many, or the end of the line if words are missing.
     const int at = surplus ? tokens[columns_.size()].column : static_cast<int>(line_length) + 1;
     return {
         false, at,

@@ -34,6 +34,7 @@ class VelocityController final : public Controller {
   }
 
   Command control(const ControlInput& input) override {
+    // Written with "not" so that an age of NaN stops the robot as well.
     if (input.command.kind != kAccepts || !(input.command_age_s <= watchdog_s_)) return kStop;
     const double v_mps = input.command.value[0];
     const double w_radps = input.command.value[1];

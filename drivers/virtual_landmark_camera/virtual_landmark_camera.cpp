@@ -49,12 +49,14 @@ class VirtualLandmarkCamera final : public VirtualSensor {
       }
       const Vec2 p_SL = rotate_back(heading, landmark.p_WL - item.X_WS.position());
       const double squared_range = squared_norm(p_SL);
+      // Squares save the root for the many landmarks out of range.
       if (squared_range < range_min_m_ * range_min_m_ ||
           squared_range > range_max_m_ * range_max_m_) {
         continue;
       }
       const double bearing_rad = atan2(p_SL.y, p_SL.x);
       if (bearing_rad < fov_min_rad_ || bearing_rad > fov_max_rad_) continue;
+      // Last, because it casts up to three rays; the other conditions are a few operations.
       if (occlusion_ && !readable(world, item, landmark)) continue;
       Sighting& sighting = sightings[count++];
       sighting.stamp_ns = world.time().ns;
@@ -78,6 +80,7 @@ class VirtualLandmarkCamera final : public VirtualSensor {
     const Vec2 line = landmark.p_WL - p_from;
     const double range_m = std::sqrt(squared_norm(line));
     const double share = range_m > 0 ? kNearlyEdge * landmark.radius_m / range_m : 0;
+    // At right angles to the line of sight, 0.9 radii away from the axis.
     const Vec2 aside{-share * line.y, share * line.x};
     for (const Vec2 offset : {Vec2{}, aside, -aside}) {
       if (world.visible(p_from, landmark.p_WL + offset, z_m, layers_, world.body_of(item.robot),

@@ -41,6 +41,7 @@ class VirtualLaser final : public VirtualSensor {
     return {};
   }
 
+  // Empty: the engine casts declared fans itself, for all robots of a block together.
   void sample(const WorldView& /*world*/, const SampleItem& /*item*/) const override {}
 
  private:

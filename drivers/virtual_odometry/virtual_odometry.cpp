@@ -56,6 +56,7 @@ class VirtualOdometry final : public VirtualSensor {
       state.started = true;
       state.X_WR = item.X_WR;
     }
+    // A function of seed, robot, device and sample number, so the drift is the same in each run.
     RandomStream random = item.random();
     const WheelTravel wheels = measured(state.X_WR, item.X_WR);
     const double variance_left_m2 = variance_per_metre_m_ * std::abs(wheels.left_m);
@@ -65,6 +66,8 @@ class VirtualOdometry final : public VirtualSensor {
     const double length_m = 0.5 * (left_m + right_m);
     const double turn_rad = (right_m - left_m) / separation_m_;
 
+    // Variances of length and turn, and their covariance, from those of two independent wheels
+    // (Siegwart and Nourbakhsh, 2004, 5.2.4).
     const ArcVariance arc{0.25 * (variance_left_m2 + variance_right_m2),
                           (variance_left_m2 + variance_right_m2) / (separation_m_ * separation_m_),
                           0.5 * (variance_right_m2 - variance_left_m2) / separation_m_};
@@ -77,6 +80,8 @@ class VirtualOdometry final : public VirtualSensor {
  private:
   /// The wheel travel between two true poses. Lateral motion turns no wheel.
   [[nodiscard]] WheelTravel measured(const Pose2& X_WR_before, const Pose2& X_WR) const {
+    // The constant velocity that leads from one pose to the next in unit time: an arc, whose vx is
+    // its length and wz its angle.
     const Twist2 moved = twist_between(X_WR_before, X_WR, 1.0);
     const double half_turn_m = 0.5 * separation_m_ * moved.wz;
     return {scale_left_ * (moved.vx - half_turn_m), scale_right_ * (moved.vx + half_turn_m)};

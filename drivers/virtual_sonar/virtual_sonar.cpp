@@ -29,6 +29,7 @@ class VirtualSonar final : public VirtualSensor {
     declaration.uses_fan = 1;
     declaration.fan.bearings_rad = bearings_rad_.data();
     declaration.fan.ray_count = static_cast<std::uint32_t>(bearings_rad_.size());
+    // All rays of the fan give one reading, their minimum: the first echo of the cone.
     declaration.fan.rays_per_reading = declaration.fan.ray_count;
     declaration.fan.range_min_m = params.number("range_min_m");
     declaration.fan.range_max_m = params.number("range_max_m");

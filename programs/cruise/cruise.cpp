@@ -31,6 +31,8 @@ struct FrontRays {
   std::uint32_t end = 0;
 };
 
+// The rays ahead must be one ascending row, so that left, middle and right are three spans of the
+// reading. Then a decision is three minima without a comparison of angles per ray.
 Result<FrontRays> front_rays_of(const SensorInfo& sensor, double front_rad) {
   FrontRays rays;
   std::optional<double> last_rad;
@@ -68,6 +70,7 @@ float nearest_of(std::span<const float> ranges_m) noexcept {
     std::fill(std::begin(least_m), std::end(least_m), kNone_m);
     for (; i + kLanes <= ranges_m.size(); i += kLanes) {
       for (std::size_t k = 0; k < kLanes; ++k) {
+        // The comparison with NaN is false, so NaN keeps what was there.
         least_m[k] = ranges_m[i + k] < least_m[k] ? ranges_m[i + k] : least_m[k];
       }
     }
@@ -121,6 +124,8 @@ class Cruise final : public DecisionProcess {
       return;
     }
     --turns_left_;
+    // A turn is completed even if the way is free earlier. Otherwise a robot in a corner would
+    // swing between two walls.
     commands.velocity(drive_, nearest_m < stop_m_ ? 0 : creep_mps_, side_ * turn_radps_);
   }
 
@@ -134,6 +139,8 @@ class Cruise final : public DecisionProcess {
 
   void begin_turn(float left_m, float right_m, RandomStream random) noexcept {
     turns_left_ = shortest_turn_ + static_cast<std::int32_t>(random.uniform(0, turn_choices_));
+    // Both infinite: the obstacle is straight ahead. A fixed side would send all robots the same
+    // way round.
     if (left_m == right_m) {
       side_ = random.bits() % 2 == 0 ? 1 : -1;
     } else {

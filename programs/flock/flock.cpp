@@ -82,6 +82,7 @@ class Flock final : public DecisionProcess {
     if (moved_) v_W_ = 0.5 * v_W_ + (0.5 / period_s_) * (p_W - last_p_W_);
     moved_ = true;
     last_p_W_ = p_W;
+    // Sent also when it stands for lack of a scan: the others still need to know where it is.
     commands.send(radio_, FlockMessage{p_W.x, p_W.y, v_W_.x, v_W_.y});
     if (scan_.is_old()) {
       commands.velocity(drive_, 0, 0);  // What was free then need not be free now.
@@ -119,22 +120,27 @@ class Flock final : public DecisionProcess {
     Vec2 middle_W;
     Vec2 flow_W;
     for (const Neighbour& n : neighbours_) {
+      // Where the neighbour should be by now: a message is old by at least one step.
       const Vec2 there_W = n.p_W + (now_ - n.stamp).seconds() * n.v_W;
       const Vec2 away_W = p_W - there_W;
       const double distance_m = std::max(std::sqrt(squared_norm(away_W)), 0.01);
       if (distance_m < spacing_m_) {
+        // Grows from 0 at the spacing without limit towards contact: (s/d - 1) in the direction
+        // away.
         desired_W = desired_W + (separation_ * (spacing_m_ / distance_m - 1) / distance_m) * away_W;
       }
       middle_W = middle_W + there_W;
       flow_W = flow_W + n.v_W;
     }
     if (!neighbours_.empty()) {
+      // Means, not sums, so the weights do not depend on the number of neighbours.
       const double share = 1.0 / static_cast<double>(neighbours_.size());
       desired_W = desired_W + cohesion_ * (share * middle_W - p_W);
       desired_W = desired_W + (alignment_ * share / cruise_mps_) * flow_W;
     }
     const Vec2 home_W = centre_W_ - p_W;
     const double out_m = std::sqrt(squared_norm(home_W)) - stay_within_m_;
+    // Grows with the distance outside, so it exceeds the pull of the flock soon.
     if (stay_within_m_ > 0 && out_m > 0) desired_W = desired_W + (2 * out_m) * home_W;
     return desired_W;
   }

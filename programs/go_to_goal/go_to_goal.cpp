@@ -142,6 +142,7 @@ class GoToGoal final : public DecisionProcess {
   /// Heads for the goal; begins to follow the wall when that brings it no nearer.
   FreeHeading toward(Vec2 goal_R, SimTime now) {
     const double distance_m = std::sqrt(squared_norm(goal_R));
+    // Less than 5 cm nearer is noise of the pose and no progress.
     if (distance_m < nearest_m_ - 0.05) {
       nearest_m_ = distance_m;
       nearer_at_ = now;
@@ -162,6 +163,8 @@ class GoToGoal final : public DecisionProcess {
     const double distance_m = std::sqrt(squared_norm(goal_R));
     const double bearing_rad = atan2(goal_R.y, goal_R.x);
     const FreeHeading direct = steering_.best(points_R_, bearing_rad, distance_m);
+    // The leave condition: nearer than ever, and the way is free. The margin keeps it from leaving
+    // the wall where it met it.
     const bool nearer = distance_m < nearest_m_ - 0.2;
     const bool open = direct.free_m >= std::min(distance_m, look_m_) &&
                       std::abs(wrap_angle(direct.heading_rad - bearing_rad)) < deg_to_rad(60);
@@ -210,6 +213,7 @@ class GoToGoal final : public DecisionProcess {
       left_start_ = false;
     }
     const double from_start_m2 = squared_norm(X_WR.position() - *follow_from_W_);
+    // Squares of distances: it has been 1 m away, and is back within 0.3 m.
     if (from_start_m2 > 1.0) left_start_ = true;
     return left_start_ && from_start_m2 < 0.3 * 0.3;
   }

@@ -28,6 +28,8 @@ class Obey final : public DecisionProcess {
     const std::string_view goal_sensor = params.text("goal_sensor");
     auto wanted = setup.sensor<VelocityReading>(velocity_sensor);
     auto goal = setup.sensor<PoseReading>(goal_sensor);
+    // Without any sensor named it takes orders of people only, so a missing sensor is no error
+    // then.
     const bool people_alone = velocity_sensor.empty() && goal_sensor.empty();
     if (people_alone) return begin(setup);
     if (!wanted && !goal) return tl::unexpected(std::move(wanted).error());
@@ -52,6 +54,8 @@ class Obey final : public DecisionProcess {
       if (percepts.now().ns - stamp_ns <= timeout_.ns) {
         const VelocityReading& wanted = percepts[*wanted_].back();
         commands.velocity(drive_, wanted.v_mps, wanted.w_radps);
+        // A goal older than this velocity has ended: when velocities stop coming the robot stands,
+        // and does not return to an old goal.
         ended_ns_ = stamp_ns;
         return;
       }

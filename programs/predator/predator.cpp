@@ -67,6 +67,7 @@ class Predator final : public DecisionProcess {
     const SinCos bearing = sincos(static_cast<double>(prey->bearing_rad));
     const double range_m = static_cast<double>(prey->range_m);
     const Vec2 p_R = transform(X_RS, {range_m * bearing.cos, range_m * bearing.sin});
+    // The sensor gives the velocity over ground, only turned into its axes.
     const Vec2 v_R =
         rotate(X_RS.yaw, {static_cast<double>(prey->vx_mps), static_cast<double>(prey->vy_mps)});
 
@@ -97,6 +98,8 @@ class Predator final : public DecisionProcess {
   /// (R. Isaacs, "Differential Games", Wiley 1965). A prey that cannot be met is aimed at a little
   /// ahead, so the hunt goes on.
   double meeting_time_s(Vec2 p_R, Vec2 v_R) const {
+    // |p + v t|^2 = s^2 t^2 is a t^2 - 2 b t - c = 0 with these a, b and c; its positive root is (b
+    // + root) / a = c / (root - b).
     const double a = max_speed_mps_ * max_speed_mps_ - squared_norm(v_R);
     const double b = dot(p_R, v_R);
     const double c = squared_norm(p_R);
@@ -112,6 +115,7 @@ class Predator final : public DecisionProcess {
   void drive_to(Vec2 aim_R, Vec2 prey_R, Commands& commands) {
     points_R_.clear();
     for (const RangeHit& hit : scan_.hits()) {
+      // The prey itself must not count as an obstacle, or the hunt would steer around it.
       if (squared_norm(hit.p_R - prey_R) > prey_radius_m_ * prey_radius_m_) {
         points_R_.push_back(hit.p_R);
       }

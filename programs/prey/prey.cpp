@@ -84,6 +84,8 @@ class Prey final : public DecisionProcess {
       const SinCos bearing = sincos(static_cast<double>(reading.bearing_rad));
       const Vec2 p_R = transform(X_RS, {range_m * bearing.cos, range_m * bearing.sin});
       const double distance_m = std::max(std::sqrt(squared_norm(p_R)), 0.01);
+      // The third power: one for the unit vector p / d, two for the weight 1 / d^2. At least 1 cm,
+      // so it stays finite.
       sum_R = sum_R - (1.0 / (distance_m * distance_m * distance_m)) * p_R;
     }
     return sum_R;
@@ -94,6 +96,7 @@ class Prey final : public DecisionProcess {
     const double change_radps = stroll_radps_ * percepts.random().uniform(-0.3, 0.3);
     stroll_rate_radps_ =
         std::clamp(stroll_rate_radps_ + change_radps, -stroll_radps_, stroll_radps_);
+    // As a heading error, because the gain turns it into a rate again below.
     return stroll_rate_radps_ / turn_gain_per_s_;
   }
 

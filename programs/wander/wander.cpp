@@ -77,6 +77,7 @@ class Wander final : public DecisionProcess {
       commands.velocity(drive_, 0, turns ? way_.turn_radps(percepts.pose(), turn_radps_) : 0);
       return;
     }
+    // From the body and not from the centre, so one set of parameters fits robots of all sizes.
     const double clearance_m = scan_.nearest_m(-front_rad_, front_rad_) - radius_m_;
     const int home = way_.asked() ? 0 : way_home(percepts.pose());
     const bool must_turn = clearance_m < avoid_m_ || home != 0;
@@ -129,6 +130,8 @@ class Wander final : public DecisionProcess {
 
   /// 1: left, -1: right; by chance when both are the same.
   int freer_side(const Percepts& percepts) const {
+    // Half a radian wider than what counts as ahead: what lies just beside decides where there is
+    // room.
     const double left_m = scan_.nearest_m(0, front_rad_ + 0.5);
     const double right_m = scan_.nearest_m(-front_rad_ - 0.5, 0);
     if (left_m == right_m) return percepts.random().bits() % 2 == 0 ? 1 : -1;
@@ -148,6 +151,7 @@ class Wander final : public DecisionProcess {
       return 0;
     const Vec2 to_centre_R = rotate(-pose.yaw_rad, to_centre_W);
     const double bearing_rad = atan2(to_centre_R.y, to_centre_R.x);
+    // Heading roughly home is enough; it need not aim at the middle.
     if (std::abs(bearing_rad) < deg_to_rad(60)) return 0;
     return bearing_rad > 0 ? 1 : -1;
   }

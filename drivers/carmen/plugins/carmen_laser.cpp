@@ -28,6 +28,7 @@ class Laser {
  public:
   using Record = float;
   static constexpr ReadingKind kReading = ReadingKind::kRanges;
+  // Replaced by declare(), when the number of rays is known.
   static constexpr std::uint32_t kCapacity = 1;
   static constexpr std::uint32_t kCollect = 0;
 

@@ -24,6 +24,8 @@ constexpr auto kParams = recording::join_params(
 void differentiate(OdometryReading& reading, const recording::PoseTrack& track, std::int64_t t_ns) {
   const auto velocity = track.velocity(t_ns, from_seconds(0.4).ns);
   const SinCos heading = sincos(reading.yaw_rad);
+  // The component of the velocity along the heading; a wheeled robot has no other, so the rest is
+  // noise of the poses.
   reading.v_mps =
       velocity ? velocity->v_WR_W.x * heading.cos + velocity->v_WR_W.y * heading.sin : 0;
   reading.w_radps = velocity ? velocity->wz : 0;

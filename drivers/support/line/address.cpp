@@ -10,6 +10,7 @@
 namespace rave::line {
 namespace {
 
+// termios has a constant for each rate, whose value need not be the rate.
 constexpr std::array<std::pair<std::int64_t, unsigned>, 13> kSpeeds{{{1200, B1200},
                                                                      {2400, B2400},
                                                                      {4800, B4800},
@@ -25,6 +26,7 @@ constexpr std::array<std::pair<std::int64_t, unsigned>, 13> kSpeeds{{{1200, B120
                                                                      {1000000, B1000000}}};
 
 Result<Address> tcp_address(std::string_view text) {
+  // The last colon: an IPv6 address contains colons itself and stands in brackets.
   const auto colon = text.rfind(':');
   if (colon == std::string_view::npos || colon == 0) {
     return fail(ErrorCode::kInvalidArgument, "`address` must be `host:port`, not `{}`", text);
@@ -64,6 +66,7 @@ Result<std::uint16_t> parse_port(std::string_view text) {
 
 Result<Address> parse_address(std::string_view device, std::int64_t baud,
                               std::string_view address) {
+  // Exactly one of the two: a default would connect to some device silently.
   if (device.empty() == address.empty()) {
     return fail(ErrorCode::kInvalidArgument,
                 "give exactly one of `device` (a serial line) and `address` (host:port){}",

@@ -17,6 +17,7 @@ int detail::wait_ready(int fd, short events, HostTime end, const Wake* wake) noe
     std::array<pollfd, 2> wanted{{{fd, events, 0}, {wake != nullptr ? wake->fd() : -1, POLLIN, 0}}};
     const int ready = ::poll(wanted.data(), wanted.size(), static_cast<int>(until(end).count()));
     if (ready < 0 && errno == EINTR) continue;
+    // The bell first: closing must not wait behind a line that always has data.
     if (wanted[1].revents != 0) return -1;
     if (ready < 0 || wanted[0].revents != 0) return 1;  // the next call reports an error
     if (host_now() >= end) return 0;
@@ -68,6 +69,7 @@ Status ByteLine::write(std::string_view bytes, Wait limit, const Wake* wake) {
     const int ready = detail::wait_ready(fd_, POLLOUT, end, wake);
     if (ready < 0) return fail(ErrorCode::kState, "closed while writing");
     if (ready == 0) return fail(ErrorCode::kTimeout, "the device does not accept data");
+    // send() can suppress SIGPIPE, but works for sockets only; a serial line needs write().
     ssize_t size = ::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (size < 0 && errno == ENOTSOCK) size = ::write(fd_, bytes.data(), bytes.size());
     if (size > 0) bytes.remove_prefix(static_cast<std::size_t>(size));

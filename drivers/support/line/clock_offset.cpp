@@ -6,6 +6,10 @@
 
 namespace rave::line {
 
+// Each sample gives host time minus device time, which is the offset of the clocks plus a delay
+// that is never negative. So the true line lies below all points, and the best estimate touches
+// them from below: the edge of the lower convex hull below the mean (Moon, Skelly, Towsley; see
+// README.md). A mean through the points would follow the delays instead.
 void ClockOffset::reset() {
   buckets_.clear();
   late_in_a_row_ = 0;
@@ -32,15 +36,19 @@ void ClockOffset::add(double device_s, double host_s) {
 }
 
 bool ClockOffset::stepped(double device_s, double difference_s) {
+  // A device time that steps back is one of a device that was restarted.
   if (device_s < newest_s_) return true;
   const double excess_s = difference_s - offset_s(device_s);
   // No sample arrives before it is sent, so the clock must have jumped forward.
   if (excess_s < -options_.jump_s) return true;
+  // A single late sample is a delay. Many in a row mean that the clock was set.
   late_in_a_row_ = excess_s > options_.jump_s ? late_in_a_row_ + 1 : 0;
   return late_in_a_row_ >= options_.jump_samples;
 }
 
 void ClockOffset::keep(Point point) {
+  // Only the least delayed sample of each interval can touch the line, so memory and time do not
+  // grow with the rate of samples.
   if (buckets_.empty() || point.x >= bucket_end_s_) {
     buckets_.push_back(point);
     bucket_end_s_ = point.x + options_.bucket_s;
@@ -58,6 +66,7 @@ double ClockOffset::hull_slope() {
     while (hull_.size() >= 2) {
       const Point& a = hull_[hull_.size() - 2];
       const Point& b = hull_.back();
+      // Andrew's monotone chain: the cross product says whether b lies below the line from a to p.
       if ((b.x - a.x) * (p.y - a.y) > (b.y - a.y) * (p.x - a.x)) break;
       hull_.pop_back();
     }
@@ -67,6 +76,7 @@ double ClockOffset::hull_slope() {
   std::size_t i = 1;
   while (i + 1 < hull_.size() && hull_[i].x < mean_x) ++i;
   const double slope = (hull_[i].y - hull_[i - 1].y) / (hull_[i].x - hull_[i - 1].x);
+  // A quartz clock cannot drift more, so a steeper slope comes from delays.
   return std::clamp(slope, -options_.max_drift, options_.max_drift);
 }
 

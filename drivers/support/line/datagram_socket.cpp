@@ -23,6 +23,7 @@ using Found = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
 Found look_up(const std::string& host, const std::string& port) {
   addrinfo wanted{};
   wanted.ai_socktype = SOCK_DGRAM;
+  // Numeric only: looking up a name may block for seconds.
   wanted.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE;
   addrinfo* found = nullptr;
   if (::getaddrinfo(host.c_str(), port.c_str(), &wanted, &found) != 0) found = nullptr;
@@ -55,6 +56,7 @@ bool join(int fd, const Peer& group, const addrinfo& own) {
   }
   sockaddr_in6 here{};
   std::memcpy(&here, own.ai_addr, sizeof here);
+  // IPv6 names an interface by number and not by address; the scope of a link-local address has it.
   const unsigned interface = here.sin6_scope_id != 0 ? here.sin6_scope_id : ::if_nametoindex("lo");
   const ipv6_mreq request{as<sockaddr_in6>(group.address).sin6_addr, interface};
   return set(fd, IPPROTO_IPV6, IPV6_ADD_MEMBERSHIP, request) &&
@@ -63,6 +65,8 @@ bool join(int fd, const Peer& group, const addrinfo& own) {
 }
 
 bool is_passing(int error) {
+  // ECONNREFUSED tells that an earlier datagram met no receiver. The peer may start later, so this
+  // is no error of the socket.
   return error == EINTR || error == EAGAIN || error == ECONNREFUSED || error == ENOBUFS;
 }
 

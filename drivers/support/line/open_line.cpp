@@ -44,6 +44,8 @@ Status make_raw(const Address& address, int fd) {
   termios mode{};
   if (::tcgetattr(fd, &mode) != 0) return system_error(address, errno);
   ::cfmakeraw(&mode);
+  // CLOCAL ignores the modem lines, which many adapters do not connect. Without it open() and
+  // write() could block.
   mode.c_cflag |= CLOCAL | CREAD;
   mode.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
   mode.c_cc[VMIN] = 1;
@@ -61,6 +63,8 @@ Result<int> connect_to(const Address& address, const addrinfo& target, HostTime 
   Fd fd(::socket(target.ai_family, target.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (fd.get() < 0) return system_error(address, errno);
   const int yes = 1;
+  // Commands are a few bytes. Nagle's algorithm would hold them back for the answer to the ones
+  // before.
   ::setsockopt(fd.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
   if (::connect(fd.get(), target.ai_addr, target.ai_addrlen) == 0) return fd.take();
   if (errno != EINPROGRESS) return system_error(address, errno);
@@ -77,6 +81,7 @@ Result<int> connect_to(const Address& address, const addrinfo& target, HostTime 
 }  // namespace
 
 Result<int> detail::open_serial(const Address& address) {
+  // O_NOCTTY: a serial line must not become the terminal that sends signals to this process.
   Fd fd(::open(address.device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (fd.get() < 0) return system_error(address, errno);
   if (::isatty(fd.get()) == 0) {

@@ -18,6 +18,7 @@ Wake::~Wake() {
 
 Status Wake::open() {
   if (fd_ >= 0) return {};
+  // A descriptor, so that one poll() waits for the line and for the bell.
   fd_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   if (fd_ < 0) return fail(ErrorCode::kIo, "cannot make an event: {}", std::strerror(errno));
   return {};
@@ -25,6 +26,7 @@ Status Wake::open() {
 
 void Wake::ring() noexcept {
   const std::uint64_t one = 1;
+  // Fails only if the counter is full; the bell rings already then.
   [[maybe_unused]] const auto written = ::write(fd_, &one, sizeof one);
 }
 

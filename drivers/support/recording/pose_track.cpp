@@ -72,6 +72,7 @@ std::optional<Pose2> PoseTrack::interpolate(std::int64_t t_ns) const noexcept {
   const std::size_t next = after(t_ns);
   if (next == 0) return std::nullopt;
   const PoseSample& a = samples_[next - 1];
+  // After the last sample the pose is held; age_ns() tells how old it is.
   if (next == samples_.size() || a.t_ns == t_ns) return a.pose;
   const PoseSample& b = samples_[next];
   const double part = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
@@ -106,6 +107,7 @@ std::optional<WorldVelocity> PoseTrack::velocity(std::int64_t t_ns,
   const std::size_t end = after(t_ns + half_window_ns);
   std::size_t begin = after(t_ns - half_window_ns);
   if (begin > 0 && samples_[begin - 1].t_ns == t_ns - half_window_ns) --begin;
+  // Fewer than three samples, or a window filled on one side only, give the slope of noise.
   if (end < begin + 3 || samples_.back().t_ns < t_ns) return std::nullopt;
   if (samples_[end - 1].t_ns - samples_[begin].t_ns < half_window_ns) return std::nullopt;
   // Relative to the first sample: small numbers keep the sums precise.
@@ -114,6 +116,7 @@ std::optional<WorldVelocity> PoseTrack::velocity(std::int64_t t_ns,
   double yaw = 0;
   for (std::size_t i = begin; i < end; ++i) {
     const PoseSample& sample = samples_[i];
+    // The heading is unwrapped: a line through values that jump by a turn has no meaning.
     if (i > begin) yaw += wrap_angle(sample.pose.yaw - samples_[i - 1].pose.yaw);
     fit.add(static_cast<double>(sample.t_ns - base.t_ns) * 1e-9, sample.pose.x - base.pose.x,
             sample.pose.y - base.pose.y, yaw);

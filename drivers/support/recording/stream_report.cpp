@@ -56,6 +56,8 @@ std::int64_t StreamReport::repaired(RepairKind repair) const noexcept {
 std::int64_t StreamReport::dropped() const noexcept {
   std::int64_t count = duplicates_in_window + repaired(RepairKind::kSkippedRow) +
                        repaired(RepairKind::kSkippedNonFinite);
+  // Junk rows are normally extra rows beside good ones. If nothing else is left, they were the
+  // stream.
   if (rows == 0) count += repaired(RepairKind::kJunkStamp);
   return count;
 }
@@ -73,6 +75,7 @@ void count_rows(StreamReport& report, std::span<const std::int64_t> inside) {
   report.last_ns = inside.back();
   if (inside.back() > inside.front()) {
     const auto span_ns = static_cast<double>(inside.back() - inside.front());
+    // Intervals, not rows: n rows have n - 1 intervals between them.
     report.mean_rate_hz = static_cast<double>(report.rows - 1) / (span_ns * 1e-9);
   }
 }
@@ -105,6 +108,7 @@ void describe_timing(StreamReport& report, std::span<const std::int64_t> stamps_
       report.largest_gap_ns = length;
       report.largest_gap_start_ns = *row;
     }
+    // At most to the end of the window, because later nobody reads the sample.
     report.largest_age_ns = std::max(report.largest_age_ns, std::min(row[1], end_ns) - *row);
   }
 }

@@ -24,6 +24,7 @@ bool is_digest(std::string_view text) noexcept {
 
 Status take_time(std::optional<std::int64_t>& target, std::string_view key, std::string_view value,
                  const SourceLocation& where) {
+  // A key given twice is an error: one of the two would be ignored silently.
   if (target) return fail_at(where, ErrorCode::kParse, "`{}` is given twice", key);
   target = parse_stamp_ns(value);
   if (target) return {};
@@ -64,6 +65,7 @@ Result<Stretch> parse_stretch(std::string_view text, const std::string& file) {
     const std::size_t newline = text.find('\n');
     std::string_view content = text.substr(0, newline);
     text.remove_prefix(newline == std::string_view::npos ? text.size() : newline + 1);
+    // Files that were edited on other systems end lines with \r\n.
     while (!content.empty() && (content.back() == '\r' || content.back() == ' ')) {
       content.remove_suffix(1);
     }

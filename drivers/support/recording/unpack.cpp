@@ -14,6 +14,7 @@ namespace {
 /// Owns the zlib state for one file.
 class Inflater {
  public:
+  // 16 added to the window size selects the gzip format (zlib manual, inflateInit2).
   Inflater() noexcept : ready_(inflateInit2(&stream_, 16 + MAX_WBITS) == Z_OK) {}
   Inflater(const Inflater&) = delete;
   Inflater& operator=(const Inflater&) = delete;
@@ -70,15 +71,19 @@ Result<UnpackedText> unpack_text(std::string_view bytes, const std::string& file
       return damaged(file, stream);
     }
     result.text.append(buffer.data(), buffer.size() - stream.avail_out);
+    // Checked while unpacking: a small file can unpack to any size.
     if (result.text.size() > max_bytes) return too_large(file, max_bytes);
     if (status == Z_STREAM_END) {
       const std::size_t rest = stream.avail_in;
       if (rest == 0) return result;
+      // A gzip file may consist of several members, one after the other (RFC 1952).
       if (!starts_like_gzip(std::string_view(input).substr(input.size() - rest))) {
         return failure(file, fmt::format("{} bytes follow the end of the gzip stream", rest));
       }
       if (inflateReset(&stream) != Z_OK) return damaged(file, stream);
     } else if (stream.avail_in == 0 && stream.avail_out != 0) {
+      // All input is used and the end is missing: the file was cut off. What has been unpacked is
+      // kept for `accept_cut`.
       result.cut = true;
       return result;
     }

@@ -20,6 +20,8 @@ Result<StreamWindow> choose_window(const std::optional<Stretch>& stretch, std::i
   RAVE_TRY(check_seconds("margin_s", options.margin_s, 0, 1000));
   StreamWindow window;
   if (stretch) {
+    // A shipped stretch states its own origin, so all robots of a data set have one time, whichever
+    // of their logs are read.
     window = {stretch->origin_ns, stretch->start_ns, stretch->end_ns, 0};
   } else if (first_ns > last_ns) {
     return fail(ErrorCode::kParse, "no log in `{}` has a row", path);

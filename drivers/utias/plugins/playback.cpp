@@ -28,6 +28,7 @@ Result<Playback> load_playback(const HardwareSetup& setup, StreamKind kind,
   options.start_s = play.start_s;
   options.end_s = play.end_s;
   options.clock_offset_s = playback.clock_offset_s;
+  // One offset for the whole robot, as if its only clock were off.
   options.state_clock_offset_s = playback.clock_offset_s;
   options.code_meaning = code_meaning;
   options.parse.accept_cut = play.accept_cut;

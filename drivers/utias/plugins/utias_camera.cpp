@@ -29,6 +29,8 @@ struct Camera {
   static constexpr ReadingKind kReading = ReadingKind::kSightings;
   static constexpr StreamKind kKind = StreamKind::kSightings;
   static constexpr std::uint32_t kCapacity = 64;
+  // Sightings are events: those of several images accumulate until the program takes them, while of
+  // poses only the newest counts.
   static constexpr std::uint32_t kCollect = 1;
 
   static CodeMeaning code_meaning(const Params& params) {

@@ -9,6 +9,8 @@
 namespace rave::doctor {
 
 Findings examine(const Machine& machine, const bus::BusConfig& config, const About& here) {
+  // From what needs only this machine to what needs another one: a later check would fail for the
+  // reason that an earlier one names.
   std::vector<std::string> peers;
   Findings findings = {check_kernel(machine),
                        check_interface(machine, config),
@@ -29,6 +31,7 @@ Findings examine(const Machine& machine, const bus::BusConfig& config, const Abo
     });
   };
   if (broken("interface")) return findings;
+  // Joining the bus with broken settings would only repeat their messages.
   const bool can_join = !broken("peers") && !broken("keys") && !broken("domain") && !broken("self");
   ProbeOptions options;
   options.address = machine.find(config.interface)->address;

@@ -13,6 +13,9 @@ namespace {
 /// Certificates and logs need no more; the time of a run is found out by itself.
 constexpr double kSameTime_s = 2;
 
+// The checks follow the way of a packet: is there a route and a listener, is it the same build, do
+// clocks agree, which ports are open, does multicast pass, which sizes. Without an answer at all
+// nothing else is asked.
 class Judge {
  public:
   Judge(const ProbeResult& result, const About& here)
@@ -44,6 +47,7 @@ class Judge {
     const unsigned last = last_port(here_.domain);
     const std::string listen = fmt::format(
         "rave doctor --listen --interface {} --domain {}    # there", result_.peer, here_.domain);
+    // First, because an answer from another domain explains the silence in this one.
     if (result_.other_domain) {
       problem(
           "domain",
@@ -169,6 +173,8 @@ class Judge {
             fmt::format("datagrams of {} bytes and more do not {}: packet fragments are dropped, "
                         "or the MTU along the route is smaller than at one end",
                         lost->bytes, lost->there ? "come back" : "arrive"),
+            // 1472 bytes of data are a full Ethernet frame of 1500 with the headers of IP and UDP.
+            // If these are lost already, the MTU on the way is smaller than usual.
             fmt::format("ip link show    # compare the mtu on both; sudo ip link set DEV mtu {}",
                         lost->bytes <= 1472 ? 1400 : 1500));
   }
@@ -185,6 +191,7 @@ Findings judge(const ProbeResult& result, const About& here) { return Judge(resu
 
 Finding check_bus(const bus::BusConfig& given, const std::string& participant) {
   bus::BusConfig config = given;
+  // As a monitor: the doctor must not be taken for a process of the run.
   config.anonymous = true;
   const auto bus = bus::Bus::open(config);
   if (!bus) return {"bus", Verdict::kProblem, bus.error().message, "rave doctor --help"};

@@ -23,6 +23,7 @@ Finding check_keys(const std::filesystem::path& folder, std::int64_t now_s) {
   const auto set = keys::read_key_set(folder);
   if (!set) return problem(set.error().message, again);
   std::error_code error;
+  // A common mistake: the folder of the whole set instead of that of one member.
   if (!std::filesystem::exists(folder / "identity.pem", error) || set->members.empty()) {
     return problem(
         fmt::format("{} is a complete set of keys; a process needs the folder of one member",

@@ -63,6 +63,8 @@ struct Listener::Impl {
 /// The first two ports that a participant of DDS could have.
 void Listener::Impl::open_participant_ports() {
   const std::uint32_t domain = options.about.domain;
+  // A probe must use the ports that processes of a run use. A firewall that lets the port of the
+  // doctor pass may still block those.
   for (int index = 0; index < kMostParticipants; ++index) {
     auto discovery = Socket::bind({options.address, discovery_port(domain, index)});
     auto data = Socket::bind({options.address, data_port(domain, index)});
@@ -85,6 +87,7 @@ Status Listener::Impl::open() {
   if (!doctor) return tl::unexpected(doctor.error());
   sockets.push_back(*std::move(doctor));
   open_participant_ports();
+  // Shared, because processes of a run on this machine may listen to the group, too.
   auto shared = Socket::bind({"0.0.0.0", multicast_port(domain)}, true);
   if (shared && shared->join(kMulticastGroup, options.address)) {
     group.emplace(*std::move(shared));
@@ -98,6 +101,7 @@ void Listener::Impl::answer(const Socket& socket, bool by_multicast,
   const auto received = socket.receive(bytes, 0);
   if (!received || !*received) return;
   const Socket::Received& got = **received;
+  // Packets of DDS arrive at the same ports; they are ignored.
   const auto probe = parse_probe({bytes.data(), got.size});
   if (!probe) return;
   if (known.size() < kMostMachines && known.insert(got.from.address).second && heard) {

@@ -38,6 +38,8 @@ std::vector<Interface> interfaces_here() {
   for (const ::ifaddrs* entry = list.get(); entry != nullptr; entry = entry->ifa_next) {
     const ::sockaddr_in* const address = inet_of(entry->ifa_addr);
     const auto same = [&](const Interface& i) { return i.name == entry->ifa_name; };
+    // getifaddrs() has an entry for each address family of an interface. One without an IPv4
+    // address is kept only while there is no better one.
     if (address == nullptr && std::ranges::any_of(found, same)) continue;
     Interface interface;
     interface.name = entry->ifa_name;
@@ -96,6 +98,7 @@ Machine this_machine() {
   ::rlimit files{};
   if (::getrlimit(RLIMIT_NOFILE, &files) == 0) machine.open_files = files.rlim_cur;
   if (const auto most = numbers_in("/proc/sys/net/core/rmem_max"); !most.empty()) {
+    // setsockopt() cuts a larger request silently, so the limit is read here.
     machine.receive_buffer_max = most.front();
   }
   if (const auto range = numbers_in("/proc/sys/net/ipv4/ip_local_port_range"); range.size() == 2) {

@@ -56,6 +56,8 @@ Finding check_interface(const Machine& machine, const bus::BusConfig& config) {
                                suggestion(config.interface, names), names_of(machine)),
                    fmt::format("--interface {}", some_address(machine)));
   }
+  // From the coarse to the fine: an interface that is down may have no address either, and the
+  // first reason is the one to repair.
   if (!found->up) {
     return problem(fmt::format("{} is down, or has no cable", found->name),
                    fmt::format("sudo ip link set {} up", found->name));
@@ -65,6 +67,8 @@ Finding check_interface(const Machine& machine, const bus::BusConfig& config) {
                    fmt::format("sudo ip addr add ADDRESS/24 dev {}", found->name));
   }
   const bool far = std::ranges::any_of(config.peers, elsewhere);
+  // The default interface reaches this machine only. It is the usual mistake in a first run over
+  // two machines.
   if (found->loopback && (far || config.multicast != bus::Multicast::kOff)) {
     return problem(fmt::format("{} reaches only this machine, but other machines are to be found",
                                found->name),
@@ -85,6 +89,7 @@ Finding check_kernel(const Machine& machine) {
       std::from_chars(dot + 1, end, minor).ec != std::errc()) {
     return {"kernel", Verdict::kUnknown, fmt::format("cannot tell from `{}`", machine.kernel), {}};
   }
+  // Children are owned by descriptors (libs/process), and pidfd_open() exists since Linux 5.3.
   if (major > 5 || (major == 5 && minor >= 3)) return finding;
   finding.verdict = Verdict::kProblem;
   finding.what = fmt::format("Linux {} is older than 5.3, which RAVE needs", machine.kernel);
@@ -128,6 +133,8 @@ Finding check_domain(const Machine& machine, const bus::BusConfig& config) {
   const unsigned first = first_port(config.domain);
   const unsigned last = last_port(config.domain);
   const std::string range = fmt::format("{}: UDP ports {} to {}", config.domain, first, last);
+  // The kernel gives such ports to any socket that asks for a free one, and a process of the run
+  // then finds it in use.
   const bool shared = machine.first_handed_out && machine.last_handed_out &&
                       first <= *machine.last_handed_out && last >= *machine.first_handed_out;
   if (!shared) return {"domain", Verdict::kGood, range, {}};

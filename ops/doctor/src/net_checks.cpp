@@ -64,6 +64,8 @@ Finding check_peers(const Machine& machine, const bus::BusConfig& config,
     return {"peers", Verdict::kProblem, "without peers and without multicast, no process is found",
             "--peer ADDRESS    # of each machine that takes part, this one included"};
   }
+  // Without multicast a process sends its announcements only to the listed peers, so this machine
+  // must be in the list for its own processes.
   if (!self && !multicast) {
     const std::string own = address_on(machine, config);
     return {"peers", Verdict::kAdvice,
@@ -80,6 +82,8 @@ Finding check_ports(const bus::BusConfig& config) {
   const std::uint32_t domain = std::min(config.domain, kMostDomain);
   const std::uint16_t group = multicast_port(domain);
   const std::string any = "0.0.0.0";
+  // Shared, as Cyclone DDS binds it: all processes of a machine listen at this port. Only a program
+  // that does not share it is in the way.
   if (const auto shared = Socket::bind({any, group}, true); !shared) {
     return {
         "ports", Verdict::kProblem,
@@ -122,6 +126,8 @@ Finding check_own_way(const Machine& machine, const bus::BusConfig& config) {
     const auto socket = Socket::bind({address, port});
     if (!socket) continue;
     const std::string probe = fmt::format("RAVE doctor {}", bus::RunId::random().text());
+    // To its own address and not to loopback: that is the way packets of processes on one machine
+    // take with this interface.
     static_cast<void>(socket->send(probe, {address, port}));
     std::array<char, 2048> bytes{};
     for (int looks = 0; looks < 50; ++looks) {

@@ -19,6 +19,8 @@ constexpr std::array<std::string_view, 4> kKinds = {"ask", "answer", "call", "sh
 constexpr std::size_t kLongestText = 256;
 
 /// Reads fields of an object; remembers if one was not as it must be.
+/// Probes come from any machine that reaches the port. Each field must be there and of the right
+/// type, or the whole probe is refused.
 class Fields {
  public:
   explicit Fields(const Json& json) : json_(json), good_(json.is_object()) {}
@@ -106,7 +108,9 @@ std::string write_probe(const Probe& probe, std::size_t least) {
                {"asked_ns", probe.asked_ns},
                {"received_ns", probe.received_ns}};
   if (probe.kind == Probe::Kind::kAnswer) json["about"] = json_of(probe.about);
+  // ASCII only, so that no terminal or log has to guess the encoding.
   std::string bytes = json.dump(-1, ' ', true, Json::error_handler_t::replace);
+  // Blanks behind JSON mean nothing, so a probe can have any size.
   bytes.resize(std::max(bytes.size(), std::min(least, kLargestProbe)), ' ');
   return bytes;
 }

@@ -30,6 +30,7 @@ class Prober {
  public:
   Prober(const std::string& peer, const ProbeOptions& options)
       : peer_(peer), options_(options), bytes_(kLargestProbe + 1) {
+    // Not to be guessed, so an answer must come from a machine that has received the question.
     std::random_device chance;
     number_ = (std::uint64_t{chance()} << 32U) | chance();
   }
@@ -109,6 +110,8 @@ std::optional<std::uint32_t> Prober::look_in_other_domains() {
   if (!socket) return std::nullopt;
   Probe probe;
   probe.number = ++number_;
+  // All other domains are asked at once and one answer is enough, so the question costs one wait
+  // and not one per domain.
   const std::string text = write_probe(probe, kQuestion);
   for (std::uint32_t domain = 0; domain <= kMostDomain; ++domain) {
     if (domain != options_.domain)
@@ -127,6 +130,8 @@ void Prober::knock(const Socket& socket, ProbeResult& result) {
     return;
   }
   if (asked.error) {
+    // "Refused" means that the machine is there and has answered by ICMP; only the listener is
+    // missing.
     const bool refused = asked.error->code == ErrorCode::kNotFound;
     result.port = refused ? ProbeResult::PortState::kRefused : ProbeResult::PortState::kNoWay;
     result.why = asked.error->message;
@@ -174,6 +179,8 @@ void Prober::try_sizes(const Socket& socket, ProbeResult& result) {
     probe.want = static_cast<std::uint32_t>(bytes);
     const Asked both = ask(socket, probe, bytes);
     size.there = size.back = both.answer && both.answer->size == bytes && both.size == bytes;
+    // If the large answer is missing, a small one to the same question tells which direction loses
+    // it.
     probe.want = 0;
     if (!size.there) size.there = ask(socket, probe, bytes).answer.has_value();
     result.sizes.push_back(size);
@@ -192,6 +199,7 @@ ProbeResult Prober::go() {
   knock(*socket, result);
   if (result.port != ProbeResult::PortState::kOpen) return result;
   bus::ClockOffset offset;
+  // The one with the shortest way has the least error, as for the time of a run.
   constexpr int kReadings = 8;
   for (int i = 0; i < kReadings; ++i) {
     const Asked asked = ask(*socket, {}, kQuestion);

@@ -14,6 +14,8 @@ namespace rave::doctor {
 namespace {
 
 tl::unexpected<Error> failed(const char* what) {
+  // Two reasons matter to callers: the port is taken, or the other machine answers that nothing
+  // listens there. The rest is one kind.
   const ErrorCode code = errno == EADDRINUSE     ? ErrorCode::kState
                          : errno == ECONNREFUSED ? ErrorCode::kNotFound
                                                  : ErrorCode::kIo;
@@ -60,6 +62,8 @@ Socket::~Socket() {
 Status Socket::connect(const Place& place) {
   const auto address = address_of(place);
   if (!address) return fail(ErrorCode::kInvalidArgument, "`{}` is not an address", place.address);
+  // A connected socket reports the ICMP message "port unreachable" as an error; an unconnected one
+  // would only stay silent.
   if (::connect(descriptor_, general(*address), sizeof *address) != 0) return failed("connect");
   return {};
 }

@@ -18,6 +18,8 @@
 namespace rave::keys {
 namespace {
 
+// libcrypto is a C library with a function for freeing each type. These pointers call it, so an
+// error on the way leaks nothing.
 template <auto kFree>
 struct Freer {
   template <class T>
@@ -110,6 +112,8 @@ Name make_name(const std::string& common, const std::string& lab) {
 /// Nobody can guess it, and no two are the same.
 bool set_serial(X509* certificate) {
   const Number serial(BN_new());
+  // A serial number has at most 20 octets and is positive (RFC 5280, 4.1.2.2), which leaves 159
+  // bits.
   constexpr int kBits = 159;
   return BN_rand(serial.get(), kBits, BN_RAND_TOP_ANY, BN_RAND_BOTTOM_ANY) == 1 &&
          BN_to_ASN1_INTEGER(serial.get(), X509_get_serialNumber(certificate)) != nullptr;
@@ -131,6 +135,8 @@ bool add_extension(X509* issuer, X509* certificate, int kind, const char* value)
 /// What the key may be used for. Only an authority makes members and signs permissions.
 bool add_extensions(X509* issuer, X509* certificate) {
   const bool authority = issuer == certificate;
+  // "critical": a program that does not understand the extension must refuse the certificate.
+  // "pathlen:0": the authority makes members, but no further authorities.
   return add_extension(issuer, certificate, NID_basic_constraints,
                        authority ? "critical,CA:TRUE,pathlen:0" : "critical,CA:FALSE") &&
          add_extension(
@@ -153,6 +159,7 @@ Result<std::string> text_of(const Key& key) {
 /// A fresh key with a certificate. Without an issuer it signs itself.
 Result<Credential> make_credential(const Name& name, const Validity& validity, X509* issuer,
                                    EVP_PKEY* issuer_key, std::span<const Extra> extras = {}) {
+  // The curve P-256, which DDS Security supports for identities.
   const Key key(EVP_PKEY_Q_keygen(nullptr, nullptr, "EC", "P-256"));
   const Certificate certificate(X509_new());
   if (!key || !certificate || !name) return failed(ErrorCode::kIo, "cannot create a key");
@@ -232,6 +239,8 @@ constexpr const char* kWebLab = "RAVE pages";
 Result<Credential> make_web_authority(const std::vector<std::string>& names,
                                       const Validity& validity) {
   ERR_clear_error();
+  // Browsers that trust this authority trust it for these names only. So with a stolen key nobody
+  // can make a certificate that they accept for another name.
   const std::vector<Extra> extras = {{NID_name_constraints, constraints_for(names)},
                                      {NID_ext_key_usage, "serverAuth"}};
   const Name name = make_name("Authority for " + names.front().substr(0, 50), kWebLab);
@@ -260,6 +269,7 @@ Status check_web_server(const std::string& authority, const std::string& certifi
       X509_STORE_CTX_init(check.get(), store.get(), shown.get(), nullptr) != 1) {
     return failed(ErrorCode::kIo, "cannot check a certificate");
   }
+  // As a browser would judge it, so a mistake is found here and not at the first visit.
   X509_STORE_CTX_set_purpose(check.get(), X509_PURPOSE_SSL_SERVER);
   X509_STORE_CTX_set_time(check.get(), 0, now_s);
   if (X509_verify_cert(check.get()) != 1) {
@@ -274,6 +284,8 @@ Result<std::string> sign(const Credential& signer, const std::string& text) {
   RAVE_TRY_ASSIGN(const Key key, parse_key(signer.key));
   const Stream in = reading(text);
   const Stream out = writing();
+  // S/MIME with the text beside the signature is the form that DDS Security prescribes for
+  // governance and permissions.
   constexpr int kFlags = PKCS7_DETACHED | PKCS7_TEXT | PKCS7_STREAM;
   const Signed document(PKCS7_sign(certificate.get(), key.get(), nullptr, in.get(), kFlags));
   if (!document || SMIME_write_PKCS7(out.get(), document.get(), in.get(), kFlags) != 1) {

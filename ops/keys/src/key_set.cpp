@@ -59,6 +59,7 @@ Status make_member_folder(const fs::path& folder, const Authority& authority,
   RAVE_TRY_ASSIGN(const std::string permissions,
                   sign(signer, permissions_xml(name, facts.subject, validity)));
   RAVE_TRY(make_private_folder(folder));
+  // DDS Security has two authorities, for identities and for permissions. Here both are the same.
   RAVE_TRY(write_private_file(folder / kIdentityCa, signer.certificate));
   RAVE_TRY(write_private_file(folder / kIdentity, member.certificate));
   RAVE_TRY(write_private_file(folder / kIdentityKey, member.key));
@@ -97,6 +98,7 @@ Result<Authority> read_authority(const fs::path& folder, std::int64_t now_s) {
   auto facts = read_certificate(authority.credential.certificate);
   if (!facts) return damaged(kAuthority, facts.error());
   authority.facts = *std::move(facts);
+  // The authority signs itself, so a change of one bit of its certificate shows here.
   const Status whole =
       check_issued(authority.credential.certificate, authority.credential.certificate);
   if (!whole) return damaged(kAuthority, whole.error());
@@ -150,6 +152,9 @@ Status make_key_set(const NewKeySet& set) {
   const fs::path folder = without_slash(set.folder);
   if (is_taken(folder)) return taken(folder);
   const Validity validity{set.now_s - kHeadStart_s, set.now_s + set.days * kDay_s};
+  // Made in a hidden folder beside its place and moved there when it is complete. An error on the
+  // way leaves nothing, and no half set is ever taken for one. On the same file system the move is
+  // atomic.
   RAVE_TRY_ASSIGN(const ScratchFolder scratch, ScratchFolder::inside(parent_of(folder)));
   const fs::path whole = scratch.path() / "set";
   RAVE_TRY(make_private_folder(whole));
@@ -177,6 +182,7 @@ Status add_members(const fs::path& folder, const std::vector<std::string>& membe
     }
   }
   Validity validity = authority.facts.validity;
+  // A member must not be valid while its authority is not.
   validity.from_s = std::max(validity.from_s, now_s - kHeadStart_s);
   if (days > 0) validity.until_s = std::min(validity.until_s, now_s + days * kDay_s);
   RAVE_TRY_ASSIGN(const ScratchFolder scratch, ScratchFolder::inside(folder));

@@ -29,6 +29,8 @@ bool write_all(int file, std::string_view content) {
     if (count < 0) return false;
     content.remove_prefix(static_cast<std::size_t>(count));
   }
+  // The set must be on the disk before it is moved to its place, or a power failure could leave
+  // empty files under its name.
   return ::fsync(file) == 0;
 }
 
@@ -55,6 +57,8 @@ Status make_private_folder(const fs::path& folder) {
 }
 
 Status write_private_file(const fs::path& path, std::string_view content) {
+  // O_EXCL also refuses a link that another user has put there. The mode is set at creation, so
+  // there is no moment in which others could read the key.
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (file < 0) return refused("create", path);
   const bool written = write_all(file, content);

@@ -36,6 +36,8 @@ void check_mode(const fs::path& key, KeyInfo& info) {
 }
 
 /// Adds what is wrong to the problems of a member, with the file that it is about.
+/// All problems of a member are collected instead of stopping at the first: a set is repaired by
+/// copying it again, and one needs to know how much of it is wrong.
 class Findings {
  public:
   Findings(fs::path folder, KeyInfo& info) : folder_(std::move(folder)), info_(&info) {}
@@ -151,6 +153,7 @@ Result<std::vector<fs::path>> member_folders(const fs::path& folder) {
 
 std::int64_t KeyInfo::days_left(std::int64_t now_s) const noexcept {
   const std::int64_t left_s = until_s - now_s;
+  // Rounded down also for dates in the past: -1 from the first second after the end.
   return left_s >= 0 ? left_s / kDay_s : -1 - (-1 - left_s) / kDay_s;
 }
 

@@ -67,6 +67,8 @@ Result<Credential> read_web_authority(const fs::path& folder, std::int64_t now_s
   return authority;
 }
 
+// A running server may read the file at this moment, so the new file replaces the old one in one
+// step.
 Status replace_file(const fs::path& file, const std::string& content) {
   fs::path part = file;
   part += ".part";
@@ -86,6 +88,8 @@ Validity server_validity(const NewWebKeys& wanted) {
 Status renew(const NewWebKeys& wanted, const fs::path& folder, const Credential& authority) {
   RAVE_TRY_ASSIGN(const Credential server,
                   make_web_server(authority, wanted.names, server_validity(wanted)));
+  // The authority may be an older one with other names. Then browsers would refuse the new
+  // certificate, which is better known now.
   const Status good = check_web_server(authority.certificate, server.certificate, wanted.now_s);
   if (!good) {
     return fail(ErrorCode::kState,
@@ -93,6 +97,7 @@ Status renew(const NewWebKeys& wanted, const fs::path& folder, const Credential&
                 "changed; create another folder",
                 folder.string(), good.error().message);
   }
+  // Two files cannot be replaced in one step. Between the two the pair does not match.
   RAVE_TRY(replace_file(folder / kServerKey, server.key));
   return replace_file(folder / kServer, server.certificate);
 }

@@ -23,6 +23,7 @@ std::vector<Shown> shown_of(const Grid& grid) {
   for (std::size_t c = 0; c < grid.columns.size(); ++c) {
     std::size_t width = 0;
     for (const auto& row : grid.rows) width = std::max(width, columns_of(row[c].text));
+    // A column without any value is not shown, such as clock offsets in lock-step.
     if (width == 0) continue;
     shown.push_back({c, std::max(width, columns_of(grid.columns[c].heading))});
   }
@@ -36,6 +37,7 @@ std::size_t width_of(const std::vector<Shown>& shown) {
 }
 
 void make_fit(const Grid& grid, std::vector<Shown>& shown, std::size_t width) {
+  // The least important column goes first, until the rest fits the terminal.
   while (shown.size() > 1 && width_of(shown) > width) {
     shown.erase(std::ranges::min_element(
         shown, {}, [&](const Shown& column) { return grid.columns[column.index].weight; }));

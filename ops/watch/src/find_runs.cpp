@@ -50,6 +50,8 @@ std::string list_of(const std::vector<FoundRun>& runs) {
 
 Result<std::vector<FoundRun>> find_runs(bus::BusConfig config, Duration patience,
                                         const Enough& enough, const std::stop_token& stop) {
+  // Without a run the bus exchanges no samples and only sees who is in the domain; only a monitor
+  // may do so.
   config.run = {};
   config.anonymous = true;
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
@@ -64,6 +66,8 @@ Result<std::vector<FoundRun>> find_runs(bus::BusConfig config, Duration patience
     if (processes > known) {
       known = processes;
       const auto found = runs_of(bus->processes());
+      // Discovery has no end, so one waits: until what is looked for is there, or until nobody new
+      // has come for a moment.
       if (enough && enough(found)) break;
       if (!enough && !found.empty()) end = std::min(latest, Clock::now() + kMoment);
     }

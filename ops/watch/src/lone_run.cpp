@@ -29,6 +29,7 @@ RunView view_of(const std::string& name, const runtime::RunStatus& status, bool 
   view.run = name;
   view.scenario = status.scenario;
   view.timing = Timing::kAlone;
+  // Before the run begins the process answers without a scenario.
   view.phase = status.scenario.empty() ? Phase::kUnknown
                : status.paused         ? Phase::kPaused
                                        : Phase::kGoes;
@@ -63,6 +64,7 @@ RunView view_of(const std::string& name, const runtime::RunStatus& status, bool 
 }  // namespace
 
 void LoneRun::tell_process(HostView& host) {
+  // The name of a control socket ends with the number of its process.
   const std::string_view digits = std::string_view(name_).substr(name_.rfind('-') + 1);
   std::uint32_t process = 0;
   std::from_chars(digits.data(), digits.data() + digits.size(), process);
@@ -77,6 +79,7 @@ void LoneRun::tell_process(HostView& host) {
 Result<RunView> LoneRun::look(bool with_robots) {
   const auto answer = control::ask(name_, {});
   if (!answer) {
+    // No socket any more: the run has ended, and its last state stays on the page.
     if (answer.error().code != ErrorCode::kNotFound) return tl::unexpected(answer.error());
     if (!seen_)
       return fail(ErrorCode::kState, "the run `{}` ended before it could be queried", name_);

@@ -45,6 +45,7 @@ struct Observer::Impl {
 
 void Observer::Impl::take() {
   const std::int64_t now_ns = ns_of(Clock::now());
+  // Introductions first: they say which host the later messages of a process belong to.
   infos.take([&](const bus::HostInfo& info) { model.hear(info); });
   runs.take([&](const bus::RunState& state) { model.hear(state, now_ns); });
   words.take([&](const bus::HostRun& word) { model.hear_word(word, now_ns); });
@@ -66,6 +67,7 @@ Observer::Observer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Observer::~Observer() = default;
 
 Result<std::unique_ptr<Observer>> Observer::open(bus::BusConfig config) {
+  // A monitor has no number in the run, so it takes no place and no process waits for it.
   config.anonymous = true;
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));

@@ -171,6 +171,7 @@ std::string title_of(const RunView& view, const PageOptions& options) {
   parts.push_back({"run " + view.run.substr(0, view.timing == Timing::kAlone ? 40 : 8)});
   std::string line;
   std::size_t used = 0;
+  // Ordered by importance: on a narrow terminal the end of the line is left out.
   for (const Cell& part : parts) {
     if (part.text.empty()) continue;
     const std::string text = fitted(part.text, options.width);
@@ -213,6 +214,7 @@ std::string legend(const PageOptions& options) {
 }  // namespace
 
 std::vector<std::string> render_page(const RunView& view, const PageOptions& options) {
+  // Height 0: no terminal, so nothing is cut.
   constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
   std::vector<std::string> lines = {title_of(view, options)};
   if (!view.text.empty()) lines.push_back(fitted(view.text, options.width));

@@ -34,6 +34,8 @@ std::optional<ProcessUsage> parse_usage(std::string_view stat, std::string_view 
   const std::size_t name_end = stat.rfind(") ");
   if (name_end == std::string_view::npos) return std::nullopt;
   const std::string_view rest = stat.substr(name_end + 2);
+  // Behind the name come the state and further fields; utime is number 14 of proc(5), the twelfth
+  // here, and stime follows it. Both are in clock ticks.
   constexpr std::size_t kUser = 11;
   const auto user = number_in(rest, kUser);
   const auto system = number_in(rest, kUser + 1);

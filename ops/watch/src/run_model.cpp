@@ -19,8 +19,11 @@ constexpr std::int64_t kCoresApart_ns = 200'000'000;
 }  // namespace
 
 void Rate::add(std::int64_t now_ns, double count) {
+  // A counter that steps back is that of a new process.
   if (!readings_.empty() && count < readings_.back().count) readings_.clear();
   const std::size_t size = readings_.size();
+  // Readings that follow closely replace each other, so the memory does not grow with the rate of
+  // messages.
   if (size > 1 && now_ns - readings_[size - 2].at_ns < kApart_ns) {
     readings_.back() = {now_ns, count};
   } else {
@@ -48,6 +51,7 @@ RunModel::Process& RunModel::process_of(std::uint64_t writer) {
   const auto found = processes_.find(writer);
   if (found != processes_.end()) return found->second;
   if (processes_.size() >= kMostProcesses) {
+    // Makes room by forgetting one process. If it is present, its next message brings it back.
     described_ -= processes_.begin()->second.roster.size();
     processes_.erase(processes_.begin());
   }
@@ -118,6 +122,7 @@ void RunModel::hear(const bus::ProcessState& state, std::int64_t now_ns, std::in
   Process& process = process_of(state.writer);
   process.gone = false;
   if (!process.introduced) process.host = state.host;
+  // The first message after joining may be any number, so only later gaps count as lost.
   if (process.state && process.heard_ns && now_ns > *process.heard_ns) {
     const bus::ProcessState& before = *process.state;
     if (state.number > before.number) process.lost += state.number - before.number - 1;
@@ -135,6 +140,7 @@ void RunModel::place(const rave_wire_PlanarRobots& robots, std::size_t i, std::i
   if (robots_.size() >= kMostRobots && !robots_.contains(number)) return;
   Robot& robot = robots_[number];
   const std::int64_t stamp_ns = robots.stamp_ns._buffer[i];
+  // A world repeats poses that a host has reported already, possibly after a newer report.
   if (robot.stamp_ns && stamp_ns < *robot.stamp_ns) return;
   robot.stamp_ns = stamp_ns;
   robot.heard_ns = now_ns;
@@ -143,6 +149,7 @@ void RunModel::place(const rave_wire_PlanarRobots& robots, std::size_t i, std::i
   robot.yaw_rad = robots.yaw_rad._buffer[i];
   const double vx_mps = robots.vx_mps._buffer[i];
   const double vy_mps = robots.vy_mps._buffer[i];
+  // The sign tells driving backward: it is that of the component along the heading.
   robot.speed_mps = std::copysign(std::hypot(vx_mps, vy_mps), vx_mps * std::cos(robot.yaw_rad) +
                                                                   vy_mps * std::sin(robot.yaw_rad));
 }
@@ -180,6 +187,8 @@ void RunModel::hear(const bus::HostState& state, std::int64_t now_ns, std::int64
     robot.host = state.host;
     if (robot.last_step != 0 && state.step > robot.last_step) {
       const std::uint64_t gap = state.step - robot.last_step;
+      // The period of reports is not on the wire. The smallest distance of two reports in steps
+      // shows it, since lost ones only make it larger.
       robot.least_gap = robot.least_gap == 0 ? gap : std::min(robot.least_gap, gap);
     }
     robot.last_step = state.step;

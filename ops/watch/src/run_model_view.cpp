@@ -25,6 +25,8 @@ const RunModel::Process* RunModel::speaker_of(std::uint32_t host) const {
   for (const auto& [writer, process] : processes_) {
     if (process.host != host) continue;
     const auto rank = [](const Process& p) {
+      // Compared in this order: present ones first, then the one heard last, then the one that came
+      // last.
       return std::tuple(!p.gone, p.heard_ns.value_or(-1), p.order);
     };
     if (best == nullptr || rank(process) > rank(*best)) best = &process;
@@ -56,6 +58,8 @@ Standing RunModel::standing_of(const Process* process, const Sight* sight,
 
 std::optional<std::int64_t> RunModel::run_ns(std::int64_t now_ns) const {
   if (!worlds_) return std::nullopt;
+  // The time of the newest world, continued by the clock here; the delay of that message is
+  // neglected.
   return worlds_->time_ns + (now_ns - worlds_->heard_ns);
 }
 
@@ -150,6 +154,7 @@ HostView RunModel::manager_view(const Process& process, std::int64_t now_ns) con
   view.manager = true;
   view.standing = standing_of(&process, nullptr, now_ns);
   tell_process(process, view, now_ns);
+  // The manager runs no robots and no steps in real time; zeros would look like a fault.
   view.robots.reset();
   view.real_robots.reset();
   view.age_s.reset();
@@ -194,6 +199,8 @@ HostView RunModel::host_view(std::uint32_t host, std::int64_t now_ns) const {
           process->roster, [](const auto& r) { return !r.second.simulated; }));
     }
     view.rate_hz = process->steps.at(now_ns);
+    // In real time the rate of steps is that of the wall clock and says nothing; the rate of
+    // reports does.
     if (process->real_time) view.rate_hz.reset();
     // In lock-step they are for those who look on, and say nothing of how the host fares.
     const bool counts = process->real_time || !process->introduced;
@@ -265,6 +272,7 @@ void RunModel::tell_robots(const std::set<std::uint32_t>& hosts, RunView& view,
   for (const auto& [number, told] : described) {
     if (!robots_.contains(number)) add(number, {}, told.host);
   }
+  // Stale and old ones come first: what needs a look must not be below the edge of the terminal.
   std::ranges::stable_sort(view.robots, [](const RobotView& a, const RobotView& b) {
     return std::tuple(a.stale, a.age_s.value_or(0)) > std::tuple(b.stale, b.age_s.value_or(0));
   });

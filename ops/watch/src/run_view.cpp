@@ -9,6 +9,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 template <class Value>
+// Unknown is null and never 0, so a script can tell the two apart. The keys are always there.
 Json known(const std::optional<Value>& value) {
   return value ? Json(*value) : Json(nullptr);
 }

@@ -26,6 +26,8 @@ Unit unit_of(double seconds) {
   return kUnits.back();
 }
 
+// A byte that continues a character of UTF-8 has the bits 10 on top (RFC 3629). So each character
+// counts as one column of the terminal; wide ones are not considered.
 bool continues(char c) noexcept { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80; }
 
 }  // namespace
@@ -33,6 +35,7 @@ bool continues(char c) noexcept { return (static_cast<unsigned char>(c) & 0xC0U)
 std::string time_text(double seconds) {
   const Unit unit = unit_of(seconds);
   const double value = seconds / unit.seconds;
+  // The limit is where rounding to one decimal gives 10.0: from there on no decimal is shown.
   const bool fine = std::fabs(value) < 9.95 && unit.name != "us";
   return fine ? fmt::format("{:.1f} {}", value, unit.name)
               : fmt::format("{:.0f} {}", value, unit.name);
@@ -56,6 +59,7 @@ std::size_t columns_of(std::string_view text) noexcept {
 }
 
 std::string fitted(std::string_view text, std::size_t width) {
+  // Texts come from other processes and end up on a terminal.
   std::string clean = without_control_characters(text, "");
   if (columns_of(clean) <= width) return clean;
   std::size_t end = 0;

@@ -29,6 +29,8 @@ Status add_map(const config::MapFile& file, world::WorldModel& world) {
     error.where = file.file.where;
     return tl::unexpected(std::move(error));
   }
+  // The frame of a map has its origin at the lower left corner of the image and may be turned, so a
+  // box that is parallel to the image becomes a turned body.
   const Pose2 X_WMap{map->origin_x_m, map->origin_y_m, wrap_angle(map->origin_yaw_rad)};
   const std::string stem = std::filesystem::path(file.file.value).stem().string();
   std::size_t number = 0;
@@ -37,6 +39,8 @@ Status add_map(const config::MapFile& file, world::WorldModel& world) {
     wall.body.name = fmt::format("{}-{}", stem, ++number);
     wall.body.layer = layer_of(file.layer);
     const Vec2 middle{(r.min_x_m + r.max_x_m) / 2, (r.min_y_m + r.max_y_m) / 2};
+    // The frame of a wall is in its middle, as that of a box in a world file, so the corners below
+    // are plus and minus half its sides.
     wall.X_WB = compose(X_WMap, {middle.x, middle.y, 0});
     const double x = (r.max_x_m - r.min_x_m) / 2;
     const double y = (r.max_y_m - r.min_y_m) / 2;
@@ -61,6 +65,8 @@ Result<world::Body> make_body(const config::RobotGroup& group) {
       return fail_at(group.robot.body.where, ErrorCode::kInvalidArgument, "body of `{}`: {}",
                      group.name.value, pieces.error().message);
     }
+    // Without `barcode_z_m` a barcode covers the whole height of the body, from the lowest shape to
+    // the top of the highest one.
     low = body.shapes.empty() ? shape.z_m[0] : std::min(low, shape.z_m[0]);
     high = body.shapes.empty() ? shape.z_m[1] : std::max(high, shape.z_m[1]);
     for (world::Shape& piece : *pieces) body.shapes.push_back(std::move(piece));
@@ -79,8 +85,11 @@ void note_oddities(const config::RobotGroup& group, const world::Body& body, Bui
   for (const config::SensorFile& sensor : group.robot.sensors) {
     const config::MountFile& mount = sensor.mount.value;
     for (const world::Shape& shape : body.shapes) {
+      // A mount above or below the shape is usual: a camera on a mast, a bumper under the deck.
       if (shape.polygon || mount.z_m < shape.z0_m || mount.z_m > shape.z1_m) continue;
       const Vec2 off{mount.x_m - shape.centre.x, mount.y_m - shape.centre.y};
+      // Farther than two radii from the middle of a disc, a mount is probably a mistake in the unit
+      // or sign, but a long boom is possible. So this is a note, not an error.
       if (squared_norm(off) > 4 * shape.radius_m * shape.radius_m) {
         built.notes.push_back(fmt::format(
             "sensor `{}` of `{}` is mounted {:.2f} m from the middle of a body of {:.2f} m radius",
@@ -100,6 +109,8 @@ std::vector<std::uint8_t> groups_here(const config::ExpandedScenario& scenario,
 }
 
 /// Clears all pointers into the memory of plug-ins.
+/// Drivers of other hosts are loaded only to check their parameters and to learn what their sensors
+/// give. Their catalogue and its libraries end soon after, so no pointer into them may stay.
 void let_go_of_plugins(sim::RobotType& type) {
   for (sim::DeviceSpec& device : type.devices) device.ops = nullptr;
   for (sim::SensorSpec& sensor : type.sensors) {
@@ -131,10 +142,14 @@ Status add_groups(const config::ExpandedScenario& scenario, plugin::Catalogue& c
                   std::vector<world::Body>& bodies) {
   const std::vector<std::uint8_t> here = groups_here(scenario, options);
   for (const config::RobotGroup& group : scenario.groups) {
+    // Each group makes one type, in order, so the number of types made so far is the index of the
+    // group. Types of twins follow after all of these.
     const bool others = here[built.spec.types.size()] == 0 && options.others != nullptr;
     plugin::Catalogue& drivers = others ? *options.others : catalogue;
     RAVE_TRY_ASSIGN(sim::RobotType type, make_type({scenario, drivers, options, built}, group));
     RAVE_TRY_ASSIGN(auto body, make_body(group));
+    // The layer decides which virtual sensors see the robot, so it follows from the drivers and is
+    // no key of the robot file.
     body.layer = type.simulated ? Layer::kSimulatedRobots : Layer::kRealRobots;
     note_oddities(group, body, built);
     bodies.push_back(std::move(body));
@@ -164,6 +179,8 @@ Result<BuiltScenario> build(const config::ExpandedScenario& scenario, plugin::Ca
   spec.history = from_seconds(scenario.scenario.history_s);
   spec.log = options.log;
   spec.live_clock = options.live_clock;
+  // A thread that a driver left behind may still execute code of its plug-in. The engine can then
+  // keep the library loaded instead of unmapping that code.
   spec.keep_loaded = [](const void* function) { plugin::keep_loaded(function); };
   for (const config::ObstacleFile& file : scenario.world.obstacles) {
     RAVE_TRY_ASSIGN(auto obstacle, make_obstacle(file));
@@ -183,6 +200,9 @@ Result<BuiltScenario> build(const config::ExpandedScenario& scenario, plugin::Ca
     built.robot_kinds.push_back(group.kind.value_or(""));
     spec.robots.push_back({robot.name, group.team, static_cast<std::uint32_t>(robot.group), {}});
   }
+  // Each of these reads what the previous ones have made: twins need the types, checks need all
+  // sensors, places need the bodies and the kind of each robot, and changes name parameters of
+  // types.
   RAVE_TRY(add_twins({scenario, catalogue, options, built}));
   RAVE_TRY(check_sensors_of_checks(scenario, spec));
   RAVE_TRY(put_down_robots(scenario, spec));
@@ -190,6 +210,8 @@ Result<BuiltScenario> build(const config::ExpandedScenario& scenario, plugin::Ca
   RAVE_TRY(add_hand_overs(scenario, spec));
   RAVE_TRY(add_obstacle_changes(scenario, spec));
   spec.local = options.local;
+  // The pointers are cleared last, because all checks above look at the function tables to tell
+  // real from virtual drivers.
   if (options.others == nullptr) return built;
   const std::vector<std::uint8_t> here = groups_here(scenario, options);
   for (std::size_t g = 0; g < here.size(); ++g) {

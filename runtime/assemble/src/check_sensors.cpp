@@ -12,6 +12,8 @@ const sim::SensorSpec* find_sensor(const sim::RobotType& type, const std::string
 }
 
 /// Checks that the sensor of a touches check gives contacts.
+/// The reader of the scenario has checked that robots and sensors of checks exist. What a sensor
+/// gives is known only now, after its driver has been loaded.
 Status check_touches(const config::ExpandedScenario& scenario, const sim::EngineSpec& spec,
                      const config::TouchesCheckFile& check) {
   if (!check.sensor) return {};
@@ -19,6 +21,7 @@ Status check_touches(const config::ExpandedScenario& scenario, const sim::Engine
     for (const std::size_t r : config::robots_named(scenario, *name)) {
       const sim::RobotType& type = spec.types[spec.robots[r].type];
       const sim::SensorSpec* const sensor = find_sensor(type, **check.sensor);
+      // The expansion has refused robots without this sensor already.
       if (sensor == nullptr || sensor->kind == ReadingKind::kContact) continue;
       return fail_at(check.sensor->where, ErrorCode::kInvalidArgument,
                      "`touches`: sensor `{}` of robot `{}` gives {}; expected one that gives {}",

@@ -23,6 +23,7 @@ Result<const Driver*> find_driver(const DeviceContext& context, std::span<const 
   auto driver = context.catalogue.find(kinds, name.value);
   if (driver) return driver;
   Error error = std::move(driver).error();
+  // The catalogue does not know which file names the driver.
   if (error.where.file.empty()) error.where = name.where;
   return tl::unexpected(std::move(error));
 }
@@ -57,9 +58,12 @@ NoiseSpec noise_of(const config::NoiseFile& noise) {
 void note_clock(const DeviceContext& context, const config::RobotGroup& group,
                 const std::string& device, const DriverInfo& info, const plugin::ParamSet& params) {
   bool live = info.clock == DriverClock::kLive;
+  // Such drivers, for example players of logs, have the parameter `clock` with the choice `live`.
   if (info.clock == DriverClock::kEither) {
     live = Params(params.values()).text("clock") == "live";
   }
+  // One live driver makes the whole run live. The first one is named, because a user who expected a
+  // run hash asks which driver prevents it.
   if (live && context.built.live_reason.empty()) {
     context.built.live_reason =
         fmt::format("`{}` of robot `{}` uses the driver `{}`, which follows the wall clock", device,
@@ -70,6 +74,8 @@ void note_clock(const DeviceContext& context, const config::RobotGroup& group,
 std::uint32_t in_steps(const DeviceContext& context,
                        const std::optional<config::Located<double>>& time_s) {
   if (!time_s) return 1;
+  // The expansion has checked that the time is a multiple of the step; lround() removes the error
+  // of the division, for example of 0.3 / 0.1.
   return static_cast<std::uint32_t>(
       std::lround(time_s->value / context.scenario.scenario.step_s.value));
 }
@@ -121,6 +127,8 @@ Status set_plain(const DeviceContext& context, const config::RobotGroup& group,
                    driver->info.name, sensor.name);
   }
   sensor.kind = static_cast<ReadingKind>(driver->info.data_kind);
+  // The kind of the driver says whether the sensor is real. The robot file does not, so a change of
+  // the driver alone turns a simulated robot into a real one.
   if (driver->info.kind == DriverKind::kVirtualSensor) {
     sensor.virtual_ops = static_cast<const VirtualSensorOps*>(driver->ops);
     if (file.max_age_s) {
@@ -162,6 +170,9 @@ Result<sim::SensorSpec> make_sensor(const DeviceContext& context, const config::
 Status add_actuators(const DeviceContext& context, const config::RobotGroup& group,
                      sim::RobotType& type) {
   constexpr std::array kKinds = {DriverKind::kActuator, DriverKind::kVirtualActuator};
+  // A virtual actuator moves the body and two of them would fight over it. Hardware may have
+  // several actuators, each with a part of its own, but not beside a virtual one: the body can only
+  // be where the world says or where the pose source says.
   const config::ActuatorFile* hardware = nullptr;
   const config::ActuatorFile* simulated = nullptr;
   for (const config::ActuatorFile& file : group.robot.actuators) {
@@ -206,10 +217,13 @@ Status add_controllers(const DeviceContext& context, const config::RobotGroup& g
     for (std::uint32_t a = 0; a < type.actuators.size(); ++a) {
       if (type.actuators[a].name == file.actuator.value) controller.actuator = a;
     }
+    // The reader of the file has checked that the name exists.
     const sim::ActuatorSpec& actuator = type.actuators[controller.actuator];
     const auto actuator_kinds = std::array{DriverKind::kActuator, DriverKind::kVirtualActuator};
     RAVE_TRY_ASSIGN(const Driver* const served,
                     context.catalogue.find(actuator_kinds, actuator.driver));
+    // The kinds must agree here. A mismatch would otherwise show only during the run, as commands
+    // that the actuator does not understand.
     const auto wanted = static_cast<CommandKind>(served->info.data_kind);
     if (controller.ops->gives != wanted) {
       return fail_at(file.driver.where, ErrorCode::kInvalidArgument,
@@ -235,6 +249,8 @@ Status check_ages(const DeviceContext& context, const config::RobotGroup& group,
     const sim::SensorSpec& sensor = type.sensors[s];
     const config::SensorFile& file = group.robot.sensors[s];
     if (sensor.hardware_ops == nullptr || sensor.kind != ReadingKind::kRanges) continue;
+    // For other timings the engine derives the limit itself, for example from the period that the
+    // driver declares.
     if (sensor.timing != SampleTiming::kUnknown || sensor.max_age_s) continue;
     RAVE_TRY_ASSIGN(const Driver* const driver,
                     context.catalogue.find(kKinds, sensor.hardware_driver()));
@@ -283,6 +299,8 @@ Status set_pose_source(const config::RobotGroup& group, sim::RobotType& type) {
     type.pose_from = s;
   }
   const config::PoseFile& frame = group.robot.source_frame;
+  // Pose of the frame of the pose source (M: map or measurement) in the world; identity costs no
+  // transform per sample.
   if (frame != config::PoseFile{}) {
     type.X_WM = Pose2{frame.x_m, frame.y_m, wrap_angle(deg_to_rad(frame.yaw_deg))};
   }
@@ -293,6 +311,8 @@ Status set_pose_source(const config::RobotGroup& group, sim::RobotType& type) {
 
 Status add_devices(const DeviceContext& context, const config::RobotGroup& group,
                    sim::RobotType& type) {
+  // The order matters: sensors and actuators name devices, controllers name actuators, and
+  // communicators name transmitters.
   RAVE_TRY(add_shared(context, group, type));
   for (const config::SensorFile& file : group.robot.sensors) {
     RAVE_TRY_ASSIGN(auto sensor, make_sensor(context, group, file, type));
@@ -307,6 +327,7 @@ Status add_devices(const DeviceContext& context, const config::RobotGroup& group
   for (const sim::ActuatorSpec& actuator : type.actuators) {
     real |= actuator.hardware_ops != nullptr;
   }
+  // A robot without any hardware is simulated even if it has no actuator, such as a fixed camera.
   type.simulated = !real;
   for (const sim::ActuatorSpec& actuator : type.actuators) {
     // A simulated body may have recorded or real sensors; its actuator decides.

@@ -7,6 +7,8 @@
 namespace rave::runtime {
 namespace {
 
+/// Parameters cross the edge of a plug-in as numbers, texts and lists of numbers only, so a bool or
+/// an integer becomes a number. A double holds integers exactly up to 2^53.
 struct AddValue {
   plugin::ParamSet& set;
   const std::string& name;
@@ -34,6 +36,9 @@ Result<plugin::ParamSet> read_params(const plugin::Driver& driver, const config:
 Result<plugin::ParamSet> read_sensor_params(const DeviceContext& context,
                                             const plugin::Driver& driver,
                                             const config::RawNode& params) {
+  // A sensor with geographic coordinates needs the point of the Earth at which the world has its
+  // origin. All sensors of a scenario must agree on it, so the scenario states it once; a value in
+  // the robot file takes precedence.
   constexpr std::string_view kOrigin = "geo_origin";
   const auto& origin = context.scenario.scenario.geo_origin;
   const auto specs = driver.info.param_specs();
@@ -83,9 +88,11 @@ config::FieldSpec field_spec(const ParamSpec& spec) {
       break;
     case ParamType::kNumbers:
       field.type = config::ParamType::kDoubleList;
+      // The interface has no default for lists: an empty list means that nothing was given.
       field.default_value = std::vector<double>{};
       break;
   }
+  // The absence of a default makes the reader insist on the value.
   if (spec.required != 0) field.default_value.reset();
   return field;
 }

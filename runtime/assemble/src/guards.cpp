@@ -30,6 +30,7 @@ Result<std::optional<sim::GuardSpec>> guard_spec(const config::RobotGroup& group
   const config::GuardFile& file = *group.robot.guard;
   sim::GuardSpec spec;
   spec.arm = file.arm;
+  // Limits that are not in the file keep the value of GuardSpec that means "no limit".
   if (file.max_speed_mps) spec.max_speed_mps = *file.max_speed_mps;
   if (file.max_turn_dps) spec.max_turn_radps = deg_to_rad(*file.max_turn_dps);
   if (file.separation_m) spec.separation_m = *file.separation_m;
@@ -56,9 +57,13 @@ Status add_changes(const config::ExpandedScenario& scenario, sim::EngineSpec& sp
     if (!file.robot || !file.set) continue;
     for (const std::size_t r : config::robots_named(scenario, file.robot->value)) {
       sim::ScheduledChange change;
+      // `at_s` is a multiple of the step, as the expansion has checked; rounding removes the error
+      // of the division.
       change.step = static_cast<std::uint64_t>(std::llround(file.at_s.value / step_s));
       change.robot = RobotId(static_cast<std::uint32_t>(r));
       for (std::size_t i = 0; i < file.set->size(); ++i) {
+        // The values are read now, so a mistake is reported before the run begins and not when the
+        // change is due.
         RAVE_TRY_ASSIGN(auto parsed, parse_change(spec.types[spec.robots[r].type], file.set->key(i),
                                                   file.set->child(i)));
         change.changes.push_back(std::move(parsed));
@@ -66,6 +71,7 @@ Status add_changes(const config::ExpandedScenario& scenario, sim::EngineSpec& sp
       spec.changes.push_back(std::move(change));
     }
   }
+  // Stable, so that changes of one step keep the order of the file.
   std::stable_sort(spec.changes.begin(), spec.changes.end(),
                    [](const auto& a, const auto& b) { return a.step < b.step; });
   return {};

@@ -25,6 +25,8 @@ Result<const Driver*> find_half(const DeviceContext& context, const config::Sens
   const std::array kinds = {kind};
   RAVE_TRY_ASSIGN(const Driver* const driver, find_driver(context, kinds, half.driver));
   if (kind_of(*driver) == kind_of(fusing)) return driver;
+  // Both halves must give what the fusing driver takes, because it combines them reading by
+  // reading.
   return fail_at(half.driver.where, ErrorCode::kInvalidArgument,
                  "sensor `{}`: the driver `{}` fuses {}, but its {} half (driver `{}`) gives {}",
                  file.name.value, fusing.info.name, to_string(kind_of(fusing)),
@@ -45,6 +47,8 @@ Status set_hybrid(const DeviceContext& context, const config::RobotGroup& group,
                   find_half(context, file, *file.imagined, DriverKind::kVirtualSensor, *fusing));
   sensor.driver = fusing->info.name;
   sensor.kind = kind_of(*fusing);
+  // A hybrid has the timing and the device of its real half: the hardware says when there is a
+  // sample, and the virtual half is asked for the same stamp.
   sensor.hardware_ops = static_cast<const HardwareSensorOps*>(real->ops);
   sensor.timing = real->info.timing;
   RAVE_TRY_ASSIGN(sensor.device,
@@ -59,6 +63,8 @@ Status set_hybrid(const DeviceContext& context, const config::RobotGroup& group,
   hybrid.virtual_ops = static_cast<const VirtualSensorOps*>(imagined->ops);
   RAVE_TRY_ASSIGN(hybrid.virtual_params, read_params(*imagined, file.imagined->params));
   hybrid.virtual_noise = noise_of(file.imagined->noise);
+  // By default the virtual half adds only what is invisible to the real one. Otherwise a wall that
+  // both sense would be counted twice.
   sensor.layers = file.imagined->senses ? layer_mask(file.imagined->senses->value) : kUnseenByReal;
   sensor.hybrid = std::move(hybrid);
   note_clock(context, group, sensor.name, real->info, sensor.params);

@@ -18,6 +18,7 @@ std::vector<Vec2> corners_of(const config::Outline& outline) {
   if (outline.box_m) {
     const double x = (*outline.box_m)[0] / 2;
     const double y = (*outline.box_m)[1] / 2;
+    // Counterclockwise, as all polygons of the world.
     corners = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
   } else if (outline.polygon_m) {
     for (const auto& [x, y] : *outline.polygon_m) corners.push_back({x, y});
@@ -50,6 +51,7 @@ Result<std::vector<world::Shape>> shapes_of(const config::Outline& outline, cons
   }
   std::vector<Vec2> corners = corners_of(outline);
   for (Vec2& corner : corners) corner = transform(X_BO, corner);
+  // A polygon that is not convex becomes several convex pieces.
   return world::make_prisms(corners, z_m[0], z_m[1]);
 }
 
@@ -103,6 +105,9 @@ sim::ObstacleChange move_of(const config::MoveObstacleFile& file) {
 }
 
 Status add_obstacle_changes(const config::ExpandedScenario& scenario, sim::EngineSpec& spec) {
+  // Names of the world at the start and of all additions. Whether an obstacle exists at the time of
+  // a change is known only in the run, because another change or a person may remove it; then the
+  // change is refused with an event.
   std::vector<std::string_view> names;
   for (const world::Obstacle& obstacle : spec.world.obstacles) {
     names.emplace_back(obstacle.body.name);
@@ -121,6 +126,8 @@ Status add_obstacle_changes(const config::ExpandedScenario& scenario, sim::Engin
     scheduled.step =
         static_cast<std::uint64_t>(std::llround(file.at_s.value / scenario.scenario.step_s.value));
     RAVE_TRY_ASSIGN(scheduled.change, change_of(file));
+    // The same check as for requests of a run in progress, so a scenario cannot contain what a
+    // request may not ask.
     const Status checked = sim::check_obstacle_change(scheduled.change);
     if (!checked) return fail_at(name.where, checked.error().code, "{}", checked.error().message);
     spec.obstacle_changes.push_back(std::move(scheduled));
@@ -136,6 +143,7 @@ std::string list_obstacles(const world::WorldModel& world) {
   for (std::size_t i = 0; i < world.obstacle_count(); ++i) {
     const std::uint32_t id = world.obstacle_id(i);
     const world::Obstacle& obstacle = *world.obstacle(id);
+    // A removed obstacle keeps its number, so that numbers in recordings stay unique.
     if (obstacle.removed) continue;
     ++count;
     text += fmt::format("\n{:>6}  {:<24} {:<18} ({:.3f}, {:.3f}) m, {:.1f} deg", id,

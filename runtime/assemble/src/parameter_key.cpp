@@ -36,10 +36,13 @@ std::vector<Known> known_parameters(const sim::RobotType& type) {
         type.controllers[i].param_specs);
   }
   for (std::uint32_t i = 0; i < type.actuators.size(); ++i) {
+    // The parameters of a hardware actuator are those of the device, such as its port. They are
+    // read once, when the driver opens it.
     if (type.actuators[i].virtual_ops == nullptr) continue;
     add(all, "actuator." + type.actuators[i].name, Part::kActuator, i,
         type.actuators[i].param_specs);
   }
+  // A real body cannot change its size.
   if (type.simulated) add(all, "body", Part::kBody, 0, sim::body_params());
   return all;
 }
@@ -97,6 +100,7 @@ Result<sim::ParameterChange> parse_change(const sim::RobotType& type, std::strin
   const std::vector<Known> all = known_parameters(type);
   for (const Known& known : all) {
     if (known.key != key) continue;
+    // The value passes the same reader as a robot file: same types, ranges and messages.
     const std::vector<config::FieldSpec> specs{field_spec(*known.spec)};
     config::RawNode params = config::RawNode::mapping();
     params.append(known.spec->name, value);
@@ -137,6 +141,7 @@ std::vector<std::pair<std::string, std::string>> first_values(const sim::RobotTy
   std::vector<std::pair<std::string, std::string>> texts;
   for (const Known& known : known_parameters(type)) {
     if (known.part == Part::kBody) {
+      // Parameters of the body are scale factors relative to its file.
       texts.emplace_back(known.key, "1");
       continue;
     }

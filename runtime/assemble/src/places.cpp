@@ -16,6 +16,8 @@ namespace rave::runtime {
 namespace {
 
 /// The device number for drawing places.
+/// Random streams are keyed by seed, robot and device. This number is far from those of sensors and
+/// below those of programs (0xffff0000), so places share a stream with neither.
 constexpr std::uint32_t kPlaceDevice = 0xfffe'0000U;
 constexpr std::uint32_t kMaxTries = 10'000;
 
@@ -23,6 +25,7 @@ constexpr std::uint32_t kMaxTries = 10'000;
 class Standing {
  public:
   Standing(const sim::EngineSpec& spec) : spec_(&spec) {
+    // The lower bound is for very small robots: a clearance must not reach over thousands of cells.
     double widest_m = 0.05;
     for (const world::Body& body : spec.world.robots) {
       radius_m_.push_back(body.radius_m());
@@ -36,12 +39,15 @@ class Standing {
         for (const world::CoverDisc& disc : world::cover(shape, 1.0)) {
           world::ShapePiece piece;
           piece.centre_W = transform(obstacle.X_WB, disc.centre_B);
+          // The next float may be smaller than the double, so the disc grows by more than one unit
+          // in the last place (relative 6e-8). The grid may return too much, never too little.
           piece.radius_m = static_cast<float>(disc.radius_m * (1 + 1e-6));
           piece.body = i;
           pieces.push_back(piece);
         }
       }
     }
+    // Cells as wide as the covering discs, so a query visits few cells and a disc is in few.
     obstacles_.build(pieces, 2.0);
   }
 
@@ -64,10 +70,14 @@ class Standing {
     near.erase(std::unique(near.begin(), near.end()), near.end());
     for (const std::uint32_t i : near) {
       const world::Obstacle& obstacle = spec_->world.obstacles[i];
+      // The grid gives candidates; the exact distance of the outlines decides. It is negative if
+      // they overlap.
       const double gap = world::separation(body, X_WR, obstacle.body, obstacle.X_WB).distance_m;
       if (gap < clearance_m) return Conflict{obstacle.body.name, gap};
     }
     const double reach_m = radius_m_[id] + widest_m_ + clearance_m;
+    // With a large clearance the reach is longer than a cell, so this is a square of several cells,
+    // not always three by three.
     const auto cells = static_cast<std::int64_t>(std::ceil(reach_m / cell_m()));
     const auto [cx, cy] = cell(X_WR.position());
     for (std::int64_t y = cy - cells; y <= cy + cells; ++y) {
@@ -110,6 +120,8 @@ Status scatter(const config::RobotGroup& group, std::uint32_t robot, const Stand
                sim::EngineSpec& spec) {
   const config::ScatterFile& area = *group.scatter;
   for (std::uint32_t attempt = 0; attempt < kMaxTries; ++attempt) {
+    // One stream per attempt: the place of a robot depends on the seed, its id and the robots
+    // before it, not on the number of draws that others needed.
     RandomStream random(spec.seed, robot, kPlaceDevice, attempt);
     const double x = random.uniform(area.x_m[0], area.x_m[1]);
     const double y = random.uniform(area.y_m[0], area.y_m[1]);
@@ -136,6 +148,7 @@ Status put_down_robots(const config::ExpandedScenario& scenario, sim::EngineSpec
       if (group.scatter.has_value() != scattered) continue;
       const bool simulated = spec.types[spec.robots[r].type].simulated;
       const auto& pose = scenario.robots[r].pose;
+      // A real robot may have no stated start. It is absent until its pose source reports it.
       if (scattered) {
         RAVE_TRY(scatter(group, r, standing, spec));
       } else if (pose) {
@@ -149,6 +162,7 @@ Status put_down_robots(const config::ExpandedScenario& scenario, sim::EngineSpec
       // The stated start of a real robot is kept free; its pose source reports its actual pose.
       if (!simulated && pose) standing.add(r);
       if (!simulated) continue;
+      // Also for scattered robots, for which it holds by construction; the check is cheap.
       const auto conflict = standing.conflict(r, spec.robots[r].X_WR, 0);
       if (conflict) {
         return fail_at(group.name.where, ErrorCode::kInvalidArgument,

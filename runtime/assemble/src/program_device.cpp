@@ -25,6 +25,8 @@ class Isolated final : public sim::ProgramProcess {
 
 sim::ProgramProcessFactory isolated_factory(const DeviceContext& context,
                                             const plugin::Driver& driver) {
+  // Captured by value: the factory is called once per robot, after `driver` and the context may
+  // have gone.
   isolation::IsolationOptions options;
   options.runner = context.options.program_runner;
   options.plugin = driver.file;
@@ -49,6 +51,8 @@ Status add_program(const DeviceContext& context, const config::RobotGroup& group
   RAVE_TRY_ASSIGN(program.params, read_params(*driver, file.params));
   program.param_specs = driver->info.param_specs();
   set_rhythm(context, file, program);
+  // The host loads the plug-in all the same, to read its description and parameters; only the
+  // decisions happen in the child.
   if (file.isolate) program.isolate = isolated_factory(context, *driver);
   type.program = std::move(program);
   return {};

@@ -27,6 +27,8 @@ Status check_same_plugin(const DeviceContext& context, const Driver& user,
                          const sim::DeviceSpec& device, const SourceLocation& where) {
   constexpr std::array kKinds = {DriverKind::kDevice};
   RAVE_TRY_ASSIGN(const Driver* const found, context.catalogue.find(kKinds, device.driver));
+  // Two plug-ins may be built with different layouts of that class, and no stamp covers a class of
+  // their own.
   if (found->file == user.file) return {};
   return fail_at(
       where, ErrorCode::kPlugin,
@@ -46,6 +48,7 @@ Result<std::optional<std::uint32_t>> shared_device(
     return fail_at(named->where, ErrorCode::kInvalidArgument,
                    "the driver `{}` does not use a device: expected no `device:`", info.name);
   }
+  // The suggestion lists only devices of the right driver; a robot may have several lines.
   const auto fitting = devices_of(type, wanted);
   const std::string there =
       fitting.empty() ? "the robot has none" : "there is " + join_names(fitting);

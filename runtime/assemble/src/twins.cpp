@@ -38,12 +38,14 @@ tl::unexpected<Error> differs(const config::RobotGroup& group, std::string_view 
 }
 
 /// What the program and the world must find unchanged.
+/// A hand-over changes drivers while the program keeps running and the world keeps its body.
 Status check_same_robot(const config::RobotGroup& group) {
   const config::RobotFile& first = group.robot;
   const config::RobotFile& twin = group.twin->robot;
   if (!(first.body == twin.body)) return differs(group, "body");
   if (!(first.program == twin.program)) return differs(group, "program");
   if (!(first.controllers == twin.controllers)) return differs(group, "list of controllers");
+  // Radios are not exchanged in a hand-over, so their drivers must be equal, too.
   if (!(first.transmitters == twin.transmitters)) return differs(group, "list of transmitters");
   if (!(first.communicators == twin.communicators)) return differs(group, "list of communicators");
   if (first.ros2 != twin.ros2) return differs(group, "value of `ros2`");
@@ -55,6 +57,7 @@ Status check_names(const config::RobotGroup& group, std::string_view what, const
                    const Devices& twin) {
   const bool same =
       first.size() == twin.size() &&
+      // In the same order, because the engine addresses both sets with the same indices.
       std::equal(first.begin(), first.end(), twin.begin(),
                  [](const auto& a, const auto& b) { return a.name.value == b.name.value; });
   if (same) return {};
@@ -76,6 +79,8 @@ Status check_kinds(const config::RobotGroup& group, const sim::RobotType& first,
                      "`{}` does",
                      a.name, group.name.value, to_string(b.kind), to_string(a.kind), a.driver);
     }
+    // The program was told the mounts at its start. It would interpret readings from another place
+    // wrongly.
     if (file.mount == group.robot.sensors[s].mount) continue;
     return fail_at(file.name.where, ErrorCode::kInvalidArgument,
                    "sensor `{}` of the twin of robot `{}` is mounted elsewhere", a.name,
@@ -101,6 +106,8 @@ bool is_local(const DeviceContext& context, std::size_t robot) {
 /// happens.
 Status check_in_real_time(const DeviceContext& context) {
   const config::ScenarioFile& file = context.scenario.scenario;
+  // `local` is set in a host of a split run. The process that starts such a run has no `local`, so
+  // `processes` and `hosts` of the scenario count as well.
   const bool shared = context.options.local || file.processes || !file.hosts.empty();
   if (!shared || !context.built.live_reason.empty()) return {};
   for (const config::RobotGroup& group : context.scenario.groups) {
@@ -120,6 +127,8 @@ config::RobotGroup twin_group(const config::RobotGroup& group) {
   config::RobotGroup other = group;
   other.robot = group.twin->robot;
   other.file = group.twin->file;
+  // A twin has no twin: there are two sets of drivers, and hand-overs go back and forth between
+  // them.
   other.twin.reset();
   return other;
 }
@@ -145,6 +154,7 @@ Status add_twins(const DeviceContext& context) {
                     make_twin({context.scenario, drivers, context.options, context.built}, group));
     const sim::RobotType& first = spec.types[spec.robots[r].type];
     RAVE_TRY(check_kinds(group, first, twin));
+    // A shadow is the simulated twin of a real robot; two of one kind leave nothing to compare.
     if (group.shadow && first.simulated == twin.simulated) {
       return fail_at(group.name.where, ErrorCode::kInvalidArgument,
                      "`shadow` of robot `{}` needs a real and a simulated set of drivers, but "
@@ -180,6 +190,8 @@ Result<sim::DriverSet> driver_set(const sim::EngineSpec& spec, RobotId robot, si
                 "robot `{}` has one set of drivers; `twin:` in the scenario names another",
                 its.name);
   }
+  // `first` and `twin` name a set; `real` and `simulated` name what the robot should become, which
+  // needs the set that is active now and two sets of different kinds.
   if (to == HandOverTo::kFirst) return sim::DriverSet::kFirst;
   if (to == HandOverTo::kTwin) return sim::DriverSet::kTwin;
   const bool simulated = spec.types[its.type].simulated;

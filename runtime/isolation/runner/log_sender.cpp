@@ -25,6 +25,7 @@ void LogSender::write(LogLevel level, std::string_view text) noexcept {
   text = text.substr(0, kMaxLogLineBytes);
   const bool fits = lines_ < kMaxLogLines && bytes_ + text.size() <= kMaxLogBytes;
   const MessageHead head{MessageKind::kLog, static_cast<std::uint32_t>(level), 0};
+  // Without waiting: a program that logs faster than the host reads loses lines, but never blocks.
   if (!fits || !send_message(socket_, head, text, false)) {
     ++dropped_;
     return;

@@ -13,6 +13,10 @@
 
 namespace rave::isolation {
 
+// The search walks the stack from the innermost frame outwards. It takes the first line that
+// belongs to the plug-in and not to a header of a library; if there is none, the first line of the
+// plug-in at all. learn() reads the debug information at the start, so that find() need not do
+// so inside a signal handler.
 struct PlaceFinder::Search {
   PlaceFinder* finder;
   std::uintptr_t pc = 0;              ///< The frame under inspection.
@@ -63,6 +67,7 @@ void PlaceFinder::learn(const void* address) {
   show_only_module_of(address);
   ensure_state();
   Search search{this};
+  // Makes the library read the debug information now, when allocation is safe.
   ::backtrace_pcinfo(state_, query.address, &on_line, &ignore_error, &search);
   ::backtrace_syminfo(state_, query.address, &on_symbol, &ignore_error, &search);
 }
@@ -81,9 +86,13 @@ void PlaceFinder::note_return_address(Search& search, const void* interrupted) {
 #if defined(__x86_64__)
   if (interrupted == nullptr) return;
   const auto& registers = static_cast<const ucontext_t*>(interrupted)->uc_mcontext.gregs;
+  // The first page is never mapped, so a program counter there comes from a null function pointer,
+  // possibly with an offset.
   if (registers[REG_RIP] > 4096) return;
   // What the register holds is an address. NOLINTNEXTLINE(performance-no-int-to-ptr)
   const auto* top = reinterpret_cast<const std::uintptr_t*>(registers[REG_RSP]);
+  // The return address is that of the next instruction; one byte before it is still inside the
+  // call.
   on_frame(&search, *top - 1);
 #else
   static_cast<void>(search);

@@ -16,6 +16,8 @@ namespace rave::isolation {
 
 Result<std::unique_ptr<ProgramHost>> ProgramHost::create(SharedMemory memory, int socket) {
   const auto* head = memory.at<SharedHead>(0);
+  // The runner may be of another installation than the host. A wrong layout must not be taken for
+  // data.
   if (memory.size() < sizeof(SharedHead) || head->magic != SharedHead::kMagic ||
       head->total_bytes != memory.size() || head->setup_bytes > memory.size()) {
     return fail(ErrorCode::kParse, "the shared memory was created by another version of the host");
@@ -38,6 +40,7 @@ ProgramHost::ProgramHost(SharedMemory memory, std::unique_ptr<SetupCopy> setup, 
   layout_ =
       make_layout(memory_.at<SharedHead>(0)->setup_bytes, std::span(raw.sensors, raw.sensor_count),
                   std::span(raw.communicators, raw.communicator_count), raw.controller_count);
+  // create() refuses this memory; the views below would reach beyond it.
   if (layout_.total_bytes != memory_.size()) return;
   for (const Layout::Sensor& sensor : layout_.sensors) {
     views_.push_back(
@@ -73,8 +76,10 @@ ProgramHost::~ProgramHost() {
 Status ProgramHost::load_and_start() {
   RAVE_TRY_ASSIGN(file_, ProgramFile::load(order().plugin, order().program));
   const ProgramOps& ops = file_->ops();
+  // Before the first call into the plug-in that may crash.
   learn_plugin(reinterpret_cast<const void*>(ops.decide));
   const std::align_val_t alignment{ops.instance.alignment};
+  // Types of plug-ins may need a larger alignment than malloc() gives.
   instance_ = {::operator new(ops.instance.size, alignment), FreeAligned{alignment}};
   ErrorText error;
   constructed_ = ops.instance.construct(instance_.get(), &error) == 0;
@@ -102,6 +107,7 @@ void ProgramHost::serve() {
     const ssize_t size = ::recv(socket_, buffer.data(), buffer.size(), 0);
     if (size < 0 && errno == EINTR) continue;
     MessageHead head;
+    // 0: the host has closed the socket, which is how it asks the child to end.
     if (size < static_cast<ssize_t>(sizeof head)) return;
     std::memcpy(&head, buffer.data(), sizeof head);
     const std::string_view text(buffer.data() + sizeof head,
@@ -122,6 +128,7 @@ bool ProgramHost::update(std::string_view bytes) {
   error.set("it takes no new parameters while it runs");
   const bool taken = ops.update != nullptr &&
                      ops.update(instance_.get(), setup.params, setup.param_count, &error) == 0;
+  // The program keeps its old parameters, so this copy must hold them, too.
   if (!taken) setup_->revert();
   const auto kind = taken ? MessageKind::kUpdated : MessageKind::kUpdateRefused;
   return send_message(socket_, {kind, 0, log_.begin_next()}, taken ? "" : error.text, true);
@@ -134,6 +141,7 @@ bool ProgramHost::decide(std::uint32_t decision) {
   item.commands = memory_.at<Command>(layout_.commands);
   for (std::size_t c = 0; c < layout_.communicators.size(); ++c) {
     boxes_[2 * c] = mailbox(layout_.communicators[c].in);
+    // The outbox is new for each decision; what the program does not send in it is gone.
     boxes_[2 * c + 1].clear();
   }
   item.communicators = communicators_.data();
@@ -152,6 +160,7 @@ bool ProgramHost::decide(std::uint32_t decision) {
   const ProgramOps& ops = file_->ops();
   std::uint8_t failed = 0;
   ErrorText error;
+  // A batch of one: the interface takes many robots per call, and a child has one.
   ops.decide(instance_.get(), ops.instance.size, &item, 1, &failed, &error);
   for (std::size_t c = 0; c < layout_.communicators.size(); ++c) {
     const Mailbox& out = boxes_[2 * c + 1];

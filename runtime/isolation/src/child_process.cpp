@@ -12,9 +12,12 @@ Result<ChildProcess> ChildProcess::spawn(const std::vector<std::string>& argumen
                                          int memory) {
   process::ChildOptions options;
   options.words = arguments;
+  // The child finds its socket and memory at fixed descriptor numbers and inherits no others, so it
+  // cannot reach files and sockets of the host.
   options.files = {{socket, kChildSocket}, {memory, kChildMemory}};
   options.no_input = true;
   options.close_from = kChildMemory + 1;
+  // Signals that the host ignores or blocks would be inherited.
   options.default_signals = true;
   ChildProcess child;
   RAVE_TRY_ASSIGN(child.child_, process::Child::start(options));

@@ -17,6 +17,7 @@ std::string readable_name(std::string_view name) {
   const std::unique_ptr<char, decltype(&std::free)> readable(
       abi::__cxa_demangle(text.c_str(), nullptr, nullptr, &status), &std::free);
   if (status == 0 && readable) text = readable.get();
+  // Programs usually are in an anonymous namespace, whose name tells a reader nothing.
   constexpr std::string_view kAnonymous = "(anonymous namespace)::";
   for (std::size_t at; (at = text.find(kAnonymous)) != std::string::npos;) {
     text.erase(at, kAnonymous.size());

@@ -29,6 +29,8 @@ struct IsolatedProgram::Impl {
         layout(std::move(where)),
         link(std::move(who), host, std::move(child), std::move(socket), options.last_word_s) {}
 
+  // The memory is copied in before "decide" is sent and copied out after "decided" has arrived. The
+  // socket orders the two sides, so the memory needs no lock.
   [[nodiscard]] Status copy_in(const DecideItem& item) const;
   [[nodiscard]] Status copy_messages_in(const DecideItem& item) const;
   void copy_out(const DecideItem& item) const {
@@ -37,6 +39,7 @@ struct IsolatedProgram::Impl {
                   layout.command_count * sizeof(Command));
     }
     copy_messages_out(item);
+    // Copied before it is checked: the child could change the numbers between check and use.
     const SharedAnswers said = *memory.at<SharedAnswers>(layout.answers);
     if (said.count > 0) {
       take_answers(said, memory.at<std::byte>(layout.answers + sizeof said), item);
@@ -73,8 +76,10 @@ Status IsolatedProgram::Impl::copy_in(const DecideItem& item) const {
                                              item.seed};
   *memory.at<SharedOrders>(layout.orders) =
       write_orders(item, memory.at<std::byte>(layout.orders + sizeof(SharedOrders)));
+  // Cleared, so that answers of the last decision do not count again if the program gives none.
   *memory.at<SharedAnswers>(layout.answers) = {};
   if (layout.command_count > 0) {
+    // The program sees its last commands, as it would inside the host, and may leave them.
     std::memcpy(memory.at<Command>(layout.commands), item.commands,
                 layout.command_count * sizeof(Command));
   }
@@ -111,6 +116,7 @@ void IsolatedProgram::Impl::copy_messages_out(const DecideItem& item) const {
     // The memory is writable for the child, so skip messages that a correct child could not have
     // sent.
     for (std::uint32_t i = 0; i < std::min(state.count, box.max_messages); ++i) {
+      // A copy, because the child could change the head after its check.
       const rave::MessageHead head = heads[i];
       const bool inside = head.size <= box.max_message_bytes && head.offset <= box.max_bytes &&
                           head.size <= box.max_bytes - head.offset;
@@ -129,6 +135,8 @@ struct Sockets {
 
 Result<Sockets> make_sockets() {
   int files[2];
+  // SEQPACKET keeps the borders of messages and reports the end of the other side, which datagrams
+  // do not.
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, files) != 0) {
     return fail(ErrorCode::kIo, "cannot make a socket pair: {}", std::strerror(errno));
   }
@@ -171,6 +179,7 @@ Result<std::unique_ptr<IsolatedProgram>> IsolatedProgram::start(const IsolationO
   auto child = ChildProcess::spawn({options.runner.string(), options.program, setup.robot.name},
                                    sockets.child.get(), shared.memory.file());
   if (!child) return tl::unexpected(std::move(child).error().with_context(who));
+  // The host must not hold the child's end, or it would never see the socket close.
   sockets.child.reset();
   std::unique_ptr<IsolatedProgram> program(new IsolatedProgram(std::make_unique<Impl>(
       options, who, setup.host, std::move(shared.memory), std::move(shared.layout),
@@ -190,6 +199,8 @@ Status IsolatedProgram::begin_decide(const DecideItem& item) {
   if (impl.deciding) return fail(ErrorCode::kState, "the program is still deciding");
   RAVE_TRY(impl.copy_in(item));
   impl.decision = item.decision;
+  // The time counts from the question and not from end_decide(): all children of the host decide at
+  // the same time.
   impl.deadline = Deadline(impl.timeout_s);
   RAVE_TRY(impl.link.ask(item.decision));
   impl.deciding = true;
@@ -200,6 +211,7 @@ Status IsolatedProgram::end_decide(const DecideItem& item) {
   Impl& impl = *impl_;
   RAVE_TRY(impl.link.state());
   if (!impl.deciding) return fail(ErrorCode::kState, "no decision of the program was started");
+  // Also if the wait fails, because the link is then closed for good.
   impl.deciding = false;
   RAVE_TRY(impl.link.await(MessageKind::kDecided, impl.decision, impl.deadline,
                            fmt::format("has not decided for {}", seconds_text(impl.timeout_s))));

@@ -21,6 +21,8 @@ class Allocator {
 
 }  // namespace
 
+// Host and child compute the layout separately from the same setup, so no offset of the child is
+// ever used by the host.
 Layout make_layout(std::size_t setup_bytes, std::span<const SensorInfo> sensors,
                    std::span<const CommunicatorInfo> communicators, std::size_t command_count) {
   Layout layout;

@@ -36,6 +36,8 @@ Link::Link(std::string who, HostServices host, ChildProcess child, process::Desc
       child_(std::move(child)),
       socket_(std::move(socket)),
       last_word_s_(last_word_s),
+      // One byte more than the longest message: a longer one is then recognised by its size instead
+      // of being cut to a valid one.
       buffer_(kMaxMessageBytes + 1) {}
 
 Link::~Link() {
@@ -81,11 +83,14 @@ Link::Receipt Link::receive(int timeout_ms, Message& message) {
 Status Link::await(MessageKind kind, std::uint32_t number, const Deadline& deadline,
                    std::string_view late) {
   RAVE_TRY(state_);
+  // The limit counts messages, not time: a child that sends without end would otherwise keep the
+  // host reading until the deadline.
   for (int messages = 0; messages < kMaxMessages;) {
     const int remaining_ms = deadline.remaining_ms();
     Message message;
     switch (receive(remaining_ms, message)) {
       case Receipt::kNothing:
+        // The socket is read once more at the deadline, so an answer that is already there counts.
         if (remaining_ms == 0) return stuck(late);
         break;
       case Receipt::kClosed:
@@ -136,6 +141,7 @@ std::optional<Status> Link::handle(const Message& message, MessageKind kind, std
 }
 
 Status Link::end_of_conversation() {
+  // The socket closes before the process has ended; its exit code says more than the closed socket.
   if (child_.wait_for_end(kEndAfterCloseMs)) {
     return give_up(ErrorCode::kPlugin, child_.how());
   }
@@ -143,6 +149,8 @@ Status Link::end_of_conversation() {
 }
 
 Status Link::stuck(std::string_view late) {
+  // The handler in the child finds the source line of the loop and sends it, before the child is
+  // killed.
   child_.signal(kWhereSignal);
   const Deadline deadline(last_word_s_);
   int remaining_ms = 0;
@@ -164,6 +172,7 @@ Status Link::stuck(std::string_view late) {
 }
 
 Status Link::give_up(ErrorCode code, const std::string& what) {
+  // A child that broke the protocol is not spoken to again. The run continues without its robot.
   child_.kill();
   socket_.reset();
   state_ = fail(code, "{} {}", who_, what);

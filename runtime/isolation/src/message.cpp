@@ -25,6 +25,7 @@ bool send_message(int socket, const MessageHead& head, std::string_view text, bo
   msghdr message{};
   message.msg_iov = parts;
   message.msg_iovlen = 2;
+  // Without SIGPIPE: the death of the other side is an error here, not the end of this process.
   const int flags = MSG_NOSIGNAL | (wait ? 0 : MSG_DONTWAIT);
   for (;;) {
     if (::sendmsg(socket, &message, flags) >= 0) return true;
@@ -34,6 +35,8 @@ bool send_message(int socket, const MessageHead& head, std::string_view text, bo
 
 std::optional<Message> parse_message(std::string_view bytes) noexcept {
   if (bytes.size() < sizeof(MessageHead) || bytes.size() > kMaxMessageBytes) return {};
+  // Numbers first, and not the struct with the enumerator: a value outside of it would be undefined
+  // behaviour.
   std::uint32_t numbers[3];
   std::memcpy(numbers, bytes.data(), sizeof numbers);
   if (numbers[0] < static_cast<std::uint32_t>(MessageKind::kStarted) ||

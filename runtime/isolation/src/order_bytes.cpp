@@ -22,6 +22,7 @@ struct OrderHead {
 std::size_t bytes_of(const OrderHead& head) noexcept {
   const std::size_t bytes =
       sizeof head + std::size_t{head.point_count} * sizeof(Vec2) + head.text_size + head.by_size;
+  // Whole words keep the points of the next order aligned for doubles.
   return (bytes + 7) / 8 * 8;
 }
 
@@ -47,6 +48,7 @@ SharedOrders write_orders(const DecideItem& item, std::byte* to) noexcept {
                          order.has_yaw,
                          0};
     const std::size_t bytes = bytes_of(head);
+    // There is room for a path, some texts and their authors. Orders that do not fit are left out.
     if (shared.bytes + bytes > kOrderBytes) break;
     std::byte* at = to + shared.bytes;
     const auto put = [&at](const void* from, std::size_t size) {
@@ -63,6 +65,8 @@ SharedOrders write_orders(const DecideItem& item, std::byte* to) noexcept {
   return shared;
 }
 
+// Runs in the child, which trusts the host; take_answers() runs in the host and trusts no number of
+// the child.
 void read_orders(const SharedOrders& shared, const std::byte* from, std::vector<OrderItem>& items) {
   items.clear();
   std::size_t at = 0;
@@ -99,6 +103,7 @@ bool AnswerWriter::say(std::span<const char> text, std::uint32_t done) noexcept 
 
 void take_answers(const SharedAnswers& shared, const std::byte* bytes, const DecideItem& item) {
   if (item.answers == nullptr) return;
+  // Both numbers come from the child: the loop ends with the bytes, whatever the count says.
   const std::size_t end = std::min<std::size_t>(shared.bytes, kAnswerBytes);
   std::size_t at = 0;
   for (std::uint32_t i = 0; i < shared.count && at + sizeof(AnswerHead) <= end; ++i) {

@@ -8,6 +8,8 @@
 namespace rave::isolation {
 namespace {
 
+// The bytes have the layout of this machine and this build. ProgramHost::create() checks magic and
+// sizes, in case the runner is of another installation.
 class Writer {
  public:
   template <class T>
@@ -106,6 +108,7 @@ class SetupCopy::Reader {
   }
   /// Reads the number of elements that follow; refuses a number for which, at `least_bytes` each,
   /// too few bytes are left.
+  /// A count from damaged bytes cannot make the child allocate more than the bytes could describe.
   std::size_t count(std::size_t least_bytes) {
     std::uint64_t number = 0;
     value(number);
@@ -119,6 +122,7 @@ class SetupCopy::Reader {
     bytes_.remove_prefix(size);
     return text;
   }
+  // A deque keeps its elements where they are, so the pointers stay valid while more are added.
   const char* kept_text() { return copy_.texts_.emplace_back(text()).c_str(); }
   std::span<const double> list() {
     std::vector<double>& list = copy_.lists_.emplace_back(count(sizeof(double)));
@@ -215,6 +219,7 @@ Status SetupCopy::update(std::string_view bytes) {
   std::vector<ParamValue> params(in.count(sizeof(std::uint64_t)));
   for (ParamValue& value : params) in.param(value);
   if (!in.whole()) return fail(ErrorCode::kParse, "new parameters of a program are damaged");
+  // For revert(), if the program refuses the new values.
   params_before_ = params_;
   radius_before_m_ = setup_.robot.radius_m;
   use(std::move(params), radius_m);

@@ -14,6 +14,8 @@ namespace rave::isolation {
 Result<SharedMemory> SharedMemory::create(std::size_t bytes) {
   process::Descriptor file(::memfd_create("rave-program", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   if (file.get() < 0 || ::ftruncate(file.get(), static_cast<off_t>(bytes)) != 0 ||
+      // The seals fix the size. A child that could shrink the file would make the host fault when
+      // it reads beyond the end.
       ::fcntl(file.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) != 0) {
     return fail(ErrorCode::kIo, "cannot make {} bytes of shared memory: {}", bytes,
                 std::strerror(errno));

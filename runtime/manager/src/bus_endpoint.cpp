@@ -36,6 +36,8 @@ Result<std::unique_ptr<BusEndpoint>> BusEndpoint::open(const bus::BusConfig& con
                                                        bus::BeginRequest begin_request,
                                                        bus::OnCommand on_command) {
   bus::BusConfig own = config;
+  // The manager has a partition and reserved ports of its own, so hosts of a large run need to look
+  // for it alone.
   own.side = bus::Side::kManager;
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(own));
   RAVE_TRY_ASSIGN(auto states, bus::Writer<bus::RunState>::create(*bus));
@@ -63,11 +65,14 @@ Status BusEndpoint::wake_for_processes(bus::WaitSet& waits) {
   return waits.add_events();
 }
 
+// Called last, when all readers exist: hosts begin to send as soon as they have read it.
 Status BusEndpoint::introduce() { return own_info_.write(introduced_); }
 
 /// A process says who it is.
 void BusEndpoint::meet(const bus::HostInfo& info, bool begun) {
   if (info.host == rave_wire_kNone) {
+    // A run has one manager. Of two that start at once the later one goes; one that serves a run
+    // already stays, whatever its start time.
     const bool goes = !begun && lock_step::gives_way(introduced_, info);
     second_ = second_ || goes;
     if (!goes) foreign_.write(LogLevel::kWarning, kSource, not_listened_to(info));
@@ -91,9 +96,11 @@ Result<std::vector<std::uint64_t>> BusEndpoint::look_at_processes(bool begun) {
   for (const bus::BusEvent& event : bus_->take_events()) {
     using enum bus::EventKind;
     if (event.kind == kParticipantLost && event.writer != 0) {
+      // Returned and not handled here: what a loss means differs between lock-step and real time.
       gone.push_back(event.writer);
       continue;
     }
+    // Before the start a standstill costs nothing, because no host depends on worlds yet.
     if (event.kind == kStoodStill && begun) ++standstills_;
     foreign_.note(event);
   }

@@ -5,9 +5,14 @@
 
 #include "rave/protocol/obstacle_messages.hpp"
 
+// Edits are limited for two reasons: in lock-step a step carries all of its changes in one message,
+// and a host that joins late must receive all changes since the start. The first limit is a token
+// bucket for edits and bytes, refilled with time up to one second's allowance. The second one
+// counts entries and bytes of the whole run.
 namespace rave::manager {
 
 Status EditLimits::take(const sim::ObstacleChange& change, Clock::time_point now) {
+  // First of all, because a change that no host can decode must not use up the allowance.
   RAVE_TRY(lock_step::check_fits(change));
   const auto bytes = static_cast<double>(lock_step::wire_bytes(change));
   if (filled_ != Clock::time_point{}) {
@@ -22,6 +27,7 @@ Status EditLimits::take(const sim::ObstacleChange& change, Clock::time_point now
                 "MB; try again later",
                 kPerSecond, kBytesPerSecond * 1e-6);
   }
+  // A removal is permitted even at the limit. Otherwise nobody could make room.
   const bool grows = change.kind != sim::ObstacleChange::Kind::kRemove;
   if (grows && (entries_ >= kMostEntries ||
                 all_bytes_ + static_cast<std::size_t>(bytes) > lock_step::kMostObstacleBytes)) {
@@ -44,6 +50,7 @@ Status EditLimits::take(const sim::ObstacleChange& change, Clock::time_point now
 void EditLimits::made(const sim::ObstacleChange& change) {
   // The removal of one that came was counted with it.
   if (!changed_.insert(change.id.value()).second) return;
+  // An added obstacle counts twice: for the addition, and for its possible removal later.
   entries_ += change.kind == sim::ObstacleChange::Kind::kAdd ? 2 : 1;
   all_bytes_ += lock_step::wire_bytes(change) - change.asked.size();
 }

@@ -36,6 +36,7 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, std::unique_ptr<LiveEndp
       book_(planned_robots(options), options.hosts) {
   for (std::uint32_t r = 0; r < options.robots.size(); ++r) {
     staleness_.push_back(options.robots[r].staleness);
+    // Only robots with two sets of drivers can change their reality.
     if (options.robots[r].twin) twins_.push_back({RobotId(r), options.robots[r].simulated});
   }
   for (std::uint32_t h = 0; h < options.hosts.size(); ++h) {
@@ -62,15 +63,19 @@ Status LiveBoard::look_at_processes(bool goes) {
   return {};
 }
 
+// A slot keeps its name and the poses of its robots: others still sense them where they were, until
+// they become stale.
 void LiveBoard::lose(std::uint64_t writer, bool goes) {
   endpoint().forget(writer);
   refused_.erase(writer);
   wrong_hands_.erase(writer);
+  // The place becomes free for another process of the same host.
   claims_.release(writer);
   book_.lose(writer);
   for (LiveSlot& slot : slots_) {
     if (slot.writer != writer) continue;
     slot.writer = 0;
+    // All that follows was measured with the process that is gone.
     slot.bound_ns = -1;
     slot.steps = {};
     slot.obstacle_revision = 0;
@@ -84,14 +89,18 @@ void LiveBoard::lose(std::uint64_t writer, bool goes) {
   }
 }
 
+// A host takes its place with its first question for the time. Pings, not introductions, decide,
+// because they are addressed to one manager.
 bool LiveBoard::claim_slot(const bus::ClockPing& ping) {
   if (ping.target != endpoint().writer()) return false;
+  // Unknown without an introduction that fits this run. The host asks again until it is known.
   const auto host = endpoint().host_of(ping.writer);
   if (!host || *host >= slots_.size()) return false;
   LiveSlot& slot = slots_[*host];
   if (slot.writer != ping.writer) {
     const Status claimed = claims_.claim(*host, ping.writer);
     if (!claimed) {
+      // A refused process asks several times per second; it is logged once.
       if (refused_.insert(ping.writer).second)
         endpoint().log_fault("refused: " + claimed.error().message);
       return false;
@@ -110,6 +119,7 @@ bool LiveBoard::claim_slot(const bus::ClockPing& ping) {
   }
   slot.offset_ns = ping.offset_ns;
   slot.bound_ns = ping.bound_ns;
+  // Limited, because shown_revision() decides what a manager that takes over waits for.
   slot.obstacle_revision =
       std::min(ping.obstacle_revision, real_time::ObstacleSight::kMostRevision);
   slot.obstacles_ns = ping.obstacles_ns;
@@ -136,6 +146,8 @@ void LiveBoard::take_states() {
 void LiveBoard::take_in(const bus::HostState& state) {
   if (state.host >= slots_.size() || !endpoint().host_of(state.writer)) return;
   LiveSlot& slot = slots_[state.host];
+  // A state may arrive before the first ping of its process; then the slot is still free and the
+  // state counts.
   if (slot.writer != 0 && slot.writer != state.writer) {
     endpoint_->refuse(state, fmt::format("host `{}` is served by another process", slot.name));
     return;
@@ -160,6 +172,8 @@ void LiveBoard::take_in(const bus::HostState& state) {
 }
 
 double LiveBoard::slowest_speed() const {
+  // The slowest host gives the speed of the run, since the others only seem to be ahead: their
+  // robots meet old poses.
   const std::int64_t now_ns = steady_ns();
   std::optional<double> slowest;
   for (const LiveSlot& slot : slots_) {
@@ -190,6 +204,7 @@ void LiveBoard::send_world(std::uint64_t number, SimTime now, std::span<const st
   stale_.clear();
   for (std::uint32_t r = 0; r < robots_.size(); ++r) {
     if (!known_[r]) continue;
+    // The manager does not extrapolate: each host does so for the time at which it uses the pose.
     columns_.add(robots_[r]);
     if (stale[r] != 0) stale_.push_back(r);
   }
@@ -214,6 +229,7 @@ Status LiveBoard::publish(const real_time::ObstacleSight& sight) {
 }
 
 Status LiveBoard::ask_for_handed() {
+  // Asked again only when another host has joined, which may know more.
   if (std::exchange(all_asked_, true)) return {};
   return endpoint_->ask_for_handed();
 }
@@ -228,6 +244,8 @@ void LiveBoard::take_handed(const std::function<Status(const real_time::Obstacle
       return;
     }
     real_time::ObstacleSight& known = handed_[sight->stands.id.value()];
+    // Hosts may have received different parts. The newest state of each obstacle is the last one
+    // that the lost manager published.
     if (sight->revision > known.revision) known = *std::move(sight);
   };
   // Enough for all that a run may have; who sends without end is heard of again at the next look.

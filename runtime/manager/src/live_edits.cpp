@@ -9,6 +9,11 @@
 #include "rave/math/transform.hpp"
 
 namespace rave::manager {
+// The world of the manager in real time has no motion. It exists to decide edits: robots are placed
+// where they should be by now, the authority checks whether there is room, and all hosts receive
+// how the obstacle stands. Each state has a revision, and each host confirms the revision that its
+// robots have seen with its next ping. A request is answered when all hosts have confirmed it, or
+// after two seconds.
 namespace {
 
 using ObstacleKind = sim::ObstacleChange::Kind;
@@ -51,6 +56,8 @@ Result<std::unique_ptr<LiveEdits>> LiveEdits::create(sim::EngineSpec spec,
                                                      const LiveManagerOptions& options,
                                                      LiveBoard& board) {
   RAVE_TRY(check_scheduled(spec));
+  // Live drivers and transmitters of the scenario are permitted, as in the engines of the hosts;
+  // this authority runs none of them.
   spec.own_authority = true;
   spec.live_clock = nullptr;
   std::vector<std::uint32_t> host_of(spec.robots.size(), 0);
@@ -82,6 +89,7 @@ void LiveEdits::end() {
 bool LiveEdits::all_may_be_there() const {
   const bool all = std::all_of(board_.slots().begin(), board_.slots().end(),
                                [](const LiveSlot& slot) { return slot.writer != 0; });
+  // A host that is gone for good must not keep the others without edits.
   return all || std::chrono::steady_clock::now() - began_ >= kComing;
 }
 
@@ -99,6 +107,8 @@ Status LiveEdits::gather_handed() {
 bool LiveEdits::handed_over() const {
   if (!all_may_be_there()) return false;
   const auto since = std::chrono::steady_clock::now() - began_;
+  // Hosts say with each ping up to which revision they have shown the obstacles. When that one has
+  // arrived, nothing newer exists.
   return newest_of(board_.handed_obstacles()) >= board_.shown_revision() || since >= kHandingOver;
 }
 
@@ -109,6 +119,8 @@ void LiveEdits::drop_orphans() {
   for (; it != obstacles_.end() && it->first == next; ++it) ++next;
   const auto orphans = std::distance(it, obstacles_.end());
   obstacles_.erase(it, obstacles_.end());
+  // Without the missing one the numbers would not fit. A wrong body under a number is worse than a
+  // missing one.
   if (orphans == 0 || options_.log == nullptr) return;
   options_.log->error(kSource,
                       "{} obstacles from hosts are left out: obstacle number {}, which was added "
@@ -125,6 +137,7 @@ Status LiveEdits::take_over(SimTime now) {
     options_.log->error(kSource, "hosts have obstacles up to change {}, but sent only {}",
                         board_.shown_revision(), revision_);
   }
+  // Revisions must not be used twice: hosts would take a new change for an old one and ignore it.
   revision_ = std::max(revision_, board_.shown_revision());
   drop_orphans();
   const std::vector<sim::ObstacleChange> changes = changes_of(obstacles_);
@@ -138,10 +151,14 @@ Status LiveEdits::take_over(SimTime now) {
     }
     return {};
   }
+  // The limits of the run hold across managers.
   for (const sim::ObstacleChange& change : changes) limits_.made(change);
   for (const auto& [id, sight] : obstacles_) {
     next_scheduled_ = std::max(
         next_scheduled_,
+        // Each state carries how many changes of the scenario were made by then, so this manager
+        // continues with the next one. The bound protects from a number that no manager has
+        // published.
         std::min<std::size_t>(sight.scheduled, authority_->spec().obstacle_changes.size()));
     RAVE_TRY(publish(sight));
   }
@@ -159,6 +176,8 @@ Status LiveEdits::look(SimTime now) {
   if (!begun_) return {};
   follow_hand_overs();
   if (takes_over_) RAVE_TRY(gather_handed());
+  // The scenario's own changes wait for the hand-over, or they would get numbers that are already
+  // in use.
   if (takes_over_ && handed_over()) RAVE_TRY(take_over(now));
   if (!takes_over_) make_scheduled(now);
   if (!serves_) return {};
@@ -219,6 +238,7 @@ void LiveEdits::place_robots(SimTime now) {
 }
 
 Result<std::string> LiveEdits::make(const sim::ObstacleChange& change, SimTime now) {
+  // Robots have moved since the last edit; the authority must know where before it looks for room.
   place_robots(now);
   std::string remark;
   RAVE_TRY_ASSIGN(const sim::ObstacleChange made, authority_->decide(change, now, remark));
@@ -276,6 +296,8 @@ void LiveEdits::serve(runtime::RunControl::Asked asked, SimTime now) {
     asked.answer(fail(made.error().code, "{}", made.error().message));
     return;
   }
+  // The delay that is reported counts from when the request arrived at this process, including its
+  // wait for this thread.
   const auto before = std::chrono::steady_clock::now() - asked.since();
   const Duration ago{std::chrono::duration_cast<std::chrono::nanoseconds>(before).count()};
   waiting_.push_back({std::move(asked), revision_, now - ago, *std::move(made)});
@@ -292,6 +314,8 @@ std::vector<std::string_view> LiveEdits::hosts_without(std::uint64_t revision) c
 void LiveEdits::answer_waiting(SimTime now) {
   std::erase_if(waiting_, [&](Waiting& one) {
     const auto missing = hosts_without(one.revision);
+    // A host that is gone counts as confirmed: when it is back it receives all obstacles before it
+    // begins.
     if (!missing.empty() && now - one.since < kConfirmation) return false;
     std::int64_t last_ns = one.since.ns;
     std::size_t hosts = 0;

@@ -34,6 +34,7 @@ class LiveOnBus final : public LiveEndpoint {
   void take_pings(const std::function<void(const bus::ClockPing&)>& visit) override {
     parts_.pings.take(visit);
   }
+  // A lost answer costs one reading; the host asks again.
   void answer(bus::ClockPong& pong) override { static_cast<void>(parts_.pongs.write(pong)); }
   void take_states(const std::function<void(const bus::HostState&)>& visit) override {
     parts_.states.take(visit);
@@ -42,6 +43,7 @@ class LiveOnBus final : public LiveEndpoint {
     parts_.states.refuse(state, why);
   }
   void send(bus::World& world) override {
+    // A world that cannot be sent is not repeated, because the next one replaces it.
     static_cast<void>(parts_.worlds.write(world));
     world_ = world.step;
   }
@@ -78,6 +80,7 @@ Result<std::unique_ptr<LiveEndpoint>> LiveEndpoint::open(const LiveManagerOption
   RAVE_TRY(waits.add(pings));
   RAVE_TRY(waits.add(states));
   RAVE_TRY(endpoint->wake(waits));
+  // After all readers exist, since hosts answer at once.
   RAVE_TRY(endpoint->introduce());
   return std::make_unique<LiveOnBus>(
       LiveParts{std::move(endpoint), std::move(worlds), std::move(pongs), std::move(obstacles),

@@ -15,8 +15,12 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 /// Between the decision that a run begins and its time 0: hosts hear of it and start together.
+/// Hosts ask for the time every 10 to 100 ms before the start, so all of them know the moment well
+/// before it comes.
 constexpr milliseconds kLead{300};
 constexpr std::size_t kMostNames = 5;
+// Hosts end by their own clocks. One that ends this much earlier than the manager is done, not
+// lost.
 constexpr Duration kDeparture = from_seconds(0.2);
 
 std::int64_t ns_of(Clock::time_point when) {
@@ -38,6 +42,7 @@ std::string LiveRun::missing() const {
 void LiveRun::begin_in(std::chrono::nanoseconds lead) {
   begun_ = true;
   zero_ns_ = ns_of(Clock::now() + lead);
+  // Worlds begin before time 0: hosts that need the poses of others wait for a first one.
   next_world_ = Clock::now();
   next_tell_ = {};
 }
@@ -59,6 +64,9 @@ void LiveRun::begin_if_ready() {
   }
   if (first_host_ == Clock::time_point{}) first_host_ = Clock::now();
   const std::string waits_for = missing();
+  // The patience for missing hosts counts from the first host, not from the start of this process:
+  // people may start the manager long before the hosts. A standstill of this process is not the
+  // fault of hosts.
   if (waits_for.empty()) {
     begin_in(kLead);
     edits_->begin(false);
@@ -83,11 +91,14 @@ void LiveRun::leave_alone(std::int64_t run_ns) {
 }
 
 void LiveRun::hear(const bus::ClockPing& ping) {
+  // Read first: the time until the answer is subtracted by the host, so it does not matter how long
+  // this process takes.
   const std::int64_t received_ns = ns_of(Clock::now());
   if (!board_->claim_slot(ping)) {
     next_look_ = {};  // it may have introduced itself just now
     return;
   }
+  // A host that knows a time of the run was in it before this manager.
   if (!begun_ && ping.run_ns >= 0) {
     if (!options_.resume) return leave_alone(ping.run_ns);
     take_over(ping.run_ns);
@@ -100,16 +111,19 @@ void LiveRun::hear(const bus::ClockPing& ping) {
   pong.begun = begun_;
   pong.zero_ns = zero_ns_;
   pong.obstacle_revision = edits_->revision();
+  // Read last, for the same reason.
   pong.pong_sent_ns = ns_of(Clock::now());
   board_->answer(pong);
 }
 
 Status LiveRun::listen() {
+  // Pings first, because their time of reception is measured when they are taken.
   board_->take_pings([this](const bus::ClockPing& ping) { hear(ping); });
   if (left_alone_) return tl::unexpected(*left_alone_);
   board_->take_states();
   board_->take_findings();
   board_->endpoint().serve_requests();
+  // The rest is not urgent, and in a large run it costs more than a world.
   if (Clock::now() < next_look_) return {};
   next_look_ = Clock::now() + kLook;
   // Towards the end each host goes when it is done.
@@ -121,6 +135,7 @@ Status LiveRun::listen() {
 }
 
 void LiveRun::tell_silence(const std::vector<std::string_view>& names, std::string_view what) {
+  // A lost host of a swarm would otherwise log one line for each robot.
   const std::size_t told = names.size() <= kMostNames ? names.size() : kMostNames - 1;
   for (std::size_t i = 0; i < told; ++i) log(LogLevel::kWarning, "robot `{}` {}", names[i], what);
   if (told < names.size()) {
@@ -188,10 +203,13 @@ Result<LiveManagerOutcome> LiveRun::go() {
     if (begun_) wake = std::min(wake, next_world_);
     const auto left =
         std::chrono::duration_cast<std::chrono::nanoseconds>(wake - Clock::now()).count();
+    // A message of a host or a request ends the wait; otherwise it ends for the next world or the
+    // next look.
     board_->wait(Duration{std::max<std::int64_t>(0, left)},
                  options_.control != nullptr ? options_.control->asked() : std::stop_token());
     RAVE_TRY(listen());
     begin_if_ready();
+    // Edits come before the world of the same turn, so a host receives both with one wake.
     if (begun_) RAVE_TRY(edits_->look(now()));
     if (begun_ && Clock::now() >= next_world_) send_world();
     if (Clock::now() >= next_tell_) {
@@ -240,6 +258,7 @@ LiveManagerOutcome LiveRun::outcome() {
                         ? ""
                         : fmt::format(" ({} times)", board_->endpoint().standstills())));
   }
+  // The run is judged before the farewell, during which time passes, too.
   const bool over = begun_ && now().ns >= options_.duration.ns;
   outcome.problems = problems_;
   outcome.whole = over && problems_.empty() && outcome.refused.empty();

@@ -27,6 +27,8 @@ Result<ManagerOutcome> manage(sim::EngineSpec spec, const ManagerOptions& option
                                                     options.begin_request, options.on_command));
   SteppedRun run(options, std::move(authority), std::move(board));
   auto outcome = run.go();
+  // Hosts wait for the next world. An error here must reach them, or they would wait for a manager
+  // that is gone.
   if (!outcome) run.give_up(outcome.error());
   return outcome;
 }

@@ -26,6 +26,8 @@ std::string on_the_wire(const std::string& name) {
 
 RosterBook::RosterBook(std::vector<Robot> robots, const std::vector<config::PlannedHost>& hosts)
     : robots_(std::move(robots)), host_of_(robots_.size(), rave_wire_kNone) {
+  // The wire cuts long names, so names of the scenario are cut in the same way before they are
+  // compared.
   for (Robot& robot : robots_) robot.name = on_the_wire(robot.name);
   for (std::uint32_t h = 0; h < hosts.size(); ++h) {
     host_names_.push_back(hosts[h].name);
@@ -56,12 +58,15 @@ std::optional<std::string> RosterBook::once(std::uint64_t writer, std::string wh
 
 std::optional<std::string> RosterBook::hear(const bus::RosterEntry& entry, std::uint64_t serving) {
   if (std::string why = wrong(entry); !why.empty()) return once(entry.writer, std::move(why));
+  // A process that is about to replace the present one may describe its robots before it gets the
+  // slot, so books of other processes are kept, in limited number.
   const bool room =
       books_.size() < host_names_.size() + kMoreBooks || books_.contains(entry.writer);
   if (room || entry.writer == serving) {
     books_[entry.writer][entry.robot] = {entry.kind == rave_wire_ROBOT_SIMULATED, entry.takes};
     news_ = true;
   }
+  // A free slot: the process that sent this may take it next.
   if (serving == 0 || serving == entry.writer) return std::nullopt;
   return once(entry.writer,
               fmt::format("a second robot `{}`: its host `{}` is served by process {:016x}",
@@ -82,6 +87,7 @@ const RosterBook::Said* RosterBook::said(std::size_t robot, std::uint64_t servin
 
 bool RosterBook::simulated(std::size_t robot, std::uint64_t serving) const {
   const Said* const its = said(robot, serving);
+  // Until the host has described the robot, the scenario counts.
   return its != nullptr ? its->simulated : robots_[robot].simulated;
 }
 

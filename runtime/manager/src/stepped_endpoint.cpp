@@ -52,6 +52,8 @@ bool SteppedOnBus::take_last_world(sim::WorldStep& world, sim::AuthorityState& a
                                    bool has_one) {
   bool newer = false;
   parts_.last_worlds.take([&](const bus::LastWorld& sample) {
+    // The newest of all worlds is the one to continue from. Hosts may be one step apart, because a
+    // lost manager may have reached only some of them.
     if (!knows(sample.writer) || ((has_one || newer) && sample.step <= world.step)) return;
     sim::WorldStep handed;
     sim::AuthorityState state;
@@ -69,6 +71,7 @@ bool SteppedOnBus::take_last_world(sim::WorldStep& world, sim::AuthorityState& a
 Status SteppedOnBus::send(const sim::WorldStep& world, const sim::AuthorityState& authority,
                           const std::vector<HostSlot>& slots) {
   sent_ = nullptr;
+  // The message is kept: a host that has missed it gets the same bytes again.
   RAVE_TRY_ASSIGN(sent_, message_.fill(world, authority, epoch_));
   step_ = world.step;
   return write(slots);
@@ -76,6 +79,8 @@ Status SteppedOnBus::send(const sim::WorldStep& world, const sim::AuthorityState
 
 Status SteppedOnBus::write(const std::vector<HostSlot>& slots) {
   writers_.clear();
+  // By host, the process that the world is for. A process that has lost its slot meanwhile must not
+  // act on it.
   for (const HostSlot& slot : slots) writers_.push_back(slot.writer);
   message_.address(writers_);
   return parts_.worlds.write(*sent_);

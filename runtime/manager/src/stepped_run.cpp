@@ -121,6 +121,7 @@ Status SteppedRun::make_step() {
   for (std::size_t h = 0; h < slots_.size(); ++h) {
     HostSlot& slot = slots_[h];
     if (!slot.reported) {
+      // The robots of a host that is gone stand: its report is computed here.
       authority_->speak_for(static_cast<std::uint32_t>(h), slot.report);
       miss_steps(slot);
     }
@@ -135,9 +136,14 @@ Status SteppedRun::make_step() {
   for (const sim::Event& event : authority_->events()) {
     contacts_ += event.kind == sim::EventKind::kContact ? 1U : 0U;
   }
+  // Hosts end with the last world. The flag is set before sending, because nothing is sent
+  // afterwards.
   world_.last = world_.last || ending_ || step_ >= options_.steps;
   if (options_.on_world && options_.on_world(*authority_)) ending_ = true;
+  // A next manager needs this state beside the world, so each host keeps both. Newcomers also need
+  // the changes of obstacles since the start.
   RAVE_TRY(board_->send(world_, authority_->state(std::exchange(newcomer_, false)), slots_));
+  // After sending: hosts compute the next step while requests are answered here.
   requests_.after_step(*authority_, world_);
   for (HostSlot& slot : slots_) slot.reported = false;
   ++step_;
@@ -145,6 +151,7 @@ Status SteppedRun::make_step() {
 }
 
 Clock::time_point SteppedRun::due_of(std::uint64_t step) const {
+  // Multiplied, not summed up, so rounding does not accumulate over millions of steps.
   const double due_s =
       static_cast<double>(step - first_step_) * authority_->spec().step.seconds() / options_.pace;
   return began_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s));
@@ -187,6 +194,8 @@ void SteppedRun::hold() {
     if (Clock::now() >= next_tell_) tell_state(rave_wire_RUN_WAITS, "paused");
     tell_progress("`rave resume`");
   }
+  // A pause moves the deadlines of all later steps, which would otherwise be made as fast as
+  // possible.
   began_ += Clock::now() - since;
 }
 
@@ -207,8 +216,14 @@ runtime::RunStatus SteppedRun::first_status() const {
   return status;
 }
 
+/// The loop: gather the reports of all hosts for step n, resolve it, begin step n + 1, send its
+/// world. Meanwhile hosts wait for that world; those that do not receive it repeat their report,
+/// and get the world again. All of it is on one thread, and requests are served between the
+/// messages.
 Result<ManagerOutcome> SteppedRun::go() {
   tell_state(rave_wire_RUN_GATHERS, fmt::format("waiting for {}", waited_for()));
+  // The first reports are those of step 0, or of a later step if these hosts come from a lost
+  // manager.
   RAVE_TRY_ASSIGN(Gathered gathered, gather());
   if (gathered == Gathered::kStopped) {
     problems_.push_back(fmt::format("stopped while waiting for {}", waited_for()));
@@ -226,6 +241,8 @@ Result<ManagerOutcome> SteppedRun::go() {
           fmt::format("stopped in step {} while waiting for {}", step_, waited_for()));
       break;
     }
+    // The order: all reports are here, so a pause holds the run between two steps. Then the pace is
+    // waited for, and requests that arrived meanwhile still count for this step.
     hold();
     wait_for_turn();
     requests_.listen(*authority_);
@@ -269,6 +286,8 @@ ManagerOutcome SteppedRun::outcome() {
   }
   outcome.problems = problems_;
   outcome.whole = begun_ && world_.last && problems_.empty();
+  // Each item of the run hash was added by one process, so the sum over all is that of a single
+  // process. If a host has missed a step the sum would be of another run.
   if (begun_ && world_.last && !lost_any_) {
     RunHash hash = authority_->hash();
     for (const HostSlot& slot : slots_) hash.merge(RunHash::of_value(slot.hash));

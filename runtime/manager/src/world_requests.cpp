@@ -88,6 +88,9 @@ Status WorldRequests::check_released(const sim::WorldAuthority& authority, Robot
 
 Result<std::uint64_t> WorldRequests::pass_on(const RunRequest& request,
                                              sim::WorldAuthority& authority) {
+  // The authority numbers the request and sends it with the next world. Each host checks it against
+  // its own robots and refuses it in its next report, so the outcome of a change or an order is
+  // known one step later.
   RAVE_TRY_ASSIGN(sim::WorldInput input, runtime::input_of(authority.spec(), request));
   if (input.kind == sim::WorldInput::Kind::kArm) RAVE_TRY(check_released(authority, input.robot));
   if (input.obstacle) {
@@ -102,6 +105,7 @@ Result<std::uint64_t> WorldRequests::pass_on(const RunRequest& request,
 
 void WorldRequests::listen(sim::WorldAuthority& authority) {
   if (!begun_) return;
+  // Leases expire with time, also if no request arrives.
   if (desk_.waits()) {
     desk_.tick(
         [&](const RunRequest& request) -> Result<std::string> {
@@ -116,6 +120,7 @@ void WorldRequests::listen(sim::WorldAuthority& authority) {
 
 void WorldRequests::take(runtime::RunControl::Asked asked, sim::WorldAuthority& authority) {
   if (asked.request().kind == RunRequest::Kind::kList) {
+    // The list is answered at once: it changes nothing and needs no step.
     return asked.answer(runtime::obstacle_list(authority.world()));
   }
   if (asked.request().kind == RunRequest::Kind::kChat) {
@@ -138,6 +143,7 @@ void WorldRequests::take_order(runtime::RunControl::Asked asked, sim::WorldAutho
   const RunRequest request = asked.request();
   if (!request.robot.empty()) {
     const auto robot = runtime::find_robot(authority.spec(), request.robot);
+    // The desk knows leases by name only, so an unknown robot must not get one.
     if (!robot) return asked.answer(fail(robot.error().code, "{}", robot.error().message));
   }
   std::uint64_t number = 0;
@@ -187,6 +193,7 @@ void WorldRequests::put_off(std::string_view why) {
   const auto now = std::chrono::steady_clock::now();
   for (Pending& pending : requests_) {
     if (now - pending.since < kRequestPatience) continue;
+    // The request stays in the list: its outcome is logged when the step is made.
     pending.asked.answer(
         fmt::format("requested; {}, so it is carried out or refused in step {}; the log of this "
                     "process tells the result",
@@ -221,6 +228,7 @@ void WorldRequests::note_inputs(const sim::WorldAuthority& authority, const sim:
   // What a host has refused in the step before, its robot does not do.
   for (const sim::InputRefusal& refusal : authority.refusals()) {
     for (std::uint32_t r = 0; r < orders_.size(); ++r) {
+      // A later order may have replaced the refused one.
       if (order_numbers_[r] != refusal.sequence || orders_[r].empty()) continue;
       orders_[r].clear();
       any = true;
@@ -229,6 +237,7 @@ void WorldRequests::note_inputs(const sim::WorldAuthority& authority, const sim:
   for (const sim::WorldInput& input : world.inputs) {
     note_order(input);
     any = any || sim::is_order(input.kind);
+    // A stop latches until a release, and check_released() refuses to arm before that.
     const bool stops = input.kind == sim::WorldInput::Kind::kStop;
     if (!stops && input.kind != sim::WorldInput::Kind::kRelease) continue;
     any = true;
@@ -255,6 +264,8 @@ void WorldRequests::after_step(const sim::WorldAuthority& authority, const sim::
   auto made = world.obstacles.begin();
   std::vector<Pending> later;
   for (Pending& pending : requests_) {
+    // A host refuses an order in its next report. So an order is kept for one more step (`told`)
+    // before it counts as accepted.
     const auto refusals = authority.refusals();
     const auto refusal = std::find_if(refusals.begin(), refusals.end(), [&](const auto& one) {
       return one.sequence == pending.number;

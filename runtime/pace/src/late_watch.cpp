@@ -31,6 +31,8 @@ void LateWatch::look(const sim::EngineSpec& spec, std::span<const sim::Event> ev
     const bool lost = event.kind == sim::EventKind::kGuardStopped &&
                       event.detail == static_cast<std::uint32_t>(sim::GuardLimit::kWorldLost);
     if (!lost || spec.types[spec.robots[event.robot.value()].type].simulated) continue;
+    // The guard stopped the robot for lack of a fresh world. That is the fault of this process only
+    // if its own steps are at least as late as the world is old.
     const bool ours = lateness_.behind(Clock::now()) >= std::chrono::nanoseconds(world_age.ns);
     if (ours) lateness_.stopped();
   }
@@ -39,6 +41,7 @@ void LateWatch::look(const sim::EngineSpec& spec, std::span<const sim::Event> ev
 void LateWatch::step_done() {
   if (period_ <= Clock::duration::zero()) return;
   const auto now = Clock::now();
+  // Read before done(), which moves on to the next deadline.
   last_ = lateness_.behind(now);
   behind_ = !lateness_.done(now);
   tell_change(last_);
@@ -48,6 +51,8 @@ void LateWatch::step_done() {
 }
 
 void LateWatch::tell_change(Clock::duration late) {
+  // Two thresholds, so that steps near the limit do not fill the log: reported above half a second,
+  // and in time again without any delay.
   if (!told_ && late > kNews) {
     told_ = true;
     log_.warn("run", "steps are {:.2f} s late; most of the time is spent in `{}`", seconds(late),

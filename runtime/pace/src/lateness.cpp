@@ -6,6 +6,10 @@
 #include <algorithm>
 
 namespace rave::runtime {
+// The time between two deadlines is divided among the parts that used it: each call of did() and
+// worked() books the time since the last booking. Times are collected until a step is on time. A
+// missed deadline is blamed on the part with the most, so a backlog of many steps is blamed on what
+// caused it and not on what runs when it is noticed.
 namespace {
 
 constexpr std::array<std::string_view, 5> kParts = {"machine", "requests", "exchange", "record",
@@ -75,6 +79,7 @@ void Lateness::did(Part part, Clock::time_point now) noexcept {
 void Lateness::worked(const sim::PhaseTimes& total, Clock::time_point now) noexcept {
   std::int64_t sum_ns = 0;
   for (std::size_t p = 0; p < sim::kPhases; ++p) {
+    // The engine gives sums since the start.
     const std::int64_t took_ns = total.ns[p] - worked_.ns[p];
     spent_ns_[p] += took_ns;
     sum_ns += took_ns;
@@ -91,6 +96,7 @@ bool Lateness::done(Clock::time_point now) {
   if (period_ <= Clock::duration::zero()) return true;
   ++facts_.deadlines;
   const Clock::duration late = behind(now);
+  // On a grid: a late step does not move the deadlines after it.
   due_ += period_;
   if (late > Clock::duration::zero()) {
     miss(1, late);
@@ -102,9 +108,12 @@ bool Lateness::done(Clock::time_point now) {
 
 void Lateness::end(Clock::time_point last, Clock::time_point now) {
   if (period_ <= Clock::duration::zero() || due_ == Clock::time_point{}) return;
+  // Steps that were due and never made count as missed when the run ends, but not those after its
+  // last one.
   const auto until = std::min(now, last + period_);
   if (until <= due_ + period_) return;
   // The first of the missed deadlines is the longest overdue.
+  // One tick less, because a step whose deadline is exactly now is not late yet.
   const auto count = static_cast<std::uint64_t>((until - due_ - Clock::duration(1)) / period_);
   facts_.deadlines += count;
   if (count > 0) miss(count, until - (due_ + period_));

@@ -36,9 +36,12 @@ void StallWatch::step_ends() {
 void StallWatch::watch() {
   std::unique_lock lock(mutex_);
   while (!ending_) {
+    // A thread of its own, because the thread of the run is the one that hangs. It looks
+    // periodically, so a step need not wake it.
     wake_.wait_for(lock, kLook);
     if (ending_ || !since_ || told_ == step_) continue;
     if (std::chrono::steady_clock::now() - *since_ < kPatience) continue;
+    // Once per step: a driver that never returns is one line in the log.
     told_ = step_;
     log_->warn("run",
                "step {} has not ended for 1 s: a driver or program does not return; `isolate: "

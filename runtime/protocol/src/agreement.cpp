@@ -9,6 +9,9 @@
 namespace rave::runtime {
 
 std::uint64_t shared_number(const config::ExpandedScenario& scenario) {
+  // Settings that cannot change what robots do are set to their defaults before hashing. So a host
+  // on a slower machine may use other threads, and the pace and what happens to lost hosts may be
+  // set at the manager alone.
   const config::ScenarioFile usual;
   config::ExpandedScenario shared = scenario;
   shared.scenario.pace = usual.pace;

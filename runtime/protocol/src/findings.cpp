@@ -8,6 +8,9 @@
 #include "rave/base/hash.hpp"
 #include "rave/bus/sequence.hpp"
 
+// The results of a host may exceed one message, so they travel as numbered parts. The manager
+// assembles them and compares the hash. The host waits until DDS confirms that all bytes have
+// arrived; the manager sends no answer.
 namespace rave::lock_step {
 namespace {
 
@@ -35,6 +38,8 @@ Result<FindingsSender> FindingsSender::create(bus::Bus& bus) {
 
 Status FindingsSender::send(std::uint32_t host, std::span<const std::byte> bytes,
                             Duration patience) {
+  // Remembered before sending, so that the error can tell a manager that was lost meanwhile from
+  // one that was never there.
   const bool listened = readers() > 0;
   if (bytes.empty() || bytes.size() > kMostFindings) {
     return fail(ErrorCode::kInvalidArgument, "they have {} bytes; at most {} can be sent",
@@ -44,6 +49,8 @@ Status FindingsSender::send(std::uint32_t host, std::span<const std::byte> bytes
   bus::FindingsPart part{};
   part.host = host;
   part.size = bytes.size();
+  // The hash is of all bytes and the same in each part. Parts of two attempts of one process can
+  // therefore not be mixed.
   part.hash = content_hash(bytes);
   std::vector<std::uint8_t> piece;
   for (std::size_t at = 0; at < bytes.size(); at += kPart, ++part.part) {
@@ -75,6 +82,7 @@ Status FindingsSender::send(std::uint32_t host, std::span<const std::byte> bytes
 }
 
 Status FindingsParts::add(const bus::FindingsPart& part) {
+  // A writer that repeats its parts after completion would otherwise be collected a second time.
   if (done_.contains(part.writer)) return {};
   const auto [place, is_new] = partial_.try_emplace(part.writer);
   Partial& partial = place->second;
@@ -90,6 +98,7 @@ Status FindingsParts::add(const bus::FindingsPart& part) {
                 part.part, part.host, part.size, partial.host, partial.size);
   }
   const auto bytes = std::as_bytes(bus::elements(part.bytes));
+  // The map orders the parts, which may arrive in any order; a duplicate is ignored.
   partial.parts.try_emplace(part.part, bytes.begin(), bytes.end());
   // All parts but the last are full, so their number tells whether all have arrived.
   if (partial.parts.size() < (partial.size + kPart - 1) / kPart) return {};
@@ -99,6 +108,8 @@ Status FindingsParts::add(const bus::FindingsPart& part) {
 }
 
 Status FindingsParts::finish(std::uint64_t writer, Partial partial) {
+  // Also if the checksum is wrong: the same process cannot send better bytes later, and the manager
+  // must not wait for it.
   done_.insert(writer);
   Findings findings{writer, partial.host, {}};
   findings.bytes.reserve(partial.size);

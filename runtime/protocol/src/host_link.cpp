@@ -8,6 +8,9 @@
 #include "rave/math/transform.hpp"
 
 namespace rave::real_time {
+// A host in real time. After the start it waits for no other process: each step it takes what has
+// arrived, and sends without blocking. Only the start is a conversation: the host finds a manager,
+// asks for its clock until the offset is known, and learns the time 0 of the run.
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -16,6 +19,8 @@ using std::chrono::milliseconds;
 constexpr milliseconds kLook{100};
 /// This many clock readings are taken in quick succession before the start.
 constexpr std::uint64_t kFirstReadings = 8;
+// Several readings at the start, because the one with the shortest round trip has the least error.
+// Later ones only correct the drift of the clocks.
 constexpr milliseconds kHurry{10};
 constexpr milliseconds kLeisure{1000};
 
@@ -46,6 +51,8 @@ Status HostLink::Impl::open_endpoints() {
     RAVE_TRY(make(pings, *bus));
     RAVE_TRY(make(pongs, *bus));
     RAVE_TRY(make(runs, *bus));
+    // Written by hosts, read by a manager that takes the place of a lost one: hosts are then the
+    // only processes that still know the obstacles.
     RAVE_TRY(make(last_obstacles, *bus));
     RAVE_TRY(make(findings, *bus));
     RAVE_TRY(set.add(*pongs));
@@ -64,6 +71,7 @@ Status HostLink::Impl::open_endpoints() {
     RAVE_TRY_ASSIGN(Realities made, Realities::create(*bus, options.self.host, options.host_of));
     realities.emplace(std::move(made));
   }
+  // These wake the wait as well, so a stop that arrives between two steps is handled at once.
   RAVE_TRY_ASSIGN(requests, bus::RequestBox::create(*bus, options.begin_request, options.log));
   if (requests) RAVE_TRY(requests->wake(set));
   RAVE_TRY_ASSIGN(commands, bus::CommandBox::create(*bus, options.on_command));
@@ -72,6 +80,7 @@ Status HostLink::Impl::open_endpoints() {
   waits.emplace(std::move(set));
   RAVE_TRY(make(pulse, *bus, options.self));
   RAVE_TRY(make(host_word, *bus, options.self.host, options.self.name));
+  // The introduction comes last: from then on the manager answers, and all readers must exist.
   introduced = lock_step::introduction(options.self);
   return own_info.write(introduced);
 }
@@ -80,11 +89,13 @@ void HostLink::Impl::ping() {
   if (!pings || manager == 0 || Clock::now() < ping_at) return;
   // The manager does not answer until it knows this process.
   const std::uint64_t done = pongs_heard > 0 ? pongs_heard : pings_sent;
+  // After a change of the manager the time stays known, but its answers are counted anew.
   const bool knows_it = pongs_heard > 0 && time.known();
   const auto wait = done < kFirstReadings ? kHurry : (knows_it ? kLeisure : kLook);
   bus::ClockPing message{};
   message.target = manager;
   message.number = ++pings_sent;
+  // -1: unknown. The manager publishes offset and bound of each host for monitors.
   message.bound_ns = -1;
   message.run_ns = -1;
   const std::int64_t now_ns = local_ns();
@@ -95,6 +106,7 @@ void HostLink::Impl::ping() {
   if (time.known()) message.run_ns = std::max<std::int64_t>(0, time.at(now_ns).ns);
   message.obstacle_revision = shown_revision;
   message.obstacles_ns = shown_since.ns;
+  // Read last, so that filling in the message does not count as travel time.
   message.sent_ns = local_ns();
   static_cast<void>(pings->write(message));
   ping_at = Clock::now() + wait;
@@ -103,11 +115,14 @@ void HostLink::Impl::ping() {
 bool HostLink::Impl::ready() const {
   if (!options.managed) return true;
   if (!time.known() || pongs_heard < kFirstReadings / 2) return false;
+  // Without the obstacles of the run, robots could start inside one that was added.
   if (live.heard_revision() < obstacle_revision) return false;
   return !worlds || world_count > 0;
 }
 
 void HostLink::Impl::start_clock() {
+  // Fixed from here on: drivers and steps need a time that never jumps. shift() puts later
+  // corrections into the stamps of messages.
   if (!options.managed) time.begin_alone(local_ns());
   zero_ns = time.zero_ns();
   started = true;
@@ -121,6 +136,8 @@ void HostLink::Impl::start_clock() {
 }
 
 Duration HostLink::Impl::patience() const noexcept {
+  // Three periods bear two lost worlds. The lower bound keeps a short period from reporting each
+  // delay of a busy machine.
   return std::max(options.world_period * 3, from_seconds(0.5));
 }
 
@@ -170,6 +187,7 @@ Result<bool> HostLink::await_start(const std::function<bool()>& stopping) {
       link.look_at_patience();
       if (stopping() || link.ending) return false;
     }
+    // Short, because the first clock readings are 10 ms apart.
     static_cast<void>(link.waits->wait(Duration{std::chrono::nanoseconds(kHurry).count()}));
   }
   link.start_clock();
@@ -193,6 +211,7 @@ void HostLink::listen_until(std::chrono::steady_clock::time_point due) {
     const auto now = Clock::now();
     if (now >= due || link.ending) break;
     const bool pings = link.pings && link.manager != 0;
+    // An idle wait ends in time for the next clock reading, too.
     const auto until = pings ? std::min(due, std::max(now, link.ping_at)) : due;
     const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(until - now);
     static_cast<void>(link.waits->wait(Duration{left.count()}));
@@ -202,6 +221,7 @@ void HostLink::listen_until(std::chrono::steady_clock::time_point due) {
 
 void HostLink::tell(const sim::Engine& engine, std::span<const RobotId> robots, bool reports) {
   Impl& link = *impl_;
+  // In every step, also if nothing is due: contacts are events of one step.
   link.reports.note_contacts(engine);
   const Duration shift = link.shift();
   link.columns.clear();
@@ -223,6 +243,8 @@ void HostLink::tell(const sim::Engine& engine, std::span<const RobotId> robots, 
 void HostLink::send(const sim::SentPackets& sent) {
   Impl& link = *impl_;
   if (!link.packets_out) return;
+  // The sender limits itself, so that a robot that floods costs the bus nothing; receivers limit
+  // again, with twice the allowance, because they need not trust the sender.
   for (auto& [robot, limit] : link.talk) limit.step();
   for (const sim::SentPacket& packet : sent.packets) {
     TalkLimit& limit = link.talk[packet.robot];
@@ -231,6 +253,8 @@ void HostLink::send(const sim::SentPackets& sent) {
       if (limit.name()) link.flooders.push_back(packet.robot);
       continue;
     }
+    // Numbered without gaps by process. What is withheld above gets no number, so it does not look
+    // like a loss.
     bus::Packet message =
         packet_of(packet, sent.bytes_of(packet), ++link.packets_sent, link.shift());
     if (link.packets_out->write(message)) continue;
@@ -252,6 +276,8 @@ void HostLink::obstacles_shown() {
   if (shown <= link.shown_revision) return;
   link.shown_revision = shown;
   link.shown_since = link.time.at(local_ns());
+  // The next ping leaves at once: it carries the confirmation that a person who made an edit waits
+  // for.
   link.ping_at = {};
 }
 
@@ -259,6 +285,8 @@ Status HostLink::deliver(std::span<const std::byte> findings) {
   Impl& link = *impl_;
   if (link.started) {
     const bool good = !link.ending || link.ending->good;
+    // Monitors learn the end from the host itself, because a run may have no manager, and a GUI
+    // Server does not hear it.
     link.host_word->tell_end(good, link.facts.step, link.ending ? link.ending->text : "");
   }
   if (!link.findings || !link.started) return {};

@@ -20,10 +20,14 @@ constexpr std::int64_t kJump_ns = 1'000'000;
 void HostLink::Impl::meet(const bus::HostInfo& info) {
   const char* const machine = *info.machine != '\0' ? info.machine : "this machine";
   if (info.host == rave_wire_kNone) {
+    // An introduction without a host number is that of a manager.
     if (!options.managed) return;
     if (auto fits = lock_step::check_fits(options.self, info); !fits) {
+      // A manager of another scenario must not end this run by its words.
       words.shut_out(info.writer);
       if (started) tell_foreign(LogLevel::kError, "refused: " + fits.error().message);
+      // Before the start this ends await_start(). Afterwards nobody reads it, and the run
+      // continues.
       unfit = std::move(fits).error();
       return;
     }
@@ -31,6 +35,7 @@ void HostLink::Impl::meet(const bus::HostInfo& info) {
     const auto same = [&](const auto& known) { return known.writer == info.writer; };
     if (std::any_of(managers.begin(), managers.end(), same)) return;
     managers.push_back(info);
+    // A second manager is only remembered: this host listens to the first until that one is lost.
     if (managers.size() == 1) listen_to_first();
     return;
   }
@@ -59,6 +64,7 @@ void HostLink::Impl::take_pongs() {
     if (!heard) {
       pongs->refuse(pong, heard.error().message);
     } else {
+      // Without the time that the manager needed between receiving and answering.
       facts.round_trip_ns =
           heard_ns - pong.ping_sent_ns - (pong.pong_sent_ns - pong.ping_received_ns);
     }
@@ -73,14 +79,19 @@ void HostLink::Impl::take_worlds() {
   worlds->take([this](const bus::World& world) {
     if (world.writer != manager) return;
     ++world_count;
+    // Worlds are numbered from 1, so a gap is the number of lost ones. After a change of the
+    // manager the count begins anew.
     if (last_world_number != 0 && world.step > last_world_number) {
       facts.missed += world.step - last_world_number - 1;
     }
     last_world_number = world.step;
     last_world = Clock::now();
+    // Stamps on the wire are in the time of the run, those of the engine in the time of this host.
     const Duration back{-shift().ns};
     for (std::size_t i = 0; i < world.robots.id._length; ++i) {
       const RobotSight sight = read_robot(world.robots, i, back);
+      // LiveWorld refuses robots of this host. Before the start they show where an earlier process
+      // of this host left them, and where they begin again.
       if (!live.see(sight) && !started) {
         std::erase_if(starts, [&](const auto& start) { return start.robot == sight.robot; });
         starts.push_back(sight);
@@ -91,6 +102,7 @@ void HostLink::Impl::take_worlds() {
 
 /// Each process numbers its packets, so a gap in the numbers means lost packets.
 void HostLink::Impl::note_number(const bus::Packet& packet) {
+  // Forgetting costs the count of one gap; an unbounded table could be filled by invented writers.
   if (packets_heard.size() >= kMostProcesses) packets_heard.clear();
   std::uint64_t& newest = packets_heard[packet.writer];
   if (newest != 0 && packet.number > newest + 1) packets_lost += packet.number - newest - 1;
@@ -195,6 +207,8 @@ void HostLink::Impl::look_at_patience() {
 }
 
 /// Work that can wait until nothing else is due.
+/// Introductions come before the states of the run, because a state counts only if its manager is
+/// known to be of this run. Losses come last, so that the last words of a lost process still count.
 void HostLink::Impl::look() {
   take_infos();
   if (runs) {
@@ -227,6 +241,9 @@ void HostLink::Impl::tell_word() {
 }
 
 void HostLink::Impl::take() {
+  // The order: first what must not be late (the pulse, clock answers, whose reception is stamped),
+  // then data for the next step. Obstacles come last, because look() may change the manager and
+  // with it their reader.
   pulse->beat(facts);
   tell_word();
   if (pongs) take_pongs();

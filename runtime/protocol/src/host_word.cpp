@@ -23,6 +23,8 @@ void HostWord::describe(std::string scenario, std::uint64_t steps, double step_s
 void HostWord::measure(std::uint64_t step, Clock::time_point now) {
   const auto passed = now - measured_at_;
   if (passed < kMeasure) return;
+  // Steps may go back if the host rejoins a run, and the first call has no interval yet: the speed
+  // is then unknown, not negative.
   const bool known = measured_at_ != Clock::time_point() && step >= measured_step_;
   const double passed_s = std::chrono::duration<double>(passed).count();
   speed_ = known ? static_cast<double>(step - measured_step_) * step_s_ / passed_s : 0;
@@ -35,6 +37,7 @@ void HostWord::tell(const Facts& facts) {
   if (now < next_ || step_s_ <= 0) return;
   next_ = now + kInterval;
   measure(facts.step, now);
+  // The speed is measured before, so that a monitor that appears later receives it at once.
   if (writer_.readers() > 0) write(facts);
 }
 
@@ -42,6 +45,7 @@ void HostWord::tell_end(bool good, std::uint64_t step, std::string_view text) {
   if (step_s_ <= 0) return;
   speed_ = 0;
   Facts facts{good ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED, step, text};
+  // At the end the manager may have gone already, which is no loss.
   facts.manager_here = true;
   write(facts);
 }

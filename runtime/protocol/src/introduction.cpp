@@ -38,10 +38,15 @@ bus::HostInfo introduction(const Identity& self) {
 }
 
 bool gives_way(const bus::HostInfo& self, const bus::HostInfo& other) noexcept {
+  // Both processes compare the same two pairs, so exactly one of them gives way. Start times are
+  // wall-clock times of possibly two machines and may be wrong or equal; the random writer number
+  // decides the rest.
   return std::tie(self.started_ns, self.writer) > std::tie(other.started_ns, other.writer);
 }
 
 Status check_fits(const Identity& self, const bus::HostInfo& other) {
+  // The build first: another build may also hash the same scenario differently, and that message
+  // would mislead.
   if (other.interface_stamp != self.interface_stamp) {
     return fail(ErrorCode::kState,
                 "`{}` is another build of RAVE (version {}, here {}): all processes of a run need "

@@ -13,6 +13,8 @@ RobotSight read_robot(const rave_wire_PlanarRobots& robots, std::size_t index, D
   sight.stamp = SimTime{bus::elements(robots.stamp_ns)[index]} + shift;
   sight.X_WR = {bus::elements(robots.x_m)[index], bus::elements(robots.y_m)[index],
                 wrap_angle(bus::elements(robots.yaw_rad)[index])};
+  // On the wire velocities are in the world frame, for readers that know no robot frame. Engines
+  // use the body frame.
   const Vec2 v_W{bus::elements(robots.vx_mps)[index], bus::elements(robots.vy_mps)[index]};
   const Vec2 v_B = rotate(-sight.X_WR.yaw, v_W);
   sight.velocity = {v_B.x, v_B.y, bus::elements(robots.wz_radps)[index]};
@@ -45,6 +47,7 @@ bus::Packet packet_of(const sim::SentPacket& sent, std::span<const std::byte> by
   packet.located = sent.located != 0;
   packet.line_of_sight = sent.line_of_sight != 0;
   // Cyclone DDS does not write to samples that it sends.
+  // The payload is lent, not copied: `bytes` must live until the packet has been written.
   packet.payload._buffer =
       const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(bytes.data()));
   packet.payload._length = static_cast<std::uint32_t>(bytes.size());
@@ -60,6 +63,8 @@ sim::SentPacket read_packet(const bus::Packet& packet, Duration shift) {
   sent.sequence = packet.sequence_number;
   sent.to = {static_cast<RecipientKind>(packet.to_kind), packet.to_robot};
   sent.stamp_ns = packet.sent_ns + shift.ns;
+  // When the transmission was complete is not on the wire. LiveWorld replaces it by the step in
+  // which the packet counts.
   sent.complete_ns = sent.stamp_ns;
   sent.x_m = packet.x_m;
   sent.y_m = packet.y_m;

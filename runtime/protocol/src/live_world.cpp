@@ -13,6 +13,9 @@
 namespace rave::real_time {
 namespace {
 
+// The authority here sees a run of two hosts: this one, and one that stands for all others. So real
+// time uses the same engine and authority as lock-step, only the second report is computed and not
+// received.
 constexpr std::uint32_t kOwn = 0;
 constexpr std::uint32_t kOthers = 1;
 constexpr std::uint32_t kNone = RobotId::kNone;
@@ -57,6 +60,8 @@ sim::EngineSpec world_of(const sim::EngineSpec& spec, const std::vector<std::uin
   for (std::size_t r = 0; r < local.size(); ++r) {
     std::uint32_t& type = world.robots[r].type;
     if (local[r] != 0 || !spec.types[type].simulated) continue;
+    // One more type per type that has robots elsewhere, with `simulated` off and a pose source:
+    // that is what an authority calls a real robot, which it places and never pushes.
     if (placed[type] == kNone) {
       placed[type] = static_cast<std::uint32_t>(world.types.size());
       world.types.push_back(outline_of(spec.types[type]));
@@ -79,6 +84,7 @@ sim::EngineSpec world_of(const sim::EngineSpec& spec, const std::vector<std::uin
 Status check_sight(const ObstacleSight& sight, const world::WorldModel& start) {
   const std::uint32_t id = sight.stands.id.value();
   const bool adds = sight.stands.kind == sim::ObstacleChange::Kind::kAdd;
+  // Bodies are numbered: obstacles of the start, robots, then obstacles added during the run.
   const std::size_t first_added = start.obstacles.size() + start.robots.size();
   const bool possible =
       adds ? id >= first_added && id - first_added < sim::ObstacleChange::kMostAdded
@@ -87,6 +93,7 @@ Status check_sight(const ObstacleSight& sight, const world::WorldModel& start) {
     return fail(ErrorCode::kInvalidArgument, "{} {} does not belong to the run",
                 adds ? "an added obstacle with the number" : "obstacle", id);
   }
+  // A huge revision from a faulty process would make all later, right ones look old.
   if (sight.revision == 0 || sight.revision > ObstacleSight::kMostRevision) {
     return fail(ErrorCode::kInvalidArgument,
                 "obstacle {} has the change number {}; expected 1 to {}", id, sight.revision,
@@ -111,10 +118,13 @@ LiveWorld::LiveWorld(const sim::EngineSpec& spec, std::unique_ptr<sim::WorldAuth
     other.last.robot = RobotId(r);
     const sim::RobotType& twin = spec.types[spec.robots[r].twin.value_or(spec.robots[r].type)];
     other.staleness = type.staleness;
+    // The twin may have a different limit. The robot starts with its first set of drivers, so that
+    // one overwrites the twin's if both are of one kind.
     other.staleness_of.fill(type.staleness);
     other.staleness_of[twin.simulated ? 1 : 0] = twin.staleness;
     other.staleness_of[type.simulated ? 1 : 0] = type.staleness;
     other.real = !type.simulated;
+    // Below any stamp, so that the first sample counts.
     other.sample_ns = INT64_MIN;
   }
 }
@@ -136,6 +146,7 @@ bool LiveWorld::see(const RobotSight& sight) {
   const std::uint32_t r = sight.robot.value();
   if (r >= other_of_.size() || other_of_[r] == kNone || !finite(sight)) return false;
   Other& other = others_[other_of_[r]];
+  // A world repeats the last pose of each robot until its host reports a newer one.
   if (!other.any_stamp && sight.stamp <= other.last.stamp) return false;
   other.last = sight;
   other.known = true;
@@ -154,6 +165,7 @@ bool LiveWorld::see(ObstacleSight sight) {
   if (!check(sight)) return false;
   const std::uint32_t id = sight.stands.id.value();
   std::uint64_t& known = revision_of_[id];
+  // A reader that is made anew receives all obstacles again.
   if (sight.revision <= known) return false;
   known = sight.revision;
   heard_revision_ = std::max(heard_revision_, sight.revision);
@@ -165,6 +177,8 @@ bool LiveWorld::see(ObstacleSight sight) {
 /// for it.
 void LiveWorld::adopt_obstacles(std::uint64_t step) {
   if (news_.empty()) return;
+  // The authority numbers additions itself, by appending. So they must be applied in this order for
+  // all hosts to have the same numbers.
   std::uint32_t next = authority_->world().body_count();
   for (auto it = news_.begin(); it != news_.end() && it->first <= next; it = news_.erase(it)) {
     const bool is_new = it->first == next;
@@ -179,8 +193,11 @@ void LiveWorld::adopt(const ObstacleSight& sight, bool is_new) {
   using Kind = sim::ObstacleChange::Kind;
   const world::Obstacle* const obstacle = authority_->world().obstacle(sight.stands.id.value());
   sim::ObstacleChange change = sight.stands;
+  // A removed obstacle never comes back under its number.
   if (!is_new && (obstacle == nullptr || obstacle->removed)) return;
   if (!is_new && change.kind == Kind::kAdd) {
+    // The manager publishes an added obstacle with its body each time it changes. Here it exists
+    // already, so the rest is a move.
     change.body = {};
     change.kind = Kind::kMove;
     if (!sight.removed) authority_->adopt(change);
@@ -194,9 +211,13 @@ void LiveWorld::adopt(const ObstacleSight& sight, bool is_new) {
 }
 
 void LiveWorld::clock_changed() {
+  // Otherwise stamps by a clock that is behind the old one would be refused until they had caught
+  // up.
   for (Other& other : others_) other.any_stamp = true;
 }
 
+// Two limits: one for the step, which protects this host from many robots, and one per robot, which
+// keeps a flooding robot from using up the room of the others.
 bool LiveWorld::has_room_for(Other& other, std::size_t bytes) {
   if (heard_.packets.size() >= kMostPackets || heard_.bytes.size() + bytes > kMostBytes) {
     return false;
@@ -211,6 +232,8 @@ bool LiveWorld::hear(std::uint64_t writer, const sim::SentPacket& packet,
   const std::uint32_t r = packet.robot.value();
   if (r >= other_of_.size() || other_of_[r] == kNone) return false;
   const sim::EngineSpec& spec = authority_->spec();
+  // The bus has checked the format. These bounds depend on the scenario, which the bus does not
+  // know.
   const bool sane = packet.communicator < spec.types[spec.robots[r].type].communicators.size() &&
                     bytes.size() <= sim::SentPacket::kMostBytes &&
                     packet.to.kind <= RecipientKind::kTeam && std::isfinite(packet.x_m) &&
@@ -219,7 +242,10 @@ bool LiveWorld::hear(std::uint64_t writer, const sim::SentPacket& packet,
   if (!sane) return false;
   // A restarted process counts from the beginning.
   Counted& newest = newest_[{r, packet.communicator}];
+  // Messages of one process arrive in order, so one that is not newer is a duplicate.
   if (newest.writer == writer && packet.sequence <= newest.sequence) return false;
+  // Noted before the limits: a packet that was dropped must not be accepted as new when it is
+  // repeated.
   newest = {writer, packet.sequence};
   if (!has_room_for(others_[other_of_[r]], bytes.size())) {
     ++dropped_packets_;
@@ -237,6 +263,7 @@ Status LiveWorld::serve(RobotId robot, std::uint32_t type, const Pose2& X_WR) {
   RAVE_TRY(authority_->change_type(robot, type, X_WR));
   std::erase(simulated_, robot);
   if (!authority_->spec().types[type].simulated) return {};
+  // Ascending, as the proposals of a report must be.
   simulated_.insert(std::lower_bound(simulated_.begin(), simulated_.end(), robot), robot);
   return {};
 }
@@ -253,6 +280,7 @@ bool LiveWorld::set_reality(RobotId robot, bool simulated) {
   Other& other = others_[other_of_[r]];
   other.real = !simulated;
   other.staleness = other.staleness_of[simulated ? 1 : 0];
+  // Samples are for looking back in time, which is done for real robots only.
   if (simulated) {
     std::erase_if(samples_, [robot](const sim::PoseSample& one) { return one.robot == robot; });
   }
@@ -263,6 +291,8 @@ Status LiveWorld::begin_at(std::uint64_t step, std::span<const RobotSight> start
                            sim::HostReport& own) {
   if (step == 0) return {};
   const sim::EngineSpec& spec = authority_->spec();
+  // A world as the authority would have left it one step earlier, so that resume() continues at
+  // `step`. Robots of others are absent until their hosts report them.
   sim::WorldStep before;
   before.begin(step - 1, spec.robots.size());
   const auto put = [&before](std::uint32_t robot, const Pose2& X_WR) {
@@ -282,6 +312,7 @@ Status LiveWorld::begin_at(std::uint64_t step, std::span<const RobotSight> start
   RAVE_TRY(authority_->resume(before, {}));
   authority_->repeat_schedule();
   own.step = step;
+  // Its robots stand: the engine has proposed nothing for a step that it did not compute.
   own.proposals.clear();
   for (const RobotId robot : simulated_) own.proposals.robots.push_back(robot.value());
   own.proposals.vx_mps.assign(simulated_.size(), 0);
@@ -294,6 +325,7 @@ void LiveWorld::report_place(Other& other, std::uint64_t step) {
   const SimTime now = time_of(step);
   const RobotSight& last = other.last;
   const Duration age = now - last.stamp;
+  // A robot without any message is absent, which is not stale.
   const bool stale = other.known && age > other.staleness;
   if (stale != other.stale) {
     const std::string text =
@@ -309,6 +341,8 @@ void LiveWorld::report_place(Other& other, std::uint64_t step) {
   report.robot = last.robot;
   if (!other.known) return;
   // Clocks agree only approximately, so a pose may have a stamp that is still in the future here.
+  // The pose is extrapolated for the limit of staleness at most. After that the robot stands where
+  // it would have been then.
   const std::int64_t carried_ns = std::clamp<std::int64_t>(age.ns, 0, other.staleness.ns);
   const Pose2 X_WR = integrate(last.X_WR, last.velocity, Duration{carried_ns}.seconds());
   sim::ReportedPose& reported = report.reported;
@@ -329,6 +363,8 @@ void LiveWorld::report_samples(SimTime now) {
   std::size_t kept = 0;
   for (const sim::PoseSample& sample : samples_) {
     Other& other = others_[other_of_[sample.robot.value()]];
+    // A stamp in the future waits for its step. Of one robot only increasing stamps pass, so its
+    // track is in order.
     if (sample.stamp > now) {
       samples_[kept++] = sample;
     } else if (sample.stamp.ns > other.sample_ns) {
@@ -355,6 +391,7 @@ void LiveWorld::report_packets(std::uint64_t step) {
   for (auto it = order_.begin(); it != end; ++it) {
     sim::SentPacket packet = heard_.packets[*it];
     const std::span<const std::byte> bytes = heard_.bytes_of(packet);
+    // The authority refuses messages from the future, and clocks agree only approximately.
     packet.stamp_ns = std::min(packet.stamp_ns, begin_ns);
     packet.complete_ns = begin_ns;
     others_report_.sent.add(packet, bytes);

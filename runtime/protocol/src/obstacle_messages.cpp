@@ -40,6 +40,9 @@ Result<ConvexPolygon> read_polygon(const rave_wire_BodyShape& wire) {
   std::vector<Vec2> corners;
   for (std::size_t i = 0; i < x.size(); ++i) corners.push_back({x[i], y[i]});
   RAVE_TRY_ASSIGN(ConvexPolygon polygon, ConvexPolygon::make(corners));
+  // make() drops corners on a straight line and may reverse the sense of rotation, which is right
+  // for files. Here all processes must have the same bits, because the run hash and contacts depend
+  // on them.
   bool same = polygon.size() == corners.size();
   for (std::size_t i = 0; same && i < corners.size(); ++i) {
     const Vec2 made = polygon.vertices()[i];
@@ -113,6 +116,8 @@ Status ObstacleParts::put_body(const sim::ObstacleChange& change, rave_wire_Obst
   wire.code_z_max_m = body.code_z1_m;
   if (!bus::put_text(wire.colour, body.colour)) return too_long("the colour", change);
   if (body.shapes.size() > sim::ObstacleChange::kMostShapes) return too_long("the body", change);
+  // The message borrows its arrays from here, so the capacity is reserved first: growing would move
+  // what the pieces before refer to.
   Body& mine = bodies_.emplace_back();
   std::size_t corners = 0;
   for (const world::Shape& shape : body.shapes) corners += shape.vertices().size() + 1;
@@ -171,6 +176,8 @@ Result<sim::ObstacleChange> read_obstacle(const rave_wire_ObstacleChange& wire) 
 }
 
 std::size_t wire_bytes(const sim::ObstacleChange& change) noexcept {
+  // An estimate from above for the limits of a step, not the exact size: 128 bytes of fixed fields
+  // and padding, 64 per piece, two doubles per corner.
   std::size_t bytes = 128 + change.name.size() + change.asked.size() + change.body.colour.size();
   for (const world::Shape& shape : change.body.shapes) {
     bytes += 64 + 16 * (shape.vertices().size() + 1);
@@ -179,6 +186,8 @@ std::size_t wire_bytes(const sim::ObstacleChange& change) noexcept {
 }
 
 Status check_fits(const sim::ObstacleChange& change) {
+  // Goes the way through the wire and back, so a change that another process would refuse is
+  // refused before it is asked for.
   ObstacleParts parts;
   RAVE_TRY(parts.fill(std::span(&change, 1)));
   if (change.kind != Kind::kAdd) return {};

@@ -50,6 +50,7 @@ Result<Pulse> Pulse::create(bus::Bus& bus, const Identity& self, std::chrono::na
 void Pulse::count_real(std::uint32_t robots) noexcept {
   if (state_.real_robots == robots) return;
   state_.real_robots = robots;
+  // Monitors see a hand-over at once and not with the next beat.
   next_ = {};
 }
 
@@ -69,6 +70,7 @@ void Pulse::beat(const Facts& facts) {
   state_.refused = bus_->refused_samples();
   state_.cpu_ns = cpu_ns();
   state_.memory_bytes = memory_bytes();
+  // The next period replaces a beat that was lost.
   static_cast<void>(writer_.write(state_));
 }
 

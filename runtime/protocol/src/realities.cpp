@@ -26,9 +26,11 @@ void Realities::hear() {
 
 void Realities::hear(const bus::RosterEntry& entry) {
   if (entry.host == own_host_) return;
+  // A shadow is a copy beside the robot, which says nothing about the robot's own drivers.
   const bool fits = entry.robot < host_of_.size() && host_of_[entry.robot] == entry.host &&
                     entry.kind != rave_wire_ROBOT_SHADOW;
   if (!fits) {
+    // One event: such a process would otherwise fill the log with each of its robots.
     if (std::exchange(refused_, true)) return;
     reader_.refuse(entry, fmt::format("robot {} does not run on host {}, or is a shadow",
                                       entry.robot, entry.host));
@@ -48,6 +50,8 @@ void Realities::lose(std::uint64_t writer) {
 }
 
 std::vector<RobotReality> Realities::take() {
+  // Books are in the order in which their processes appeared, so the first book of a host wins. If
+  // its process is lost, the next one takes its place here.
   std::map<RobotId, bool> now;
   std::set<std::uint32_t> served;
   for (const Book& book : books_) {

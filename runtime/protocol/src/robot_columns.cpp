@@ -27,6 +27,7 @@ void RobotColumns::clear() noexcept {
 }
 
 void RobotColumns::add(const RobotSight& sight) {
+  // Messages have velocities in the world frame, sights in the body frame.
   const Vec2 v_W = rotate(sight.X_WR.yaw, {sight.velocity.vx, sight.velocity.vy});
   id_.push_back(sight.robot.value());
   x_m_.push_back(sight.X_WR.x);
@@ -53,6 +54,8 @@ void RobotColumns::add(const sim::Engine& engine, RobotId robot, Duration shift)
   const world::RobotState state = engine.snapshot().robot(robot);
   if (!state.present) return;
   const bool simulated = engine.spec().types[engine.spec().robots[robot.value()].type].simulated;
+  // A simulated robot is exactly where it is shown. A real one was there when its pose source
+  // measured it.
   const SimTime stamp = simulated ? engine.time() : engine.reported(robot).stamp;
   const Vec2 v_B = rotate(-state.X_WR.yaw, {state.velocity_W.vx, state.velocity_W.vy});
   add({robot, stamp + shift, state.X_WR, {v_B.x, v_B.y, state.velocity_W.wz}});
@@ -62,6 +65,8 @@ void ReportColumns::note_contacts(const sim::Engine& engine) {
   for (const sim::Event& event : engine.events()) {
     if (event.kind != sim::EventKind::kContact || !event.robot.valid()) continue;
     if (touching_until_s_.empty()) touching_until_s_.assign(engine.spec().robots.size(), -1);
+    // A contact event marks the beginning of a touch only. A flag that held for one step would be
+    // missed by monitors that receive ten states per second.
     touching_until_s_[event.robot.value()] = engine.time().seconds() + kTouch_s;
   }
 }

@@ -10,6 +10,9 @@
 #include "rave/sim/orders.hpp"
 
 namespace rave::lock_step {
+// The roster describes each robot once, for monitors: body, sensors, parameters. A late reader
+// receives the last entry of each robot. Limits cut off rather than fail, because nothing in the
+// run depends on it.
 namespace {
 
 /// The limits of the sequences in roster.idl and of the corners in common.idl.
@@ -20,6 +23,7 @@ constexpr std::size_t kMostCorners = 64;
 /// The number of corners of the polygon that replaces a disc.
 constexpr int kDiscCorners = 16;
 
+// Bodies may be infinitely high, and samples must have finite numbers.
 double height(double z_m) { return std::clamp(z_m, -bus::kMaxPosition_m, bus::kMaxPosition_m); }
 
 }  // namespace
@@ -56,6 +60,7 @@ void RobotDescription::put_shape(const world::Shape& shape) {
 void RobotDescription::put_body(const world::Body& body) {
   const auto shapes = std::span(body.shapes).first(std::min(body.shapes.size(), kMostShapes));
   std::size_t corners = 0;
+  // At most: a disc has no corners of its own, a polygon needs no replacement.
   for (const world::Shape& shape : shapes) corners += shape.vertices().size() + kDiscCorners;
   prisms_.clear();
   x_m_.clear();
@@ -119,7 +124,10 @@ Status Roster::tell(const sim::EngineSpec& spec,
     entry.host = host_;
     entry.revision = revision_ + 1;
     const Status written = writer_.write(entry);
+    // A slow reader blocks the writer. The rest stays due and is tried in a later step, so the run
+    // never waits.
     if (!written && written.error().code == ErrorCode::kTimeout) break;
+    // An entry that cannot be sent at all is not tried again; the others are.
     if (!written) wrong = written;
     ++revision_;
     due_.erase(due_.begin());

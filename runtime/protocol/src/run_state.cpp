@@ -14,6 +14,7 @@ rave_wire_HostSight process_sight(std::uint32_t host, std::string_view name,
   sight.phase = phase;
   sight.robots = robots;
   sight.step = step;
+  // -1: the clock of this process is unknown, as always in lock-step.
   sight.bound_s = -1;
   return sight;
 }

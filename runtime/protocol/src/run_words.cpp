@@ -18,6 +18,7 @@ RunWord run_word(const bus::RunState& state, std::uint32_t host) {
 }
 
 void RunWords::welcome(std::uint64_t writer) {
+  // A manager that was shut out stays out: its introduction cannot improve.
   if (fitting_.size() < kMostKnown && !strangers_.contains(writer)) fitting_.insert(writer);
 }
 
@@ -29,7 +30,10 @@ void RunWords::shut_out(std::uint64_t writer) {
 
 void RunWords::hear(RunWord word) {
   if (strangers_.contains(word.writer)) return;
+  // The newest state of a sender replaces the one before, also among those that wait for an
+  // introduction.
   std::erase_if(said_, [&word](const RunWord& old) { return old.writer == word.writer; });
+  // Senders without introduction cannot displace the word of a known manager.
   if (said_.size() >= kMostKept && !fitting_.contains(word.writer)) return;
   said_.push_back(std::move(word));
 }

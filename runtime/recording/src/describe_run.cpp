@@ -12,6 +12,8 @@ DescribedRun describe_run(const BuiltScenario& built) {
   DescribedRun run{info_of(spec, BodyKinds(spec, built.robot_kinds)),
                    PartKeeper::describe(spec, true)};
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    // Only what the files say: no driver is open here, so limits and bearings of the sensors are
+    // unknown.
     const auto& sensors = spec.types[spec.robots[r].type].sensors;
     for (std::uint32_t s = 0; s < sensors.size(); ++s) {
       record::RecordedSensor sensor;

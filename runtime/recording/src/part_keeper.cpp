@@ -45,6 +45,7 @@ void PartKeeper::follow(const sim::EngineSpec& spec) {
         });
     if (gone) now.hybrids_.push_back(before);
   }
+  // Remembered, so that after a hand-over and back no sample is recorded twice.
   hybrids_ = std::move(now.hybrids_);
 }
 

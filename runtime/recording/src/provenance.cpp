@@ -16,6 +16,8 @@
 #include "rave/config/yaml.hpp"
 
 namespace rave::runtime {
+// A recording repeats only with the same inputs. So it has the SHA-256 of each file that sensors or
+// maps read, and the versions of all drivers; `rave verify` compares both before it runs.
 namespace {
 
 namespace fs = std::filesystem;
@@ -30,11 +32,13 @@ void add_file(const fs::path& path, Files& files) {
   if (!fs::is_regular_file(path, error)) return;
   const std::string name = fs::absolute(path, error).lexically_normal().string();
   if (error || files.contains(name)) return;
+  // A file that cannot be read is left out.
   if (auto hash = sha256_of_file(path)) files.emplace(name, *std::move(hash));
 }
 
 void add_map(const fs::path& yaml, Files& files) {
   add_file(yaml, files);
+  // The image of a map is an input of its own, which the YAML file only names.
   const auto text = read_file(yaml, config::kMaxFileBytes);
   if (!text) return;
   config::Diagnostics diagnostics;
@@ -45,6 +49,7 @@ void add_map(const fs::path& yaml, Files& files) {
 }
 
 void add_recording(const std::string& report, const fs::path& folder, Files& files) {
+  // Drivers that play a file name it in their report, so no list of such drivers is needed here.
   const auto json = nlohmann::json::parse(report, nullptr, false);
   if (!json.is_object() || !json.contains("file") || !json["file"].is_string()) return;
   fs::path path = folder;
@@ -63,6 +68,7 @@ void add_version(plugin::Catalogue& catalogue, std::span<const DriverKind> kinds
 }  // namespace
 
 Result<std::string> sha256_of_file(const fs::path& path) {
+  // A pipe or device would block or never end.
   RAVE_TRY_ASSIGN(const int fd, open_regular_file(path));
   const std::unique_ptr<std::FILE, CloseFile> file(::fdopen(fd, "rb"));
   if (file == nullptr) {
@@ -71,6 +77,7 @@ Result<std::string> sha256_of_file(const fs::path& path) {
   }
   crypto_hash_sha256_state state;
   crypto_hash_sha256_init(&state);
+  // A block at a time, since recordings may be larger than the memory.
   std::vector<unsigned char> block(std::size_t{1} << 20);
   while (true) {
     const std::size_t size = std::fread(block.data(), 1, block.size(), file.get());
@@ -111,6 +118,7 @@ Files versions_of(const sim::EngineSpec& spec, plugin::Catalogue& catalogue) {
   Files versions = {{"rave", RAVE_VERSION}};
   std::vector<std::uint8_t> here(spec.types.size(), spec.local ? 0 : 1);
   if (spec.local) {
+    // Versions of drivers that this host does not load are unknown to it.
     for (const RobotId robot : *spec.local) here[spec.robots[robot.value()].type] = 1;
   }
   for (std::size_t t = 0; t < spec.types.size(); ++t) {

@@ -8,6 +8,8 @@ namespace rave::runtime {
 namespace {
 
 /// The number of actuator commands that are compared in one block before each one is.
+/// Most commands do not change from step to step. One comparison of a block is a single memcmp()
+/// and answers for all of it.
 constexpr std::size_t kCompared = 64;
 
 [[nodiscard]] bool alike(const SampleHeader& a, const SampleHeader& b) noexcept {
@@ -29,6 +31,7 @@ constexpr std::size_t kCompared = 64;
 std::vector<RobotRow> rows_of(std::span<const RobotId> members) {
   std::vector<RobotRow> rows;
   for (std::uint32_t m = 0; m < members.size(); ++m) {
+    // Robots of a group usually have consecutive numbers, so a group is a handful of rows.
     const bool follows =
         !rows.empty() && rows.back().first.value() + rows.back().robots == members[m].value();
     if (follows) {
@@ -68,6 +71,7 @@ void RecordColumns::keep_row(const RobotRow& row, const sim::SampleColumns& samp
   std::uint32_t fresh = 0;
   bool uniform = true;
   for (std::uint32_t i = 0; i < row.robots; ++i) {
+    // A row is written as one block only if all robots have a new sample with the same header.
     fresh += headers[i].sequence != seen[i] ? 1U : 0U;
     uniform = uniform && alike(headers[i], headers[0]);
   }
@@ -108,6 +112,8 @@ void RecordColumns::keep_sample(RobotId robot, std::size_t member,
 }
 
 void RecordColumns::keep_commands(const sim::Engine& engine, record::RunRecorder& recorder) const {
+  // The column has the step in which each command was given; only those of the step that is done
+  // are new.
   const auto last = static_cast<std::int64_t>(engine.steps_done()) - 1;
   for (std::uint32_t c = 0; c < controllers_; ++c) {
     const sim::CommandColumns given = engine.commands(group_, c);
@@ -137,6 +143,7 @@ void RecordColumns::keep_actuators(const sim::Engine& engine, record::RunRecorde
       if (same_bits(&commands[first], &told[first], count)) continue;
       for (std::size_t m = first; m < first + count; ++m) {
         if (same_bits(&commands[m], &told[m], 1)) continue;
+        // Commands to actuators are recorded when they change: they hold until then.
         told[m] = commands[m];
         recorder.actuator({members_[m], DeviceId(a), std::as_bytes(commands.subspan(m, 1))});
       }

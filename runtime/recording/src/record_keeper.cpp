@@ -48,6 +48,7 @@ void describe_sensors(const sim::Engine& engine, std::uint32_t robot, record::Ru
 
 bool same_bits(const Pose2& a, const PoseReading& b) noexcept {
   using Words = std::array<std::uint64_t, 3>;
+  // By bits, because the flag that omits the second pose must not change -0 to 0 or a NaN.
   return std::bit_cast<Words>(a) == std::bit_cast<Words>(Pose2{b.x_m, b.y_m, b.yaw_rad});
 }
 
@@ -68,6 +69,8 @@ RecordKeeper::RecordKeeper(record::RunRecorder recorder, const sim::Engine& engi
   const sim::EngineSpec& spec = engine.spec();
   for (const sim::RobotSpec& robot : spec.robots) {
     const sim::RobotType& type = spec.types[robot.type];
+    // A simulated robot without a pose source is told its true pose, so its two poses are equal and
+    // it has no variances.
     told_truth_.push_back(type.simulated && !type.pose_from ? 1 : 0);
     with_real_ = with_real_ || !type.simulated;
   }
@@ -93,6 +96,7 @@ Result<std::unique_ptr<RecordKeeper>> RecordKeeper::open(const std::filesystem::
 void RecordKeeper::after_step(const StepView& step) {
   const sim::Engine& engine = step.engine;
   recorder_.begin_step(engine.steps_done() - 1, engine.time());
+  // First, because a hand-over in this step decides how poses and parts are recorded below.
   follow(engine);
   parts_.keep(engine, recorder_);
   for (RecordColumns& group : groups_) {
@@ -129,6 +133,8 @@ void RecordKeeper::keep_poses(const sim::Engine& engine) {
         told_truth_[r] != 0 && (!with_real_ || same_bits(engine.snapshot().robots()[r].X_WR,
                                                          engine.reported(RobotId(r)).pose));
     if (in_row) continue;
+    // The robots before this one form a row, which is copied as it lies in the snapshot; this one
+    // is written by itself.
     keep_row(engine, begin, r);
     keep_pose(engine, RobotId(r));
     begin = r + 1;
@@ -148,6 +154,7 @@ void RecordKeeper::keep_pose(const sim::Engine& engine, RobotId robot) {
   pose.robot = robot;
   pose.velocity_W = engine.snapshot().velocity_W(robot);
   const sim::EngineSpec& spec = engine.spec();
+  // The true pose of a real robot is unknown.
   if (spec.types[spec.robots[robot.value()].type].simulated) {
     pose.true_pose = engine.snapshot().pose(robot);
   }

@@ -4,6 +4,7 @@
 namespace rave::runtime {
 namespace {
 
+// Variances change slowly, so ten times a second is enough.
 constexpr std::int64_t kLeast_ns = 100'000'000;
 
 }  // namespace
@@ -21,6 +22,7 @@ void VarianceKeeper::keep(const sim::Engine& engine, const std::vector<std::uint
     if (!reported.known || (pose.variance_xy_m2 <= 0 && pose.variance_yaw_rad2 <= 0)) continue;
     now_.push_back({RobotId(r), pose.variance_xy_m2, pose.variance_yaw_rad2});
   }
+  // Repeated while unchanged, so that a reader that begins in the middle of a recording finds them.
   const bool again = !now_.empty() && time_ns - told_ns_ >= record::kVariancesHold_ns;
   if (now_ == told_ && !again) return;
   // A failed write is told by the end of the step.

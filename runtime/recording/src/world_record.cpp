@@ -24,6 +24,7 @@ Result<std::unique_ptr<WorldRecord>> WorldRecord::begin(const std::filesystem::p
   info.scenario = scenario.scenario.name.value;
   info.expanded_scenario = config::write_expanded(scenario);
   RAVE_TRY_ASSIGN(auto recorder, record::RunRecorder::open(path, info, {}, log));
+  // Tells the merge that this part is that of the manager.
   RAVE_TRY(recorder.describe(record::kHostMetadata, {{"world", "all"}}));
   RAVE_TRY_ASSIGN(const auto hosts, hosts_for_record(scenario));
   RAVE_TRY(recorder.describe(record::kHostsMetadata, hosts));

@@ -10,6 +10,10 @@
 #include "rave/math/transform.hpp"
 
 namespace rave::runtime {
+// The comparison has two views. follow() integrates the twin from the first pose to the end: errors
+// of heading add up, so its gap grows with the way. start_anew() puts the twin back at the robot's
+// pose at the beginning of each window: its gaps are those of one window and comparable between
+// drives of different length.
 namespace {
 
 constexpr std::array kMoments_s = {10.0, 30.0, 60.0};
@@ -39,6 +43,8 @@ Result<Drive> drive(GapTwin& twin, const GapCommands& commands, const GapTrack& 
   Drive result;
   result.step_ns = step_ns;
   const std::int64_t first_ns = std::max<std::int64_t>(track.first().ns, 0);
+  // Rounded up to the first step that is not before the first pose, because the track does not
+  // extrapolate.
   result.first = static_cast<std::uint64_t>((first_ns + step_ns - 1) / step_ns);
   const auto end = static_cast<std::uint64_t>(std::max<std::int64_t>(track.last().ns, 0) / step_ns);
   if (end <= result.first) {
@@ -71,6 +77,7 @@ void follow(const Drive& drive, const GapTrack& track, GapReport& report) {
       report.driven_m += metres_between(X_before, X_WT);
     }
     const auto X_WR = track.at(drive.time(i));
+    // A gap of the track: the twin keeps driving, but there is nothing to compare it with.
     if (!X_WR) continue;
     const double after_s = (drive.time(i) - drive.time(0)).seconds();
     const double metres = metres_between(*X_WR, X_WT);
@@ -80,6 +87,7 @@ void follow(const Drive& drive, const GapTrack& track, GapReport& report) {
     if (metres > report.largest.metres) report.largest = {after_s, metres, degrees};
     report.largest_deg = std::max(report.largest_deg, degrees);
     report.points.push_back({drive.time(i), *X_WR, X_WT});
+    // Half a step of tolerance, so that rounding of times does not move a moment to the next step.
     while (moment < kMoments_s.size() && after_s > kMoments_s[moment] - 0.5 * drive.step_s()) {
       note_moment(report, kMoments_s[moment++], *X_WR, X_WT);
     }
@@ -109,6 +117,8 @@ GapWindows start_anew(const Drive& drive, const GapTrack& track, double window_s
       static_cast<std::size_t>(std::max(1.0, std::round(window_s / drive.step_s())));
   std::vector<double> metres;
   std::vector<double> degrees;
+  // Windows do not overlap, and an incomplete one at the end is omitted: its gap would be that of a
+  // shorter drive.
   for (std::size_t first = 0; first + length <= drive.twists.size(); first += length) {
     const auto start = track.at(drive.time(first));
     const auto end = track.at(drive.time(first + length));

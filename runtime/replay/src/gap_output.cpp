@@ -45,6 +45,7 @@ std::string gap_json(const GapReport& report) {
                      {"p95_m", known(windows.p95_m)},
                      {"median_deg", known(windows.median_deg)},
                      {"p95_deg", known(windows.p95_deg)}};
+  // Text that is not valid UTF-8, such as a file name, is replaced instead of raising an exception.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -63,6 +64,7 @@ Status draw_gap(const GapReport& report, const std::filesystem::path& folder,
   SimTime before = report.points.front().time;
   for (const GapReport::Point& point : report.points) {
     const bool last = &point == &report.points.back();
+    // The points follow each other by steps, so a longer interval means that the pose was unknown.
     if (point.time - before > kPictureStep) {
       robot.gaps.push_back({before.seconds(), point.time.seconds()});
     }

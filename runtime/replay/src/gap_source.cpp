@@ -18,6 +18,7 @@ Pose2 pose_of(const config::PoseFile& file) {
   return {file.x_m, file.y_m, wrap_angle(deg_to_rad(file.yaw_deg))};
 }
 
+// Records are bytes of a file and may be unaligned, so they are copied.
 template <class Reading>
 std::optional<Reading> reading_of(std::span<const std::byte> records) {
   if (records.size() < sizeof(Reading)) return std::nullopt;
@@ -54,6 +55,8 @@ Result<GapTrack> track_of_sensor(const GapSource& source, const record::Recorded
 std::optional<Pose2> frame_of(const GapSource& source, const record::RecordedSensor& sensor) {
   const config::PoseFile& frame = source.file().source_frame;
   if (frame != config::PoseFile{}) return pose_of(frame);
+  // A pose without a frame of its own is one of the world. Odometry begins at the start pose of the
+  // robot, if the scenario states it.
   if (static_cast<ReadingKind>(sensor.kind) == ReadingKind::kPose) return Pose2{};
   if (source.expanded().pose) return pose_of(*source.expanded().pose);
   return std::nullopt;
@@ -108,6 +111,8 @@ Result<GapCommands> commands_of_actuator(const GapSource& source, CommandKind ki
     for (const record::ActuatorRecord& item : step.items) {
       const auto command = reading_of<Command>(item.command);
       if (item.robot != source.robot.id || !command) continue;
+      // `none` counts as well: the actuator had no command then, and the twin must have none,
+      // either.
       const bool fits = command->kind == kind || command->kind == CommandKind::kNone;
       if (fits) commands.commands.push_back({step.time, *command});
     }
@@ -137,6 +142,8 @@ Result<GapCommands> commands_of_program(const GapSource& source, CommandKind kin
 }  // namespace
 
 void GapTrack::add(SimTime time, const Pose2& X_WR) {
+  // Samples are read in the order of the recording. Of two with one stamp the later one counts;
+  // older ones are dropped.
   if (!points_.empty() && time <= points_.back().time) {
     if (time == points_.back().time) points_.back().X_WR = X_WR;
     return;
@@ -150,6 +157,7 @@ std::optional<Pose2> GapTrack::at(SimTime time) const {
   if (after->time == time) return after->X_WR;
   if (after == points_.begin()) return std::nullopt;
   const Point& before = *(after - 1);
+  // Across a long gap a straight line says nothing about where the robot was.
   const Duration between = after->time - before.time;
   if (between > kLongestGap) return std::nullopt;
   return interpolate(
@@ -159,6 +167,7 @@ std::optional<Pose2> GapTrack::at(SimTime time) const {
 
 Command GapCommands::at(SimTime time) const {
   const auto after = std::ranges::upper_bound(commands, time, {}, &At::time);
+  // A command holds until the next one. Before the first one there is none, and the twin stands.
   return after == commands.begin() ? Command{} : (after - 1)->command;
 }
 
@@ -167,6 +176,8 @@ Result<GapTrack> read_track(const GapSource& source, bool truth, std::string& fr
   if (!truth && pose_from) {
     RAVE_TRY_ASSIGN(const auto* const sensor,
                     record::find_sensor(source.run, source.robot, pose_from->value));
+    // The samples of the sensor are preferred: they have the time of the measurement. The recorded
+    // poses have the times of steps.
     if (const auto X_WM = frame_of(source, *sensor)) {
       RAVE_TRY_ASSIGN(GapTrack track, track_of_sensor(source, *sensor, *X_WM));
       from = fmt::format("sensor `{}`", sensor->name);
@@ -196,6 +207,7 @@ Result<GapCommands> read_commands(const GapSource& source, const std::string& se
     }
     return commands_of_sensor(source, sensor);
   }
+  // Such a robot did not execute the commands that are in the recording.
   for (const config::ActuatorFile& actuator : source.file().actuators) {
     if (actuator.driver.value != kDeaf) continue;
     return fail(ErrorCode::kInvalidArgument,

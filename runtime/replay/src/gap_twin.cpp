@@ -26,6 +26,7 @@ class Instance {
   }
   Status make(const InstanceOps& ops) {
     ops_ = &ops;
+    // At least a cache line. aligned_alloc() requires a multiple of the alignment as size.
     const std::size_t alignment = ops.alignment < 64 ? 64 : ops.alignment;
     const std::size_t bytes = (ops.size + alignment - 1) / alignment * alignment;
     memory_ = std::aligned_alloc(alignment, bytes == 0 ? alignment : bytes);
@@ -50,6 +51,7 @@ config::ExpandedScenario alone(config::RobotFile robot, const std::filesystem::p
   scenario.scenario.name = config::Located<std::string>("twin");
   scenario.scenario.step_s = config::Located<double>(step_s);
   scenario.scenario.seed = seed;
+  // Without sensors and program no hardware is opened and no other robot is needed.
   robot.sensors.clear();
   robot.controllers.clear();
   robot.program.reset();
@@ -144,6 +146,8 @@ Result<Twist2> GapTwin::propose(const Command& command, std::uint64_t step) {
   if (failed != 0) {
     return fail(ErrorCode::kPlugin, "driver `{}`: {}", twin.actuator->driver, error.text);
   }
+  // The actuator's dynamics depend on the velocity before, which nothing limits here: the twin is
+  // alone and touches nothing.
   twin.velocity = output;
   return output;
 }

@@ -8,6 +8,9 @@
 #include "rave/host/host_slot.hpp"
 
 namespace rave::runtime {
+// A recording of one host has the sums that this host added to the run hash. To repeat them bit by
+// bit, the run is split in the same way: one engine has the robots of the host, another one all
+// others, and an authority resolves both. Only the first is compared.
 namespace {
 
 constexpr std::uint32_t kOwn = 0;
@@ -36,6 +39,8 @@ Result<std::unique_ptr<HostAgain>> HostAgain::create(const config::ExpandedScena
   std::unique_ptr<HostAgain> again(new HostAgain());
   again->own_report_.host = kOwn;
   again->rest_report_.host = kRest;
+  // A spec owns parts of drivers and cannot be copied, so the scenario is built once for each of
+  // the three.
   RAVE_TRY_ASSIGN(sim::EngineSpec own, spec_of(slot.robots));
   own.on_step_done = [raw = again.get()] {
     if (raw->look) raw->look();
@@ -68,6 +73,8 @@ Status HostAgain::step() {
   if (!std::exchange(begun_, true)) RAVE_TRY(propose());
   const std::array<const sim::HostReport*, 2> reports = {&own_report_, &rest_report_};
   RAVE_TRY(authority_->step(std::span(reports).first(rest_ ? 2 : 1), world_));
+  // The next step is proposed right away, as in a host: its report contains the hardware samples of
+  // that step.
   RAVE_TRY(own_->apply(world_));
   if (rest_) RAVE_TRY(rest_->apply(world_));
   return propose();

@@ -14,6 +14,9 @@
 #include "rave/sim/event.hpp"
 
 namespace rave::runtime {
+// Two recordings are compared message by message as bytes, which is fast. Only where bytes differ
+// are the messages decoded, to name the robot and channel, or to find that a merged recording has
+// the same items in another order.
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -65,6 +68,7 @@ std::string reading_text(const record::Percept& percept) {
   std::string text = fmt::format("stamp {:.9f} s, {} records",
                                  SimTime{percept.header.stamp_ns}.seconds(), percept.header.count);
   const auto kind = static_cast<ReadingKind>(percept.kind);
+  // Ranges are floats, the other plain readings consist of doubles.
   const std::size_t word = kind == ReadingKind::kRanges ? sizeof(float) : sizeof(double);
   const bool plain = kind == ReadingKind::kRanges || kind == ReadingKind::kPose ||
                      kind == ReadingKind::kOdometry || kind == ReadingKind::kVelocity ||
@@ -310,11 +314,13 @@ Result<RecordMatch> match_records(const record::McapReader& recorded,
       // The last step of an interrupted recording may be incomplete.
       if (broken_off && recorded_messages.size() < new_messages.size()) continue;
       match.messages += recorded_messages.size();
+      // The usual case: nothing is decoded.
       if (a.time_ns() == b.time_ns() && recorded_messages == new_messages) continue;
       const auto of_run = without_leases(topic, recorded_messages);
       if (a.time_ns() == b.time_ns() && of_run == new_messages) continue;
       match.difference = difference_of(topic, of_run, new_messages, run, form.merged);
       if (!match.difference && a.time_ns() == b.time_ns()) continue;
+      // The earlier of the two times is the step that only one of the runs has.
       const std::uint64_t time_ns = std::min(a.time_ns(), b.time_ns());
       RunDifference there = difference_at(time_ns, run, topic, "not at the same time");
       if (match.difference) {

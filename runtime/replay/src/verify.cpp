@@ -57,6 +57,7 @@ Result<std::vector<std::uint64_t>> read_hashes(const record::McapReader& reader)
   std::vector<std::uint64_t> hashes;
   const auto take = [&](const record::MessageView& message) -> Status {
     RAVE_TRY_ASSIGN(const record::StepHash hash, record::decode_hash(message.bytes));
+    // By step without gaps; a duplicate of a merged recording is ignored.
     if (hash.step == hashes.size()) hashes.push_back(hash.hash);
     return {};
   };
@@ -121,6 +122,8 @@ class InputReplay {
   /// they succeeded.
   Status serve(const Again& again, RecordKeeper& keeper, VerifyOutcome& outcome) {
     const std::uint64_t step = again.engine.steps_done();
+    // A request counts from the step that was due when it was made, so it is repeated before that
+    // step.
     for (; next_ < inputs_.size() && inputs_[next_].step <= step; ++next_) {
       const record::RunInput& input = inputs_[next_];
       const auto kind = request_kind(input.kind);
@@ -132,6 +135,7 @@ class InputReplay {
       RAVE_TRY_ASSIGN(const RunRequest request, request_of(*kind, input));
       const auto answer = again.ask(request);
       if (answer) {
+        // The second recording needs the inputs as well, or it would differ from the first.
         keeper.keep(request, step);
       } else {
         outcome.notes.push_back(
@@ -326,6 +330,7 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   }
   const Again again = of_host ? again_of(*of_host) : again_of(*alone);
   const sim::Engine& engine = again.engine;
+  // Other versions are a note and not an error: the comparison shows whether they matter.
   compare_versions(run, versions_of(engine.spec(), catalogue), outcome);
   RAVE_TRY_ASSIGN(const auto hashes, read_hashes(reader));
   RAVE_TRY_ASSIGN(const Scratch scratch, Scratch::create());
@@ -334,6 +339,7 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   RAVE_TRY_ASSIGN(auto inputs, read_inputs(reader));
   SecondRun second{again, *keeper, kinds};
   const auto& checks = scenario.scenario.checks;
+  // Captures concern robots of several hosts, so the manager records them and a host does not.
   if (checks.capture && !of_host) second.capture.emplace(*checks.capture, scenario);
   if (of_host) of_host->look = [&second] { second.look_back(); };
   RAVE_TRY(run_again(second, InputReplay(std::move(inputs)), hashes, options, outcome));

@@ -49,6 +49,7 @@ void CaptureWatch::look(const world::Snapshot& world, std::uint64_t step) {
       const Vec2 apart = world.pose(predator).position() - world.pose(prey).position();
       const double least_m =
           std::sqrt(squared_norm(apart)) - hunter.radius_m() - hunted.radius_m() - kRounding_m;
+      // The bound is by the radii around both origins, so it never exceeds the true gap.
       if (least_m > check_.within_m && least_m > closest_m_) continue;
       const double gap_m =
           world::separation(hunter, world.pose(predator), hunted, world.pose(prey)).distance_m;
@@ -61,6 +62,7 @@ void CaptureWatch::look(const world::Snapshot& world, std::uint64_t step) {
     }
     return false;
   };
+  // A prey is caught once; afterwards it is no longer looked at.
   prey_.erase(std::remove_if(prey_.begin(), prey_.end(), caught), prey_.end());
 }
 

@@ -44,10 +44,13 @@ void Encounters::look_around(const sim::Engine& engine, RobotId robot) {
   const auto obstacles = static_cast<std::uint32_t>(model.obstacles.size());
   const Pose2 X_WR = world.pose(robot);
   radius_m_[self] = engine.body_radius_m(robot);  // The radius may have been changed by scaling.
+  // Only bodies that could be closer than what is known are looked at. The closest distances shrink
+  // during the run, so the search becomes cheaper.
   world.gather(X_WR.position(), radius_m_[self] + reach_now_m_, found_);
   std::uint32_t last = BodyId::kNone;
   for (const std::uint32_t shape : found_) {
     const std::uint32_t body = world.shape(shape).body;
+    // A body with several shapes comes several times in a row.
     if (body == last || body == self) continue;
     last = body;
     const bool other_robot = kinds_->is_robot(body);
@@ -57,6 +60,7 @@ void Encounters::look_around(const sim::Engine& engine, RobotId robot) {
         other_robot ? world.pose(RobotId(body - obstacles)) : world.obstacle_pose(BodyId(body));
     const double centres_m = std::sqrt(squared_norm(X_WB.position() - X_WR.position()));
     std::optional<Encounter>& closest = kind_of(self, body).closest;
+    // The distance by the radii is a lower bound, and cheaper than the exact one.
     if (closest && centres_m - radius_m_[self] - radius_m_[body] >= closest->gap_m) continue;
     const double gap_m =
         world::separation(model.body(self), X_WR, model.body(body), X_WB).distance_m;

@@ -30,6 +30,7 @@ LogLevel level_of(sim::EventKind kind) {
     case sim::EventKind::kPlaced:
     case sim::EventKind::kLease:
       return LogLevel::kInfo;
+    // Also a kind of event that is added later is a warning, so it is not overlooked.
     default:
       return LogLevel::kWarning;
   }

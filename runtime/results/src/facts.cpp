@@ -44,6 +44,7 @@ std::map<Change, Word> words_of(const std::vector<sim::Event>& events) {
     if (!is_counted(event)) continue;
     Word word(event.step, event.kind, event.text);
     const auto [known, is_new] = words.try_emplace({event.other, event.detail}, word);
+    // The earliest report of a change, so that the result is the same for any order of hosts.
     if (!is_new && word < known->second) known->second = std::move(word);
   }
   return words;
@@ -168,6 +169,7 @@ void merge_goals(const GoalFacts& from, GoalFacts& into) {
     arrival.nearest_m =
         arrival.known ? std::min(arrival.nearest_m, found.nearest_m) : found.nearest_m;
     arrival.known = true;
+    // A robot that came back under another process may have two reports; the first arrival counts.
     const bool earlier = found.time_s && (!arrival.time_s || *found.time_s < *arrival.time_s);
     if (earlier) arrival.time_s = found.time_s;
   }
@@ -222,6 +224,9 @@ void merge_world(std::optional<WorldFacts> from, std::optional<WorldFacts>& into
 
 }  // namespace
 
+// The facts of all processes are merged into those that one process would have gathered. Counts are
+// added, extremes compared, and lists sorted as a single engine would have ordered them. So results
+// do not depend on the number of hosts or on the order in which their results arrive.
 void merge(RunFacts from, RunFacts& into) {
   into.first_step = std::min(into.first_step, from.first_step);
   into.steps = std::max(into.steps, from.steps);

@@ -15,6 +15,8 @@ constexpr std::uint32_t kVersion = 3;
 
 /// The list of members and their order, used for reading and writing: each member is passed to
 /// `archive`.
+/// One list serves reading and writing, so the two cannot disagree. A change of it needs another
+/// kVersion.
 template <class Archive>
 struct Members {
   Archive& archive;
@@ -108,6 +110,7 @@ class Writer {
   void put(std::map<Key, T>& values) {
     cdr_.put_count(values.size());
     for (auto& [key, value] : values) {
+      // Keys of a map are constant, and put() takes the same references as the reader.
       Key copy = key;
       put(copy);
       put(value);
@@ -177,6 +180,8 @@ bool is_kind(report::Kind kind) {
   return std::ranges::find(report::kAllKinds, kind) != report::kAllKinds.end();
 }
 
+// The bytes may come from another process. Indices are used later to look up names, so each one is
+// checked against the scenario.
 bool fits(const sim::Event& event, const FactsLimits& limits) {
   const bool of_guard =
       event.kind == sim::EventKind::kGuardSlowed || event.kind == sim::EventKind::kGuardStopped;
@@ -192,6 +197,7 @@ bool fits(const sim::Event& event, const FactsLimits& limits) {
 
 template <class T>
 bool robots_fit(const std::vector<T>& items, const FactsLimits& limits) {
+  // Sorted as well, because merging searches these lists by bisection.
   return std::ranges::all_of(items, [&](const T& item) { return item.robot < limits.robots; }) &&
          std::ranges::is_sorted(items, {}, &T::robot);
 }
@@ -271,6 +277,7 @@ Result<RunFacts> decode_facts(std::span<const std::byte> bytes, const FactsOf& a
                 "wrote them",
                 version, kVersion);
   }
+  // A folder may have results of an earlier run with the same name.
   if (whose.run_number != about.run_number) {
     return fail(ErrorCode::kState, "the results belong to another scenario or seed");
   }

@@ -70,6 +70,7 @@ void GoalChecks::count_readings(const sim::Engine& engine, Touches& touches) {
     const auto* first = static_cast<const ContactReading*>(sample.records);
     const bool touching = std::any_of(first, first + sample.header->count,
                                       [](const ContactReading& c) { return c.touching != 0; });
+    // A touch counts when it begins. A reading that stays "touching" is the same touch.
     if (touching && !feeler.touching) ++touches.count;
     feeler.touching = touching;
   }
@@ -82,6 +83,7 @@ void GoalChecks::after_step(const StepView& step) {
     ArrivalFacts& facts = arrival.facts;
     if (!engine.is_local(arrival.id)) continue;
     const sim::ReportedPose& pose = engine.reported(arrival.id);
+    // The reported pose, not the true one: the check is the same for real and simulated robots.
     if (!pose.known || facts.time_s) continue;
     const double off_m =
         std::hypot(pose.pose.x_m - arrival.file.x_m, pose.pose.y_m - arrival.file.y_m);
@@ -209,8 +211,11 @@ std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
     const config::TouchesCheckFile& file = checks.touches[i];
     const std::vector<RobotId> robots = robots_of(scenario, file);
     std::uint64_t count = i < facts.goals.touches.size() ? facts.goals.touches[i] : 0;
+    // With a sensor the robot's own bumper counts, without one the contacts that the world has
+    // seen.
     if (!file.sensor) count = count_contacts(spec, facts.events, robots);
     results.push_back(touches_result(file, count));
+    // A count that is too high already shows that the check fails, whatever is missing besides.
     const bool exceeds = static_cast<std::int64_t>(count) > file.most;
     if (!exceeds) {
       static const std::vector<std::uint32_t> kNone;
@@ -218,6 +223,8 @@ std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
       note_missing(file, robots, silent, spec, facts, results.back());
     }
     if (!file.sensor && !exceeds) note_unknown(facts, results.back());
+    // Contacts are events of the world: where the manager has seen them all, results of a lost host
+    // are not needed.
     if (file.sensor || !facts.has_world) note_lost(robots, spec, lost, results.back());
   }
   std::size_t next = 0;

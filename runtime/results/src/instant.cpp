@@ -40,6 +40,7 @@ void InstantKeeper::after_step(const StepView& step) {
   if (instant_) return;
   const double now_s = engine.time().seconds();
   if (now_s >= instant_s_ - kSightingWindow_s) remember_sightings(engine);
+  // The tolerance is for rounding of the time of the scenario; it is far below a step.
   if (now_s >= instant_s_ - 1e-9) freeze(engine);
 }
 
@@ -54,6 +55,7 @@ void InstantKeeper::remember_sightings(sim::Engine& engine) {
       const sim::SensorSample sample = engine.sensor(RobotId(r), s);
       const auto* sightings = static_cast<const Sighting*>(sample.records);
       for (std::uint32_t i = 0; i < sample.header->count; ++i) {
+        // At the stamp of the image, since the robot has moved on since then.
         const auto pose = engine.pose_at(RobotId(r), SimTime{sightings[i].stamp_ns});
         if (!pose) continue;
         const Pose2 X_WS = compose(*pose, sensor.X_RS);
@@ -65,6 +67,7 @@ void InstantKeeper::remember_sightings(sim::Engine& engine) {
         if (landmark) shown.tube_W = landmark->p_WL;
         shown.colour = kinds_->colour(kinds_->body_of(RobotId(r)));
         const std::pair<std::uint32_t, std::int32_t> key{r, sightings[i].code};
+        // Of each robot and code the newest sighting before the instant is shown.
         const auto known = std::find(seen_.begin(), seen_.end(), key);
         if (known != seen_.end()) {
           sightings_[static_cast<std::size_t>(known - seen_.begin())].shown = std::move(shown);

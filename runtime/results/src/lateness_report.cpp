@@ -7,6 +7,7 @@
 namespace rave::runtime {
 
 nlohmann::ordered_json lateness_json(const LatenessFacts& facts) {
+  // A run without pace has no deadlines, which is not the same as none missed.
   if (facts.deadlines == 0) return nullptr;
   nlohmann::ordered_json json = {{"deadlines", facts.deadlines},
                                  {"missed", facts.missed},

@@ -72,11 +72,13 @@ Observers::Observers(const config::ExpandedScenario& scenario,
       goals(scenario, spec) {
   const config::ScenarioFile& file = scenario.scenario;
   if (file.checks.sightings) sightings.emplace(*file.checks.sightings, spec);
+  // Over several hosts the manager watches captures, because it has the poses of all robots.
   if (file.checks.capture && !spec.local) capture.emplace(*file.checks.capture, scenario);
   if (file.picture) instant.emplace(kinds, file.picture->instant_s.value_or(file.duration_s / 2));
 }
 
 void Observers::after_step(const StepView& step) {
+  // First, because all others ask for the kinds of bodies, also of those added in this step.
   kinds.learn(step.engine.spec().world);
   kinds.follow(step.engine);
   tracks.after_step(step);

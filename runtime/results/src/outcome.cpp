@@ -19,6 +19,8 @@ bool is_loss(sim::EventKind kind) {
 
 void fail_check(RunOutcome& outcome, bool made, std::string problem) {
   outcome.checks_hold = false;
+  // A check that was not evaluated does not hold, but has not failed either; callers tell the two
+  // apart.
   outcome.checks_fail = outcome.checks_fail || made;
   outcome.problems.push_back(std::move(problem));
 }
@@ -49,6 +51,7 @@ void judge_sightings(const Findings& findings, RunOutcome& outcome) {
   const auto& limits = findings.scenario.scenario.checks.sightings;
   if (!limits) return;
   const SightingTally tally = findings.facts.sightings.value_or(SightingFacts()).all();
+  // First: with results missing, the numbers below are too small for a judgement.
   if (findings.any_lost()) {
     fail_check(outcome, false,
                "the sighting check was not evaluated: the results of a host are missing");
@@ -124,6 +127,8 @@ RunOutcome judge(const Findings& findings) {
   outcome.problems.insert(outcome.problems.end(), facts.problems.begin(), facts.problems.end());
   const sim::EngineSpec& spec = findings.spec;
   for (const sim::Event& event : facts.events) {
+    // A program or driver that failed means that the robot did not do what the scenario asks, even
+    // if all checks hold.
     if (!is_loss(event.kind)) continue;
     outcome.problems.push_back(
         fmt::format("robot `{}` at {:.2f} s: {}", spec.robots[event.robot.value()].name,
@@ -148,6 +153,7 @@ RunOutcome judge(const Findings& findings) {
         "robot `{}` at {:.2f} s was not handed over: {}", spec.robots[event.robot.value()].name,
         static_cast<double>(event.step) * spec.step.seconds(), event.text));
   }
+  // Fixed here: what follows are remarks and checks, which do not make a run incomplete.
   outcome.whole = outcome.problems.empty();
   // The run used all that its recordings contained, but the reader of the result should know of
   // gaps.
@@ -172,6 +178,7 @@ Result<RunOutcome> write_results(const Findings& findings, const std::filesystem
     RAVE_TRY(report::write_svg(drawn, folder / "picture.svg"));
     RAVE_TRY(report::write_png(drawn, folder / "picture.png"));
   }
+  // `result.json` is written last, so a program that waits for it finds the other files complete.
   outcome.summary = summary_text(findings, outcome);
   RAVE_TRY(write_file_atomically(folder / "summary.txt", outcome.summary));
   RAVE_TRY(write_file_atomically(folder / "events.log",

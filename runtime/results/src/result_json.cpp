@@ -74,6 +74,7 @@ void add_report(const std::string& text, Json& entry) {
     return;
   }
   for (const auto& [key, value] : report.items()) {
+    // The driver cannot overwrite the names that the scenario gives.
     entry[entry.contains(key) ? "source_" + key : key] = value;
   }
 }
@@ -134,6 +135,7 @@ Json hosts_json(const Findings& findings) {
 
 Json events_json(const Findings& findings) {
   Json json = Json::object();
+  // A fixed list, so that each run has all keys, with 0 for what did not happen.
   for (const auto kind : {sim::EventKind::kContact,
                           sim::EventKind::kPinned,
                           sim::EventKind::kPoseStale,
@@ -160,6 +162,7 @@ Json events_json(const Findings& findings) {
                           sim::EventKind::kPlaced,
                           sim::EventKind::kLease}) {
     std::string name(to_string(kind));
+    // Keys of JSON without spaces are easier to use in queries.
     std::replace(name.begin(), name.end(), ' ', '_');
     json[name] = findings.count(kind);
   }
@@ -175,6 +178,7 @@ Json capture_json(const Findings& findings) {
                {"captures", Json::array()}};
   if (!findings.facts.capture) return json;
   const CaptureFacts& facts = *findings.facts.capture;
+  // A capture that is known holds. Without one, an unknown beginning leaves the answer open (null).
   if (holds(check, facts) || findings.facts.world_from == 0) json["holds"] = holds(check, facts);
   if (facts.closest_m.value_or(1e9) < 1e9) json["closest_m"] = rounded(*facts.closest_m, 4);
   for (const Capture& capture : facts.captures) {

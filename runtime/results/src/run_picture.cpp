@@ -49,6 +49,7 @@ report::Picture make_picture(const Findings& findings, const RunOutcome& outcome
   for (std::size_t number = 0; number < world.obstacle_count(); ++number) {
     const std::uint32_t body = world.obstacle_id(number);
     const world::Obstacle& obstacle = *world.obstacle(body);
+    // The picture shows the world at the end.
     if (obstacle.removed) continue;
     for (std::size_t i = 0; i < obstacle.body.shapes.size(); ++i) {
       report::PictureBody shown;

@@ -12,6 +12,7 @@ namespace rave::runtime {
 namespace {
 
 void add_guard_row(const Findings& findings, report::Table& table) {
+  // All robots together: a row per robot of a swarm would hide the rest of the table.
   std::map<std::string, std::size_t> total;
   for (const auto& [robot, counts] : guard_counts(findings)) {
     for (const auto& [what, count] : counts) total[what] += count;
@@ -51,6 +52,8 @@ void add_sighting_row(const Findings& findings, report::Table& table) {
   const bool holds = runtime::holds(limits, tally) && !findings.any_lost();
   std::vector<std::string_view> blind;
   for (const auto& [robot, own] : facts.by_robot) {
+    // A robot whose camera saw nothing at all has confirmed nothing, which the percentage alone
+    // would hide.
     if (own.total + own.unknown == 0) blind.emplace_back(robot);
   }
   table.rows.push_back(
@@ -79,6 +82,8 @@ void add_encounter_rows(const Findings& findings, report::Table& table) {
     table.rows.push_back(
         {fmt::format("closest {}", pair),
          fmt::format("{:.3f} m between outlines at {:.2f} s ({} and {})",
+                     // Outlines that overlap have a negative distance, which says nothing to a
+                     // reader of the summary.
                      std::max(encounter.gap_m, 0.0), encounter.time_s,
                      findings.kinds.name(encounter.a), findings.kinds.name(encounter.b))});
   }

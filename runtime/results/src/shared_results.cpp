@@ -49,6 +49,7 @@ struct SharedResults::Impl {
         live_reason(built.live_reason),
         kinds(spec, built.robot_kinds) {
     const auto& checks = scenario.scenario.checks;
+    // In real time the manager has no exact poses to measure captures with.
     if (live_reason.empty() && checks.capture) capture.emplace(*checks.capture, scenario);
   }
 
@@ -116,6 +117,7 @@ Status SharedResults::Impl::add(const SharedHost& host, std::string bytes,
       RunFacts found,
       decode_facts(std::as_bytes(std::span(bytes)), {shared_number(scenario), host.name},
                    {static_cast<std::uint32_t>(spec.robots.size()), kinds.count()}));
+  // A host that joined late lacks its part of the hash.
   missed_steps = missed_steps || found.first_step > 0;
   merge(std::move(found), facts);
   added.push_back(std::move(bytes));
@@ -148,6 +150,8 @@ void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::si
     facts.problems.push_back(fmt::format("host `{}`: `{}`: {}", host.name,
                                          (folder / kFactsFile).string(), status.error().message));
   }
+  // Results reach the manager in two ways: in a folder on the same machine, and over the bus. Both
+  // may have them.
   for (const std::vector<std::byte>& bytes : host.findings) {
     const Status status =
         add(host, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, added);
@@ -219,6 +223,8 @@ bool SharedResults::after_step(const sim::WorldAuthority& authority) {
   if (!impl_->capture) return false;
   impl_->capture->look(authority.snapshot(), authority.steps_done());
   const auto seen = impl_->capture->events();
+  // Written with the next call: the capture belongs to the step that has just begun, and its other
+  // events are known only when it is complete.
   impl_->seen.assign(seen.begin(), seen.end());
   return impl_->capture->ends_run();
 }

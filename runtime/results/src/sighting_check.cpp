@@ -61,6 +61,8 @@ void SightingCheck::after_step(const StepView& step) {
   std::size_t kept = 0;
   for (const Waiting& one : waiting_) {
     const SimTime stamp{one.sighting.stamp_ns};
+    // A sighting waits until the poses around its stamp are known, since they arrive later than the
+    // image. It does not wait forever for a robot that is lost.
     if (stamp <= known || stamp <= too_old) {
       compare(engine, pairs_[one.pair], one.sighting);
     } else {
@@ -102,6 +104,8 @@ void SightingCheck::compare(sim::Engine& engine, const Pair& pair, const Sightin
     ++facts_.unknown_codes[sighting.code];
     return;
   }
+  // Counted before the comparison: a real sighting that the virtual camera does not have is a
+  // disagreement.
   ++own.total;
   twin_.resize(engine.sensor(pair.robot, pair.twin).info->capacity);
   const auto header =
@@ -120,6 +124,8 @@ void SightingCheck::compare(sim::Engine& engine, const Pair& pair, const Sightin
   }
 }
 
+// Cameras misread a code now and then. The first `max_unknown` unknown codes are taken for
+// misreadings; the others count as disagreements.
 std::uint64_t counted(const config::SightingsCheckFile& limits, const SightingTally& all) {
   const auto misread = static_cast<std::uint64_t>(limits.max_unknown);
   return all.total + (all.unknown > misread ? all.unknown - misread : 0);

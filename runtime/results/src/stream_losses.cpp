@@ -10,6 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Recordings lose single readings. Only a loss of more than a twentieth is reported.
 constexpr double kMostLost = 0.05;
 
 /// The report comes from a driver: a value that is not a count yields none.

@@ -76,6 +76,8 @@ void TrackRecorder::follow_pose(const sim::Engine& engine, std::uint32_t robot, 
   const Pose2 X_WR = engine.snapshot().pose(RobotId(robot));
   const double now_s = engine.time().seconds();
   if (last_[robot]) {
+    // In each step, also where no point of the track is kept, so that thinning does not shorten the
+    // way.
     way_m_[robot] += std::sqrt(squared_norm(X_WR.position() - last_[robot]->position()));
   }
   last_[robot] = X_WR;
@@ -99,6 +101,8 @@ void TrackRecorder::follow_pose(const sim::Engine& engine, std::uint32_t robot, 
 
 void TrackRecorder::follow_odometry(const sim::Engine& engine, std::uint32_t robot, bool keep) {
   Odometry& odometry = *odometry_[robot];
+  // The track of odometry begins where the robot stands and then follows the velocities alone, so
+  // the picture shows how far they drift.
   if (!odometry.X_WR) {
     odometry.X_WR = engine.snapshot().pose(RobotId(robot));
   } else {

@@ -90,6 +90,7 @@ Result<std::unique_ptr<Ros2Face>> Ros2Face::open(const config::ExpandedScenario&
     if (scenario.groups[robots[r].type].robot.ros2) shown.emplace_back(r);
   }
   const auto here = [&](RobotId robot) { return engine.is_local(robot); };
+  // Without a robot to show there is no participant, which would cost threads and ports.
   if (std::ranges::none_of(shown, here)) return nullptr;
   RAVE_TRY_ASSIGN(auto participant, ros2::Participant::open(network_of(scenario.scenario, host)));
   std::unique_ptr<Ros2Face> face(new Ros2Face(std::move(participant)));
@@ -98,6 +99,7 @@ Result<std::unique_ptr<Ros2Face>> Ros2Face::open(const config::ExpandedScenario&
   for (const RobotId robot : shown) {
     if (here(robot)) RAVE_TRY(face->add(engine, robot));
   }
+  // The host of the first shown robot gives the time; a clock must have one writer.
   RAVE_TRY(face->begin(engine, here(shown.front())));
   return face;
 }
@@ -153,6 +155,7 @@ Status Ros2Face::add_sensors(const sim::Engine& engine, Robot& robot) {
   const auto kind_of = [&](std::uint32_t index) {
     const Ros2Kind kind =
         ros2_kind(*engine.sensor(robot.id, index).info, type.sensors[index].driver);
+    // Without the place of the world on Earth a pose has no latitude and longitude.
     return kind == Ros2Kind::kFix && !earth_ ? Ros2Kind::kNone : kind;
   };
   std::map<Ros2Kind, int> count;
@@ -217,12 +220,15 @@ void Ros2Face::write_static(const sim::Engine& engine) {
 // A failed write does not end the run: the next message follows.
 void Ros2Face::after_step(const StepView& step) {
   const sim::Engine& engine = step.engine;
+  // In each step, so that nodes with `use_sim_time` see time pass evenly.
   if (clock_) {
     ros2::Clock now{};
     now.clock = ros2::time_of(engine.time().ns);
     (void)clock_->write(now);
   }
   for (Robot& robot : robots_) write_new(engine, robot);
+  // Sensors are written when they have a new sample; transforms and poses at a rate, since /tf of
+  // many robots is large.
   if (engine.time().ns < due_ns_) return;
   due_ns_ = engine.time().ns + period_ns_;
   write_transforms(engine);
@@ -284,6 +290,7 @@ void Ros2Face::write_transforms(const sim::Engine& engine) {
       (void)robot.own_writer->write(robot.own.odometry(own, reported.stamp));
     }
     // The chain of frames must end at the reported pose of the robot.
+    // map -> odom is what corrects the odometry: X_WB = X_WO * X_OB (REP-105).
     const Pose2 X_WO = robot.odometry ? compose(X_WB, inverse(X_OB)) : Pose2{};
     all.add(map_frame_, robot.odom_frame, X_WO, 0, engine.time());
     all.add(robot.odom_frame, robot.base_frame, X_OB, 0, engine.time());

@@ -14,6 +14,9 @@ struct ShadowWorld::Orders {
   std::vector<Command> commands;
 };
 
+// The twin runs in a lock-step of two "hosts" within one thread: one has the twin, the other one
+// reports all robots of the run at their poses there. Robots of the run are of a type that is only
+// placed, so the twin is stopped by them and never moves them.
 namespace {
 
 constexpr std::uint32_t kOwn = 0;
@@ -85,6 +88,8 @@ void obey(std::shared_ptr<const Orders> orders, sim::RobotType& type) {
     controller.accepts = controller.ops->gives;
     controller.actuator = a;
   }
+  // The commands have passed the guard of the real robot. A second guard would limit them again, by
+  // the poses of the twin.
   type.guard.reset();
   type.controllers = std::move(controllers);
   type.transmitters.clear();
@@ -117,6 +122,7 @@ sim::RobotType outline_of(const sim::RobotType& type) {
 sim::EngineSpec shadow_spec(const sim::EngineSpec& run, RobotId robot, sim::RobotType type) {
   sim::EngineSpec spec;
   spec.world = run.world;
+  // The layer follows from the drivers, as for a robot of the run.
   spec.world.robots[robot.value()].layer = Layer::kSimulatedRobots;
   spec.types.push_back(std::move(type));
   spec.types.push_back(placed_type());
@@ -170,8 +176,10 @@ Result<std::unique_ptr<ShadowWorld>> ShadowWorld::create(const sim::Engine& engi
 
 Status ShadowWorld::step(const sim::Engine& engine, std::span<const sim::Event> beside,
                          std::optional<Pose2> start, bool driven) {
+  // The twin proposes with the commands of the previous step of the run, which listen() has taken.
   RAVE_TRY(engine_->propose(own_));
   const std::uint64_t done = engine.steps_done() - 1;
+  // Only in the first step of a host that joined a run in progress.
   const bool later = own_.step < done;
   if (later) RAVE_TRY(begin_at(done));
   mirror_obstacles(engine, engine.events());
@@ -186,6 +194,8 @@ Status ShadowWorld::step(const sim::Engine& engine, std::span<const sim::Event> 
     }
   }
   if (start) {
+    // Into the world of this step, after the authority has computed it and before the engine sees
+    // it. So the twin senses from the new pose in the same step.
     put(*start);
     RAVE_TRY(authority_->resume(world_, authority_->state()));
   }
@@ -229,6 +239,8 @@ void ShadowWorld::mirror_obstacles(const sim::Engine& engine, std::span<const si
     sim::ObstacleChange& change = input.obstacle.emplace();
     change.kind = added ? Kind::kAdd : removed ? Kind::kRemove : Kind::kMove;
     change.name = obstacle->body.name;
+    // Obstacles of the start have the same number in both worlds. Added ones may not, because the
+    // shadow began later or refused one; they are found by name.
     if (event.other.value() < engine.spec().world.obstacles.size()) change.id = event.other;
     change.X_WB = obstacle->X_WB;
     if (added) change.body = obstacle->body;
@@ -246,6 +258,8 @@ void ShadowWorld::report_others(const sim::Engine& engine) {
     if (other == robot_) continue;
     const world::RobotState state = run.robot(other);
     const Twist2& over_ground = state.velocity_W;
+    // The snapshot has velocities over ground in world axes; a report has them in the frame of the
+    // body.
     const Vec2 v = rotate_back(run.turn_WR(other), {over_ground.vx, over_ground.vy});
     sim::ReportedPose pose;
     pose.pose = {state.X_WR.x, state.X_WR.y, state.X_WR.yaw, 0, 0};

@@ -24,6 +24,7 @@ double distance_m(const Pose2& a, const Pose2& b) {
   return std::sqrt(squared_norm(a.position() - b.position()));
 }
 
+// Micrometres: more digits would be noise of the last bits.
 double rounded(double value) { return std::round(value * 1e6) / 1e6; }
 
 /// A difference that was not measured is null and not 0.
@@ -78,6 +79,7 @@ Result<std::unique_ptr<Shadows>> Shadows::create(const config::ExpandedScenario&
     shadow.robot = RobotId(r);
     shadow.name = scenario.robots[r].name;
     const bool first = spec.types[spec.robots[r].type].simulated;
+    // The type is made anew, because specs own parts of drivers and cannot be copied.
     const BuildOptions options;
     BuiltScenario scratch;
     RAVE_TRY_ASSIGN(auto type, make_type({scenario, catalogue, options, scratch},
@@ -106,6 +108,8 @@ void Shadows::follow(const StepView& step, Shadow& shadow) {
   const bool starts = running && (!shadow.now.running || (shadow.reset_asked && !pose.stale));
   std::optional<Pose2> start;
   if (starts) {
+    // The reported pose is old by the delay of its source. It is extrapolated to now, as for other
+    // hosts; the limit keeps a bad stamp from throwing the twin far away.
     const Duration age = std::clamp(engine.time() - pose.stamp, Duration{}, from_seconds(0.5));
     start =
         integrate({pose.pose.x_m, pose.pose.y_m, pose.pose.yaw_rad}, pose.velocity, age.seconds());
@@ -119,6 +123,8 @@ void Shadows::follow(const StepView& step, Shadow& shadow) {
     shadow.world.reset();
     return;
   }
+  // After the step, in which the twin was put at its place: the comparison begins with the next
+  // pose.
   if (starts) begin(engine, shadow);
   shadow.now.running = running;
   if (running) compare(engine, shadow);
@@ -144,6 +150,7 @@ void Shadows::begin(const sim::Engine& engine, Shadow& shadow) {
   shadow.odometry_S.assign(sensors.size(), Pose2{});
   for (std::uint32_t s = 0; s < sensors.size(); ++s) {
     shadow.now.readings.push_back({sensors[s].name, unit_of(sensors[s].kind)});
+    // Readings from before the start were taken at another place than that of the twin.
     shadow.seen[s] = engine.sensor(shadow.robot, s).header->sequence;
   }
 }
@@ -153,6 +160,8 @@ void Shadows::compare(const sim::Engine& engine, Shadow& shadow) {
   const sim::ReportedPose& pose = engine.reported(shadow.robot);
   // Poses from before the shadow was placed cannot be compared with it.
   if (pose.stale || pose.stamp <= shadow.compared_at) return;
+  // Both poses are taken at the same time. Otherwise the delay of the pose source would count as a
+  // difference: 0.1 s at 0.5 m/s are 5 cm.
   const auto X_WS = shadow.world->pose_at(pose.stamp);
   if (!X_WS) return;
   ShadowDifference& now = shadow.now;
@@ -184,6 +193,7 @@ void Shadows::compare_readings(const sim::Engine& engine, Shadow& shadow) {
         compare_ranges(real, s, shadow);
         break;
       case ReadingKind::kContact: {
+        // The running mean of 0 and 1 is the share of readings that differ.
         const double before = reading.last * static_cast<double>(reading.compared);
         const bool differs = touches(real) != touches(theirs);
         note(reading, (before + (differs ? 1 : 0)) / static_cast<double>(reading.compared + 1));
@@ -193,6 +203,8 @@ void Shadows::compare_readings(const sim::Engine& engine, Shadow& shadow) {
         if (theirs.header->count == 0) continue;
         const Pose2 X_R = odometry_of(real);
         const Pose2 X_S = odometry_of(theirs);
+        // Odometry of either robot has an origin of its own. Only the ways since the first common
+        // reading are comparable.
         if (reading.compared == 0) {
           shadow.odometry_R[s] = X_R;
           shadow.odometry_S[s] = X_S;
@@ -224,6 +236,7 @@ void Shadows::compare_ranges(const sim::SensorSample& real, std::uint32_t sensor
     float range_m = 0;
     std::memcpy(&range_m, static_cast<const std::byte*>(real.records) + i * sizeof range_m,
                 sizeof range_m);
+    // A ray that met nothing for one of the two has no difference in metres.
     if (!std::isfinite(range_m) || !std::isfinite(ranges_[i])) continue;
     sum_m += std::abs(static_cast<double>(range_m) - static_cast<double>(ranges_[i]));
     ++both;
@@ -238,6 +251,7 @@ void Shadows::keep_moment(double time_s, Shadow& shadow) const {
   shadow.next_moment_s = after_s + shadow.moment_every_s;
   if (shadow.moments.size() <= kMostMoments) return;
   std::size_t kept = 0;
+  // Thinning keeps the memory constant and the moments evenly spread over a run of any length.
   for (std::size_t i = 0; i < shadow.moments.size(); i += 2) {
     shadow.moments[kept++] = shadow.moments[i];
   }

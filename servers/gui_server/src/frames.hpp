@@ -17,6 +17,7 @@ struct PoseFrameHead {
   bool truth = false;
 };
 
+/// Of the true poses if `head` says so.
 [[nodiscard]] std::string encode_poses(const PosesAt& poses, const PoseFrameHead& head);
 
 /// `time_s`: of the picture that the reading belongs to.

@@ -7,7 +7,7 @@
 
 #include "rave/gui_server/source.hpp"
 
-// Binary frames of the stream; docs/explanation/gui-protocol.md describes them.
+// Binary frames of the stream; docs/reference/gui-frames.md describes them.
 namespace rave::gui_server {
 
 struct PoseFrameHead {

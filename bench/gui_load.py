@@ -69,7 +69,7 @@ def load(server, options):
     clients = subprocess.Popen(
         [program] + [str(word) for word in (
             server.url.port, server.cookie, server.authority or "-", options.clients, options.stalled,
-            options.slow, 1000 * options.slow_kb, options.rate, 6, options.seconds)],
+            options.slow, 1000 * options.slow_kb, options.rate, 20 if options.slow else 6, options.seconds)],
         stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     if clients.stdout.readline() != "begin\n":
         raise RuntimeError("the clients have ended")
@@ -113,7 +113,7 @@ def main():
                 rounds.append(load(server, options))
             finally:
                 server.end()
-    about = {key: getattr(options, key) for key in ("robots", "clients", "tls", "stalled", "slow", "rate", "rounds")}
+    about = {key: getattr(options, key) for key in ("robots", "clients", "tls", "stalled", "rate", "rounds")}
     print(json.dumps({**about, **medians(rounds), "load": loads}))
     return 0
 

@@ -31,8 +31,8 @@ async function open(link) {
 }
 
 async function choose(page, poses) {
-  if ((await page.getByLabel('Poses').count()) === 0) await page.getByRole('button', {name: 'Layers'}).click();
-  await page.getByLabel('Poses').selectOption(poses);
+  if ((await page.getByLabel('Poses', {exact: true}).count()) === 0) await page.getByRole('button', {name: 'Layers'}).click();
+  await page.getByLabel('Poses', {exact: true}).selectOption(poses);
 }
 
 /** Distances between true and reported poses of the newest frames, metres. */
@@ -101,7 +101,7 @@ try {
   await check('who sees with the eyes of an observer gets none, and no choice', async () => {
     await page.evaluate(() => document.querySelector('rave-app').link.send({type: 'see_as', role: 'observer'}));
     await until(page, `!${app}.model.may('true_pose')`);
-    assert.equal(await page.getByLabel('Poses').count(), 0);
+    assert.equal(await page.getByLabel('Poses', {exact: true}).count(), 0);
     assert.equal(await page.evaluate(`${truth}`), null);
   });
   await live.end();

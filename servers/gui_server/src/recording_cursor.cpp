@@ -167,9 +167,9 @@ std::vector<ReadingAt> RecordingCursor::readings(std::span<const LookedAt> senso
   if (!reads_percepts_) {
     // They are most of a recording, and most pages look at few.
     reads_percepts_ = true;
-    if (cursor_ && (begin_at(time_s_), !find_variances(ns_of(time_s_)) || !read_until(time_s_))) {
-      return {};
-    }
+    if (!cursor_) return {};
+    begin_at(time_s_);
+    if (!find_variances(ns_of(time_s_)) || !read_until(time_s_)) return {};
   }
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t>, ReadingAt> newest;
   for (const auto& [at_s, bytes] : percepts_) {

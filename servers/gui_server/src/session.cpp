@@ -211,9 +211,11 @@ void Session::tick(Clock::time_point now, SharedFrames& frames) {
   // Tiles are confirmed by the picture behind them.
   if (map_stream_.due(*source_)) changed_ = true;
   if (state.picture == picture_ && !changed_ && !past_) return;
-  const auto spacing = std::chrono::duration<double>(0.9 / look_.max_hz);
-  if (now - last_frame_ < spacing && !changed_) return;
-  last_frame_ = now;
+  const auto period =
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / look_.max_hz));
+  if (now < due_ && !changed_) return;
+  // In step with the rate that was asked for, whenever states come.
+  due_ = now >= due_ && now - due_ < period ? due_ + period : now + period;
   if (const auto gone = cursor_->go_to(state.now_s); !gone) {
     answer("replay", false, gone.error().text());
     broken_ = true;

@@ -136,8 +136,8 @@ class Session {
   std::unique_ptr<Playhead> playhead_;
   std::unique_ptr<Cursor> cursor_;
   LookMessage look_;
-  PlayState told_state_;  ///< As the page knows it.
-  Clock::time_point last_frame_{};
+  PlayState told_state_;     ///< As the page knows it.
+  Clock::time_point due_{};  ///< Of the next frame.
   Clock::time_point last_time_{};
   Clock::time_point last_news_{};
   std::uint32_t sequence_ = 0;

@@ -270,7 +270,9 @@ class Source {
   [[nodiscard]] virtual std::unique_ptr<Playhead> open_playhead() = 0;
 
   // A run in progress.
-  /// Called about 60 times a second, before the pages are served.
+  /// Whether tick() would show a newer state.
+  [[nodiscard]] virtual bool has_newer() const noexcept { return false; }
+  /// Called at least 60 times a second, before the pages are served.
   virtual void tick(Playhead::Clock::time_point /*now*/, const Audience& /*audience*/) {}
   /// Changes whenever events were added or changed. events_changed_since() returns the index of the
   /// first such event since an earlier revision.

@@ -2,7 +2,8 @@
 # What `cmake --install` puts where, and the package that find_package(rave) finds.
 #   component runtime     bin/, the plug-ins, share/rave (scenarios, robots, worlds, data, ...), man
 #                         pages, completion of bash
-#   component gui         share/rave/web: the page of the GUI Server; share/rave/foxglove: a layout
+#   component gui         share/rave/web: the page of the GUI Server; share/rave/foxglove: a layout;
+#                         and bin/rave once more, so that it shows recordings without the runtime
 #   component robot-dev   what a robot program is written with: no header of the simulator
 #   component driver-dev  on top of it: world and sim, for virtual drivers
 #   component config-dev  on top of it: the reader of configuration files
@@ -96,6 +97,9 @@ install(DIRECTORY "${CMAKE_BINARY_DIR}/share/man" "${CMAKE_BINARY_DIR}/share/bas
 
 install(DIRECTORY "${CMAKE_BINARY_DIR}/share/rave/web" DESTINATION share/rave COMPONENT gui OPTIONAL)
 install(DIRECTORY "${CMAKE_SOURCE_DIR}/share/foxglove" DESTINATION share/rave COMPONENT gui)
+if(TARGET rave)
+  install(TARGETS rave RUNTIME DESTINATION bin COMPONENT gui)
+endif()
 
 # All that ./run needs, and nothing that only tests need.
 add_custom_target(rave_runtime)

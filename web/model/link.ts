@@ -50,7 +50,7 @@ export class Link {
   private probesSaid = false;
   /** A panel shows which virtual sensors there are. */
   wantsCatalogue = false;
-  truePoses = false;
+  private truePoses = false;
   parts = false;
 
   constructor(
@@ -127,6 +127,13 @@ export class Link {
   look(owner: object, sensors: Interest): void {
     if (sensors.length === 0) this.interests.delete(owner);
     else this.interests.set(owner, sensors);
+    this.queueLook();
+  }
+
+  /** Whether true poses are shown; the server sends them to those who may have them. */
+  lookAtTruth(wanted: boolean): void {
+    if (wanted === this.truePoses) return;
+    this.truePoses = wanted;
     this.queueLook();
   }
 

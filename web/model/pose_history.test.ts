@@ -46,12 +46,23 @@ describe('the past', () => {
     const history = new PoseHistory();
     for (let i = 0; i < 20; ++i) history.add(frame(i * 0.2, i), i * 100);
     expect(history.past.length).toBe(20);
-    history.add(frame(1, 5, 0, true), 5000);
+    history.add(frame(1, 5), 5000);
     expect(history.past.length).toBe(1);
-    expect(history.newest).toBeNull();
     const placed = new Placed();
     history.interpolate(5001, placed);
     expect(placed.x[0]).toBe(5);
+  });
+
+  it('comes after its moment, takes its place in it, and moves nobody', () => {
+    const history = new PoseHistory();
+    history.add(frame(30, 7), 1000);
+    for (const time_s of [9.5, 10.5, 10.7, 29.9, 20, 31]) history.add(frame(time_s, time_s, 0, true), 1010);
+    expect(history.past.map((one) => one.time_s)).toEqual([10.5, 10.7, 20, 30]);
+    const placed = new Placed();
+    history.interpolate(1020, placed);
+    expect(placed.x[0]).toBe(7);
+    expect(placed.time_s).toBe(30);
+    expect(placed.freshAt(0)).toBe(30);
   });
 
   it('is thinned and ends after 20 s', () => {

@@ -18,14 +18,17 @@ export class PoseHistory {
   /** When the pose of each robot was last no stale one, seconds of the run. */
   private fresh = new Float64Array(0);
 
-  /** Takes a frame that arrived at `now_ms` (performance.now()). */
+  /** Takes a frame that arrived at `now_ms` (performance.now()). The past comes after the moment that it belongs to. */
   add(frame: PoseFrame, now_ms: number): void {
     const last = this.newest ?? this.past[this.past.length - 1] ?? null;
     const other = last !== null && (last.revision !== frame.revision || last.x.length !== frame.x.length);
-    if (last !== null && (other || frame.time_s < last.time_s - 1e-9)) this.clear();
-    this.keep(frame);
+    if (last !== null && (other || (!frame.past && frame.time_s < last.time_s - 1e-9))) this.clear();
     this.note(frame);
-    if (frame.past) return;
+    if (frame.past) {
+      this.insert(frame);
+      return;
+    }
+    this.keep(frame);
     if (this.newest !== null && frame.time_s - this.newest.time_s < kJump_s) {
       const gap = Math.min(Math.max(now_ms - this.arrived_ms, 8), 500);
       this.interval_ms += 0.2 * (gap - this.interval_ms);
@@ -82,7 +85,18 @@ export class PoseHistory {
   private note(frame: PoseFrame): void {
     const n = frame.flags.length;
     if (this.fresh.length !== n) this.fresh = new Float64Array(n).fill(frame.time_s);
-    for (let i = 0; i < n; ++i) if ((frame.flags[i] & RobotFlag.stale) === 0) this.fresh[i] = frame.time_s;
+    for (let i = 0; i < n; ++i) if ((frame.flags[i] & RobotFlag.stale) === 0) this.fresh[i] = Math.max(this.fresh[i], frame.time_s);
+  }
+
+  /** Puts a frame of the past in its place, unless there is one already, or it is too old. */
+  private insert(frame: PoseFrame): void {
+    const now_s = this.newest?.time_s ?? frame.time_s;
+    if (frame.time_s > now_s || now_s - frame.time_s > kHistory_s) return;
+    let at = this.past.length;
+    while (at > 0 && this.past[at - 1].time_s > frame.time_s) --at;
+    const near = (other: PoseFrame | undefined) => other !== undefined && Math.abs(other.time_s - frame.time_s) < kSpacing_s - 1e-9;
+    if (near(this.past[at - 1]) || near(this.past[at])) return;
+    this.past.splice(at, 0, frame);
   }
 
   private keep(frame: PoseFrame): void {

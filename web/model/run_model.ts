@@ -38,6 +38,8 @@ export class RunModel {
   /** A link that was told and that nobody has taken yet. */
   private invited: Invited | null = null;
   readonly poses = new PoseHistory();
+  /** True poses, as far as they are looked at. */
+  readonly truth = new PoseHistory();
   readonly readings = new Readings();
   readonly maps = new Maps();
   readonly probes = new Probes();
@@ -123,6 +125,7 @@ export class RunModel {
         for (const robot of this.robots) if (robot.twin !== undefined) robot.mixed = robot.twin.kind !== robot.kind;
         this.mixed = this.robots.flatMap((robot, slot) => (robot.mixed === true ? [slot] : []));
         this.poses.clear();
+        this.truth.clear();
         this.readings.clear();
         this.rosterChanged.emit();
         break;
@@ -211,6 +214,11 @@ export class RunModel {
       this.pictureChanged.emit();
       return null;
     }
+    if (frame.truth) {
+      // The frame of reported poses behind it is what is acknowledged.
+      this.truth.add(frame, now_ms);
+      return null;
+    }
     if (this.mixed.length > 0 && !frame.past) this.followHandOvers(frame.flags);
     const before = this.poses.newest;
     this.poses.add(frame, now_ms);
@@ -241,6 +249,7 @@ export class RunModel {
     this.audit = null;
     this.drives.clear();
     this.poses.clear();
+    this.truth.clear();
     this.readings.clear();
     this.variances = new Map();
     this.maps.clear();

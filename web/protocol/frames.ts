@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Binary frames of the stream. docs/explanation/gui-protocol.md describes their layout.
+// Binary frames of the stream. docs/reference/gui-frames.md describes their layout.
 
 /** Bits of a robot's flags in a pose frame. */
 export const RobotFlag = {

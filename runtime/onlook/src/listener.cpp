@@ -167,12 +167,4 @@ std::vector<HeardEvent> Listener::take_events() {
 
 std::vector<HeardObstacle> Listener::take_obstacles() { return std::exchange(obstacles_, {}); }
 
-void Listener::forget() {
-  revisions_.clear();
-  told_.clear();
-  obstacles_.clear();
-  readings_.clear();
-  tiles_.clear();
-}
-
 }  // namespace rave::onlook

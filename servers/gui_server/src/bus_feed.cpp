@@ -120,6 +120,13 @@ RobotState state_of(const watch::RobotView& robot) {
   return state;
 }
 
+/// What hosts resolve of a simulated robot is where it truly is; of a real one nobody knows.
+RobotState truth_of(const watch::RobotView& robot) {
+  const bool simulated = robot.report ? !robot.report->real : robot.simulated == true;
+  if (!simulated || !robot.x_m || !robot.y_m || !robot.yaw_rad) return {};
+  return {*robot.x_m, *robot.y_m, *robot.yaw_rad, 0, kKnown};
+}
+
 }  // namespace
 
 BusFeed::BusFeed(std::unique_ptr<watch::Observer> observer, onlook::Listener listener,
@@ -214,7 +221,10 @@ void BusFeed::draw(const watch::RunView& view) {
   picture.poses.serial = serial_;
   picture.poses.time_s = view.time_s.value_or(0);
   picture.poses.step = view.step.value_or(0);
+  picture.poses.taken_us = taken_now_us();
   picture.poses.robots.assign(world_.robots, RobotState{});
+  const bool truth = box_->wants.value().truth;
+  picture.poses.truth.assign(truth ? world_.robots : 0, RobotState{});
   std::set<std::string_view> gone;
   for (const watch::HostView& host : view.hosts) {
     if (!host.manager && host.standing == watch::Standing::kGone) gone.insert(host.name);
@@ -223,6 +233,7 @@ void BusFeed::draw(const watch::RunView& view) {
     if (robot.number >= world_.robots) continue;
     RobotState& state = picture.poses.robots[robot.number];
     state = state_of(robot);
+    if (truth) picture.poses.truth[robot.number] = truth_of(robot);
     // Of a process that is lost nobody hears any more.
     if (gone.contains(robot.host)) state.flags = static_cast<std::uint16_t>(state.flags | kStale);
   }

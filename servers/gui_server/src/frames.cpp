@@ -26,9 +26,9 @@ void put(std::string& frame, std::size_t offset, T value) {
 }
 
 /// The quantum with which everybody fits: the finest, or a power of two of it.
-double quantum_for(const PosesAt& poses, double origin_x, double origin_y) {
+double quantum_for(std::span<const RobotState> robots, double origin_x, double origin_y) {
   double farthest = 0;
-  for (const RobotState& robot : poses.robots) {
+  for (const RobotState& robot : robots) {
     if ((robot.flags & kKnown) == 0) continue;
     farthest = std::max({farthest, std::abs(robot.x_m - origin_x), std::abs(robot.y_m - origin_y)});
   }
@@ -54,12 +54,13 @@ std::int16_t speed_of(double speed_mps) {
 }  // namespace
 
 std::string encode_poses(const PosesAt& poses, const PoseFrameHead& head) {
-  const std::size_t n = poses.robots.size();
+  const std::span<const RobotState> robots = head.truth ? poses.truth : poses.robots;
+  const std::size_t n = robots.size();
   std::string frame(kPoseHeader + 14 * n, '\0');
   // A world far from the origin keeps its resolution if frames count from one of its robots.
   double origin_x = 0;
   double origin_y = 0;
-  for (const RobotState& robot : poses.robots) {
+  for (const RobotState& robot : robots) {
     if ((robot.flags & kKnown) == 0) continue;
     if (std::max(std::abs(robot.x_m), std::abs(robot.y_m)) > 1e5) {
       origin_x = std::round(robot.x_m);
@@ -67,7 +68,7 @@ std::string encode_poses(const PosesAt& poses, const PoseFrameHead& head) {
     }
     break;
   }
-  const auto quantum = static_cast<float>(quantum_for(poses, origin_x, origin_y));
+  const auto quantum = static_cast<float>(quantum_for(robots, origin_x, origin_y));
   put(frame, 0, std::uint8_t{1});
   put(frame, 1, static_cast<std::uint8_t>((head.past ? 1 : 0) | (head.truth ? 2 : 0)));
   put(frame, 2, head.roster_revision);
@@ -78,8 +79,9 @@ std::string encode_poses(const PosesAt& poses, const PoseFrameHead& head) {
   put(frame, 24, origin_x);
   put(frame, 32, origin_y);
   put(frame, 40, quantum);
+  put(frame, 44, poses.taken_us);
   for (std::size_t i = 0; i < n; ++i) {
-    const RobotState& robot = poses.robots[i];
+    const RobotState& robot = robots[i];
     const bool known = (robot.flags & kKnown) != 0;
     const std::size_t x = kPoseHeader + 4 * i;
     const std::size_t yaw = kPoseHeader + 8 * n + 2 * i;

@@ -7,7 +7,7 @@
 
 #include "rave/gui_server/source.hpp"
 
-// Binary frames of the stream; docs/explanation/gui-protocol.md describes them.
+// Binary frames of the stream; docs/reference/gui-frames.md describes them.
 namespace rave::gui_server {
 
 struct PoseFrameHead {
@@ -17,6 +17,7 @@ struct PoseFrameHead {
   bool truth = false;
 };
 
+/// Of the true poses if `head` says so.
 [[nodiscard]] std::string encode_poses(const PosesAt& poses, const PoseFrameHead& head);
 
 /// `time_s`: of the picture that the reading belongs to.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "components.hpp"
 #include "door.hpp"
@@ -22,6 +23,8 @@ namespace rave::gui_server {
 namespace {
 
 constexpr auto kTick = std::chrono::milliseconds(16);
+/// How often the server looks for a newer state of a run, which then does not wait for a tick.
+constexpr auto kGlance = std::chrono::milliseconds(4);
 constexpr auto kCheck = std::chrono::milliseconds(500);
 constexpr int kPortsToTry = 20;
 constexpr std::uint16_t kNotSignedIn = 4401;
@@ -99,10 +102,7 @@ class GuiServer::Impl final : public web::Handler {
     RAVE_TRY_ASSIGN(server_, web::Server::start(web_options, *this));
     server_->post([this, port = server_->port()] { door_.set_port(port); });
     if (source) show(std::move(source));
-    server_->every(kTick, [this] {
-      visitors_.tick(guests_.audience());
-      guests_.tick();
-    });
+    server_->every(kGlance, [this] { glance(); });
     server_->every(kCheck, [this] {
       visitors_.check();
       guests_.check();
@@ -189,6 +189,15 @@ class GuiServer::Impl final : public web::Handler {
   }
 
  private:
+  void glance() {
+    const auto now = std::chrono::steady_clock::now();
+    const auto& shown = visitors_.source();
+    if (now - ticked_ < kTick && !(shown && shown->has_newer())) return;
+    ticked_ = now;
+    visitors_.tick(guests_.audience());
+    guests_.tick();
+  }
+
   /// Other paths than that of pages were let through by upgrade().
   [[nodiscard]] static bool is_guest(const web::Request& request) {
     return request.path == "/foxglove";
@@ -299,6 +308,7 @@ class GuiServer::Impl final : public web::Handler {
   bool foxglove_;
   FoxgloveDoor foxglove_door_;
   FoxgloveGuests guests_;
+  std::chrono::steady_clock::time_point ticked_{};
   std::string foxglove_token_;  ///< Of a super-user; empty: there is none.
   std::unique_ptr<web::Server> server_;
 };

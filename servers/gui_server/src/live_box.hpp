@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -14,6 +15,13 @@
 
 // What passes between the thread of a run and that of the GUI Server, without a lock.
 namespace rave::gui_server {
+
+/// For PosesAt::taken_us; any thread.
+[[nodiscard]] inline std::uint32_t taken_now_us() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const auto us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+  return static_cast<std::uint32_t>(us) | 1U;
+}
 
 /// A moment of a run. Its memory is used again and again.
 struct LivePicture {
@@ -30,6 +38,7 @@ struct LivePicture {
 struct LiveWants {
   std::vector<LookedAt> sensors;
   bool parts = false;
+  bool truth = false;  ///< Also true poses.
   std::vector<std::uint32_t> maps;
   std::vector<probe::Asked> probes;
 };

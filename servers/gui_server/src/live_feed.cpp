@@ -124,6 +124,7 @@ void LiveFeed::draw(const sim::Engine& engine, int slower) {
   static_cast<void>(box_->wants.take());
   LivePicture& picture = box_->pictures.draft();
   draw_poses(engine, picture.poses);
+  draw_truth(engine, box_->wants.value().truth, picture.poses);
   // 0 says that a picture is of one page alone.
   if (++serial_ == 0) ++serial_;
   picture.poses.serial = serial_;
@@ -137,6 +138,7 @@ void LiveFeed::draw_poses(const sim::Engine& engine, PosesAt& poses) const {
   const sim::EngineSpec& spec = engine.spec();
   poses.time_s = engine.time().seconds();
   poses.step = engine.steps_done() == 0 ? 0 : engine.steps_done() - 1;
+  poses.taken_us = taken_now_us();
   poses.robots.resize(spec.robots.size());
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
     const sim::ReportedPose& reported = engine.reported(RobotId(r));
@@ -156,6 +158,19 @@ void LiveFeed::draw_poses(const sim::Engine& engine, PosesAt& poses) const {
     set(!engine.armed(RobotId(r)), kUnarmed);
     set(!spec.types[spec.robots[r].type].simulated, kReal);
     set(touching_until_s_[r] >= poses.time_s, kTouching);
+  }
+}
+
+/// Where a real robot truly is nobody knows.
+void LiveFeed::draw_truth(const sim::Engine& engine, bool wanted, PosesAt& poses) {
+  poses.truth.clear();
+  if (!wanted) return;
+  const sim::EngineSpec& spec = engine.spec();
+  poses.truth.resize(spec.robots.size());
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    if (!spec.types[spec.robots[r].type].simulated) continue;
+    const Pose2 X_WR = engine.snapshot().pose(RobotId(r));
+    poses.truth[r] = {X_WR.x, X_WR.y, X_WR.yaw, 0, kKnown};
   }
 }
 

@@ -37,6 +37,7 @@ class LiveFeed final : public runtime::RunObserver {
   void draw(const sim::Engine& engine, int slower);
   void draw_maps(const sim::Engine& engine, int slower);
   void draw_poses(const sim::Engine& engine, PosesAt& poses) const;
+  static void draw_truth(const sim::Engine& engine, bool wanted, PosesAt& poses);
   static void draw_readings(const sim::Engine& engine, const LiveWants& wants,
                             LivePicture& picture);
   void draw_probes(const sim::Engine& engine, LivePicture& picture);

@@ -103,10 +103,9 @@ LiveSource::LiveSource(Start start, std::shared_ptr<LiveBox> box, std::unique_pt
 
 Powers LiveSource::powers() const {
   Powers powers{{"stop", "release", "readings", "hybrid_parts", "obstacles", "log", "command",
-                 "edit", "chat", "maps"},
+                 "edit", "chat", "maps", "true_pose"},
                 {{"seek", kSeekLater},
-                 {"recording", "The recording can be downloaded when the run has ended."},
-                 {"true_pose", "This view shows reported poses."}}};
+                 {"recording", "The recording can be downloaded when the run has ended."}}};
   if (start_.probes) powers.may.emplace_back("probe");
   for (const char* const word : {"play", "pace", "step"}) {
     if (const std::string why_not = port_->why_not_held(); !why_not.empty()) {
@@ -135,8 +134,9 @@ std::unique_ptr<Playhead> LiveSource::open_playhead() {
 void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience) {
   box_->watched.store(audience.any, std::memory_order_relaxed);
   if (audience.looked_at != wants_.sensors || audience.parts != wants_.parts ||
-      audience.maps != wants_.maps || audience.probes != wants_.probes) {
-    wants_ = {audience.looked_at, audience.parts, audience.maps, audience.probes};
+      audience.truth != wants_.truth || audience.maps != wants_.maps ||
+      audience.probes != wants_.probes) {
+    wants_ = {audience.looked_at, audience.parts, audience.truth, audience.maps, audience.probes};
     box_->wants.draft() = wants_;
     box_->wants.publish();
   }
@@ -184,6 +184,7 @@ void LiveSource::take_picture(Playhead::Clock::time_point now) {
     state_.picture = poses.serial;
     if (past_.empty() || poses.time_s >= past_.back().time_s + kPastSpacing_s) {
       past_.push_back(poses);
+      past_.back().truth = {};
     }
     const std::size_t most = kMostPast / std::max<std::size_t>(1, poses.robots.size());
     while (!past_.empty() &&

@@ -40,13 +40,17 @@ class Recording final : public Source {
     return std::make_unique<ReplayPlayhead>(about_, Playhead::Clock::now());
   }
   [[nodiscard]] Powers powers() const override {
-    return {{"play", "seek", "pace", "step", "readings", "hybrid_parts", "obstacles", "log",
-             "recording", "chat", "maps"},
-            {{"stop", kNoStop},
-             {"release", kNoStop},
-             {"command", kNoOrders},
-             {"edit", kNoOrders},
-             {"true_pose", "This view shows reported poses."}}};
+    Powers powers{
+        {"play", "seek", "pace", "step", "readings", "hybrid_parts", "obstacles", "log",
+         "recording", "chat", "maps"},
+        {{"stop", kNoStop}, {"release", kNoStop}, {"command", kNoOrders}, {"edit", kNoOrders}}};
+    // Where real robots truly were nobody knows.
+    if (std::ranges::find(real_, 0) != real_.end()) {
+      powers.may.emplace_back("true_pose");
+    } else {
+      powers.why_not["true_pose"] = "This recording has no simulated robot, so no true poses.";
+    }
+    return powers;
   }
   [[nodiscard]] std::span<const ChatText> chat() const noexcept override { return chat_; }
   // Maps that robots made are not recorded; the one of the world file is known all the same.

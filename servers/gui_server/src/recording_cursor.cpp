@@ -39,12 +39,13 @@ RecordingCursor::RecordingCursor(const record::McapReader& reader, const FlagHis
     variances_channel_ = variances->id;
   }
   poses_.robots.resize(real.size());
+  poses_.truth.resize(real.size());
 }
 
 void RecordingCursor::begin_at(double time_s) {
   record::MessageFilter filter;
   filter.channels = {poses_channel_};
-  if (percepts_channel_) filter.channels.push_back(*percepts_channel_);
+  if (percepts_channel_ && reads_percepts_) filter.channels.push_back(*percepts_channel_);
   if (variances_channel_) filter.channels.push_back(*variances_channel_);
   filter.from_ns = ns_of(time_s - look_back_s_);
   cursor_ = reader_.messages(filter);
@@ -119,10 +120,15 @@ Status RecordingCursor::show(const Bytes& bytes) {
   poses_.step = step.step;
   for (std::size_t r = 0; r < poses_.robots.size(); ++r) {
     poses_.robots[r] = {};
+    poses_.truth[r] = {};
     if (real_[r] != 0) poses_.robots[r].flags = kReal;
   }
   for (const record::RobotPose& pose : step.items) {
-    if (pose.robot.value() >= poses_.robots.size() || !pose.reported_pose) continue;
+    if (pose.robot.value() >= poses_.robots.size()) continue;
+    if (const auto& truth = pose.true_pose) {
+      poses_.truth[pose.robot.value()] = {truth->x, truth->y, truth->yaw, 0, kKnown};
+    }
+    if (!pose.reported_pose) continue;
     RobotState& robot = poses_.robots[pose.robot.value()];
     robot.x_m = pose.reported_pose->x;
     robot.y_m = pose.reported_pose->y;
@@ -158,6 +164,13 @@ void RecordingCursor::set_flags() {
 }
 
 std::vector<ReadingAt> RecordingCursor::readings(std::span<const LookedAt> sensors, bool parts) {
+  if (!reads_percepts_) {
+    // They are most of a recording, and most pages look at few.
+    reads_percepts_ = true;
+    if (!cursor_) return {};
+    begin_at(time_s_);
+    if (!find_variances(ns_of(time_s_)) || !read_until(time_s_)) return {};
+  }
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t>, ReadingAt> newest;
   for (const auto& [at_s, bytes] : percepts_) {
     const auto step = record::decode_percepts(bytes);

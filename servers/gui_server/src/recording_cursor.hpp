@@ -54,6 +54,7 @@ class RecordingCursor final : public Cursor {
   double look_back_s_;
   std::uint16_t poses_channel_ = 0;
   std::optional<std::uint16_t> percepts_channel_;
+  bool reads_percepts_ = false;  ///< From the first call of readings() on.
   std::optional<std::uint16_t> variances_channel_;
   std::optional<record::MessageCursor> cursor_;
   std::optional<std::tuple<std::uint64_t, std::uint16_t, Bytes>> ahead_;  ///< Read, and later.

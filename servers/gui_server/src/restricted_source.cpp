@@ -189,9 +189,9 @@ std::size_t RestrictedSource::events_changed_since(std::uint64_t revision) const
 }
 
 PosesAt RestrictedSource::cut(const PosesAt& all) {
-  if (all.serial == 0) return view_->poses(all, false);
+  if (all.serial == 0) return view_->poses(all);
   if (shared_.serial != all.serial || shared_.time_s != all.time_s) {
-    shared_ = view_->poses(all, false);
+    shared_ = view_->poses(all);
   }
   return shared_;
 }

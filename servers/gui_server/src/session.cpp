@@ -11,6 +11,10 @@ namespace rave::gui_server {
 namespace {
 
 constexpr std::size_t kMostOnTheirWay = 2;
+/// A page that acknowledges a frame within this time can take more of the past.
+constexpr auto kQuick = std::chrono::milliseconds(100);
+/// Time of the server for the past of one page in one tick.
+constexpr auto kPastTime = std::chrono::milliseconds(4);
 /// How often a page is told what happened, and what came and went.
 constexpr auto kNewsInterval = std::chrono::milliseconds(100);
 /// Who sends so much nonsense is not our page.
@@ -32,6 +36,7 @@ Session::Session(web::Socket& socket, SessionCalls calls)
 void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, bool same_run) {
   const PlayState before = told_state_;
   // They refer to the source that goes.
+  past_.reset();
   cursor_.reset();
   playhead_.reset();
   source_ = std::move(source);
@@ -138,7 +143,9 @@ void Session::take(const AskCatalogueMessage& ask) {
 void Session::take(const AckMessage& ack) {
   // A frame that was drawn says that those before it were drawn or left out.
   while (!on_their_way_.empty() &&
-         static_cast<std::int32_t>(on_their_way_.front() - ack.sequence) <= 0) {
+         static_cast<std::int32_t>(on_their_way_.front().first - ack.sequence) <= 0) {
+    const bool quick = Clock::now() - on_their_way_.front().second < kQuick;
+    past_bytes_ = quick ? std::min(2 * past_bytes_, kMostPast) : kLeastPast;
     on_their_way_.pop_front();
   }
 }
@@ -203,11 +210,12 @@ void Session::tick(Clock::time_point now, SharedFrames& frames) {
   if (!look_.poses || broken_ || on_their_way_.size() >= kMostOnTheirWay) return;
   // Tiles are confirmed by the picture behind them.
   if (map_stream_.due(*source_)) changed_ = true;
-  if (state.picture == picture_ && !changed_) return;
-  const auto spacing = std::chrono::duration<double>(0.9 / look_.max_hz);
-  if (now - last_frame_ < spacing && !changed_) return;
-  last_frame_ = now;
-  if (past_due_) send_past(state.now_s);
+  if (state.picture == picture_ && !changed_ && !past_) return;
+  const auto period =
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / look_.max_hz));
+  if (now < due_ && !changed_) return;
+  // In step with the rate that was asked for, whenever states come.
+  due_ = now >= due_ && now - due_ < period ? due_ + period : now + period;
   if (const auto gone = cursor_->go_to(state.now_s); !gone) {
     answer("replay", false, gone.error().text());
     broken_ = true;
@@ -224,37 +232,59 @@ void Session::tick(Clock::time_point now, SharedFrames& frames) {
   send_frame(frames);
   picture_ = state.picture;
   changed_ = false;
+  if (past_due_) begin_past(state.now_s);
+  send_past();
 }
 
-void Session::send_past(double now_s) {
+void Session::begin_past(double now_s) {
   past_due_ = false;
-  for (double t = now_s - kPast_s; t < now_s - kPastSpacing_s / 2; t += kPastSpacing_s) {
-    if (t < 0) continue;
-    if (!cursor_->go_to(t)) return;
-    if (cursor_->poses().robots.empty() || cursor_->poses().time_s > t + kPastSpacing_s) continue;
+  past_ = Past{source_->open_cursor(), std::max(0.0, now_s - kPast_s), now_s - kPastSpacing_s / 2};
+}
+
+/// Pieces of the past go behind frames, whose acknowledgements tell how much the line takes. The
+/// frame of the moment does not wait for it.
+void Session::send_past() {
+  if (!past_) return;
+  const auto begin = Clock::now();
+  std::size_t sent = 0;
+  while (past_->next_s < past_->until_s) {
+    if (sent >= past_bytes_ || Clock::now() - begin > kPastTime) return;
+    const double t = past_->next_s;
+    past_->next_s += kPastSpacing_s;
+    if (!past_->cursor->go_to(t)) break;
+    const PosesAt& poses = past_->cursor->poses();
+    if (poses.robots.empty() || poses.time_s > t + kPastSpacing_s) continue;
     PoseFrameHead head;
     head.sequence = ++sequence_;
     head.roster_revision = 1;
     head.past = true;
-    socket_.send_binary(payload(encode_poses(cursor_->poses(), head)));
+    web::Payload frame = payload(encode_poses(poses, head));
+    sent += frame->size();
+    socket_.send_binary(std::move(frame));
   }
+  past_.reset();
 }
 
 void Session::send_frame(SharedFrames& frames) {
   const PosesAt& poses = cursor_->poses();
+  const std::uint32_t sequence = poses.serial == 0 ? sequence_ + 1 : poses.serial;
+  sequence_ = sequence;
+  if (look_.true_poses && !poses.truth.empty()) send_poses(frames, sequence, true);
+  send_poses(frames, sequence, false);
+  on_their_way_.emplace_back(sequence, Clock::now());
+}
+
+void Session::send_poses(SharedFrames& frames, std::uint32_t sequence, bool truth) {
+  const PosesAt& poses = cursor_->poses();
   PoseFrameHead head;
   head.roster_revision = 1;
-  if (poses.serial == 0) {
-    head.sequence = ++sequence_;
-    socket_.send_binary(payload(encode_poses(poses, head)));
-  } else {
-    // One encoding serves all pages of the same rights.
-    head.sequence = sequence_ = poses.serial;
-    web::Payload& frame = frames[{source_.get(), poses.serial}];
-    if (!frame) frame = payload(encode_poses(poses, head));
-    socket_.send_binary(frame);
-  }
-  on_their_way_.push_back(head.sequence);
+  head.sequence = sequence;
+  head.truth = truth;
+  web::Payload own;
+  // One encoding serves all pages of the same rights.
+  web::Payload& frame = poses.serial == 0 ? own : frames[{source_.get(), poses.serial, truth}];
+  if (!frame) frame = payload(encode_poses(poses, head));
+  socket_.send_binary(frame);
 }
 
 void Session::send_readings() {

@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 #include "frames.hpp"
 #include "map_stream.hpp"
@@ -24,8 +25,9 @@
 
 namespace rave::gui_server {
 
-/// Frames of a tick that several pages are sent, by source and serial number of the picture.
-using SharedFrames = std::map<std::pair<const Source*, std::uint32_t>, web::Payload>;
+/// Frames of a tick that several pages are sent, by source, serial number of the picture, and
+/// whether it has true poses.
+using SharedFrames = std::map<std::tuple<const Source*, std::uint32_t, bool>, web::Payload>;
 
 /// What a session asks of its server: each returns a sentence, or an error that the page is told.
 struct SessionCalls {
@@ -50,6 +52,13 @@ struct ProbeShown {
   double told_s = -1;  ///< Stamp of the reading that was sent last.
 };
 
+/// The past of a page, as far as it has not been sent.
+struct Past {
+  std::unique_ptr<Cursor> cursor;  ///< Its own, so that of the page goes on at the present.
+  double next_s = 0;
+  double until_s = 0;
+};
+
 /// One page that is connected: what it looks at, its place in time, what is on its way to it. The
 /// thread of the server.
 class Session {
@@ -58,6 +67,10 @@ class Session {
   /// Each that is made costs some of the server's time.
   static constexpr double kProbesPerSecond = 10;
   static constexpr double kProbesAtOnce = 40;
+  /// Bytes of the past behind one frame: at first, or over a slow line, and at most. Whatever waits
+  /// on a slow line makes the frames behind it old.
+  static constexpr std::size_t kLeastPast = std::size_t{8} << 10U;
+  static constexpr std::size_t kMostPast = std::size_t{512} << 10U;
 
   /// `socket` outlives the session, and what `calls` use as well.
   Session(web::Socket& socket, SessionCalls calls);
@@ -104,8 +117,10 @@ class Session {
   void take(const PageKeyMessage& page) { calls_.page_key(page); }
   void keep_place(const PlayState& before);
   void forget_foreign_sensors();
-  void send_past(double now_s);
+  void begin_past(double now_s);
+  void send_past();
   void send_frame(SharedFrames& frames);
+  void send_poses(SharedFrames& frames, std::uint32_t sequence, bool truth);
   void send_readings();
   void send_probes();
   void send_variances();
@@ -121,12 +136,15 @@ class Session {
   std::unique_ptr<Playhead> playhead_;
   std::unique_ptr<Cursor> cursor_;
   LookMessage look_;
-  PlayState told_state_;  ///< As the page knows it.
-  Clock::time_point last_frame_{};
+  PlayState told_state_;     ///< As the page knows it.
+  Clock::time_point due_{};  ///< Of the next frame.
   Clock::time_point last_time_{};
   Clock::time_point last_news_{};
   std::uint32_t sequence_ = 0;
-  std::deque<std::uint32_t> on_their_way_;
+  /// Frames that are not acknowledged: their number, and when they were sent.
+  std::deque<std::pair<std::uint32_t, Clock::time_point>> on_their_way_;
+  std::optional<Past> past_;
+  std::size_t past_bytes_ = kLeastPast;  ///< Of the past, behind the next frame.
   std::map<std::pair<LookedAt, std::uint8_t>, double> told_;  ///< Stamp of what was sent last.
   std::vector<VarianceAt> told_variances_;
   MapStream map_stream_;

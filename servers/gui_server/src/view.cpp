@@ -116,13 +116,19 @@ bool View::may_some(InfoClass what) const {
 }
 bool View::may_all(InfoClass what) const { return all_[column(what)]; }
 
-PosesAt View::poses(const PosesAt& all, bool truth) const {
-  PosesAt mine = all;
-  mine.robots.clear();
+PosesAt View::poses(const PosesAt& all) const {
+  // Made anew, so that what is withheld is not copied in the first place.
+  PosesAt mine{all.serial, all.time_s, all.step, {}, {}, all.taken_us};
   mine.robots.reserve(shown_.size());
   for (const std::uint32_t robot : shown_) {
-    const bool given = robot < all.robots.size() && (!truth || may(InfoClass::kTruePose, robot));
+    const bool given = robot < all.robots.size();
     mine.robots.push_back(given ? all.robots[robot] : RobotState{});
+  }
+  if (all.truth.empty() || !may_some(InfoClass::kTruePose)) return mine;
+  mine.truth.reserve(shown_.size());
+  for (const std::uint32_t robot : shown_) {
+    const bool given = robot < all.truth.size() && may(InfoClass::kTruePose, robot);
+    mine.truth.push_back(given ? all.truth[robot] : RobotState{});
   }
   return mine;
 }

@@ -62,8 +62,8 @@ class View {
   /// Of every robot, as the recording and run control need it.
   [[nodiscard]] bool may_all(InfoClass what) const;
 
-  /// In slots. With `truth` robots whose true pose is withheld have no pose.
-  [[nodiscard]] PosesAt poses(const PosesAt& all, bool truth) const;
+  /// In slots. Robots whose true pose is withheld have none.
+  [[nodiscard]] PosesAt poses(const PosesAt& all) const;
   /// In slots; false: it is withheld.
   [[nodiscard]] bool reading(ReadingAt& reading) const;
   /// In slots; nothing: it is withheld, or names somebody who is.

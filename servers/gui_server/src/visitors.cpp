@@ -171,6 +171,8 @@ void Visitors::tick(Audience audience) {
     const LookMessage& look = visitor.page->look();
     audience.any = audience.any || look.poses;
     audience.parts = audience.parts || look.parts;
+    audience.truth = audience.truth || (look.poses && look.true_poses &&
+                                        visitor.view->may_some(InfoClass::kTruePose));
     for (const LookedAt& looked : look.readings) {
       // What is withheld is not even gathered.
       const auto robot = visitor.view->robot_of(looked.slot);

@@ -17,6 +17,8 @@ namespace rave::gui_server::testing {
 class FakeRun : public Source {
  public:
   static constexpr double kSecretX_m = 7777.25;
+  static constexpr double kOpenTruth_m = 5512.5;  ///< True place of robots of team green.
+  static constexpr double kSecretTruth_m = 6666.5;
   static constexpr float kSecretRange_m = 1234.5F;
   static constexpr float kOpenRange_m = 2.5F;
   static constexpr float kHalfRange_m = 987.5F;
@@ -59,6 +61,8 @@ class FakeRun : public Source {
     maps_.add({"of spy-2", maps::kNoRobot, {0.5, {}, 4, 2}, 0, 0, 1, {}, kSecretCells});
     for (int i = 0; i < 4; ++i) {
       poses_.robots.push_back({i % 2 == 0 ? 1.0 : kSecretX_m, 0, 0, 0, kKnown});
+      // There whether or not somebody asks: no more than a part of it may be sent.
+      poses_.truth.push_back({i % 2 == 0 ? kOpenTruth_m : kSecretTruth_m, 0, 0, 0, kKnown});
     }
   }
 
@@ -83,6 +87,7 @@ class FakeRun : public Source {
   [[nodiscard]] std::uint64_t maps_revision() const noexcept override { return 1; }
   [[nodiscard]] const MapShown* map(const MapName& name) const override { return maps_.find(name); }
   void tick(Playhead::Clock::time_point /*now*/, const Audience& audience) override {
+    asked_truth = audience.truth;
     for (const std::uint32_t robot : audience.maps) asked_maps |= 1 << robot;
     int robots = 0;
     for (const probe::Asked& asked : audience.probes) robots |= 1 << asked.robot;
@@ -155,7 +160,8 @@ class FakeRun : public Source {
   std::vector<ChatText> recorded;  ///< Of the record that this is, if it is one.
   std::atomic<int> halted_robots = 0;
   std::atomic<int> asked_maps = 0;  ///< A bit of each robot whose local map was asked for.
-  std::atomic<int> probed = 0;      ///< A bit of each robot that something is tried on now.
+  std::atomic<bool> asked_truth = false;
+  std::atomic<int> probed = 0;  ///< A bit of each robot that something is tried on now.
   std::atomic<std::uint64_t> lease_page = 0;  ///< On which page ben drives.
   std::atomic<int> moved = 0;                 ///< How often somebody moved the time of the run.
 

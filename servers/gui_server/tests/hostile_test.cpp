@@ -18,11 +18,20 @@ std::string bytes_of(auto value) {
   return bytes;
 }
 
+/// As frames.cpp has it, whose quantum is a float.
+std::string bytes_of_place(double x_m) {
+  return bytes_of(static_cast<std::int32_t>(std::lround(x_m / double{1e-4F})));
+}
+
 /// What nobody of team green may be told, as it would be encoded.
 std::vector<std::string> secrets() {
-  return {"spy-", "secret-pond", bytes_of(FakeRun::kSecretRange_m), bytes_of(FakeRun::kHalfRange_m),
-          // As frames.cpp has it, whose quantum is a float.
-          bytes_of(static_cast<std::int32_t>(std::lround(FakeRun::kSecretX_m / double{1e-4F})))};
+  return {"spy-",
+          "secret-pond",
+          bytes_of(FakeRun::kSecretRange_m),
+          bytes_of(FakeRun::kHalfRange_m),
+          bytes_of_place(FakeRun::kSecretX_m),
+          bytes_of_place(FakeRun::kSecretTruth_m),
+          bytes_of_place(FakeRun::kOpenTruth_m)};
 }
 
 constexpr const char* kLookAtAll =
@@ -84,6 +93,46 @@ TEST_F(Hostile, AnObserverGetsNothingThatIsWithheldWhateverTheyAsk) {
   EXPECT_EQ(heard.find("nowhere"), std::string::npos);
   EXPECT_EQ(run_->halted_robots, 0);
   EXPECT_EQ(run_->moved, 0);
+}
+
+/// Looks at true poses until a frame of poses came; whether one of true poses came before it.
+bool hears_truth(RawSocket& socket) {
+  socket.send(kLookAtAll);
+  bool truth = false;
+  for (int frames = 3; frames > 0;) {
+    const auto frame = socket.next();
+    if (!frame) return truth;
+    if (frame->opcode != 2 || frame->payload.size() < 8 || frame->payload[0] != 1) continue;
+    const bool is_truth = (frame->payload[1] & 2) != 0;
+    truth = truth || is_truth;
+    if (is_truth || (frame->payload[1] & 1) != 0) continue;
+    --frames;
+    std::uint32_t sequence = 0;
+    std::memcpy(&sequence, frame->payload.data() + 4, sizeof sequence);
+    socket.send(fmt::format(R"({{"type":"ack","sequence":{}}})", sequence));
+  }
+  return truth;
+}
+
+TEST_F(Hostile, TruePosesAreNotEvenGatheredForWhoMayNotHaveThem) {
+  RawSocket eve = socket(guest(Role::kObserver, "eve"));
+  EXPECT_NE(eve.text_with("\"why_not\"").find("\"true_pose\":\"Your rights"), std::string::npos);
+  EXPECT_FALSE(hears_truth(eve));
+  EXPECT_FALSE(run_->asked_truth);
+  RawSocket boss = super_user();
+  EXPECT_TRUE(hears_truth(boss));
+  EXPECT_TRUE(run_->asked_truth);
+  // Of their own team, when that is given, and of nobody else.
+  set_right(boss, "observer", "true_pose", "\"own\"");
+  eve.send(R"({"type":"ack","sequence":1000000})");
+  EXPECT_TRUE(hears_truth(eve));
+  EXPECT_NE(eve.heard().find(bytes_of_place(FakeRun::kOpenTruth_m)), std::string::npos);
+  EXPECT_EQ(eve.heard().find(bytes_of_place(FakeRun::kSecretTruth_m)), std::string::npos);
+  // And no longer when it is taken back.
+  set_right(boss, "observer", "true_pose", "\"none\"");
+  EXPECT_NE(eve.text_with("\"roster\""), "");
+  eve.send(R"({"type":"ack","sequence":1000000})");
+  EXPECT_FALSE(hears_truth(eve));
 }
 
 /// Looks at all maps until so many tiles came; acknowledges frames as a page does.

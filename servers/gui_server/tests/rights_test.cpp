@@ -144,13 +144,31 @@ TEST(ViewOfARun, HasSlotsWithoutGapsForWhoIsSeen) {
 TEST(ViewOfARun, CutsPosesDown) {
   PosesAt all;
   for (int i = 0; i < 4; ++i) all.robots.push_back({double(i), 0, 0, 0, kKnown});
-  const PosesAt mine = own_team_view().poses(all, false);
+  all.truth = all.robots;
+  const PosesAt mine = own_team_view().poses(all);
   ASSERT_EQ(mine.robots.size(), 2U);
   EXPECT_EQ(mine.robots[1].x_m, 2);
   // Observers are not told where robots really are.
-  for (const RobotState& robot : own_team_view().poses(all, true).robots) {
-    EXPECT_EQ(robot.flags, 0);
-    EXPECT_EQ(robot.x_m, 0);
+  EXPECT_TRUE(mine.truth.empty());
+}
+
+TEST(ViewOfARun, HasTruePosesOfThoseTeamsAlone) {
+  Rights rights;
+  ASSERT_TRUE(rights.set(Role::kObserver, InfoClass::kTruePose, {Reach::Kind::kOwn, {}}));
+  const auto cast = std::make_shared<const Cast>(cast_of(roster(), kBodies));
+  const View view(rights, {"eve", Role::kObserver, {false, {"green"}}}, cast);
+  PosesAt all;
+  for (int i = 0; i < 4; ++i) all.robots.push_back({double(i), 0, 0, 0, kKnown});
+  EXPECT_TRUE(view.poses(all).truth.empty()) << "nobody asked";
+  all.truth = all.robots;
+  const PosesAt mine = view.poses(all);
+  // All are seen, and two belong to team green.
+  ASSERT_EQ(mine.robots.size(), 4U);
+  ASSERT_EQ(mine.truth.size(), 4U);
+  for (std::uint32_t slot = 0; slot < 4; ++slot) {
+    const bool own = slot % 2 == 0;
+    EXPECT_EQ(mine.truth[slot].flags, own ? kKnown : 0) << slot;
+    EXPECT_EQ(mine.truth[slot].x_m, own ? slot : 0) << slot;
   }
 }
 

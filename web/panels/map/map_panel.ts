@@ -97,12 +97,11 @@ export class MapPanel extends LookingPanel {
       <div class="head">
         ${this.renderSources(source)}
         <span class="about">${this.about(source)}</span>
-        <span class="space"></span>
-        <label class="over"><input type="checkbox" role="switch" .checked=${over} @change=${(event: Event) => this.setOver((event.target as HTMLInputElement).checked)}>
+        <span class="blend"><label class="over"><input type="checkbox" role="switch" .checked=${over} @change=${(event: Event) => this.setOver((event.target as HTMLInputElement).checked)}>
           <span>over the world</span></label>
         <input class="opacity" type="range" min="10" max="100" step="5" aria-label="Opacity over the world" .value=${String(Math.round(100 * this.opacity))}
           ?disabled=${!over} @input=${(event: Event) => this.setOpacity(Number((event.target as HTMLInputElement).value))}>
-        <output>${Math.round(100 * this.opacity)} %</output>
+        <output>${Math.round(100 * this.opacity)} %</output></span>
       </div>
       <div class="stage">
         <canvas tabindex="0" role="img" aria-label=${this.summary(source)} @pointerdown=${this.gestures.down} @pointermove=${this.gestures.move}

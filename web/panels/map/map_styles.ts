@@ -4,7 +4,7 @@ import {css} from 'lit';
 export const mapStyles = css`
   :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); overflow: hidden; container-type: inline-size; }
   .head { display: flex; flex-wrap: wrap; align-items: center; gap: 4px 10px; flex: none; padding: 6px 10px; border-bottom: 1px solid var(--line-1); font-size: var(--fs-12); color: var(--text-2); }
-  .space { flex: 1; }
+  .blend { display: inline-flex; align-items: center; gap: 10px; margin-left: auto; white-space: nowrap; }
   .source { position: relative; display: inline-flex; align-items: center; gap: 8px; height: var(--h-control); padding: 0 8px 0 10px; border-radius: var(--r-3); background: var(--bg-2); color: var(--text-1); max-width: 100%; min-width: 0; }
   .source select { appearance: none; border: 0; background: none; color: inherit; font: inherit; font-weight: var(--fw-medium); padding: 4px 22px 4px 0; margin-right: -22px; cursor: pointer; min-width: 0; max-width: 220px; text-overflow: ellipsis; }
   .source option, .source optgroup { background: var(--bg-2); color: var(--text-1); }
@@ -16,7 +16,7 @@ export const mapStyles = css`
   input { accent-color: var(--intent-fill); }
   .opacity { width: 84px; }
   .opacity:disabled { opacity: 0.45; }
-  output { min-width: 40px; color: var(--text-1); text-align: right; }
+  output { min-width: 36px; color: var(--text-1); text-align: right; }
   .stage { position: relative; flex: 1; min-height: 0; }
   canvas { position: absolute; inset: 0; width: 100%; height: 100%; touch-action: none; cursor: grab; }
   canvas:active { cursor: grabbing; }

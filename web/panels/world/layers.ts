@@ -2,11 +2,14 @@
 
 /** Kinds that the legend can hide. */
 export type Kind = 'real' | 'simulated' | 'virtual' | 'wall' | 'landmark';
+/** Which poses robots are drawn at: `both` marks the true one beside the reported one. */
+export type Poses = 'reported' | 'both' | 'true';
 export type ColourBy = 'kind' | 'team' | 'speed' | 'age';
 
 /** What the World View shows. Saved with the layout. */
 export interface Layers {
   hidden: Kind[];
+  poses: Poses;
   trails: boolean;
   scans: 'off' | 'selected' | 'real';
   sightings: boolean;
@@ -25,6 +28,7 @@ export const kColourBy: readonly ColourBy[] = ['kind', 'team', 'speed', 'age'];
 
 export const kLayers: Layers = {
   hidden: [],
+  poses: 'reported',
   trails: true,
   scans: 'real',
   sightings: true,
@@ -44,6 +48,7 @@ export function readLayers(kept: unknown): Layers {
   for (const name of ['trails', 'sightings', 'hits', 'uncertainty', 'names', 'grid', 'density', 'minimap'] satisfies Flag[]) {
     if (typeof given[name] === 'boolean') layers[name] = given[name];
   }
+  if (given.poses === 'both' || given.poses === 'true') layers.poses = given.poses;
   if (given.scans === 'off' || given.scans === 'selected') layers.scans = given.scans;
   if (given.colourBy !== undefined && kColourBy.includes(given.colourBy)) layers.colourBy = given.colourBy;
   return layers;

@@ -67,7 +67,8 @@ export function drawShadows(ctx: CanvasRenderingContext2D, camera: Camera, model
   }
 }
 
-function drawGap(ctx: CanvasRenderingContext2D, text: string, x: number, y: number, ink: string, floor: string): void {
+/** A measure, under a place of the screen. */
+export function drawGap(ctx: CanvasRenderingContext2D, text: string, x: number, y: number, ink: string, floor: string): void {
   ctx.font = `500 11px ${kFont}`;
   ctx.textAlign = 'center';
   ctx.textBaseline = 'top';

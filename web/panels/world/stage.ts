@@ -8,6 +8,8 @@ import type {OrderDesk} from './orders/order_desk';
 export interface StageContext extends PanelContext {
   /** Where everybody is in the picture that is drawn. */
   readonly placed: Placed;
+  /** True poses to mark beside those, empty if there are none. */
+  readonly truth: Placed;
   layers(): Layers;
   /** Asks for another picture. */
   redraw(): void;

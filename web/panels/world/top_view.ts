@@ -22,6 +22,7 @@ import {kTailParts, type Swarm, type Tone} from './swarm';
 import {Tint} from './tint';
 import {drawTrail, kTrail_s, trailFrames} from './trail_layer';
 import {drawShadows} from './shadow_layer';
+import {drawTruth} from './truth_layer';
 import {drawVariances} from './variance_layer';
 
 /** Below this many pixels per metre, or beyond so many robots in the picture, simulated ones are arrowheads. */
@@ -91,7 +92,7 @@ export class TopView {
   }
 
   /** Robots and what they read. With `swarm`, far robots go there; it is empty where none is far. */
-  drawLife(ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed, layers: Layers, swarm: Swarm | null): void {
+  drawLife(ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed, truth: Placed, layers: Layers, swarm: Swarm | null): void {
     const {model, palette, selection} = this;
     if (this.surface !== null) this.surface.placed = placed;
     const cast = this.cast(camera, placed, layers, swarm !== null);
@@ -109,6 +110,7 @@ export class TopView {
       const share = robot.kind === 'real' || layers.colourBy === 'kind' ? null : this.tint.share(layers.colourBy, slot, placed, speeds);
       this.robots.draw(ctx, camera, placed, slot, robot, share === null ? null : rampColour(share, palette.theme));
     }
+    if (truth.count > 0) drawTruth(ctx, camera, cast.whole, selection, palette, placed, truth, this.robots);
     if (layers.names) this.drawNames(ctx, camera, placed, layers, cast);
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
+import type {RunModel} from '../../model/run_model';
 import type {PanelContext} from '../../panel_api';
 import {kColourBy, type ColourBy, type Flag, type Kind, type Layers} from './layers';
 import {rampColour} from './ramp';
@@ -48,7 +49,7 @@ export function renderLegend(context: PanelContext, layers: Layers, set: (layers
 }
 
 /** What is shown over the floor. */
-export function renderMenu(layers: Layers, scale: [string, string], theme: 'dark' | 'light', set: (layers: Layers) => void): TemplateResult {
+export function renderMenu(model: RunModel, layers: Layers, scale: [string, string], theme: 'dark' | 'light', set: (layers: Layers) => void): TemplateResult {
   const flag = (name: Flag, text: string, note = '') => html`
     <label><span>${text}</span><em>${note}</em>
       <input type="checkbox" role="switch" .checked=${layers[name]} @change=${() => set({...layers, [name]: !layers[name]})}></label>`;
@@ -57,6 +58,9 @@ export function renderMenu(layers: Layers, scale: [string, string], theme: 'dark
       ${values.map(([other, word]) => html`<option value=${other} ?selected=${other === value}>${word}</option>`)}</select></label>`;
   return html`<div class="menu" role="group" aria-label="Layers">
     <header>Layers <em>saved with the layout</em></header>
+    ${model.may('true_pose')
+      ? choice('Poses', layers.poses, [['reported', 'reported'], ['both', 'reported and true'], ['true', 'true']], (poses) => ({...layers, poses}))
+      : nothing}
     ${flag('trails', 'Trails', '10 s')}
     ${choice('Scans', layers.scans, [['off', 'off'], ['selected', 'selected'], ['real', 'selected and real']], (scans) => ({...layers, scans}))}
     ${flag('sightings', 'Camera sightings')}

@@ -5,13 +5,14 @@ import {controls, glyphs} from '../../app/styles';
 import {Placed} from '../../model/pose_history';
 import type {PanelContext} from '../../panel_api';
 import {viewOf} from '../../panel_api/windows';
-import {kColourBy, kLayers, readLayers, type Layers} from './layers';
+import {kColourBy, kLayers, readLayers, type Layers, type Poses} from './layers';
 import {drawnSensors} from './scan_layer';
 import {orderStyles} from './orders/order_cards';
 import type {Tool} from './orders/order_desk';
 import {WorldOrders} from './orders/world_orders';
 import type {Stage, StageContext} from './stage';
 import {TopStage} from './top_stage';
+import {takePlaces} from './truth_layer';
 import {renderCard, worldCardStyles} from './world_card';
 import {renderLegend, renderMenu, worldMenuStyles} from './world_menu';
 
@@ -31,6 +32,8 @@ type Mode = 'top' | '3d';
 export class WorldPanel extends LitElement {
   declare context: PanelContext;
   readonly placed = new Placed();
+  /** True poses, while they are drawn beside reported ones. */
+  readonly truth = new Placed();
   /** Pictures so far, and the time they took: for measuring. */
   painted = 0;
   paint_ms = 0;
@@ -98,6 +101,7 @@ export class WorldPanel extends LitElement {
   override disconnectedCallback(): void {
     super.disconnectedCallback();
     this.context.link.look(this, []);
+    this.context.link.lookAtTruth(false);
     this.resized.disconnect();
     for (const end of this.ends.splice(0)) end();
   }
@@ -111,6 +115,7 @@ export class WorldPanel extends LitElement {
     return {
       ...this.context,
       placed: this.placed,
+      truth: this.truth,
       layers: () => this.layers,
       redraw: () => this.draw(),
       moved: () => (this.moved = true),
@@ -247,6 +252,7 @@ export class WorldPanel extends LitElement {
       if (robot) for (const sensor of drawnSensors(robot)) pairs.push([slot, sensor]);
     }
     link.look(this, pairs);
+    link.lookAtTruth(this.poses !== 'reported');
   }
 
   private resize(): void {
@@ -265,6 +271,22 @@ export class WorldPanel extends LitElement {
     return innerWidth >= 600 && this.clientWidth > kAlone * innerWidth && this.clientHeight > 0.6 * innerHeight;
   }
 
+  /** Poses that are drawn; who may not have true ones is shown reported ones. */
+  private get poses(): Poses {
+    return this.context.model.may('true_pose') ? this.layers.poses : 'reported';
+  }
+
+  /** What the menu says: true poses in place of those of `placed`, or beside them. */
+  private placeTruth(now_ms: number): void {
+    const {truth} = this;
+    truth.resize(0);
+    if (this.poses === 'reported') return;
+    this.context.model.truth.interpolate(now_ms, truth);
+    if (this.poses === 'both') return;
+    takePlaces(this.placed, truth);
+    truth.resize(0);
+  }
+
   private draw(): void {
     if (this.drawQueued) return;
     this.drawQueued = true;
@@ -279,6 +301,7 @@ export class WorldPanel extends LitElement {
     const now_ms = performance.now();
     const {model} = this.context;
     model.poses.interpolate(now_ms, this.placed);
+    this.placeTruth(now_ms);
     if (!this.fitted && model.poses.newest !== null && (this.placed.count > 0 || model.bodies.size > 0)) {
       this.fitted = this.stage.fit(false);
     }
@@ -338,7 +361,7 @@ export class WorldPanel extends LitElement {
           : nothing}
         ${this.orders.render(this.stage.screenAt === undefined ? null : ([x, y]) => this.top.screenAt(x, y))}
         ${this.alone ? renderCard(this.context, this.placed) : nothing}
-        ${this.menuOpen ? renderMenu(this.layers, this.top.tint.scale(this.layers.colourBy), palette.theme, set) : nothing}
+        ${this.menuOpen ? renderMenu(model, this.layers, this.top.tint.scale(this.layers.colourBy), palette.theme, set) : nothing}
       </div>`;
   }
 

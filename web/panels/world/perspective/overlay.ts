@@ -6,6 +6,7 @@ import type {Shown} from '../reading_layer';
 import {drawStopped} from '../robot_layer';
 import {bearingsOf, drawMark, mountOf} from '../scan_layer';
 import type {StageContext} from '../stage';
+import {bothKnown, drawTrueCross} from '../truth_layer';
 import {pointSurface, type Surface} from '../surface';
 import type {Orbit} from './orbit';
 import {topOf} from './prism';
@@ -27,10 +28,22 @@ export class Overlay {
         if (layers.sightings) this.drawSightings(ctx, one);
       } else if (one.fresh && layers.hits && surface !== null) this.drawHits(ctx, one, surface);
     }
+    this.drawTruth(ctx, shown);
     const placer = new LabelPlacer(this.orbit.width, this.orbit.height);
     const labels = [...this.robotLabels(ctx, shown), ...this.bodyLabels()];
     if (layers.names) placer.draw(ctx, labels, this.context.palette.token('floor'));
     this.drawGizmo(ctx);
+  }
+
+  /** A cross where a robot truly is, joined to where it says it is. */
+  private drawTruth(ctx: CanvasRenderingContext2D, shown: (slot: number) => boolean): void {
+    const {placed, truth, palette} = this.context;
+    for (let slot = 0; slot < Math.min(truth.count, placed.count); ++slot) {
+      if (!bothKnown(placed, truth, slot) || !shown(slot)) continue;
+      const at = this.orbit.project(truth.x[slot], truth.y[slot], 0);
+      const told = this.orbit.project(placed.x[slot], placed.y[slot], 0);
+      if (at !== null && told !== null) drawTrueCross(ctx, palette, [told.x, told.y], [at.x, at.y]);
+    }
   }
 
   private robotLabels(ctx: CanvasRenderingContext2D, shown: (slot: number) => boolean): Label[] {

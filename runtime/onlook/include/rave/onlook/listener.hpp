@@ -72,8 +72,6 @@ class Listener {
   [[nodiscard]] std::vector<HeardObstacle> take_obstacles();
   /// Map tiles received since the last call, including those of global maps, which need no request.
   [[nodiscard]] std::vector<maps::MapTile> take_tiles() { return std::exchange(tiles_, {}); }
-  /// Clears all; for a new run with initial obstacles.
-  void forget();
 
  private:
   struct Told {

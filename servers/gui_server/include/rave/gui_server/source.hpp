@@ -90,6 +90,11 @@ struct PosesAt {
   double time_s = 0;
   std::uint64_t step = 0;
   std::vector<RobotState> robots;
+  /// True poses with the same index: place and kKnown only. Empty: not requested, or of no robot
+  /// known.
+  std::vector<RobotState> truth{};
+  /// When the server received this state: microseconds of Unix time modulo 2^32. 0: a recording.
+  std::uint32_t taken_us = 0;
 };
 
 /// One reading as rows of numbers.
@@ -237,6 +242,7 @@ struct ProbeMade {
 /// The data that all pages together need.
 struct Audience {
   bool any = false;                 ///< A page needs poses.
+  bool truth = false;               ///< A page needs true poses.
   std::vector<LookedAt> looked_at;  ///< Ascending, without duplicates.
   bool parts = false;               ///< Also the halves of hybrid sensors.
   /// Robots whose local maps are needed; ascending, without duplicates.
@@ -264,7 +270,9 @@ class Source {
   [[nodiscard]] virtual std::unique_ptr<Playhead> open_playhead() = 0;
 
   // A run in progress.
-  /// Called about 60 times a second, before the pages are served.
+  /// Whether tick() would show a newer state.
+  [[nodiscard]] virtual bool has_newer() const noexcept { return false; }
+  /// Called at least 60 times a second, before the pages are served.
   virtual void tick(Playhead::Clock::time_point /*now*/, const Audience& /*audience*/) {}
   /// Changes whenever events were added or changed. events_changed_since() returns the index of the
   /// first such event since an earlier revision.

@@ -23,6 +23,8 @@ export class DriveLoop {
   w_radps = 1.2;
   private slot: number | null = null;
   private timer = 0;
+  /** Held on after the robot refused or the page let go for it: it counts only when it is gripped anew. */
+  private spent: StickSource | null = null;
 
   constructor(private readonly commands: Commands, private readonly changed: () => void) {}
 
@@ -39,6 +41,11 @@ export class DriveLoop {
     this.refusal = '';
   }
 
+  /** A source is let go, or gripped anew; without one: whichever was held. */
+  renew(source?: StickSource): void {
+    if (source === undefined || source === this.spent) this.spent = null;
+  }
+
   hold(source: StickSource, x: number, y: number): void {
     const length = Math.hypot(x, y);
     const scale = length > 1 ? 1 / length : 1;
@@ -47,7 +54,7 @@ export class DriveLoop {
 
   /** As hold(), of two controls that do not limit each other; each from -1 to 1. */
   holdBoth(source: StickSource, x: number, y: number): void {
-    if (this.slot === null || (this.held !== null && this.held !== source)) return;
+    if (this.slot === null || source === this.spent || (this.held !== null && this.held !== source)) return;
     [this.x, this.y] = [Math.max(-1, Math.min(1, x)), Math.max(-1, Math.min(1, y))];
     if (this.held === null) {
       this.held = source;
@@ -58,9 +65,12 @@ export class DriveLoop {
     this.changed();
   }
 
-  /** The robot stands. Of another source than the one that holds it does nothing. */
+  /** The robot stands. Of another source than the one that holds it does nothing. Without a source the page lets go,
+   * and what is still held counts only when it is gripped anew. */
   release(source?: StickSource): void {
+    if (source !== undefined) this.renew(source);
     if (this.held === null || (source !== undefined && source !== this.held)) return;
+    if (source === undefined) this.spent = this.held;
     clearInterval(this.timer);
     this.held = null;
     this.x = this.y = 0;
@@ -81,6 +91,7 @@ export class DriveLoop {
       } else {
         // Asked again and again it would be refused again and again.
         const held = this.held !== null;
+        if (held) this.spent = this.held;
         clearInterval(this.timer);
         this.held = null;
         this.x = this.y = 0;

@@ -91,3 +91,24 @@ it('does not drive on with a gamepad that is still held when the page has let go
   loop.hold('pad', 0, 1);
   expect(last()).toMatchObject({v: 0.4, slots: [4]});
 });
+
+it('says at once that the stick has moved, at most 60 times a second', () => {
+  const {ask, loop, last} = made();
+  loop.hold('touch', 0, 1);
+  vi.advanceTimersByTime(20);
+  loop.hold('touch', 0, 0.5);
+  expect(last()).toMatchObject({v: 0.2});
+  const sent = ask.mock.calls.length;
+  for (let i = 0; i < 100; ++i) {
+    loop.hold('touch', 0, i / 100);
+    vi.advanceTimersByTime(1);
+  }
+  expect(ask.mock.calls.length - sent).toBeLessThanOrEqual(7);
+  expect(ask.mock.calls.length - sent).toBeGreaterThanOrEqual(5);
+  loop.hold('touch', 0, 0.25);
+  loop.release();
+  const let_go = ask.mock.calls.length;
+  vi.advanceTimersByTime(1000);
+  expect(ask.mock.calls.length).toBe(let_go);
+  expect(last()).toMatchObject({v: 0, w: 0});
+});

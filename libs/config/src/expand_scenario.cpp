@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "expansion_checks.hpp"
 #include "rave/config/expanded_scenario.hpp"
@@ -19,6 +20,7 @@ class Expansion {
 
   Result<ExpandedScenario> run() && {
     expand_world();
+    expand_gui();
     expand_robots();
     if (diagnostics_.ok()) check_expansion(expanded_, diagnostics_);
     if (diagnostics_.ok()) return std::move(expanded_);
@@ -67,11 +69,6 @@ class Expansion {
       resolve_maps(world.maps, path.parent_path());
     }
     resolve_maps(scenario.maps, folder_);
-    // Only the page needs these files and reports missing ones; a replay on another machine works
-    // without.
-    for (GuiComponentFile& component : scenario.gui.components) {
-      component.module.value = absolute(beside(folder_, *component.module));
-    }
     std::move(scenario.obstacles.begin(), scenario.obstacles.end(),
               std::back_inserter(world.obstacles));
     std::move(scenario.maps.begin(), scenario.maps.end(), std::back_inserter(world.maps));
@@ -79,6 +76,28 @@ class Expansion {
     scenario.maps.clear();
     scenario.world.reset();
     world.description.clear();
+  }
+
+  void expand_gui() {
+    GuiFile& gui = expanded_.scenario.gui;
+    fs::path folder = folder_;
+    if (const auto file = std::exchange(gui.file, std::nullopt)) {
+      const fs::path path = beside(folder_, **file);
+      folder = path.parent_path();
+      if (const auto text = read(path, file->where)) {
+        auto read_gui = read_gui_text(*text, path.string());
+        if (read_gui) {
+          gui = *std::move(read_gui);
+        } else {
+          diagnostics_.add(std::move(read_gui).error());
+        }
+      }
+    }
+    // Only the page needs these files and reports missing ones; a replay on another machine works
+    // without.
+    for (GuiComponentFile& component : gui.components) {
+      component.module.value = absolute(beside(folder, *component.module));
+    }
   }
 
   void resolve_maps(std::vector<MapFile>& maps, const fs::path& folder) {

@@ -20,7 +20,7 @@ using control::Request;
 using Clock = std::chrono::steady_clock;
 
 /// Well within the time after which a driver counts as gone.
-constexpr std::chrono::milliseconds kAgain{100};
+constexpr std::chrono::milliseconds kAgain{50};
 
 Request request_of(Request::What what, const std::string& robot) {
   Request request;

@@ -39,8 +39,8 @@ class OrdersOverHosts : public HeldRun {
     give(path_of(1000));
     go_to(700);
     give({"goal", "anna", "--cancel"});
-    // A run in lock-step that is paused has not released it yet when it is asked to arm it.
-    static_cast<void>(rave({"arm", "--robot", "bert", "--release"}));
+    // While the run is paused, both wait for its next step.
+    give({"arm", "--robot", "bert", "--release"});
     return end();
   }
   /// Somebody drives and is silent from then on: the drive, its end and that of the lease are three

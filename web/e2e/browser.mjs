@@ -6,11 +6,30 @@ import playwright, {chromium} from 'playwright-core';
 /** Headless Chromium as a machine without a graphics card runs it: pages are drawn by the processor, and
  * WebGL by SwiftShader. With `--use-angle=swiftshader` the whole page would go through an emulated card,
  * which takes twenty times as long. */
+const kChromium = {
+  executablePath: process.env.RAVE_CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--enable-unsafe-swiftshader'],
+};
+
 export function launch() {
-  return chromium.launch({
-    executablePath: process.env.RAVE_CHROMIUM ?? '/usr/bin/chromium',
-    args: ['--no-sandbox', '--enable-unsafe-swiftshader'],
-  });
+  return chromium.launch(kChromium);
+}
+
+/** One whose processes, all of one group, can be sent a signal. */
+export async function launchServed() {
+  const server = await chromium.launchServer(kChromium);
+  const {pid} = server.process();
+  return {
+    browser: await chromium.connect(server.wsEndpoint()),
+    signal: (name) => {
+      try {
+        process.kill(-pid, name);
+      } catch (error) {
+        // It is gone already.
+        if (error.code !== 'ESRCH') throw error;
+      }
+    },
+  };
 }
 
 export const whereFirefox = process.env.RAVE_FIREFOX ?? '/usr/bin/firefox-esr';

@@ -10,7 +10,8 @@ export const happened = (kind, text) => `${app}.model.events.some((event) => eve
 export const slotOf = (page, name) => page.evaluate(`${app}.model.robots.findIndex((robot) => robot.name === '${name}')`);
 export const placeOf = (page, slot) => page.evaluate(`[${newest}.x[${slot}], ${newest}.y[${slot}]]`);
 export const choose = (page, slot) => page.evaluate((what) => document.querySelector('rave-app').selection.set([what]), slot);
-const near = (page, slot, x, y, m) => until(page, `Math.hypot(${newest}.x[${slot}] - ${x}, ${newest}.y[${slot}] - ${y}) < ${m}`, 30000);
+/** Waits until a robot is near a place. */
+export const near = (page, slot, x, y, m) => until(page, `Math.hypot(${newest}.x[${slot}] - ${x}, ${newest}.y[${slot}] - ${y}) < ${m}`, 30000);
 
 /** Sends a robot to a place by a click and waits until it is there. */
 export async function sendByClick(page, name, x, y) {

@@ -263,6 +263,12 @@ try {
     await untilHere(page, () => drive()?.[1] > 0.2 && drive()[2] > 0.2, 'it drives');
     await setPad(page, 0, 0.05);
     await stands('the gamepad');
+    await setPad(page, 0, -0.8);
+    await untilHere(page, () => drive()?.[1] > 0.2, 'it drives again');
+    await page.evaluate(() => window.dispatchEvent(new Event('blur')));
+    await stands('a blur, with the stick of the gamepad held');
+    await setPad(page, 0, 0);
+    await page.waitForTimeout(100);
   });
 
   await check('pedals drive: gear, throttle, steering and brake, by mouse, keys and triggers', async () => {

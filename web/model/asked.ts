@@ -9,7 +9,7 @@ export interface AskedVelocity {
 }
 
 /** So long a velocity holds that is not renewed, seconds. */
-export const kHolds_s = 0.25;
+export const kHolds_s = 0.2;
 /** So far back it is kept. */
 export const kAsked_s = 30;
 

@@ -431,7 +431,7 @@ export interface Order {
   request: number;
   kind: "drive" | "goal" | "path" | "cancel" | "text" | "place";
   slots: Slots;
-  /** Of `drive`: forward, m/s. It holds for 250 ms. */
+  /** Of `drive`: forward, m/s. It holds for 200 ms. */
   v?: number;
   /** Of `drive`: to the left, rad/s. */
   w?: number;

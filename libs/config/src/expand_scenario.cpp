@@ -3,6 +3,7 @@
 // needs no other file except those of maps and of components of the page.
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "expansion_checks.hpp"
 #include "rave/config/expanded_scenario.hpp"
@@ -23,6 +24,7 @@ class Expansion {
   // depends on all of them is checked only if each is right by itself.
   Result<ExpandedScenario> run() && {
     expand_world();
+    expand_gui();
     expand_robots();
     if (diagnostics_.ok()) check_expansion(expanded_, diagnostics_);
     if (diagnostics_.ok()) return std::move(expanded_);
@@ -71,12 +73,6 @@ class Expansion {
       resolve_maps(world.maps, path.parent_path());
     }
     resolve_maps(scenario.maps, folder_);
-    // Only the page needs these files and reports missing ones; a replay on another machine works
-    // without.
-    for (GuiComponentFile& component : scenario.gui.components) {
-      // Absolute, since a recording or a host may be in another folder.
-      component.module.value = absolute(beside(folder_, *component.module));
-    }
     // Obstacles and maps of the scenario come after those of the world, so their numbers do not
     // change when a scenario adds some.
     std::move(scenario.obstacles.begin(), scenario.obstacles.end(),
@@ -87,6 +83,28 @@ class Expansion {
     // The expanded scenario is complete by itself: names of files that were read are gone.
     scenario.world.reset();
     world.description.clear();
+  }
+
+  void expand_gui() {
+    GuiFile& gui = expanded_.scenario.gui;
+    fs::path folder = folder_;
+    if (const auto file = std::exchange(gui.file, std::nullopt)) {
+      const fs::path path = beside(folder_, **file);
+      folder = path.parent_path();
+      if (const auto text = read(path, file->where)) {
+        auto read_gui = read_gui_text(*text, path.string());
+        if (read_gui) {
+          gui = *std::move(read_gui);
+        } else {
+          diagnostics_.add(std::move(read_gui).error());
+        }
+      }
+    }
+    // Only the page needs these files and reports missing ones; a replay on another machine works
+    // without.
+    for (GuiComponentFile& component : gui.components) {
+      component.module.value = absolute(beside(folder, *component.module));
+    }
   }
 
   void resolve_maps(std::vector<MapFile>& maps, const fs::path& folder) {

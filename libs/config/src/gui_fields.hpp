@@ -69,6 +69,8 @@ void validate(const GuiComponentFile& c, CheckContext& check);
 
 template <class V>
 void describe(V& v, GuiFile& c) {
+  v.field("file", c.file,
+          {.doc = "File with the keys below, relative to this one; then they are not here."});
   v.field("rights", c.rights,
           {.doc = "Changes of the default rights; a later change overrides an earlier one.",
            .max_items = 1000});
@@ -78,5 +80,7 @@ void describe(V& v, GuiFile& c) {
   v.field("components", c.components,
           {.doc = "Panels that the page loads while it runs.", .max_items = 50});
 }
+
+void validate(const GuiFile& c, CheckContext& check);
 
 }  // namespace rave::config

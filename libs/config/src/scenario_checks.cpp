@@ -70,6 +70,15 @@ void validate(const GuiComponentFile& c, CheckContext& check) {
   }
 }
 
+void validate(const GuiFile& c, CheckContext& check) {
+  if (!c.file) return;
+  const std::pair<const char*, bool> others[] = {
+      {"rights", !c.rights.empty()}, {"relay", c.relay}, {"components", !c.components.empty()}};
+  for (const auto& [key, present] : others) {
+    if (present) check.error(key, "`{}`: expected in `{}`, which `file` names", key, **c.file);
+  }
+}
+
 void validate(const ChangeFile& c, CheckContext& check) {
   const int kinds = int{c.robot || c.set || c.hand_over} + int{c.add_obstacle.has_value()} +
                     int{c.move_obstacle.has_value()} + int{c.remove_obstacle.has_value()};

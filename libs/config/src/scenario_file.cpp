@@ -18,6 +18,14 @@ Result<ScenarioFile> read_scenario_text(std::string_view text, std::string_view 
   return tl::unexpected<Error>(diagnostics.joined());
 }
 
+Result<GuiFile> read_gui_text(std::string_view text, std::string_view file_name) {
+  RAVE_TRY_ASSIGN(GuiFile gui, read_text<GuiFile>(text, file_name));
+  if (!gui.file) return gui;
+  return fail_at(
+      gui.file->where, ErrorCode::kParse,
+      "`file`: expected `rights`, `relay` and `components` in this file, not another file");
+}
+
 Result<ScenarioFile> read_scenario_file(const std::filesystem::path& path) {
   RAVE_TRY_ASSIGN(const std::string text, rave::read_file(path, kMaxFileBytes));
   return read_scenario_text(text, path.string());

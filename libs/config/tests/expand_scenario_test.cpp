@@ -67,6 +67,33 @@ TEST(Expand, AnInlineRobotTakesTheVariablesOfItsEntry) {
 
 #define WALKER "robots: [{name: w, file: ../robots/walker.yaml}]\n"
 
+TEST(Expand, AFileOfTheGuiHasRightsAndComponentsOfItsFolder) {
+  const auto expanded = expand_scenario_text("name: a\ngui: {file: ../gui/lab.yaml}\n" WALKER,
+                                             kData / "scenarios/s.yaml");
+  ASSERT_TRUE(expanded.has_value()) << expanded.error().text();
+  const GuiFile& gui = expanded->scenario.gui;
+  EXPECT_FALSE(gui.file.has_value());
+  EXPECT_TRUE(gui.relay);
+  ASSERT_EQ(gui.rights.size(), 1U);
+  EXPECT_EQ(gui.rights[0].classes, std::vector{GuiClass::kReadings});
+  ASSERT_EQ(gui.components.size(), 1U);
+  EXPECT_EQ(*gui.components[0].module, (kData / "gui/panel.mjs").string());
+  const auto again = expand_scenario_text(write_expanded(*expanded), "/elsewhere/again.yaml");
+  ASSERT_TRUE(again.has_value()) << again.error().text();
+  EXPECT_EQ(*again, *expanded);
+}
+
+TEST(ExpandBadInput, AFileOfTheGui) {
+  EXPECT_EQ(error_of("name: a\ngui: {file: no.yaml}\n" WALKER),
+            "scenarios/s.yaml:2:13: cannot open `scenarios/no.yaml`: No such file or directory");
+  EXPECT_EQ(error_of("name: a\ngui: {file: ../gui/wrong.yaml}\n" WALKER),
+            "gui/wrong.yaml:3:14: `module`: found `panel.ts`, expected a file that ends in .js or "
+            ".mjs");
+  EXPECT_EQ(error_of("name: a\ngui: {file: ../gui/nested.yaml}\n" WALKER),
+            "gui/nested.yaml:2:7: `file`: expected `rights`, `relay` and `components` in this "
+            "file, not another file");
+}
+
 TEST(ExpandBadInput, FilesThatDoNotExistAreReportedAtTheLineThatNamesThem) {
   EXPECT_EQ(error_of("name: a\nrobots:\n  - {name: r, file: no.yaml}\n"),
             "scenarios/s.yaml:3:21: cannot open `scenarios/no.yaml`: No such file or directory");

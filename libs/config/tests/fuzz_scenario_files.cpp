@@ -27,9 +27,14 @@ void check_world(std::string_view text) {
   if (!again || !(*again == *world)) std::abort();
 }
 
+void check_gui(std::string_view text) {
+  const auto gui = config::read_gui_text(text, "fuzz");
+  if (gui ? gui->file.has_value() : gui.error().message.empty()) std::abort();
+}
+
 /// Whether expanding it opens no file.
 bool stands_alone(const config::ScenarioFile& scenario) {
-  return !scenario.world && scenario.maps.empty() &&
+  return !scenario.world && !scenario.gui.file && scenario.maps.empty() &&
          std::all_of(scenario.robots.begin(), scenario.robots.end(),
                      [](const config::RobotEntry& entry) { return entry.robot.has_value(); });
 }
@@ -50,6 +55,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   check_robot(text);
   check_world(text);
+  check_gui(text);
   check_scenario(text);
   return 0;
 }

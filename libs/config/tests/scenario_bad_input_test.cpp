@@ -224,6 +224,9 @@ const FileCase kScenarios[] = {
      "readings, "
      "hybrid_parts, obstacles, goals, maps, chat, log, video, recording, stop, release, "
      "run_control, command, edit and probe; did you mean `pose`?"},
+    {"GuiFileAndMore",
+     "name: a\ngui: {file: gui.yaml, relay: true}\nrobots: [{name: r, file: r.yaml}]\n",
+     "s.yaml:2:30: `relay`: expected in `gui.yaml`, which `file` names"},
     {"GuiComponent",
      "name: a\ngui: {components: [{module: panel.ts}]}\nrobots: [{name: r, file: r.yaml}]\n",
      "s.yaml:2:29: `module`: found `panel.ts`, expected a file that ends in .js or .mjs"},

@@ -186,7 +186,8 @@ void OrderBook::give_back(RobotId id, OrderedRobot& robot) {
 
 bool OrderBook::end(const WorldInput& input, RobotId id) {
   OrderedRobot* const robot = find(id);
-  if (robot == nullptr || robot->under_way.empty()) return false;
+  // A program that is done stands where it was sent until it hears otherwise.
+  if (robot == nullptr || (robot->under_way.empty() && !robot->of_program)) return false;
   give_back(id, *robot);
   WorldInput own = input;
   own.robot = id;
@@ -257,7 +258,6 @@ void OrderBook::take_answers(const OrderMoment& moment, AnswerBook& answers) {
     }
     OrderedRobot* const robot = answer.done ? find(id) : nullptr;
     if (robot == nullptr || !robot->of_program) continue;
-    robot->of_program = false;
     robot->under_way.clear();
     robot->by.clear();
   }

@@ -22,11 +22,12 @@ namespace rave::sim {
 struct OrderedRobot {
   /// The controller that does it in the place of the program; none: the program has the robot.
   std::optional<std::uint32_t> controller;
-  Command command;                  ///< For that controller, each step.
-  bool driven = false;              ///< `command` is a velocity of somebody.
-  double tolerance_m = 0;           ///< Of a goal for a controller: nearer than this is there.
-  bool reached = false;             ///< It is there, and stays.
-  bool of_program = false;          ///< The program does the order under way.
+  Command command;         ///< For that controller, each step.
+  bool driven = false;     ///< `command` is a velocity of somebody.
+  double tolerance_m = 0;  ///< Of a goal for a controller: nearer than this is there.
+  bool reached = false;    ///< It is there, and stays.
+  /// The program does the order under way, or is done with it and was told nothing since.
+  bool of_program = false;
   std::string under_way;            ///< For people; empty: nothing.
   std::string by;                   ///< Who asked for it.
   std::vector<WorldInput> waiting;  ///< For the next decision.

@@ -81,6 +81,26 @@ TEST(EngineOrders, AProgramGetsWhatItTakes) {
   EXPECT_EQ(engine->order_of(kListener), "") << "the program is done with a goal at once";
 }
 
+TEST(EngineOrders, AProgramThatIsDoneHearsOfACancelAndOfADriveOnce) {
+  const auto engine = make_engine(small_world());
+  WorldInput goal = order(Kind::kGoal, kListener);
+  goal.order.points_W = {{1, 0}};
+  const WorldInput cancel = order(Kind::kCancel, kListener);
+  for (const WorldInput& end : {cancel, drive(kListener, 0, 0)}) {
+    ASSERT_TRUE(engine->order(goal));
+    run(*engine, 5);
+    ASSERT_EQ(engine->order_of(kListener), "") << "it is done";
+    ASSERT_TRUE(engine->order(end)) << why(engine->order(end));
+    const auto said = of_kind(run(*engine, 5), EventKind::kSaid);
+    ASSERT_FALSE(said.empty());
+    EXPECT_EQ(said[0].text, "cancel by anna");
+    EXPECT_EQ(said.size(), end.kind == Kind::kDrive ? 2U : 1U) << "beside that it is driven";
+    // The drive ends; the program was told of the goal already.
+    ASSERT_TRUE(engine->order(cancel));
+    EXPECT_TRUE(of_kind(run(*engine, 5), EventKind::kSaid).empty());
+  }
+}
+
 TEST(EngineOrders, OfSeveralGoalsTheLastOneCounts) {
   const auto engine = make_engine(small_world());
   for (const double x_m : {1.0, 2.0, 3.0}) {

@@ -8,7 +8,7 @@ namespace rave::direct_line {
 namespace {
 
 constexpr std::chrono::seconds kNow{0};
-/// The run lets a robot stand whose driver is silent for 250 ms. To say so once more would take the
+/// The run lets a robot stand whose driver is silent for 200 ms. To say so once more would take the
 /// robot from its program.
 constexpr std::chrono::seconds kStandsAnyway{1};
 

@@ -165,8 +165,8 @@ TEST(DriveWatch, TellsWhoHasFallenSilentOnce) {
   DriveWatch watch;
   EXPECT_TRUE(watch.driven("r1", "anna", 0.3, 0, kStart));
   EXPECT_FALSE(watch.driven("r1", "anna", 0.3, 0, kStart + 200ms)) << "nothing new";
-  EXPECT_TRUE(watch.take_silent(kStart + 449ms).empty());
-  EXPECT_EQ(watch.take_silent(kStart + 450ms), (std::vector<DriveWatch::Silent>{{"r1", "anna"}}));
+  EXPECT_TRUE(watch.take_silent(kStart + 399ms).empty());
+  EXPECT_EQ(watch.take_silent(kStart + 400ms), (std::vector<DriveWatch::Silent>{{"r1", "anna"}}));
   EXPECT_TRUE(watch.take_silent(kStart + 900ms).empty());
   EXPECT_TRUE(watch.driven("r1", "anna", 0.3, 0, kStart + 1s)) << "it stands: that is another";
 }

@@ -83,13 +83,13 @@ TEST(OrderDesk, ASilentDriverLetsTheRobotStandAndLosesItLater) {
   Office office;
   office.serve(drive("anna", 0.3));
   office.take();
-  office.wait(249ms);
+  office.wait(199ms);
   EXPECT_TRUE(office.take().empty());
   office.wait(1ms);
   EXPECT_EQ(office.take(), Lines{"drive r1 anna 0"});
   EXPECT_EQ(office.desk.holder("r1"), "anna");
   EXPECT_EQ(office.serve(drive("bert", 0.1)), "`anna` drives r1");
-  office.wait(2700ms);
+  office.wait(2750ms);
   EXPECT_TRUE(office.take().empty());
   office.wait(50ms);
   EXPECT_EQ(office.take(), Lines{"cancel r1 anna"}) << "its program goes on";

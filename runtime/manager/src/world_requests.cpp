@@ -58,6 +58,7 @@ void WorldRequests::begin(const sim::WorldAuthority& authority, runtime::RunStat
   next_step_ = authority.next_step();
   const sim::EngineSpec& spec = authority.spec();
   stopped_.assign(spec.robots.size(), 0);
+  will_be_stopped_ = stopped_;
   orders_.assign(spec.robots.size(), {});
   order_numbers_.assign(spec.robots.size(), 0);
   if (control_ == nullptr) return;
@@ -73,12 +74,13 @@ void WorldRequests::end() {
   if (std::exchange(begun_, false)) control_->end();
 }
 
-/// Whether a robot, or all, may be armed as far as stops were asked here.
+/// Whether a robot, or all, may be armed as far as stops were asked here: a release that waits for
+/// the next step comes before the arming.
 Status WorldRequests::check_released(const sim::WorldAuthority& authority, RobotId robot) const {
   std::vector<std::string_view> names;
   for (std::uint32_t r = 0; r < stopped_.size(); ++r) {
     const bool meant = !robot.valid() || robot.value() == r;
-    if (meant && stopped_[r] != 0) names.emplace_back(authority.spec().robots[r].name);
+    if (meant && will_be_stopped_[r] != 0) names.emplace_back(authority.spec().robots[r].name);
   }
   if (names.empty()) return {};
   constexpr std::size_t kMany = 12;
@@ -100,7 +102,18 @@ Result<std::uint64_t> WorldRequests::pass_on(const RunRequest& request,
   } else {
     RAVE_TRY(lock_step::check_fits(input));
   }
+  note_stop(input, will_be_stopped_);
   return authority.ask(std::move(input));
+}
+
+// A stop latches until a release, and check_released() refuses to arm before that.
+bool WorldRequests::note_stop(const sim::WorldInput& input, std::vector<std::uint8_t>& stopped) {
+  const bool stops = input.kind == sim::WorldInput::Kind::kStop;
+  if (!stops && input.kind != sim::WorldInput::Kind::kRelease) return false;
+  for (std::uint32_t r = 0; r < stopped.size(); ++r) {
+    if (!input.robot.valid() || input.robot.value() == r) stopped[r] = stops ? 1 : 0;
+  }
+  return true;
 }
 
 void WorldRequests::listen(sim::WorldAuthority& authority) {
@@ -236,14 +249,7 @@ void WorldRequests::note_inputs(const sim::WorldAuthority& authority, const sim:
   }
   for (const sim::WorldInput& input : world.inputs) {
     note_order(input);
-    any = any || sim::is_order(input.kind);
-    // A stop latches until a release, and check_released() refuses to arm before that.
-    const bool stops = input.kind == sim::WorldInput::Kind::kStop;
-    if (!stops && input.kind != sim::WorldInput::Kind::kRelease) continue;
-    any = true;
-    for (std::uint32_t r = 0; r < stopped_.size(); ++r) {
-      if (!input.robot.valid() || input.robot.value() == r) stopped_[r] = stops ? 1 : 0;
-    }
+    any = note_stop(input, stopped_) || any || sim::is_order(input.kind);
   }
   if (!any) return;
   control_->refresh([this](runtime::RunStatus& status) {

@@ -58,6 +58,8 @@ class WorldRequests {
   void tell_leases();
   void note_inputs(const sim::WorldAuthority& authority, const sim::WorldStep& world);
   void note_order(const sim::WorldInput& input);
+  /// Keeps who is stopped, by robot. Returns whether the input stops or releases.
+  static bool note_stop(const sim::WorldInput& input, std::vector<std::uint8_t>& stopped);
   void show_orders(runtime::RunStatus& status) const;
   void answer(Pending& pending, Result<std::string> text);
 
@@ -68,6 +70,8 @@ class WorldRequests {
   EditLimits limits_;
   std::vector<Pending> requests_;      ///< For the next step, in order.
   std::vector<std::uint8_t> stopped_;  ///< By robot, as far as it was asked here.
+  /// The same, with what waits for the next step.
+  std::vector<std::uint8_t> will_be_stopped_;
   runtime::OrderDesk desk_;
   std::vector<std::string> orders_;           ///< By robot: what people asked last, for people.
   std::vector<std::uint64_t> order_numbers_;  ///< By robot: of that.

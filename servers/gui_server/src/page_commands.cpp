@@ -8,7 +8,7 @@
 namespace rave::gui_server {
 namespace {
 
-/// The run lets a robot stand whose driver is silent for 250 ms. To say so once more would take the
+/// The run lets a robot stand whose driver is silent for 200 ms. To say so once more would take the
 /// robot from its program, or from whoever drives it since.
 constexpr std::chrono::seconds kStandsAnyway{1};
 

@@ -59,6 +59,8 @@ export class CarDesk {
       // Another hand takes over only after this one has let go.
       this.car.release();
       this.loop.release();
+      // This desk knows by itself what was held too long; to the loop keys, fingers and pad are one hand here.
+      this.loop.renew();
       this.holding = false;
       this.blocked = this.blocked && source !== null;
       return;

@@ -58,3 +58,57 @@ it('stops asking a robot that refuses, and says why', async () => {
   expect(ask.mock.calls.length).toBeLessThan(5);
   expect(loop.refusal).toBe('`ben` drives r1');
 });
+
+it('asks a robot that refuses once, however often a held gamepad is read, and again when it is gripped anew', async () => {
+  const {ask, loop} = made(false);
+  for (let i = 0; i < 60; ++i) {
+    loop.hold('pad', 0, 1);
+    await vi.advanceTimersByTimeAsync(16);
+  }
+  expect(ask.mock.calls.length).toBe(1);
+  expect(loop.refusal).toBe('`ben` drives r1');
+  loop.release('pad');
+  loop.hold('pad', 0, 1);
+  expect(ask.mock.calls.length).toBe(2);
+  await vi.advanceTimersByTimeAsync(16);
+  // Another hand was not refused yet.
+  loop.hold('keys', 0, 1);
+  expect(ask.mock.calls.length).toBe(3);
+});
+
+it('does not drive on with a gamepad that is still held when the page has let go, nor the next robot', () => {
+  const {ask, loop, last} = made();
+  loop.hold('pad', 0, 1);
+  loop.release();
+  expect(last()).toMatchObject({v: 0});
+  const sent = ask.mock.calls.length;
+  loop.hold('pad', 0, 1);
+  loop.choose(4);
+  loop.hold('pad', 0, 1);
+  vi.advanceTimersByTime(500);
+  expect(ask.mock.calls.length).toBe(sent);
+  loop.release('pad');
+  loop.hold('pad', 0, 1);
+  expect(last()).toMatchObject({v: 0.4, slots: [4]});
+});
+
+it('says at once that the stick has moved, at most 60 times a second', () => {
+  const {ask, loop, last} = made();
+  loop.hold('touch', 0, 1);
+  vi.advanceTimersByTime(20);
+  loop.hold('touch', 0, 0.5);
+  expect(last()).toMatchObject({v: 0.2});
+  const sent = ask.mock.calls.length;
+  for (let i = 0; i < 100; ++i) {
+    loop.hold('touch', 0, i / 100);
+    vi.advanceTimersByTime(1);
+  }
+  expect(ask.mock.calls.length - sent).toBeLessThanOrEqual(7);
+  expect(ask.mock.calls.length - sent).toBeGreaterThanOrEqual(5);
+  loop.hold('touch', 0, 0.25);
+  loop.release();
+  const let_go = ask.mock.calls.length;
+  vi.advanceTimersByTime(1000);
+  expect(ask.mock.calls.length).toBe(let_go);
+  expect(last()).toMatchObject({v: 0, w: 0});
+});

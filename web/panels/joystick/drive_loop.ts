@@ -3,6 +3,8 @@ import type {Commands} from '../../model/commands';
 
 /** So often a velocity is sent while the stick is held. */
 export const kPeriod_ms = 1000 / 30;
+/** A stick that is moved says so at once, but not more often than this. Hosts take 100 orders a second. */
+export const kLeast_ms = 16;
 
 export type StickSource = 'pad' | 'keys' | 'touch';
 
@@ -23,6 +25,10 @@ export class DriveLoop {
   w_radps = 1.2;
   private slot: number | null = null;
   private timer = 0;
+  private soon = 0;
+  private sent_ms = -Infinity;
+  /** Held on after the robot refused or the page let go for it: it counts only when it is gripped anew. */
+  private spent: StickSource | null = null;
 
   constructor(private readonly commands: Commands, private readonly changed: () => void) {}
 
@@ -39,6 +45,11 @@ export class DriveLoop {
     this.refusal = '';
   }
 
+  /** A source is let go, or gripped anew; without one: whichever was held. */
+  renew(source?: StickSource): void {
+    if (source === undefined || source === this.spent) this.spent = null;
+  }
+
   hold(source: StickSource, x: number, y: number): void {
     const length = Math.hypot(x, y);
     const scale = length > 1 ? 1 / length : 1;
@@ -47,32 +58,52 @@ export class DriveLoop {
 
   /** As hold(), of two controls that do not limit each other; each from -1 to 1. */
   holdBoth(source: StickSource, x: number, y: number): void {
-    if (this.slot === null || (this.held !== null && this.held !== source)) return;
+    if (this.slot === null || source === this.spent || (this.held !== null && this.held !== source)) return;
+    const [from_x, from_y] = [this.x, this.y];
     [this.x, this.y] = [Math.max(-1, Math.min(1, x)), Math.max(-1, Math.min(1, y))];
     if (this.held === null) {
       this.held = source;
       this.refusal = '';
       this.send();
-      this.timer = window.setInterval(() => this.send(), kPeriod_ms);
+    } else if (this.x !== from_x || this.y !== from_y) {
+      this.sendSoon();
     }
     this.changed();
   }
 
-  /** The robot stands. Of another source than the one that holds it does nothing. */
+  /** The robot stands. Of another source than the one that holds it does nothing. Without a source the page lets go,
+   * and what is still held counts only when it is gripped anew. */
   release(source?: StickSource): void {
+    if (source !== undefined) this.renew(source);
     if (this.held === null || (source !== undefined && source !== this.held)) return;
-    clearInterval(this.timer);
+    if (source === undefined) this.spent = this.held;
     this.held = null;
     this.x = this.y = 0;
     this.send();
     this.changed();
   }
 
+  private sendSoon(): void {
+    const wait_ms = kLeast_ms - (performance.now() - this.sent_ms);
+    if (wait_ms <= 0) this.send();
+    else if (this.soon === 0) this.soon = window.setTimeout(() => this.send(), wait_ms);
+  }
+
+  private stopTimers(): void {
+    clearTimeout(this.timer);
+    clearTimeout(this.soon);
+    this.soon = 0;
+  }
+
+  /** Says where the stick is, and again after a while as long as it is held. */
   private send(): void {
+    this.stopTimers();
     if (this.slot === null) return;
+    if (this.held !== null) this.timer = window.setTimeout(() => this.send(), kPeriod_ms);
     const slot = this.slot;
     const [v, w] = this.velocity;
     const sent_ms = performance.now();
+    this.sent_ms = sent_ms;
     void this.commands.ask({type: 'order', kind: 'drive', slots: [slot], v, w}).then((answer) => {
       if (slot !== this.slot) return;
       if (answer.good) {
@@ -81,7 +112,8 @@ export class DriveLoop {
       } else {
         // Asked again and again it would be refused again and again.
         const held = this.held !== null;
-        clearInterval(this.timer);
+        if (held) this.spent = this.held;
+        this.stopTimers();
         this.held = null;
         this.x = this.y = 0;
         if (held) this.refusal = answer.text;

@@ -111,6 +111,7 @@ export class JoystickPanel extends LitElement {
     const stick = event.currentTarget as HTMLElement;
     stick.setPointerCapture(event.pointerId);
     stick.focus();
+    this.loop.renew('touch');
     this.point(event);
     event.preventDefault();
   }
@@ -124,19 +125,25 @@ export class JoystickPanel extends LitElement {
       if (down && !event.repeat) this.car.shiftBy(gear);
       return;
     }
-    if (!(down ? this.keys.press(event.key) : this.keys.lift(event.key))) return;
+    if (!this.move(event.key, down, event.repeat)) return;
     event.preventDefault();
     event.stopPropagation();
-    if (this.pedals) return;
-    if (this.keys.held) this.loop.hold('keys', ...this.keys.place);
-    else this.loop.release('keys');
   }
 
   /** Shift and arrows from anywhere on the page. */
   drive(key: string, down: boolean): void {
-    if (!(down ? this.keys.press(key) : this.keys.lift(key)) || this.pedals) return;
+    this.move(key, down);
+  }
+
+  /** True if it is a key that drives. */
+  private move(key: string, down: boolean, again = false): boolean {
+    const first = down && !again && !this.keys.held;
+    if (!(down ? this.keys.press(key) : this.keys.lift(key))) return false;
+    if (this.pedals) return true;
+    if (first) this.loop.renew('keys');
     if (this.keys.held) this.loop.hold('keys', ...this.keys.place);
     else this.loop.release('keys');
+    return true;
   }
 
   override render(): TemplateResult {

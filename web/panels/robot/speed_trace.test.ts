@@ -35,12 +35,12 @@ it('leaves out where a robot was not known', () => {
   expect(trace.points).toEqual([]);
 });
 
-it('what was asked holds until the next, and 250 ms by itself', () => {
+it('what was asked holds until the next, and 200 ms by itself', () => {
   const asked = new Asked();
   asked.note([3], 0.4, 0, 10);
   asked.note([3], 0.2, 0.5, 10.1);
   asked.note([3], 0, 0, 20);
-  expect(askedLines(asked.of(3), 'v', 30)).toEqual([[[10, 0.4], [10.1, 0.4], [10.1, 0.2], [10.35, 0.2]], [[20, 0], [20.25, 0]]]);
+  expect(askedLines(asked.of(3), 'v', 30)).toEqual([[[10, 0.4], [10.1, 0.4], [10.1, 0.2], [10.1 + 0.2, 0.2]], [[20, 0], [20 + 0.2, 0]]]);
   expect(askedLines(asked.of(3), 'w', 10.2)[0].at(-1)).toEqual([10.2, 0.5]);
   expect(askedLines(asked.of(4), 'v', 30)).toEqual([]);
 });

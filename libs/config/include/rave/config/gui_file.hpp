@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "rave/base/result.hpp"
 #include "rave/config/located.hpp"
 
 namespace rave::config {
@@ -62,10 +64,16 @@ struct GuiComponentFile {
 /// The part of a scenario that configures the page: rights and panels. It is not part of the run,
 /// so the processes of a run may have different values.
 struct GuiFile {
+  /// The file that has all of it, as `gui.yaml`; unset in an expanded scenario and in such a file.
+  std::optional<Located<std::string>> file;
   std::vector<GuiRightFile> rights;
   bool relay = false;  ///< Orders may go through the GUI Server if there is no direct line.
   std::vector<GuiComponentFile> components;
   bool operator==(const GuiFile&) const = default;
 };
+
+/// Reads a file that `gui: file:` names. `file_name` is used in messages. Errors: kParse with
+/// file:line:column for errors in its content.
+[[nodiscard]] Result<GuiFile> read_gui_text(std::string_view text, std::string_view file_name);
 
 }  // namespace rave::config

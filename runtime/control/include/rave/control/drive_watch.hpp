@@ -14,7 +14,7 @@ class DriveWatch {
  public:
   using Time = std::chrono::steady_clock::time_point;
   /// A drive command that was not renewed for this long becomes a zero velocity.
-  static constexpr std::chrono::milliseconds kSilence{250};
+  static constexpr std::chrono::milliseconds kSilence{200};
 
   /// Records or renews a drive command. Returns true if the velocity is new or has changed.
   bool driven(const std::string& robot, const std::string& by, double v_mps, double w_radps,

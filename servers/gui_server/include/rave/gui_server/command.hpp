@@ -30,7 +30,7 @@ struct Author {
 /// One request of a user. The kind determines which members are used.
 struct CommandMessage {
   enum class Kind : std::uint8_t {
-    kDrive,        ///< `v_mps` and `w_radps`, for 250 ms.
+    kDrive,        ///< `v_mps` and `w_radps`, for 200 ms.
     kGoal,         ///< `points`: one for all, or one for each robot; `yaw_rad`, `speed_mps`.
     kPath,         ///< `points`, `speed_mps`.
     kCancel,       ///< Cancels the current order.

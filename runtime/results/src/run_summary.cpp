@@ -94,6 +94,24 @@ void add_hit_rows(const Findings& findings, report::Table& table) {
   }
 }
 
+/// What somebody has to know beside the results, the hash and the problems.
+void add_notes(const Findings& findings, const RunOutcome& outcome, report::Table& table) {
+  const std::string deaf = disobedient(findings);
+  if (!deaf.empty()) {
+    table.rows.push_back(
+        {"ignored commands", deaf + ": recorded robots do; the commands were logged"});
+  }
+  for (const HostShare& host : findings.hosts) {
+    if (host.found || !host.folders.empty()) continue;
+    table.rows.push_back(
+        {fmt::format("host {}", host.name),
+         "on another machine: its results are there, in the folder of its `rave robot`"});
+  }
+  table.rows.push_back({"run hash", outcome.hash.empty() ? "none: " + why_no_hash(findings, outcome)
+                                                         : outcome.hash});
+  for (const std::string& problem : outcome.problems) table.rows.push_back({"problem", problem});
+}
+
 }  // namespace
 
 std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
@@ -142,20 +160,7 @@ std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
         {"changed by people",
          fmt::format("{} inputs; the scenario without them gives another run", by_hand)});
   }
-  const std::string deaf = disobedient(findings);
-  if (!deaf.empty()) {
-    table.rows.push_back(
-        {"ignored commands", deaf + ": recorded robots do; the commands were logged"});
-  }
-  for (const HostShare& host : findings.hosts) {
-    if (host.found || !host.folders.empty()) continue;
-    table.rows.push_back(
-        {fmt::format("host {}", host.name),
-         "on another machine: its results are there, in the folder of its `rave robot`"});
-  }
-  table.rows.push_back({"run hash", outcome.hash.empty() ? "none: " + why_no_hash(findings, outcome)
-                                                         : outcome.hash});
-  for (const std::string& problem : outcome.problems) table.rows.push_back({"problem", problem});
+  add_notes(findings, outcome, table);
   return report::render_table(table, {100, false});
 }
 

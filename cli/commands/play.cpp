@@ -6,15 +6,13 @@
 #include "error_text.hpp"
 #include "places.hpp"
 #include "played_scenario.hpp"
-#include "rave/assemble/build.hpp"
 #include "run_folder.hpp"
 
 namespace rave::cli {
 namespace {
 
 Result<PlayedScenario> make(const PlayCommand& options) {
-  plugin::Catalogue catalogue(runtime::host_stamp());
-  RAVE_TRY(add_plugin_folders(options.run.plugins, catalogue));
+  RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.run.plugins));
   PlayWish wish;
   RAVE_TRY_ASSIGN(wish.record, record_file(options.file));
   wish.robots = options.robots;
@@ -22,7 +20,7 @@ Result<PlayedScenario> make(const PlayCommand& options) {
   if (!options.world.empty()) wish.world = options.world;
   if (!options.program.empty()) wish.program = options.program;
   wish.start_s = options.start_s;
-  return played_scenario(wish, catalogue);
+  return played_scenario(wish, *catalogue);
 }
 
 /// The record that is played is still read while the run goes.

@@ -235,13 +235,12 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, runtime::BuiltScenario bui
 
 Result<runtime::BuiltScenario> build_world(const config::ExpandedScenario& scenario,
                                            const std::vector<std::string>& plugins, LogSink& log) {
-  plugin::Catalogue catalogue(runtime::host_stamp());
-  RAVE_TRY(add_plugin_folders(plugins, catalogue));
+  RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(plugins));
   runtime::BuildOptions how;
   how.log = &log;
   how.local.emplace();
-  how.others = &catalogue;
-  return runtime::build(scenario, catalogue, how);
+  how.others = catalogue.get();
+  return runtime::build(scenario, *catalogue, how);
 }
 
 Result<std::unique_ptr<gui_server::GuiServer>> show_run(const RunCommand& options,
@@ -250,8 +249,7 @@ Result<std::unique_ptr<gui_server::GuiServer>> show_run(const RunCommand& option
                                                         runtime::RunControl* control,
                                                         LogSink& log) {
   RAVE_TRY_ASSIGN(const auto built, build_world(scenario, options.plugins, log));
-  auto described = std::make_unique<plugin::Catalogue>(runtime::host_stamp());
-  RAVE_TRY(add_plugin_folders(options.plugins, *described));
+  RAVE_TRY_ASSIGN(auto described, open_catalogue(options.plugins));
   RAVE_TRY_ASSIGN(auto source,
                   gui_server::watch_run(scenario, built, bus, std::move(described), control));
   RAVE_TRY_ASSIGN(auto page, serve_page(options.page, std::move(source)));
@@ -260,14 +258,6 @@ Result<std::unique_ptr<gui_server::GuiServer>> show_run(const RunCommand& option
     RAVE_TRY(offer_bus_lines(scenario, bus, key, *page));
   }
   return page;
-}
-
-std::unique_ptr<control::Server> serve_control(const std::string& scenario,
-                                               runtime::RunControl& control, LogSink& log) {
-  auto server = control::Server::start(control::own_run_name(scenario), control);
-  if (server) return *std::move(server);
-  log.warn("run", "this run cannot be controlled from other terminals: {}", server.error().message);
-  return nullptr;
 }
 
 Result<ManagedEnd> manage_run(const ManagedRun& run) {

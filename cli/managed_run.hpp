@@ -14,7 +14,6 @@
 #include "rave/bus/config.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/control/run_control.hpp"
-#include "rave/control/server.hpp"
 #include "rave/results/shared_results.hpp"
 
 namespace rave::cli {
@@ -33,12 +32,6 @@ struct ManagedRun {
   /// Go on with a run that has lost its manager; under the policy `restart` in any case.
   bool resume = false;
 };
-
-/// Lets other terminals control a managed run, under the name of its scenario, until it is
-/// destroyed. Null: they cannot, and the log says why.
-[[nodiscard]] std::unique_ptr<control::Server> serve_control(const std::string& scenario,
-                                                             runtime::RunControl& control,
-                                                             LogSink& log);
 
 /// The world of a scenario alone: what its robots do is for their hosts. No plug-in stays loaded.
 [[nodiscard]] Result<runtime::BuiltScenario> build_world(const config::ExpandedScenario& scenario,

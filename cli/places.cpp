@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "error_text.hpp"
+#include "rave/assemble/build.hpp"
 #include "rave/base/names.hpp"
 #include "rave/record/merge.hpp"
 
@@ -105,6 +106,12 @@ Result<fs::path> record_file(std::string_view word) {
     put(stderr, fmt::format("{} {}\n", terminal_of(stderr).yellow("missing:"), note));
   }
   return std::move(run.file);
+}
+
+Result<std::unique_ptr<plugin::Catalogue>> open_catalogue(const std::vector<std::string>& given) {
+  auto catalogue = std::make_unique<plugin::Catalogue>(runtime::host_stamp());
+  RAVE_TRY(add_plugin_folders(given, *catalogue));
+  return catalogue;
 }
 
 Result<fs::path> find_scenario(std::string_view word) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,10 @@ namespace rave::cli {
 /// Adds the folders given on the command line, those of RAVE_PLUGIN_PATH (separated by colons) and
 /// the built-in one; earlier ones win. Errors: a folder that is missing or cannot be read.
 Status add_plugin_folders(const std::vector<std::string>& given, plugin::Catalogue& catalogue);
+
+/// A catalogue of those folders, for the interfaces of this build. The same errors.
+[[nodiscard]] Result<std::unique_ptr<plugin::Catalogue>> open_catalogue(
+    const std::vector<std::string>& given);
 
 /// The scenario file that a word on the command line stands for: a file, a folder with
 /// `scenario.yaml`, or the name of a scenario below `scenarios` of the current folder or the share

@@ -10,14 +10,14 @@
 #include "error_text.hpp"
 #include "host_command.hpp"
 #include "host_process.hpp"
-#include "interrupt.hpp"
 #include "managed_run.hpp"
 #include "places.hpp"
 #include "rave/base/file.hpp"
+#include "rave/control/folder.hpp"
 #include "rave/direct_line/key_files.hpp"
 #include "rave/host/host_run.hpp"
 #include "run_report.hpp"
-#include "run_scenario.hpp"
+#include "run_start.hpp"
 
 namespace rave::cli {
 namespace {
@@ -217,21 +217,19 @@ int run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario
   const bool lines = wants_lines(options, hosts.size());
   // A line has an end of its own on the bus.
   make_room(*bus, lines ? 2 * hosts.size() : hosts.size(), bus::Reach::kHub);
-  const auto folder = RunFolder::create(wanted_folder(options), scenario.scenario.name.value);
-  if (!folder) return complain(folder.error());
-  Console console(options.quiet);
-  if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {
-    return complain(opened.error());
-  }
+  const auto opened = RunStart::open(options, scenario.scenario.name.value);
+  if (!opened) return complain(opened.error());
+  RunStart& start = **opened;
+  Console& console = start.console();
   if (auto written =
-          write_file_atomically(folder->path() / "scenario.yaml", config::write_expanded(scenario));
+          write_file_atomically(start.path() / "scenario.yaml", config::write_expanded(scenario));
       !written) {
     return complain(written.error());
   }
-  if (auto made = lines ? make_lines(options, folder->path()) : Status(); !made) {
+  if (auto made = lines ? make_lines(options, start.path()) : Status(); !made) {
     return complain(made.error());
   }
-  Crew crew(options, *bus, folder->path(), scenario.scenario, console);
+  Crew crew(options, *bus, start.path(), scenario.scenario, console);
   for (const config::PlannedHost& host : hosts) {
     if (host.elsewhere) {
       console.warn("run", "waiting for host `{}`; start it with: {}", host.name,
@@ -240,8 +238,8 @@ int run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario
     }
     if (auto started = crew.start(host); !started) return complain(started.error());
   }
-  runtime::RunControl& control = ended_by_signals();
-  const auto server = serve_control(scenario.scenario.name.value, control, console);
+  runtime::RunControl& control = start.control();
+  start.serve(control::own_run_name(scenario.scenario.name.value), "run", "this run");
   const auto stopping = [&] {
     crew.look_after();
     return control.stopping() || crew.all_dead();
@@ -252,7 +250,7 @@ int run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario
     if (!served) return complain(served.error());
     page = *std::move(served);
   }
-  auto managed = manage_run({scenario, options, *bus, folder->path(), console, control, stopping,
+  auto managed = manage_run({scenario, options, *bus, start.path(), console, control, stopping,
                              [&crew] { return crew.all_ended(); }});
   // In lock-step the last step tells them.
   if (managed && managed->live && control.stopping()) crew.interrupt();
@@ -261,8 +259,8 @@ int run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario
   if (!managed) return complain(managed.error());
   const auto outcome = put_together(*managed, crew, problems);
   if (!outcome) return complain(outcome.error());
-  const int code = report_outcome(options, *outcome, folder->path());
-  if (page) replay_on_page(*page, options.quiet, folder->path(), control);
+  const int code = report_outcome(options, *outcome, start.path());
+  if (page) replay_on_page(*page, options.quiet, start.path(), control);
   return code;
 }
 

@@ -6,7 +6,6 @@
 #include "console.hpp"
 #include "error_text.hpp"
 #include "places.hpp"
-#include "rave/assemble/build.hpp"
 
 namespace rave::cli {
 namespace {
@@ -22,11 +21,11 @@ swarm::RunEnd usual(swarm::RunEnd end) {
 
 int bench_swarm(const BenchSwarmCommand& command) {
   const auto began = std::chrono::steady_clock::now();
-  plugin::Catalogue catalogue(runtime::host_stamp());
-  if (auto added = add_plugin_folders({}, catalogue); !added) return complain(added.error());
+  const auto catalogue = open_catalogue({});
+  if (!catalogue) return complain(catalogue.error());
   Console console(true);
   const auto run =
-      swarm::run_swarm(command.workload, usual(command.end), catalogue, &console, began);
+      swarm::run_swarm(command.workload, usual(command.end), **catalogue, &console, began);
   if (!run) return complain(run.error());
   if (!command.write.empty()) {
     const double duration_s = static_cast<double>(run->steps) * swarm::kStep_s;

@@ -166,14 +166,12 @@ class Checker {
 }  // namespace
 
 int check(const CheckCommand& options) {
-  plugin::Catalogue catalogue(runtime::host_stamp());
-  if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
-    return complain(added.error());
-  }
+  const auto catalogue = open_catalogue(options.plugins);
+  if (!catalogue) return complain(catalogue.error());
   if (!options.draw.empty() && options.files.size() > 1) {
     return complain({ErrorCode::kInvalidArgument, "--draw: expected exactly one file", {}});
   }
-  return Checker(options, catalogue).run();
+  return Checker(options, **catalogue).run();
 }
 
 }  // namespace rave::cli

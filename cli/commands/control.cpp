@@ -11,9 +11,9 @@
 
 #include "asked_run.hpp"
 #include "error_text.hpp"
+#include "rave/base/table.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/math/scalar.hpp"
-#include "rave/report/table.hpp"
 
 namespace rave::cli {
 namespace {
@@ -136,24 +136,23 @@ std::string state_text(const runtime::RunStatus& status) {
   return text;
 }
 
-report::Table runs_table(bool with_machines) {
-  report::Table table;
-  table.columns = {
-      {"run", report::Align::kLeft, false},     {"scenario", report::Align::kLeft, false},
-      {"time", report::Align::kRight, false},   {"pace", report::Align::kRight, false},
-      {"robots", report::Align::kRight, false}, {"state", report::Align::kLeft, false}};
-  if (with_machines) table.columns.push_back({"machine", report::Align::kLeft, false});
+Table runs_table(bool with_machines) {
+  Table table;
+  table.columns = {{"run", Align::kLeft, false},     {"scenario", Align::kLeft, false},
+                   {"time", Align::kRight, false},   {"pace", Align::kRight, false},
+                   {"robots", Align::kRight, false}, {"state", Align::kLeft, false}};
+  if (with_machines) table.columns.push_back({"machine", Align::kLeft, false});
   return table;
 }
 
 /// A line of `rave ps`. `machine`: nothing if no run has one.
-void add_row(report::Table& table, std::vector<std::string> row, const std::string& machine) {
+void add_row(Table& table, std::vector<TableCell> row, const std::string& machine) {
   if (row.size() < table.columns.size()) row.push_back(machine);
   table.rows.push_back(std::move(row));
 }
 
 /// What `rave ps` says of one run.
-void add_run(report::Table& table, const std::string& run, const Result<runtime::RunStatus>& answer,
+void add_run(Table& table, const std::string& run, const Result<runtime::RunStatus>& answer,
              const std::string& machine, bool robots) {
   if (!answer) return add_row(table, {run, "", "", "", "", answer.error().message}, machine);
   const runtime::RunStatus& status = *answer;
@@ -190,7 +189,7 @@ int list_runs(const PsCommand& options) {
   const auto runs = control::running_runs();
   if (!runs) return complain(runs.error());
   const bool network = options.network || options.bus.says_where();
-  report::Table table = runs_table(network);
+  Table table = runs_table(network);
   for (const std::string& run : *runs) {
     const auto status = AskedRun(run).status();
     // One that ended meanwhile is no more; one that is stuck is worth a line.
@@ -206,7 +205,7 @@ int list_runs(const PsCommand& options) {
       add_run(table, run.name, run.status, run.machines, options.robots);
     }
   }
-  put(stdout, table.rows.empty() ? "no run is in progress\n" : report::render_table(table));
+  put(stdout, table.rows.empty() ? "no run is in progress\n" : render_table(table));
   return code;
 }
 

@@ -8,7 +8,6 @@
 #include "driver_json.hpp"
 #include "error_text.hpp"
 #include "places.hpp"
-#include "rave/assemble/build.hpp"
 #include "rave/base/names.hpp"
 #include "rave/config/yaml.hpp"
 #include "rave/plugin/params_text.hpp"
@@ -48,12 +47,10 @@ Error nothing_named(std::string_view name, plugin::Catalogue& catalogue) {
 }  // namespace
 
 int describe(const DescribeCommand& options) {
-  plugin::Catalogue catalogue(runtime::host_stamp());
-  if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
-    return complain(added.error());
-  }
-  const std::vector<const plugin::Driver*> found = drivers_named(options.driver, catalogue);
-  if (found.empty()) return complain(nothing_named(options.driver, catalogue));
+  const auto catalogue = open_catalogue(options.plugins);
+  if (!catalogue) return complain(catalogue.error());
+  const std::vector<const plugin::Driver*> found = drivers_named(options.driver, **catalogue);
+  if (found.empty()) return complain(nothing_named(options.driver, **catalogue));
   config::RawNode list = config::RawNode::sequence();
   std::string text;
   for (const plugin::Driver* driver : found) {

@@ -8,11 +8,10 @@
 #include "driver_json.hpp"
 #include "error_text.hpp"
 #include "places.hpp"
-#include "rave/assemble/build.hpp"
 #include "rave/base/names.hpp"
+#include "rave/base/table.hpp"
 #include "rave/config/yaml.hpp"
 #include "rave/plugin/params_text.hpp"
-#include "rave/report/table.hpp"
 
 namespace rave::cli {
 namespace {
@@ -34,10 +33,10 @@ Result<DriverKind> kind_of(const std::string& name) {
 }
 
 std::string table_of(const Drivers& drivers, const Terminal& terminal) {
-  report::Table table;
-  table.columns = {{"kind", report::Align::kLeft, false},    {"name", report::Align::kLeft, false},
-                   {"version", report::Align::kLeft, false}, {"clock", report::Align::kLeft, false},
-                   {"summary", report::Align::kLeft, true},  {"file", report::Align::kLeft, false}};
+  Table table;
+  table.columns = {{"kind", Align::kLeft, false},    {"name", Align::kLeft, false},
+                   {"version", Align::kLeft, false}, {"clock", Align::kLeft, false},
+                   {"summary", Align::kLeft, true},  {"file", Align::kLeft, false}};
   std::string_view last;
   for (const plugin::Driver* driver : drivers) {
     const DriverInfo& info = driver->info;
@@ -48,10 +47,10 @@ std::string table_of(const Drivers& drivers, const Terminal& terminal) {
                           driver->file.filename().string()});
     last = kind;
   }
-  report::TableOptions options;
+  TableOptions options;
   if (terminal.is_terminal) options.width = terminal.width;
   options.ansi = terminal.colour;
-  return report::render_table(table, options);
+  return render_table(table, options);
 }
 
 std::string rejected_text(const plugin::Catalogue& catalogue, const Terminal& terminal) {
@@ -102,22 +101,20 @@ std::string json_of(const Drivers& drivers, const plugin::Catalogue& catalogue) 
 }  // namespace
 
 int drivers(const DriversCommand& options) {
-  plugin::Catalogue catalogue(runtime::host_stamp());
   std::optional<DriverKind> wanted;
   if (!options.kind.empty()) {
     const auto kind = kind_of(options.kind);
     if (!kind) return complain(kind.error());
     wanted = *kind;
   }
-  if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
-    return complain(added.error());
-  }
-  Drivers found = catalogue.all();
+  const auto catalogue = open_catalogue(options.plugins);
+  if (!catalogue) return complain(catalogue.error());
+  Drivers found = (*catalogue)->all();
   std::erase_if(found, [&](const auto* driver) { return wanted && driver->info.kind != *wanted; });
-  if (options.json) return put(stdout, json_of(found, catalogue)), kGood;
+  if (options.json) return put(stdout, json_of(found, **catalogue)), kGood;
   if (options.markdown) return put(stdout, reference_of(found)), kGood;
   put(stdout, found.empty() ? "no drivers\n" : table_of(found, terminal_of(stdout)));
-  put(stderr, rejected_text(catalogue, terminal_of(stderr)));
+  put(stderr, rejected_text(**catalogue, terminal_of(stderr)));
   return kGood;
 }
 

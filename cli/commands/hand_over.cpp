@@ -13,9 +13,9 @@
 
 #include "asked_run.hpp"
 #include "error_text.hpp"
+#include "rave/base/table.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/math/scalar.hpp"
-#include "rave/report/table.hpp"
 
 namespace rave::cli {
 namespace {
@@ -143,7 +143,7 @@ nlohmann::ordered_json json_of(const RunStatus::Robot& robot) {
   return json;
 }
 
-void add_rows(const RunStatus& status, const RunStatus::Robot& robot, report::Table& table) {
+void add_rows(const RunStatus& status, const RunStatus::Robot& robot, Table& table) {
   const RunStatus::Shadow& shadow = *robot.shadow;
   const std::string since =
       shadow.running ? fmt::format("{:.1f} s", status.sim_s - shadow.since_s) : "not running";
@@ -194,12 +194,12 @@ int show_shadows(const ShadowCommand& options) {
   }
   const auto status = run->status();
   if (!status) return complain(status.error());
-  report::Table table;
-  table.columns = {{"robot", report::Align::kLeft, false},
-                   {"difference", report::Align::kLeft, false},
-                   {"now", report::Align::kRight, false},
-                   {"most", report::Align::kRight, false},
-                   {"since", report::Align::kRight, false}};
+  Table table;
+  table.columns = {{"robot", Align::kLeft, false},
+                   {"difference", Align::kLeft, false},
+                   {"now", Align::kRight, false},
+                   {"most", Align::kRight, false},
+                   {"since", Align::kRight, false}};
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const RunStatus::Robot& robot : status->robots) {
     if (!robot.shadow || (!options.robot.empty() && options.robot != robot.name)) continue;
@@ -213,7 +213,7 @@ int show_shadows(const ShadowCommand& options) {
                          "its entry of the scenario"
                        : fmt::format("robot `{}` has no shadow", options.robot));
   }
-  put(stdout, options.json ? json.dump(2) + "\n" : report::render_table(table));
+  put(stdout, options.json ? json.dump(2) + "\n" : render_table(table));
   return kGood;
 }
 

@@ -5,19 +5,16 @@
 
 #include <filesystem>
 
-#include "console.hpp"
 #include "error_text.hpp"
-#include "interrupt.hpp"
 #include "managed_run.hpp"
 #include "places.hpp"
-#include "rave/assemble/build.hpp"
 #include "rave/base/control_characters.hpp"
 #include "rave/control/bus_requests.hpp"
 #include "rave/control/commands.hpp"
 #include "rave/control/folder.hpp"
-#include "rave/control/server.hpp"
 #include "rave/host/host_run.hpp"
 #include "run_scenario.hpp"
+#include "run_start.hpp"
 
 namespace rave::cli {
 namespace {
@@ -35,69 +32,45 @@ int tell(const RunCommand& options, bool whole, const std::string& summary,
   return whole ? kGood : kNotGood;
 }
 
-Result<bus::BusConfig> bus_of_run(const BusOptions& options, const std::string& participant,
-                                  const config::ExpandedScenario& scenario, bus::Reach reach) {
-  RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
-  RAVE_TRY_ASSIGN(auto bus, bus_config(options, participant, runtime::shared_number(scenario)));
-  make_room(bus, hosts.size(), reach);
-  return bus;
-}
-
 }  // namespace
 
 int robot(const RobotCommand& options) {
   const RunCommand& run = options.run;
   auto scenario = read_scenario(run);
   if (!scenario) return complain(scenario.error());
-  plugin::Catalogue catalogue(runtime::host_stamp());
-  auto others = std::make_unique<plugin::Catalogue>(runtime::host_stamp());
-  for (plugin::Catalogue* const each : {&catalogue, others.get()}) {
-    if (auto added = add_plugin_folders(run.plugins, *each); !added) {
-      return complain(added.error());
-    }
-  }
+  const auto catalogue = open_catalogue(run.plugins);
+  if (!catalogue) return complain(catalogue.error());
+  auto others = open_catalogue(run.plugins);
+  if (!others) return complain(others.error());
   const std::string name = fmt::format("{}-{}", scenario->scenario.name.value, options.host);
   runtime::HostOptions how;
   how.host = options.host;
   how.manager_patience = from_seconds(options.manager_patience_s);
-  how.others = std::move(others);
+  how.others = *std::move(others);
   auto bus = bus_of_run(run.bus, options.host, *scenario, bus::Reach::kHubs);
   if (!bus) return complain(bus.error());
   how.bus = *bus;
-  const auto folder = RunFolder::create(wanted_folder(run), name);
-  if (!folder) return complain(folder.error());
-  Console console(run.quiet);
-  if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {
-    return complain(opened.error());
-  }
-  runtime::RunControl& control = ended_by_signals();
-  how.run.output = folder->path();
-  how.run.program_runner = program_runner();
-  how.run.record = !run.no_record;
-  how.run.picture = !run.no_picture;
-  how.run.log = &console;
-  how.run.control = &control;
-  how.run.arm = run.arm;
-  how.run.run_name = control::own_run_name(scenario->scenario.name.value, options.host);
+  const auto opened = RunStart::open(run, name);
+  if (!opened) return complain(opened.error());
+  RunStart& start = **opened;
+  runtime::RunControl& control = start.control();
+  how.run =
+      start.run_options(run, control::own_run_name(scenario->scenario.name.value, options.host));
   how.begin_request = control::bus_requests_of(control);
   how.on_command = control::commands_of(control, *scenario);
-  auto server = control::Server::start(how.run.run_name, control);
-  if (!server) {
-    console.warn("host", "this host cannot be controlled from other terminals: {}",
-                 server.error().message);
-  }
-  const auto line = open_host_line(run.line, options.host, *bus, control, console);
+  start.serve(how.run.run_name, "host", "this host");
+  const auto line = open_host_line(run.line, options.host, *bus, control, start.console());
   if (!line) {
-    folder->discard();
+    start.discard();
     return complain(line.error());
   }
-  const auto outcome = runtime::run_host(*scenario, catalogue, std::move(how));
+  const auto outcome = runtime::run_host(*scenario, **catalogue, std::move(how));
   // What a run left that broke off tells why.
   std::error_code error;
-  if (!outcome && !std::filesystem::exists(folder->path() / "run.mcap", error)) folder->discard();
+  if (!outcome && !std::filesystem::exists(start.path() / "run.mcap", error)) start.discard();
   if (!outcome) return complain(outcome.error());
   return tell(run, outcome->whole, fmt::format("host {}: {} steps\n", options.host, outcome->steps),
-              outcome->problems, folder->path());
+              outcome->problems, start.path());
 }
 
 int env(const EnvCommand& options) {
@@ -106,24 +79,23 @@ int env(const EnvCommand& options) {
   if (!scenario) return complain(scenario.error());
   auto bus = bus_of_run(run.bus, "environment manager", *scenario, bus::Reach::kHub);
   if (!bus) return complain(bus.error());
-  const auto folder = RunFolder::create(wanted_folder(run), scenario->scenario.name.value + "-env");
-  if (!folder) return complain(folder.error());
-  Console console(run.quiet);
-  if (auto opened = console.open_file(folder->path() / "console.log"); !opened) {
-    return complain(opened.error());
-  }
-  runtime::RunControl& control = ended_by_signals();
-  const auto server = serve_control(scenario->scenario.name.value, control, console);
+  const std::string& name = scenario->scenario.name.value;
+  const auto opened = RunStart::open(run, name + "-env");
+  if (!opened) return complain(opened.error());
+  RunStart& start = **opened;
+  Console& console = start.console();
+  runtime::RunControl& control = start.control();
+  start.serve(control::own_run_name(name), "run", "this run");
   const auto line = open_host_line(run.line, direct_line::kManagerHost, *bus, control, console);
   if (!line) {
-    folder->discard();
+    start.discard();
     return complain(line.error());
   }
   bool started = false;
   auto managed = manage_run({*scenario,
                              run,
                              *bus,
-                             folder->path(),
+                             start.path(),
                              console,
                              control,
                              [&] {
@@ -133,13 +105,13 @@ int env(const EnvCommand& options) {
                              {},
                              options.resume});
   console.clear();
-  if (!managed && !started) folder->discard();
+  if (!managed && !started) start.discard();
   if (!managed) return complain(managed.error());
   const auto outcome = managed->results->write(managed->end);
   if (!outcome) return complain(outcome.error());
   // A host that sent nothing is a problem; a check that could not be made has not failed.
   return tell(run, outcome->whole && !outcome->checks_fail, outcome->summary, outcome->problems,
-              folder->path());
+              start.path());
 }
 
 }  // namespace rave::cli

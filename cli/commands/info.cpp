@@ -9,8 +9,8 @@
 
 #include "error_text.hpp"
 #include "places.hpp"
+#include "rave/base/table.hpp"
 #include "rave/record/record_summary.hpp"
-#include "rave/report/table.hpp"
 
 namespace rave::cli {
 namespace {
@@ -135,16 +135,16 @@ std::string info_text(const record::RecordSummary& summary) {
   }
   for (const std::string& damage : summary.damages) text += fmt::format("damaged: {}\n", damage);
   for (const std::string& piece : summary.unsummed) text += fmt::format("not checked: {}\n", piece);
-  report::Table table;
-  table.columns = {{"topic", report::Align::kLeft, false},
-                   {"type", report::Align::kLeft, false},
-                   {"messages", report::Align::kRight, false},
-                   {"rate", report::Align::kRight, false}};
+  Table table;
+  table.columns = {{"topic", Align::kLeft, false},
+                   {"type", Align::kLeft, false},
+                   {"messages", Align::kRight, false},
+                   {"rate", Align::kRight, false}};
   for (const record::ChannelSummary& channel : summary.channels) {
     table.rows.push_back({channel.topic, channel.schema, fmt::format("{}", channel.messages),
                           fmt::format("{:.1f} Hz", channel.rate_hz)});
   }
-  return text + report::render_table(table);
+  return text + render_table(table);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "error_text.hpp"
+#include "rave/base/table.hpp"
 #include "rave/direct_line/key_files.hpp"
 #include "rave/keys/key_set.hpp"
 #include "rave/keys/web_keys.hpp"
@@ -34,10 +35,10 @@ std::string plain(std::string folder) {
   return folder;
 }
 
-std::string row_of(const keys::KeyInfo& key, std::size_t width) {
-  if (key.fingerprint.empty()) return fmt::format("{:{}}  unreadable\n", key.name, width);
-  return fmt::format("{:{}}  {}  {}  {:>9}  {}\n", key.name, width, keys::date_text(key.from_s),
-                     keys::date_text(key.until_s), key.days_left(now_s()), key.fingerprint);
+std::vector<TableCell> row_of(const keys::KeyInfo& key) {
+  if (key.fingerprint.empty()) return {key.name, "unreadable"};
+  return {key.name, keys::date_text(key.from_s), keys::date_text(key.until_s),
+          fmt::format("{}", key.days_left(now_s())), key.fingerprint};
 }
 
 /// Complains of what is wrong with a key and warns of what soon will be. Whether it can be used.
@@ -88,13 +89,12 @@ int add_keys(const KeysAddCommand& options) {
 int show_keys(const KeysShowCommand& options) {
   const auto set = keys::read_key_set(plain(options.folder));
   if (!set) return complain(set.error());
-  std::size_t width = set->authority.name.size();
-  for (const keys::KeyInfo& member : set->members) width = std::max(width, member.name.size());
-  std::string table = fmt::format("lab {}\n{:{}}  from        until       days left  SHA-256\n",
-                                  set->lab, "", width);
-  table += row_of(set->authority, width);
-  for (const keys::KeyInfo& member : set->members) table += row_of(member, width);
-  put(stdout, table);
+  Table table{"lab " + set->lab,
+              {{""}, {"from"}, {"until"}, {"days left", Align::kRight}, {"SHA-256"}},
+              {row_of(set->authority)},
+              {}};
+  for (const keys::KeyInfo& member : set->members) table.rows.push_back(row_of(member));
+  put(stdout, render_table(table, {.look = TableLook::kSpaces}));
   const Terminal terminal = terminal_of(stderr);
   bool usable = judge(set->authority, terminal);
   for (const keys::KeyInfo& member : set->members) usable = judge(member, terminal) && usable;

@@ -11,6 +11,7 @@
 
 #include "error_text.hpp"
 #include "rave/base/file.hpp"
+#include "rave/base/table.hpp"
 #include "rave/gui_server/accounts.hpp"
 
 namespace rave::cli {
@@ -100,12 +101,16 @@ std::int64_t days_until(std::int64_t moment_s) {
 
 std::string list(const Accounts& accounts) {
   const gui_server::AccountsFile file = accounts.state();
-  std::string text = fmt::format("{:<32}  {:<10}  {:<8}  teams\n", "name", "role", "password");
+  Table table;
+  table.columns = {{.heading = "name", .least = 32},
+                   {.heading = "role", .least = 10},
+                   {.heading = "password", .least = 8},
+                   {.heading = "teams"}};
   for (const auto& account : file.accounts) {
-    text += fmt::format("{:<32}  {:<10}  {:<8}  {}\n", account.person.name,
-                        to_string(account.person.role), account.password.empty() ? "no" : "yes",
-                        account.person.teams.text());
+    table.rows.push_back({account.person.name, std::string(to_string(account.person.role)),
+                          account.password.empty() ? "no" : "yes", account.person.teams.text()});
   }
+  std::string text = render_table(table, {.look = TableLook::kSpaces});
   for (const auto& invitation : file.invitations) {
     text += fmt::format("invitation by {}: {}, teams {}, {} left, {} days\n", invitation.by,
                         to_string(invitation.role), invitation.teams.text(), invitation.uses,

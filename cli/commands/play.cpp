@@ -6,15 +6,13 @@
 #include "error_text.hpp"
 #include "places.hpp"
 #include "played_scenario.hpp"
-#include "rave/assemble/build.hpp"
 #include "run_folder.hpp"
 
 namespace rave::cli {
 namespace {
 
 Result<PlayedScenario> make(const PlayCommand& options) {
-  plugin::Catalogue catalogue(runtime::host_stamp());
-  RAVE_TRY(add_plugin_folders(options.run.plugins, catalogue));
+  RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.run.plugins));
   PlayArguments arguments;
   RAVE_TRY_ASSIGN(arguments.record, record_file(options.file));
   arguments.robots = options.robots;
@@ -22,7 +20,7 @@ Result<PlayedScenario> make(const PlayCommand& options) {
   if (!options.world.empty()) arguments.world = options.world;
   if (!options.program.empty()) arguments.program = options.program;
   arguments.start_s = options.start_s;
-  return played_scenario(arguments, catalogue);
+  return played_scenario(arguments, *catalogue);
 }
 
 /// The record that is played is still read while the run goes.

@@ -7,24 +7,23 @@
 
 #include "error_text.hpp"
 #include "places.hpp"
-#include "rave/assemble/build.hpp"
 #include "rave/base/file.hpp"
+#include "rave/base/table.hpp"
 #include "rave/replay/gap.hpp"
-#include "rave/report/table.hpp"
 
 namespace rave::cli {
 namespace {
 
-std::vector<std::string> row(std::string what, double metres, double degrees) {
+std::vector<TableCell> row(std::string what, double metres, double degrees) {
   return {std::move(what), fmt::format("{:.4f} m", metres), fmt::format("{:.2f} deg", degrees)};
 }
 
 std::string table_of(const runtime::GapReport& gap) {
-  report::Table table;
+  Table table;
   table.title = fmt::format("{} against its simulated twin", gap.robot);
-  table.columns = {{"", report::Align::kLeft, false},
-                   {"distance", report::Align::kRight, false},
-                   {"heading", report::Align::kRight, false}};
+  table.columns = {{"", Align::kLeft, false},
+                   {"distance", Align::kRight, false},
+                   {"heading", Align::kRight, false}};
   for (const runtime::GapAt& at : gap.after) {
     table.rows.push_back(row(fmt::format("after {:g} s", at.after_s), at.metres, at.degrees));
   }
@@ -38,22 +37,20 @@ std::string table_of(const runtime::GapReport& gap) {
     table.rows.push_back(row("median " + of, windows.median_m, windows.median_deg));
     table.rows.push_back(row("95 % " + of, windows.p95_m, windows.p95_deg));
   }
-  report::TableOptions options;
+  TableOptions options;
   options.ansi = terminal_of(stdout).colour;
-  return report::render_table(table, options);
+  return render_table(table, options);
 }
 
 }  // namespace
 
 int report_gap(const GapCommand& options) {
-  plugin::Catalogue catalogue(runtime::host_stamp());
-  if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
-    return complain(added.error());
-  }
+  const auto catalogue = open_catalogue(options.plugins);
+  if (!catalogue) return complain(catalogue.error());
   const auto record = record_file(options.file);
   if (!record) return complain(record.error());
   const auto gap = runtime::measure_gap(
-      *record, catalogue,
+      *record, **catalogue,
       {options.robot, options.twin, options.commands, options.truth, options.window_s});
   if (!gap) return complain(gap.error());
   std::filesystem::path folder = options.output;

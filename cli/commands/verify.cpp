@@ -7,7 +7,6 @@
 #include "error_text.hpp"
 #include "interrupt.hpp"
 #include "places.hpp"
-#include "rave/assemble/build.hpp"
 #include "rave/replay/verify.hpp"
 
 namespace rave::cli {
@@ -61,10 +60,8 @@ int tell(const VerifyCommand& options, const runtime::VerifyOutcome& outcome) {
 }  // namespace
 
 int verify(const VerifyCommand& options) {
-  plugin::Catalogue catalogue(runtime::host_stamp());
-  if (auto added = add_plugin_folders(options.plugins, catalogue); !added) {
-    return complain(added.error());
-  }
+  const auto catalogue = open_catalogue(options.plugins);
+  if (!catalogue) return complain(catalogue.error());
   const auto record = record_file(options.file);
   if (!record) return complain(record.error());
   Console console(options.quiet);
@@ -74,7 +71,7 @@ int verify(const VerifyCommand& options) {
   verify_options.log = &console;
   verify_options.on_progress = [&](const report::Progress& progress) { console.show(progress); };
   verify_options.control = &ended_by_signals();
-  const auto outcome = runtime::verify(*record, catalogue, verify_options);
+  const auto outcome = runtime::verify(*record, **catalogue, verify_options);
   console.clear();
   return outcome ? tell(options, *outcome) : complain(outcome.error());
 }

@@ -1,78 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Obstacles that come, move and go in a world of several processes, started as users would start
 // them.
+#include "edits_over_hosts.hpp"
+
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cmath>
-#include <csignal>
-#include <filesystem>
 #include <random>
-
-#include "rave/bus/sequence.hpp"
-#include "rave/bus/writer.hpp"
-#include "rave/record/run_reader.hpp"
-#include "shared_world.hpp"
-#include "stranger.hpp"
 
 namespace rave::cli_test {
 namespace {
-
-namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
-
-class EditsOverHosts : public SharedWorld {
- protected:
-  /// `rave` in another terminal.
-  [[nodiscard]] Ended rave(const Words& words) const {
-    return run_rave(words, {"XDG_RUNTIME_DIR=" + folder_.path().string()});
-  }
-  [[nodiscard]] Ended add_box(const std::string& name, const std::string& at) const {
-    return rave({"edit", "add", "box", "--name", name, "--at", at, "--size", "0.5x0.3"});
-  }
-  void start_all(const std::string& scenario, const Words& more = {}) {
-    start("env", "env", scenario, more);
-    start_host("one", scenario, more);
-    start_host("two", scenario, more);
-  }
-  /// Until the manager takes requests.
-  void wait_until_it_runs() {
-    wait_until([&] { return rave({"edit", "list"}).exit_code == 0; }, "it runs");
-  }
-  void wait_for_size(const std::string& host) {
-    wait_until(
-        [&] {
-          std::error_code error;
-          const auto size = fs::file_size(folder(host) + "/run.mcap", error);
-          return !error && size > 100'000;
-        },
-        host + " goes on");
-  }
-  /// What the record of a host says was asked by hand: kind, step, and what.
-  [[nodiscard]] std::vector<std::string> inputs_of(const std::string& host) const {
-    std::vector<std::string> inputs;
-    const auto reader = record::McapReader::open(folder(host) + "/run.mcap");
-    EXPECT_TRUE(reader) << reader.error().text();
-    if (!reader) return inputs;
-    const auto take = [&](const record::MessageView& message) -> Status {
-      RAVE_TRY_ASSIGN(const record::RunInput input, record::decode_input(message.bytes));
-      inputs.push_back(fmt::format("{} {} {} {} {}", input.step, input.kind, input.robot, input.key,
-                                   input.value));
-      return {};
-    };
-    EXPECT_TRUE(record::for_each_message(*reader, record::topic::kInputs, take));
-    return inputs;
-  }
-  void expect_verified(const std::string& host) const {
-    const Ended ended = rave({"verify", folder(host)});
-    EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
-    EXPECT_NE(ended.out.find("equal: "), std::string::npos) << ended.out;
-  }
-  void end_by_hand(const std::string& manager) {
-    signal(manager, SIGINT);
-    EXPECT_EQ(end_of(manager), 1) << console(manager);
-  }
-};
 
 TEST_F(EditsOverHosts, AScenarioThatChangesObstaclesHasTheHashOfOneProcess) {
   const std::string alone = hash_alone("edited.yaml", {});
@@ -255,45 +192,6 @@ TEST_F(EditsOverHosts, AHostThatIsKilledAndComesBackHasWhatWasEdited) {
   end_by_hand("env");
 }
 
-/// A run of a known name, and a bus in this process from which anything can be sent to it.
-class Garbage : public EditsOverHosts {
- protected:
-  /// Sends it until the log of `who` has the text.
-  template <class Message>
-  void send_until(Message& message, const std::string& who, const std::string& text) {
-    const auto bus = open_stranger(apart(), run_);
-    ASSERT_TRUE(bus) << bus.error().text();
-    auto writer = bus::Writer<Message>::create(**bus);
-    ASSERT_TRUE(writer) << writer.error().text();
-    wait_until(
-        [&] {
-          EXPECT_TRUE(writer->write(message));
-          return console(who).find(text) != std::string::npos;
-        },
-        who + ": " + text);
-  }
-
-  bus::RunId run_ = bus::RunId::random();
-};
-
-/// An obstacle that nobody can build.
-struct Nonsense {
-  std::vector<double> x{0, 1, std::nan("")};
-  std::vector<double> y{0, 0, 1};
-  std::vector<rave_wire_BodyShape> shapes = std::vector<rave_wire_BodyShape>(1);
-  std::vector<rave_wire_ObstacleChange> changes = std::vector<rave_wire_ObstacleChange>(1);
-
-  Nonsense() {
-    shapes[0].kind = rave_wire_SHAPE_POLYGON;
-    shapes[0].z_max_m = 1;
-    bus::borrow(shapes[0].x_m, x);
-    bus::borrow(shapes[0].y_m, y);
-    changes[0].id = 31;
-    bus::put_text(changes[0].name, "nonsense");
-    bus::borrow(changes[0].shapes, shapes);
-  }
-};
-
 TEST_F(Garbage, NonsenseOfAStrangerIsRefusedAndTheRunGoesOn) {
   const Words words = {"--duration", "100000", "--run", run_.text()};
   start("env", "env", "crowd.yaml", words);
@@ -313,156 +211,6 @@ TEST_F(Garbage, NonsenseOfAStrangerIsRefusedAndTheRunGoesOn) {
   EXPECT_EQ(rave({"edit", "list"}).out.find("nonsense"), std::string::npos);
   end_by_hand("env");
   EXPECT_EQ(end_of("one"), 0) << console("one");
-}
-
-class LiveEdits : public Garbage {
- protected:
-  void begin(const std::string& who, const std::string& name) {
-    Words words = {"--run", run_.text()};
-    if (who != "env") words.insert(words.end(), {"--host", who});
-    if (who == "env" && name != who) words.emplace_back("--resume");
-    start(name, who == "env" ? "env" : "robot", "live.yaml", words);
-  }
-  void begin_all() {
-    for (const char* const who : {"env", "one", "two"}) begin(who, who);
-    wait_for_line("env", "all hosts have joined");
-    wait_until_it_runs();
-  }
-  [[nodiscard]] bool host_has(const std::string& host, const std::string& text) const {
-    return rave({"edit", "live@" + host, "list"}).out.find(text) != std::string::npos;
-  }
-};
-
-TEST_F(LiveEdits, AnEditIsAroundAllRobotsWithinAMeasuredTime) {
-  begin_all();
-  const Ended added = add_box("bale", "0,5");
-  EXPECT_EQ(added.exit_code, 0) << added.err;
-  EXPECT_NE(added.out.find("added `bale` at (0, 5)"), std::string::npos) << added.out;
-  EXPECT_NE(added.out.find("in effect at all 2 hosts "), std::string::npos) << added.out;
-  EXPECT_EQ(rave({"edit", "move", "bale", "--at", "0.2,5"}).exit_code, 0);
-  for (const char* const host : {"one", "two"}) {
-    EXPECT_TRUE(host_has(host, "(0.200, 5.000) m")) << host;
-  }
-  EXPECT_EQ(rave({"edit", "remove", "bale"}).exit_code, 0);
-  EXPECT_FALSE(host_has("one", "bale"));
-  const Ended unknown = rave({"edit", "remove", "bal"});
-  EXPECT_EQ(unknown.exit_code, 1);
-  EXPECT_NE(unknown.err.find("there is no obstacle `bal`"), std::string::npos) << unknown.err;
-  // What is no edit is done by the hosts.
-  const Ended stop = rave({"stop", "live"});
-  EXPECT_EQ(stop.exit_code, 0) << stop.err;
-  for (const char* const host : {"@one", "@two"}) {
-    EXPECT_NE(stop.out.find(host), std::string::npos) << stop.out;
-  }
-  end_by_hand("env");
-  const auto result = this->result("env");
-  EXPECT_EQ(result["edits"], 3) << result.dump();
-  EXPECT_EQ(result["edits_confirmed_by_all"], 3) << result.dump();
-  EXPECT_TRUE(result["edit_slowest_s"].is_number()) << result.dump();
-}
-
-TEST_F(LiveEdits, WhoComesLateHasAllObstaclesBeforeItsFirstStep) {
-  begin_all();
-  ASSERT_EQ(add_box("bale", "0,5").exit_code, 0);
-  ASSERT_EQ(add_box("gone", "0,-5").exit_code, 0);
-  ASSERT_EQ(rave({"edit", "remove", "gone"}).exit_code, 0);
-  ASSERT_EQ(rave({"edit", "move", "south", "--at", "0,-2.2"}).exit_code, 0);
-  signal("two", SIGKILL);
-  EXPECT_EQ(end_of("two"), -1);
-  wait_for_line("env", "host `two` is gone");
-  begin("two", "late");
-  wait_for_line("late", "obstacle added: `bale`");
-  wait_for_line("late", "obstacle removed: `gone`");
-  wait_for_line("late", "obstacle moved: `south`");
-  // All in the first step that this process made.
-  signal("late", SIGINT);
-  EXPECT_EQ(end_of("late"), 1);
-  const std::string events = content_of(folder("late") + "/events.log");
-  const auto time_of = [&](const std::string& text) {
-    const std::size_t at = events.find(text);
-    if (at == std::string::npos) return std::string("never: " + text);
-    const std::size_t line = events.rfind('\n', at);
-    return events.substr(line == std::string::npos ? 0 : line + 1, 12);
-  };
-  const auto late = result("late");
-  EXPECT_EQ(time_of("obstacle added `bale`"), time_of("obstacle moved `south`")) << events;
-  EXPECT_NEAR(std::stod(time_of("obstacle added `bale`")), late["first_step"].get<double>() * 0.01,
-              0.0051)
-      << events;
-  end_by_hand("env");
-}
-
-TEST_F(LiveEdits, AManagerThatTakesOverKnowsTheObstacles) {
-  begin_all();
-  ASSERT_EQ(add_box("bale", "0,5").exit_code, 0);
-  ASSERT_EQ(rave({"edit", "remove", "north"}).exit_code, 0);
-  signal("env", SIGKILL);
-  EXPECT_EQ(end_of("env"), -1);
-  wait_for_line("one", "the environment manager is lost");
-  begin("env", "second");
-  wait_for_line("second", "takes over at");
-  wait_until(
-      [&] {
-        return rave({"edit", "live", "move", "bale", "--at", "0.1,5"}).exit_code == 0;
-      },
-      "it knows the bale");
-  const Ended listed = rave({"edit", "list"});
-  EXPECT_EQ(listed.out.find("north"), std::string::npos) << listed.out;
-  for (const char* const host : {"one", "two"}) {
-    EXPECT_TRUE(host_has(host, "(0.100, 5.000) m")) << host;
-  }
-  end_by_hand("second");
-}
-
-TEST_F(LiveEdits, WhatTheScenarioCannotChangeIsAProblemOfTheRun) {
-  start("run", "run", "live_edited.yaml");
-  EXPECT_EQ(end_of("run"), 1) << console("run");
-  const auto result = this->result("run");
-  EXPECT_EQ(result["whole"], false);
-  ASSERT_EQ(result["problems"].size(), 1U) << result.dump();
-  const auto problem = result["problems"][0].get<std::string>();
-  EXPECT_NE(problem.find("the change at "), std::string::npos) << problem;
-  EXPECT_NE(problem.find("was refused: obstacle `lid` would overlap"), std::string::npos)
-      << problem;
-  // What all hosts had came once, whenever each of them had it.
-  const std::string events = content_of(folder("run") + "/events.log");
-  const std::size_t added = events.find("obstacle added `bale`");
-  ASSERT_NE(added, std::string::npos) << events;
-  EXPECT_EQ(events.find("obstacle added `bale`", added + 1), std::string::npos) << events;
-}
-
-TEST_F(LiveEdits, ARobotIsHandedOverByTheHostThatRunsIt) {
-  const Words words = {"--run", run_.text()};
-  start("env", "env", "live_twins.yaml", words);
-  start_host("one", "live_twins.yaml", words);
-  start_host("two", "live_twins.yaml", words);
-  wait_for_line("env", "all hosts have joined");
-  wait_until_it_runs();
-  wait_for_line("two", "handed over: simulated -> simulated");
-  // The run has three processes here; nobody needs to know which of them it is.
-  const Ended made = rave({"hand-over", "left", "twin"});
-  EXPECT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_NE(made.out.find("live_twins@one"), std::string::npos) << made.out;
-  EXPECT_NE(made.out.find("simulated -> simulated"), std::string::npos) << made.out;
-  EXPECT_NE(console("one").find("handed over"), std::string::npos);
-  const Ended again = rave({"hand-over", "left", "twin"});
-  EXPECT_EQ(again.exit_code, 1) << again.out;
-  EXPECT_NE(again.err.find("already has its"), std::string::npos) << again.err;
-  end_by_hand("env");
-}
-
-TEST_F(LiveEdits, NonsenseIsRefusedWithALogLine) {
-  begin_all();
-  Nonsense nonsense;
-  bus::Obstacle obstacle{};
-  obstacle.id = 31;
-  obstacle.revision = 9;
-  obstacle.stands = nonsense.changes[0];
-  send_until(obstacle, "one", "stands.shapes[0].x_m is nan");
-  EXPECT_EQ(add_box("bale", "0,5").exit_code, 0);
-  EXPECT_TRUE(host_has("one", "bale"));
-  EXPECT_FALSE(host_has("one", "nonsense"));
-  end_by_hand("env");
 }
 
 }  // namespace

@@ -66,6 +66,7 @@ class OiRobot {
   /// The data of packet or group `id`; reading distance and angle sets them back.
   [[nodiscard]] std::string packet(unsigned char id, const Plant& plant);
   [[nodiscard]] int value(int id, const Plant& plant);
+  [[nodiscard]] int state(int id, const Plant& plant);  ///< Of packets from 35 on.
   [[nodiscard]] int bumps(const Plant& plant) const;
   [[nodiscard]] int light(int index, const Plant& plant) const;
   [[nodiscard]] int travelled_since_read(const Plant& plant, bool angle);

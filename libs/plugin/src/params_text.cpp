@@ -8,7 +8,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "text_table.hpp"
+#include "rave/base/table.hpp"
+#include "rave/base/text_width.hpp"
 
 namespace rave::plugin {
 namespace {
@@ -31,6 +32,9 @@ std::string join_choices(const ParamSpec& spec) {
   return text;
 }
 
+/// Width of a page in characters.
+constexpr std::size_t kPageWidth = 100;
+
 /// The cells of one row, the order of both tables.
 std::array<std::string, 6> cells_of(const ParamSpec& spec) {
   return {spec.name,          std::string(to_string(spec.type)),
@@ -38,8 +42,18 @@ std::array<std::string, 6> cells_of(const ParamSpec& spec) {
           default_text(spec), spec.doc};
 }
 
-constexpr std::array<std::string_view, 6> kHeadings{"name",  "type",    "unit",
-                                                    "range", "default", "meaning"};
+Table params_table(const DriverInfo& info) {
+  // The widest columns before the sentence: with indent and gaps they fit a page.
+  Table table;
+  table.columns = {{.heading = "name", .widest = 28},    {.heading = "type", .widest = 8},
+                   {.heading = "unit", .widest = 12},    {.heading = "range", .widest = 20},
+                   {.heading = "default", .widest = 20}, {.heading = "meaning", .below = 28}};
+  for (const ParamSpec& spec : info.param_specs()) {
+    const auto cells = cells_of(spec);
+    table.rows.emplace_back(cells.begin(), cells.end());
+  }
+  return table;
+}
 
 /// Escapes the characters that end a Markdown table cell or begin markup.
 std::string escaped(std::string_view text) {
@@ -115,7 +129,7 @@ std::string default_text(const ParamSpec& spec) {
 std::string describe(const Driver& driver) {
   const DriverInfo& info = driver.info;
   std::string page = fmt::format("{}\n", info.name);
-  page += wrapped(info.summary, 2, kPageWidth);
+  page += indented(info.summary, 2, kPageWidth);
   page += fmt::format("\n  kind     {}\n  version  {}\n  clock    {}\n  file     {}\n",
                       rave::to_string(info.kind), info.version, rave::to_string(info.clock),
                       driver.file.string());
@@ -123,9 +137,8 @@ std::string describe(const Driver& driver) {
   page += "\n";
   if (info.param_count == 0) return page + "It has no parameters.\n";
   page += "Parameters\n";
-  TextTable table(kHeadings);
-  for (const ParamSpec& spec : info.param_specs()) table.add(cells_of(spec));
-  return page + table.text();
+  const TableOptions options{.width = kPageWidth, .look = TableLook::kSpaces, .indent = 2};
+  return page + render_table(params_table(info), options);
 }
 
 std::string markdown(const Driver& driver) {

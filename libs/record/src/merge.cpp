@@ -12,11 +12,10 @@
 #include <tuple>
 
 #include "merge_facts.hpp"
+#include "merge_part.hpp"
 #include "once.hpp"
 #include "rave/base/hash.hpp"
-#include "rave/record/moment_cursor.hpp"
 #include "rave/record/robot_ranges.hpp"
-#include "rave/record/run_reader.hpp"
 #include "rave/record/run_record.hpp"
 #include "rows.hpp"
 
@@ -25,54 +24,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string_view>& merged_topics() {
-  static const std::vector<std::string_view> kTopics = {
-      topic::kPoses,   topic::kPercepts, topic::kCommands, topic::kActuators,
-      topic::kRadio,   topic::kEvents,   topic::kInputs,   topic::kHash,
-      topic::kConsole, topic::kChat,     topic::kVariances};
-  return kTopics;
-}
-
-/// The recording of one process, at one log time.
-struct Part {
-  fs::path path;
-  std::string host;  ///< Empty: the world authority.
-  McapReader reader;
-  RunInfo info;
-  std::optional<RunEnd> end;
-  MomentCursor cursor;
-  bool more = true;
-  bool here = false;   ///< It has messages at the merged time.
-  std::string torn{};  ///< Why it is incomplete; empty: it is complete.
-
-  void advance() {
-    auto next = cursor.next();
-    if (!next) torn = next.error().message;
-    more = next && *next;
-  }
-};
-
-Result<std::unique_ptr<Part>> open_part(const fs::path& path) {
-  RAVE_TRY_ASSIGN(auto reader, McapReader::open(path));
-  auto info = read_run_info(reader);
-  if (!info) {
-    return tl::unexpected(std::move(info).error().with_context(path.string()));
-  }
-  auto end = read_run_end(reader);
-  MomentCursor cursor(reader, merged_topics());
-  std::string host = host_of(reader);
-  auto part = std::make_unique<Part>(
-      Part{path, std::move(host), std::move(reader), *std::move(info), end, std::move(cursor)});
-  if (!part->end) part->torn = "its end is missing";
-  if (!part->reader.damages().empty()) part->torn = part->reader.damages().front();
-  return part;
-}
-
 /// Calls `take(part, item)` for each item of a topic at this time; messages that cannot be decoded
 /// are skipped.
 template <class Decode, class Take>
-void each_item(const std::vector<std::unique_ptr<Part>>& parts, const char* topic, Decode decode,
-               Take take) {
+void each_item(const std::vector<std::unique_ptr<MergePart>>& parts, const char* topic,
+               Decode decode, Take take) {
   for (const auto& part : parts) {
     if (!part->here) continue;
     for (const MomentCursor::Bytes& message : part->cursor.messages(topic)) {
@@ -90,7 +46,7 @@ struct Unreadable {
 
 class Merger {
  public:
-  Merger(std::vector<std::unique_ptr<Part>> parts, std::vector<Unreadable> unreadable)
+  Merger(std::vector<std::unique_ptr<MergePart>> parts, std::vector<Unreadable> unreadable)
       : parts_(std::move(parts)), unreadable_(std::move(unreadable)) {}
 
   Result<std::vector<std::string>> write(const fs::path& output);
@@ -107,25 +63,25 @@ class Merger {
   void write_hash(RunRecorder& recorder);
   void write_inputs(RunRecorder& recorder, bool before_first);
   void write_chat(RunRecorder& recorder);
-  [[nodiscard]] bool was_told(const Part& part, const RunEvent& event);
+  [[nodiscard]] bool was_told(const MergePart& part, const RunEvent& event);
   [[nodiscard]] std::vector<std::string> notes() const;
 
   /// Chat messages already written: number, from, to, name, text.
   std::set<std::tuple<std::uint64_t, std::string, std::string, std::string, std::string>> chats_;
-  std::vector<std::unique_ptr<Part>> parts_;
+  std::vector<std::unique_ptr<MergePart>> parts_;
   std::vector<Unreadable> unreadable_;
   std::vector<std::string> hosts_;                   ///< All hosts of the run.
   std::vector<const std::string*> owner_;            ///< By robot: its host's name, or null.
   std::vector<std::optional<RobotPose>> poses_;      ///< By robot, at the merged time.
   std::map<std::uint32_t, PoseVariance> variances_;  ///< By robot, the last ones.
   /// By change of an obstacle in real time: the first part that has it, and when.
-  std::map<std::vector<double>, std::pair<const Part*, std::uint64_t>> told_;
+  std::map<std::vector<double>, std::pair<const MergePart*, std::uint64_t>> told_;
   std::uint64_t time_ns_ = 0;
   bool hashed_ = true;  ///< Every step had all hashes.
 };
 
 Status Merger::check() const {
-  const Part& first = *parts_.front();
+  const MergePart& first = *parts_.front();
   if (!(first.info.step_s >= 1e-9 && first.info.step_s < 1e9)) {
     return fail(ErrorCode::kParse, "`{}` does not state the step", first.path.string());
   }
@@ -220,7 +176,7 @@ bool Merger::next_moment() {
 
 void Merger::write_poses(RunRecorder& recorder) {
   std::ranges::fill(poses_, std::nullopt);
-  each_item(parts_, topic::kPoses, decode_poses, [&](const Part& part, const auto& step) {
+  each_item(parts_, topic::kPoses, decode_poses, [&](const MergePart& part, const auto& step) {
     for (const RobotPose& pose : step.items) {
       const std::uint32_t r = pose.robot.value();
       if (r >= poses_.size()) continue;
@@ -239,16 +195,17 @@ void Merger::write_poses(RunRecorder& recorder) {
 /// all.
 void Merger::write_variances(RunRecorder& recorder) {
   bool told = false;
-  each_item(parts_, topic::kVariances, decode_variances, [&](const Part& part, const auto& step) {
-    std::erase_if(variances_, [&](const auto& known) {
-      const std::string* const owner = owner_[known.first];
-      return owner != nullptr && *owner == part.host;
-    });
-    for (const PoseVariance& robot : step.items) {
-      if (robot.robot.value() < owner_.size()) variances_[robot.robot.value()] = robot;
-    }
-    told = true;
-  });
+  each_item(parts_, topic::kVariances, decode_variances,
+            [&](const MergePart& part, const auto& step) {
+              std::erase_if(variances_, [&](const auto& known) {
+                const std::string* const owner = owner_[known.first];
+                return owner != nullptr && *owner == part.host;
+              });
+              for (const PoseVariance& robot : step.items) {
+                if (robot.robot.value() < owner_.size()) variances_[robot.robot.value()] = robot;
+              }
+              told = true;
+            });
   if (!told) return;
   std::vector<PoseVariance> all;
   for (const auto& [robot, variance] : variances_) all.push_back(variance);
@@ -258,8 +215,7 @@ void Merger::write_variances(RunRecorder& recorder) {
 void Merger::write_hash(RunRecorder& recorder) {
   RunHash sum;
   std::size_t known = 0;
-  each_item(parts_, topic::kHash, decode_hash, [&](const Part&, const StepHash& step) {
-    // The run hash is a sum over items, each of which one process adds.
+  each_item(parts_, topic::kHash, decode_hash, [&](const MergePart&, const StepHash& step) {
     sum.merge(RunHash::of_value(step.hash));
     ++known;
   });
@@ -270,16 +226,16 @@ void Merger::write_hash(RunRecorder& recorder) {
 
 void Merger::write_inputs(RunRecorder& recorder, bool before_first) {
   Once<RunInput> once;
-  each_item(parts_, topic::kInputs, decode_input, [&](const Part& part, const RunInput& input) {
-    // Inputs before the first step are recorded before it, all others after their step.
-    if ((input.step == 0) == before_first) once.add(&part, input);
-  });
+  each_item(parts_, topic::kInputs, decode_input,
+            [&](const MergePart& part, const RunInput& input) {
+              if ((input.step == 0) == before_first) once.add(&part, input);
+            });
   for (const RunInput& input : once.items()) static_cast<void>(recorder.input(input));
 }
 
 /// Several hosts may have a chat message at different times: the first one is used.
 void Merger::write_chat(RunRecorder& recorder) {
-  each_item(parts_, topic::kChat, decode_chat, [&](const Part&, const auto& said) {
+  each_item(parts_, topic::kChat, decode_chat, [&](const MergePart&, const auto& said) {
     const RunChat& chat = said.second;
     if (!chats_.emplace(chat.number, chat.from, chat.to, chat.name, chat.text).second) return;
     static_cast<void>(recorder.chat(chat));
@@ -288,12 +244,12 @@ void Merger::write_chat(RunRecorder& recorder) {
 
 /// In real time each host records an obstacle change when it arrives: the first one is used. The
 /// event identifies the obstacle and the change.
-bool Merger::was_told(const Part& part, const RunEvent& event) {
+bool Merger::was_told(const MergePart& part, const RunEvent& event) {
   const bool counted =
       !event.robot.valid() && event.kind.starts_with("obstacle ") && event.values.size() == 2 &&
       std::ranges::all_of(event.values, [](double value) { return std::isfinite(value); });
   if (!counted) return false;
-  const std::pair<const Part*, std::uint64_t> now(&part, time_ns_);
+  const std::pair<const MergePart*, std::uint64_t> now(&part, time_ns_);
   return told_.try_emplace(event.values, now).first->second != now;
 }
 
@@ -304,19 +260,19 @@ Status Merger::write_moment(RunRecorder& recorder) {
   write_inputs(recorder, true);
   recorder.begin_step(step, SimTime{static_cast<std::int64_t>(time_ns_)});
   each_item(parts_, topic::kPercepts, decode_percepts,
-            [&](const Part&, const auto& all) { add_rows(all.items, recorder); });
+            [&](const MergePart&, const auto& all) { add_rows(all.items, recorder); });
   each_item(parts_, topic::kCommands, decode_commands,
-            [&](const Part&, const auto& all) { add_rows(all.items, recorder); });
-  each_item(parts_, topic::kActuators, decode_actuators, [&](const Part&, const auto& all) {
+            [&](const MergePart&, const auto& all) { add_rows(all.items, recorder); });
+  each_item(parts_, topic::kActuators, decode_actuators, [&](const MergePart&, const auto& all) {
     for (const ActuatorRecord& command : all.items) recorder.actuator(command);
   });
-  each_item(parts_, topic::kRadio, decode_radio, [&](const Part&, const auto& all) {
+  each_item(parts_, topic::kRadio, decode_radio, [&](const MergePart&, const auto& all) {
     for (const RadioPacket& packet : all.items) recorder.radio(packet);
   });
   Once<RunEvent> events;
   const bool authority =
       std::ranges::any_of(parts_, [](const auto& part) { return part->host.empty(); });
-  each_item(parts_, topic::kEvents, decode_event, [&](const Part& part, const auto& all) {
+  each_item(parts_, topic::kEvents, decode_event, [&](const MergePart& part, const auto& all) {
     for (const RunEvent& event : all.items) {
       // For events of the world the authority's recording takes precedence.
       const bool of_world = !event.robot.valid();
@@ -331,7 +287,7 @@ Status Merger::write_moment(RunRecorder& recorder) {
   write_hash(recorder);
   Once<ConsoleLine> lines;
   each_item(parts_, topic::kConsole, decode_console,
-            [&](const Part& part, const ConsoleLine& line) { lines.add(&part, line); });
+            [&](const MergePart& part, const ConsoleLine& line) { lines.add(&part, line); });
   for (const ConsoleLine& line : lines.items()) {
     recorder.console(line.level, line.source, line.text);
   }
@@ -382,7 +338,7 @@ Result<std::vector<std::string>> Merger::write(const fs::path& output) {
 
 Result<std::vector<std::string>> merge_records(const std::vector<fs::path>& parts,
                                                const fs::path& output) {
-  std::vector<std::unique_ptr<Part>> opened;
+  std::vector<std::unique_ptr<MergePart>> opened;
   std::vector<Unreadable> unreadable;
   for (const fs::path& path : parts) {
     auto part = open_part(path);

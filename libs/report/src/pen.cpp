@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "text_width.hpp"
+#include "rave/base/text_width.hpp"
 
 namespace rave::report {
 namespace {

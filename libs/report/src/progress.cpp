@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "text_width.hpp"
+#include "rave/base/text_width.hpp"
 
 namespace rave::report {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "text_width.hpp"
+#include "rave/base/text_width.hpp"
 
 namespace rave::report {
 namespace {

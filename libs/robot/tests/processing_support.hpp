@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rave/base/check.hpp"
+#include "rave/base/random.hpp"
 #include "rave/robot/processing.hpp"
 
 namespace rave {
@@ -17,6 +18,9 @@ inline Processing made(const ProcessingSpec& spec, ReadingKind kind, std::uint32
   RAVE_CHECK(chain.has_value());
   return *std::move(chain);
 }
+
+/// The random numbers of a sample.
+inline RandomStream stream(std::uint32_t sample) { return {7, 3, 2, sample}; }
 
 inline SampleHeader header_of(std::int64_t stamp_ns, std::uint32_t count) {
   SampleHeader header;

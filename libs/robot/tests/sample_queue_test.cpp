@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rave/robot/sample_queue.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <atomic>
 #include <string_view>
 #include <thread>
+
+#include "sample_queue_support.hpp"
 
 namespace rave {
 namespace {
@@ -18,25 +18,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kLong{100'000};
 constexpr std::chrono::milliseconds kNone{0};
 constexpr SimTime kEnd{INT64_MAX};
-
-SampleQueue values(std::size_t depth, const RunClock* live = nullptr) {
-  return SampleQueue(ReadingKind::kValues, 2, depth, live);
-}
-
-bool put(SampleQueue& queue, std::int64_t stamp_ns, double value) {
-  return queue.publish({stamp_ns}, &value, 1);
-}
-
-/// Stamps of all samples up to `up_to`, in the order in which they come out.
-std::vector<std::int64_t> take(SampleQueue& queue, SimTime up_to) {
-  std::vector<std::int64_t> stamps;
-  SampleHeader header;
-  double records[2];
-  while (queue.next(up_to, &header, records)) stamps.push_back(header.stamp_ns);
-  return stamps;
-}
-
-using Stamps = std::vector<std::int64_t>;
 
 /// A clock that the test moves, and that knows when the producer has asked it.
 class TestClock final : public RunClock {
@@ -350,97 +331,6 @@ TEST(SampleQueue, TakesSamplesWithoutRecords) {
   SampleHeader header;
   ASSERT_TRUE(queue.next({3}, &header, nullptr));
   EXPECT_EQ(header.count, 0U);
-}
-
-TEST(SampleQueue, DropsStampsThatStepBackAndRemembersTheFirst) {
-  SampleQueue queue = values(4);
-  put(queue, 2'000'000'000, 0);
-  EXPECT_TRUE(put(queue, 1'500'000'000, 0));
-  EXPECT_TRUE(put(queue, 1'000'000'000, 0));
-  EXPECT_TRUE(put(queue, 2'000'000'000, 0));
-  EXPECT_EQ(queue.dropped(), 2U);
-  EXPECT_EQ(queue.complaint(),
-            "the sample of 1.500000000 s was dropped: it came after one of 2.000000000 s; stamps "
-            "must not step back");
-  EXPECT_EQ(take(queue, kEnd), (Stamps{2'000'000'000, 2'000'000'000}));
-}
-
-TEST(SampleQueue, DropsSamplesInTimeThatWasSaidToBeComplete) {
-  SampleQueue queue = values(4);
-  queue.complete_up_to({1'000'000'000});
-  EXPECT_TRUE(put(queue, 1'000'000'000, 0));
-  EXPECT_TRUE(put(queue, 1'000'000'001, 0));
-  EXPECT_EQ(queue.complaint(),
-            "the sample of 1.000000000 s was dropped: it came after the driver had declared "
-            "samples complete up to 1.000000000 s");
-  EXPECT_EQ(take(queue, kEnd), Stamps{1'000'000'001});
-}
-
-TEST(SampleQueue, AStreamThatIsLiveCanRecoverAndAnotherCannot) {
-  SampleQueue stepped = values(4);
-  stepped.fail("gone", 4);
-  stepped.recover();
-  EXPECT_EQ(stepped.failure(), "gone");
-  class StillClock final : public RunClock {
-   public:
-    [[nodiscard]] SimTime now() const noexcept override { return {}; }
-    [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(
-        SimTime) const noexcept override {
-      return {};
-    }
-  } clock;
-  SampleQueue live(ReadingKind::kValues, 2, 4, &clock);
-  live.fail("gone", 4);
-  EXPECT_EQ(live.wait_complete({0}, std::chrono::milliseconds(0)), SampleQueue::Wait::kFailed);
-  live.recover();
-  EXPECT_EQ(live.failure(), "");
-  EXPECT_EQ(live.wait_complete({0}, std::chrono::milliseconds(0)), SampleQueue::Wait::kComplete);
-  live.fail("gone again", 10);
-  EXPECT_EQ(live.failure(), "gone again");
-}
-
-TEST(SampleQueue, TellsWhenTheNewestSampleArrivedWhateverItsStamp) {
-  class StillClock final : public RunClock {
-   public:
-    [[nodiscard]] SimTime now() const noexcept override { return {}; }
-    [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(
-        SimTime) const noexcept override {
-      return {};
-    }
-  } clock;
-  SampleQueue queue(ReadingKind::kValues, 1, 4, &clock);
-  EXPECT_EQ(queue.newest_arrival(), std::nullopt);
-  const double value = 1;
-  const auto before = std::chrono::steady_clock::now();
-  ASSERT_TRUE(queue.publish({5}, &value, 1));
-  const auto first = queue.newest_arrival();
-  ASSERT_TRUE(first);
-  EXPECT_GE(*first, before);
-  EXPECT_LE(*first, std::chrono::steady_clock::now());
-  ASSERT_TRUE(queue.publish({4}, &value, 1));
-  EXPECT_EQ(queue.newest_arrival(), first) << "one that is dropped is no sign of life";
-  EXPECT_FALSE(queue.failed());
-  queue.fail("gone", 4);
-  EXPECT_TRUE(queue.failed());
-  queue.reopen();
-  EXPECT_EQ(queue.newest_arrival(), std::nullopt);
-  EXPECT_FALSE(queue.failed());
-}
-
-TEST(SampleQueue, DropsSamplesThatDoNotFit) {
-  SampleQueue queue = values(4);
-  const double records[3] = {1, 2, 3};
-  EXPECT_TRUE(queue.publish({0}, records, 3));
-  EXPECT_EQ(queue.complaint(),
-            "the sample of 0.000000000 s was dropped: it holds 3 records, more than the 2 that "
-            "were declared");
-  EXPECT_EQ(queue.dropped(), 1U);
-  EXPECT_TRUE(queue.publish({0}, records, 2));
-  SampleHeader header;
-  double out[2];
-  ASSERT_TRUE(queue.next({0}, &header, out));
-  EXPECT_EQ(header.dropped, 3U);  // records
-  EXPECT_EQ(header.sequence, 1U);
 }
 
 }  // namespace

@@ -132,6 +132,9 @@ struct Engine::Impl final : private HandOvers::Site {
   void sense_block(const Block& block, Worker& worker);
   void sample_members(RobotGroup& group, SensorSlots& slots, std::uint32_t device,
                       const Block& block, Worker& worker);
+  void sample_device(RobotGroup& group, SensorSlots& slots, std::uint32_t device,
+                     std::uint32_t member, SampleHeader& header, std::byte* records,
+                     Worker& worker);
   [[nodiscard]] const NearLists* find_places(const RobotGroup& group, SensorSlots& slots,
                                              const Block& block, const SinCos& mounting,
                                              Worker& worker) const;

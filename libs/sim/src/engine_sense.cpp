@@ -66,10 +66,40 @@ const NearLists* Engine::Impl::find_places(const RobotGroup& group, SensorSlots&
   return &lists;
 }
 
+/// The sample of a sensor that casts no fan, by its driver.
+void Engine::Impl::sample_device(RobotGroup& group, SensorSlots& slots, std::uint32_t device,
+                                 std::uint32_t member, SampleHeader& header, std::byte* records,
+                                 Worker& worker) {
+  const SensorSpec& sensor = *slots.spec;
+  const RobotId robot = group.members[member];
+  SampleItem item;
+  item.robot = robot;
+  item.device = device;
+  item.seed = spec.seed;
+  item.sequence = header.sequence - 1;
+  item.capacity = slots.capacity;
+  item.X_WR = truth.movers[robot.value()].X_WR;
+  item.X_WS = compose(item.X_WR, sensor.X_RS);
+  item.z_m = sensor.z_m;
+  item.elapsed_s = item.sequence == 0 ? 0 : sensor.period_steps * spec.step.seconds();
+  item.header = &header;
+  item.records = records;
+  item.state = slots.driver_state.data() + sensor.virtual_ops->state_size * member;
+  std::uint8_t failed = 0;
+  ErrorText error;
+  sensor.virtual_ops->sample(slots.instances.at(0), &truth.snapshot, &item, 1, &failed, &error);
+  header.count = std::min(header.count, slots.capacity);
+  if (failed == 0) return;
+  slots.failed[member] = 1;
+  header.count = 0;
+  worker.events.push_back(
+      {step, robot, EventKind::kDriverFailed, BodyId(),
+       fmt::format("sensor `{}` (driver `{}`): {}", sensor.name, sensor.driver, error.text)});
+}
+
 void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::uint32_t device,
                                   const Block& block, Worker& worker) {
   const SensorSpec& sensor = *slots.spec;
-  const double period_s = sensor.period_steps * spec.step.seconds();
   const SinCos mounting = sincos(sensor.X_RS.yaw);
   worker.noise.clear();
   worker.noisy_members.clear();
@@ -94,7 +124,6 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
     // numbers count from 0.
     const std::uint32_t sequence = slots.sequence[m]++;
     header = {now.ns, sequence + 1, 0, 1, 0};
-    const Pose2& X_WR = truth.movers[robot.value()].X_WR;
     if (slots.uses_fan) {
       const std::size_t first = std::size_t{slots.capacity} * m;
       const SensorPlace& place = worker.places[m - block.begin];
@@ -108,30 +137,7 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
       }
       header.count = slots.capacity;
     } else {
-      SampleItem item;
-      item.robot = robot;
-      item.device = device;
-      item.seed = spec.seed;
-      item.sequence = sequence;
-      item.capacity = slots.capacity;
-      item.X_WR = X_WR;
-      item.X_WS = compose(X_WR, sensor.X_RS);
-      item.z_m = sensor.z_m;
-      item.elapsed_s = sequence == 0 ? 0 : period_s;
-      item.header = &header;
-      item.records = records;
-      item.state = slots.driver_state.data() + sensor.virtual_ops->state_size * m;
-      std::uint8_t failed = 0;
-      ErrorText error;
-      sensor.virtual_ops->sample(slots.instances.at(0), &truth.snapshot, &item, 1, &failed, &error);
-      header.count = std::min(header.count, slots.capacity);
-      if (failed != 0) {
-        slots.failed[m] = 1;
-        header.count = 0;
-        worker.events.push_back(
-            {step, robot, EventKind::kDriverFailed, BodyId(),
-             fmt::format("sensor `{}` (driver `{}`): {}", sensor.name, sensor.driver, error.text)});
-      }
+      sample_device(group, slots, device, m, header, records, worker);
     }
     if (!slots.processing) {
       hash_delivery(group, slots, device, m, worker.hash);

@@ -11,6 +11,9 @@ namespace rave::sim {
 
 /// Rays are handled in groups; tables and results are padded to a multiple of the largest.
 inline constexpr std::size_t kRayPadding = 16;
+[[nodiscard]] inline std::size_t padded(std::size_t count) noexcept {
+  return (count + kRayPadding - 1) / kRayPadding * kRayPadding;
+}
 /// Buckets of FanView::first_ray.
 inline constexpr std::size_t kBearingBuckets = 512;
 /// Up to so many rays all of them are tried against every candidate; above, an index finds those

@@ -113,6 +113,8 @@ struct SeenPolygon {
 
   HWY_INLINE Sight see(const world::ShapePiece& piece, const Vec2* vertices_W,
                        const Vec2* normals_W, const FanPlace& place);
+  HWY_INLINE bool keep_facing(std::uint64_t facing, std::size_t n, const float* edge_x,
+                              const float* edge_y, std::size_t& leftmost, std::size_t& rightmost);
   template <class V>
   HWY_INLINE V inverse(V cos, V sin) const {
     const hn::DFromV<V> d;
@@ -147,6 +149,44 @@ inline constexpr FacingRow kRowsOfFour[16] = {
     {{2, 2, 2}, 2, 3},    {{0xff, 0, 0}, 0, 0}, {{1, 2, 2}, 1, 3},    {{0, 1, 2}, 0, 3},
     {{3, 3, 3}, 3, 0},    {{3, 0, 0}, 3, 1},    {{0xff, 0, 0}, 0, 0}, {{3, 0, 1}, 3, 2},
     {{2, 3, 3}, 2, 0},    {{2, 3, 0}, 2, 1},    {{1, 2, 3}, 1, 0},    {{0xff, 0, 0}, 0, 0}};
+
+/// Keeps the edges that face the sensor, at least three, and finds the two vertices that their row
+/// ends at. False: rounding alone makes no row of them.
+HWY_INLINE bool SeenPolygon::keep_facing(std::uint64_t facing, std::size_t n, const float* edge_x,
+                                         const float* edge_y, std::size_t& leftmost,
+                                         std::size_t& rightmost) {
+  if (n == 4 && kRowsOfFour[facing].edges[0] != 0xff) {
+    // Without branches: which edges face the sensor is anybody's guess.
+    const FacingRow& row = kRowsOfFour[facing];
+    for (std::size_t e = 0; e < 3; ++e) {
+      x[e] = edge_x[row.edges[e]];
+      y[e] = edge_y[row.edges[e]];
+    }
+    count = 3;
+    leftmost = row.leftmost;
+    rightmost = row.rightmost;
+    return true;
+  }
+  // The edges that face the sensor are one row; it begins at the left vertex and ends at the right.
+  const std::uint64_t all = ~std::uint64_t{0} >> (64U - n);
+  const std::uint64_t before = (facing << 1U) | (facing >> (n - 1U));
+  const std::uint64_t begin = facing & ~before;
+  const std::uint64_t end = ~facing & before & all;
+  if (begin == 0 || end == 0) return false;  // rounding alone can make every edge face it
+  count = 0;
+  for (std::size_t e = 0; e < n; ++e) {
+    x[count] = edge_x[e];
+    y[count] = edge_y[e];
+    count += (facing >> e) & 1U;
+  }
+  for (; count < 3; ++count) {
+    x[count] = x[0];
+    y[count] = y[0];
+  }
+  leftmost = hwy::Num0BitsBelowLS1Bit_Nonzero64(begin);
+  rightmost = hwy::Num0BitsBelowLS1Bit_Nonzero64(end);
+  return true;
+}
 
 HWY_INLINE Sight SeenPolygon::see(const world::ShapePiece& piece, const Vec2* vertices_W,
                                   const Vec2* normals_W, const FanPlace& place) {
@@ -194,38 +234,7 @@ HWY_INLINE Sight SeenPolygon::see(const world::ShapePiece& piece, const Vec2* ve
   if (facing == 0) return Sight::kInside;
   std::size_t leftmost = 0;
   std::size_t rightmost = 0;
-  if (n == 4 && kRowsOfFour[facing].edges[0] != 0xff) {
-    // Without branches: which edges face the sensor is anybody's guess.
-    const FacingRow& row = kRowsOfFour[facing];
-    for (std::size_t e = 0; e < 3; ++e) {
-      x[e] = edge_x[row.edges[e]];
-      y[e] = edge_y[row.edges[e]];
-    }
-    count = 3;
-    leftmost = row.leftmost;
-    rightmost = row.rightmost;
-  } else {
-    // The edges that face the sensor are one row; it begins at the left vertex and ends at the
-    // right.
-    // before: the words turned by one edge; vertex i is the beginning of edge i.
-    const std::uint64_t before = (facing << 1U) | (facing >> (n - 1U));
-    const std::uint64_t begin = facing & ~before;
-    const std::uint64_t end = ~facing & before & all;
-    if (begin == 0 || end == 0)
-      return Sight::kNothing;  // rounding alone can make every edge face it
-    count = 0;
-    for (std::size_t e = 0; e < n; ++e) {
-      x[count] = edge_x[e];
-      y[count] = edge_y[e];
-      count += (facing >> e) & 1U;
-    }
-    for (; count < 3; ++count) {
-      x[count] = x[0];
-      y[count] = y[0];
-    }
-    leftmost = hwy::Num0BitsBelowLS1Bit_Nonzero64(begin);
-    rightmost = hwy::Num0BitsBelowLS1Bit_Nonzero64(end);
-  }
+  if (!keep_facing(facing, n, edge_x, edge_y, leftmost, rightmost)) return Sight::kNothing;
   right = {vertex_x[rightmost], vertex_y[rightmost]};
   left = {vertex_x[leftmost], vertex_y[leftmost]};
   return Sight::kOutside;

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
-#include "columns.hpp"
+#include "rave/base/table.hpp"
+#include "rave/base/text_width.hpp"
 #include "short_text.hpp"
 
 namespace rave::watch {
@@ -46,24 +48,24 @@ Tone tone_of(Phase phase) {
 }
 
 template <class Value, class Text>
-Cell cell(const std::optional<Value>& value, Text text) {
+TableCell cell(const std::optional<Value>& value, Text text) {
   return {value ? text(*value) : std::string()};
 }
 
-Cell rate_cell(const std::optional<double>& rate, const std::optional<double>& asked) {
+TableCell rate_cell(const std::optional<double>& rate, const std::optional<double>& asked) {
   if (!rate) return {};
   if (!asked) return {number_text(*rate)};
   return {fmt::format("{}/{}", number_text(*rate), number_text(*asked)),
           *rate < kGoodShare * *asked ? Tone::kCare : Tone::kPlain};
 }
 
-Cell count_cell(const std::optional<std::uint64_t>& count) {
+TableCell count_cell(const std::optional<std::uint64_t>& count) {
   if (!count) return {};
   return {fmt::format("{}", *count), *count > 0 ? Tone::kCare : Tone::kPlain};
 }
 
 /// Share of the deadlines that were missed, and what took the time.
-Cell late_cell(const HostView& host) {
+TableCell late_cell(const HostView& host) {
   if (!host.missed_pct) return {};
   std::string text = fmt::format("{:.{}f}%", *host.missed_pct, *host.missed_pct < 10 ? 1 : 0);
   if (!host.late_phase.empty()) text += " " + fitted(host.late_phase, kLongestName);
@@ -77,7 +79,7 @@ std::string robots_text(const HostView& host) {
                      *host.robots - std::min(*host.robots, *host.real_robots));
 }
 
-std::vector<Cell> row_of(const HostView& host) {
+std::vector<TableCell> row_of(const HostView& host) {
   const auto plain = [](auto value) { return fmt::format("{}", value); };
   const bool told = host.offset_s && host.bound_s;
   return {
@@ -100,24 +102,32 @@ std::vector<Cell> row_of(const HostView& host) {
   };
 }
 
-Grid hosts_grid(const RunView& view) {
-  Grid grid;
-  grid.columns = {
-      {"HOST", false, 100}, {"MACHINE", false, 40}, {"STATE", false, 90}, {"REAL+SIM", true, 70},
-      {"STEP", true, 50},   {"RATE /s", true, 80},  {"AGE", true, 75},    {"DELAY", true, 45},
-      {"TRIP", true, 30},   {"CLOCK", true, 55},    {"LOST", true, 65},   {"REFUSED", true, 25},
-      {"LATE", true, 85},   {"CPU", true, 60},      {"MEMORY", true, 35}, {"PID", true, 20}};
-  for (const HostView& host : view.hosts) grid.rows.push_back(row_of(host));
-  return grid;
+/// The column of least weight is left out first.
+TableColumn column(const char* heading, Align align, int weight) {
+  return {.heading = heading, .align = align, .weight = weight};
+}
+
+Table hosts_table(const RunView& view) {
+  Table table;
+  table.columns = {column("HOST", Align::kLeft, 100),   column("MACHINE", Align::kLeft, 40),
+                   column("STATE", Align::kLeft, 90),   column("REAL+SIM", Align::kRight, 70),
+                   column("STEP", Align::kRight, 50),   column("RATE /s", Align::kRight, 80),
+                   column("AGE", Align::kRight, 75),    column("DELAY", Align::kRight, 45),
+                   column("TRIP", Align::kRight, 30),   column("CLOCK", Align::kRight, 55),
+                   column("LOST", Align::kRight, 65),   column("REFUSED", Align::kRight, 25),
+                   column("LATE", Align::kRight, 85),   column("CPU", Align::kRight, 60),
+                   column("MEMORY", Align::kRight, 35), column("PID", Align::kRight, 20)};
+  for (const HostView& host : view.hosts) table.rows.push_back(row_of(host));
+  return table;
 }
 
 /// Nothing of one whose place nobody says, as in lock-step.
-Cell state_cell(const RobotView& robot) {
+TableCell state_cell(const RobotView& robot) {
   if (!robot.age_s && !robot.stale) return {};
   return {robot.stale ? "stale" : "heard", robot.stale ? Tone::kBad : Tone::kGood};
 }
 
-std::vector<Cell> row_of(const RobotView& robot) {
+std::vector<TableCell> row_of(const RobotView& robot) {
   const auto place = [](double value) { return fmt::format("{:.2f}", value); };
   const std::string name = robot.name.empty() ? fmt::format("#{}", robot.number) : robot.name;
   const std::string kind = !robot.simulated ? "" : (*robot.simulated ? "simulated" : "real");
@@ -132,13 +142,15 @@ std::vector<Cell> row_of(const RobotView& robot) {
           cell(robot.y_m, place)};
 }
 
-Grid robots_grid(const RunView& view) {
-  Grid grid;
-  grid.columns = {{"ROBOT", false, 100}, {"TEAM", false, 35},  {"ON HOST", false, 60},
-                  {"KIND", false, 50},   {"STATE", false, 90}, {"AGE", true, 80},
-                  {"RATE /s", true, 70}, {"X m", true, 45},    {"Y m", true, 40}};
-  for (const RobotView& robot : view.robots) grid.rows.push_back(row_of(robot));
-  return grid;
+Table robots_table(const RunView& view) {
+  Table table;
+  table.columns = {column("ROBOT", Align::kLeft, 100),   column("TEAM", Align::kLeft, 35),
+                   column("ON HOST", Align::kLeft, 60),  column("KIND", Align::kLeft, 50),
+                   column("STATE", Align::kLeft, 90),    column("AGE", Align::kRight, 80),
+                   column("RATE /s", Align::kRight, 70), column("X m", Align::kRight, 45),
+                   column("Y m", Align::kRight, 40)};
+  for (const RobotView& robot : view.robots) table.rows.push_back(row_of(robot));
+  return table;
 }
 
 std::string timing_text(Timing timing) {
@@ -157,7 +169,7 @@ std::string timing_text(Timing timing) {
 
 /// The first line: parts that are left out from the end if it is too narrow.
 std::string title_of(const RunView& view, const PageOptions& options) {
-  std::vector<Cell> parts;
+  std::vector<TableCell> parts;
   parts.push_back({view.scenario.empty() ? std::string("run") : view.scenario});
   parts.push_back({std::string(to_string(view.phase)), tone_of(view.phase)});
   if (view.time_s && view.duration_s) {
@@ -171,8 +183,7 @@ std::string title_of(const RunView& view, const PageOptions& options) {
   parts.push_back({"run " + view.run.substr(0, view.timing == Timing::kAlone ? 40 : 8)});
   std::string line;
   std::size_t used = 0;
-  // Ordered by importance: on a narrow terminal the end of the line is left out.
-  for (const Cell& part : parts) {
+  for (const TableCell& part : parts) {
     if (part.text.empty()) continue;
     const std::string text = fitted(part.text, options.width);
     const std::size_t more = columns_of(text) + (used == 0 ? 0 : 3);
@@ -225,18 +236,20 @@ std::vector<std::string> render_page(const RunView& view, const PageOptions& opt
     const std::size_t used = lines.size() + headings + kBelow;
     return options.height == 0 ? kAll : options.height - std::min(options.height, used);
   };
-  const auto add = [&](const Grid& grid, std::size_t rows) {
-    for (std::string& line : lines_of(grid, options.width, rows, options.colour)) {
-      lines.push_back(std::move(line));
-    }
+  const auto add = [&](const Table& table, std::size_t most_rows) {
+    const TableOptions how{.width = options.width,
+                           .ansi = options.colour,
+                           .look = TableLook::kSpaces,
+                           .most_rows = most_rows};
+    std::ranges::move(table_lines(table, how), std::back_inserter(lines));
   };
   const bool robots = !view.robots.empty();
   // With both tables the hosts get at most half of the page.
   const std::size_t rows = left(1);
-  add(hosts_grid(view), robots && rows != kAll ? std::max<std::size_t>(1, rows / 2) : rows);
+  add(hosts_table(view), robots && rows != kAll ? std::max<std::size_t>(1, rows / 2) : rows);
   if (robots) {
     lines.emplace_back();
-    if (left(1) > 0) add(robots_grid(view), left(1));
+    if (left(1) > 0) add(robots_table(view), left(1));
   }
   lines.emplace_back();
   lines.push_back(legend(options));

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "rave/base/control_characters.hpp"
+#include "rave/base/text_width.hpp"
 
 namespace rave::watch {
 namespace {
@@ -25,10 +25,6 @@ Unit unit_of(double seconds) {
   }
   return kUnits.back();
 }
-
-// A byte that continues a character of UTF-8 has the bits 10 on top (RFC 3629). So each character
-// counts as one column of the terminal; wide ones are not considered.
-bool continues(char c) noexcept { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80; }
 
 }  // namespace
 
@@ -53,20 +49,8 @@ std::string offset_text(double offset_s, double bound_s) {
                      unit.name);
 }
 
-std::size_t columns_of(std::string_view text) noexcept {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return !continues(c); }));
-}
-
 std::string fitted(std::string_view text, std::size_t width) {
-  // Texts come from other processes and end up on a terminal.
-  std::string clean = without_control_characters(text, "");
-  if (columns_of(clean) <= width) return clean;
-  std::size_t end = 0;
-  for (std::size_t columns = 0; end < clean.size(); ++end) {
-    if (!continues(clean[end]) && ++columns > width - std::min<std::size_t>(width, 1)) break;
-  }
-  return width == 0 ? std::string() : clean.substr(0, end) + "…";
+  return clip_to_columns(without_controls(text), width);
 }
 
 }  // namespace rave::watch

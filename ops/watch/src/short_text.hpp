@@ -18,7 +18,5 @@ namespace rave::watch {
 
 /// Without control characters; what is wider than `width` columns ends in `…`.
 [[nodiscard]] std::string fitted(std::string_view text, std::size_t width);
-/// How many columns UTF-8 text takes, one for each character.
-[[nodiscard]] std::size_t columns_of(std::string_view text) noexcept;
 
 }  // namespace rave::watch

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rave/base/text_width.hpp"
 #include "short_text.hpp"
 
 namespace rave::watch {

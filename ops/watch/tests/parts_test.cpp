@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "process_usage.hpp"
+#include "rave/base/text_width.hpp"
 #include "rave/watch/observer.hpp"
 #include "rave/watch/run_model.hpp"
 #include "short_text.hpp"

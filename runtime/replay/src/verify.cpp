@@ -292,6 +292,22 @@ void judge_hash(const std::vector<std::uint64_t>& hashes, const sim::Engine& eng
                   *outcome.recorded_hash, *outcome.hash)};
 }
 
+/// What the comparison of the streams has shown. Errors: kInvalidArgument: there was nothing to
+/// compare.
+Status note_match(const RecordMatch& match, const fs::path& record, VerifyOutcome& outcome) {
+  if (match.messages == 0 && !match.difference && !outcome.ended_early) {
+    return fail(ErrorCode::kInvalidArgument,
+                "`{}` cannot be verified: it contains nothing to compare", record.string());
+  }
+  for (const std::string& topic : match.absent) {
+    outcome.notes.push_back(
+        fmt::format("the recording has no stream `{}`, so that was not compared", topic));
+  }
+  outcome.messages = match.messages;
+  outcome.difference = match.difference;
+  return {};
+}
+
 }  // namespace
 
 Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogue,
@@ -347,16 +363,7 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   RAVE_TRY_ASSIGN(const auto written, record::McapReader::open(scratch.file()));
   RAVE_TRY_ASSIGN(const RecordMatch match,
                   match_records(reader, written, run, {!end, record::is_merged(reader)}));
-  if (match.messages == 0 && !match.difference && !outcome.ended_early) {
-    return fail(ErrorCode::kInvalidArgument,
-                "`{}` cannot be verified: it contains nothing to compare", record.string());
-  }
-  for (const std::string& topic : match.absent) {
-    outcome.notes.push_back(
-        fmt::format("the recording has no stream `{}`, so that was not compared", topic));
-  }
-  outcome.messages = match.messages;
-  outcome.difference = match.difference;
+  RAVE_TRY(note_match(match, record, outcome));
   judge_hash(hashes, engine, outcome);
   return outcome;
 }

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "rave/base/names.hpp"
-#include "rave/report/table.hpp"
+#include "rave/base/table.hpp"
 #include "rave/results/outcome.hpp"
 #include "rave/results/radio_report.hpp"
 #include "rave/results/sighting_check.hpp"
@@ -11,8 +11,7 @@
 namespace rave::runtime {
 namespace {
 
-void add_guard_row(const Findings& findings, report::Table& table) {
-  // All robots together: a row per robot of a swarm would hide the rest of the table.
+void add_guard_row(const Findings& findings, Table& table) {
   std::map<std::string, std::size_t> total;
   for (const auto& [robot, counts] : guard_counts(findings)) {
     for (const auto& [what, count] : counts) total[what] += count;
@@ -26,7 +25,7 @@ void add_guard_row(const Findings& findings, report::Table& table) {
   if (!text.empty()) table.rows.push_back({"guard", text});
 }
 
-void add_capture_rows(const Findings& findings, report::Table& table) {
+void add_capture_rows(const Findings& findings, Table& table) {
   if (!findings.scenario.scenario.checks.capture) return;
   if (!findings.facts.capture) {
     table.rows.push_back({"captured", "not evaluated: no host saw all of the robots"});
@@ -44,7 +43,7 @@ void add_capture_rows(const Findings& findings, report::Table& table) {
   table.rows.push_back({"captured", fmt::format("nobody; nearest {:.2f} m", closest_m)});
 }
 
-void add_sighting_row(const Findings& findings, report::Table& table) {
+void add_sighting_row(const Findings& findings, Table& table) {
   if (!findings.scenario.scenario.checks.sightings) return;
   const config::SightingsCheckFile& limits = *findings.scenario.scenario.checks.sightings;
   const SightingFacts facts = findings.facts.sightings.value_or(SightingFacts());
@@ -77,7 +76,7 @@ std::string disobedient(const Findings& findings) {
   return names.empty() ? std::string() : join_names(names);
 }
 
-void add_encounter_rows(const Findings& findings, report::Table& table) {
+void add_encounter_rows(const Findings& findings, Table& table) {
   for (const auto& [pair, encounter] : findings.facts.closest) {
     table.rows.push_back(
         {fmt::format("closest {}", pair),
@@ -89,7 +88,7 @@ void add_encounter_rows(const Findings& findings, report::Table& table) {
   }
 }
 
-void add_hit_rows(const Findings& findings, report::Table& table) {
+void add_hit_rows(const Findings& findings, Table& table) {
   for (const auto& [who, counts] : findings.facts.hits) {
     std::string text;
     for (const auto& [what, count] : counts) {
@@ -99,12 +98,30 @@ void add_hit_rows(const Findings& findings, report::Table& table) {
   }
 }
 
+/// What somebody has to know beside the results, the hash and the problems.
+void add_notes(const Findings& findings, const RunOutcome& outcome, Table& table) {
+  const std::string deaf = disobedient(findings);
+  if (!deaf.empty()) {
+    table.rows.push_back(
+        {"ignored commands", deaf + ": recorded robots do; the commands were logged"});
+  }
+  for (const HostShare& host : findings.hosts) {
+    if (host.found || !host.folders.empty()) continue;
+    table.rows.push_back(
+        {fmt::format("host {}", host.name),
+         "on another machine: its results are there, in the folder of its `rave robot`"});
+  }
+  table.rows.push_back({"run hash", outcome.hash.empty() ? "none: " + why_no_hash(findings, outcome)
+                                                         : outcome.hash});
+  for (const std::string& problem : outcome.problems) table.rows.push_back({"problem", problem});
+}
+
 }  // namespace
 
 std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
-  report::Table table;
+  Table table;
   table.title = findings.scenario.scenario.name.value;
-  table.columns = {{"what", report::Align::kLeft, false}, {"result", report::Align::kLeft, true}};
+  table.columns = {{"what", Align::kLeft, false}, {"result", Align::kLeft, true}};
   const std::size_t count = findings.spec.robots.size();
   const std::size_t real = findings.real_robots();
   const double simulated_s = findings.done_s();
@@ -147,21 +164,8 @@ std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
         {"changed by people",
          fmt::format("{} inputs; the scenario without them gives another run", by_hand)});
   }
-  const std::string deaf = disobedient(findings);
-  if (!deaf.empty()) {
-    table.rows.push_back(
-        {"ignored commands", deaf + ": recorded robots do; the commands were logged"});
-  }
-  for (const HostShare& host : findings.hosts) {
-    if (host.found || !host.folders.empty()) continue;
-    table.rows.push_back(
-        {fmt::format("host {}", host.name),
-         "on another machine: its results are there, in the folder of its `rave robot`"});
-  }
-  table.rows.push_back({"run hash", outcome.hash.empty() ? "none: " + why_no_hash(findings, outcome)
-                                                         : outcome.hash});
-  for (const std::string& problem : outcome.problems) table.rows.push_back({"problem", problem});
-  return report::render_table(table, {100, false});
+  add_notes(findings, outcome, table);
+  return render_table(table, {100, false});
 }
 
 }  // namespace rave::runtime

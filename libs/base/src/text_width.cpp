@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many columns a text takes on a terminal.
-#include "text_width.hpp"
+#include "rave/base/text_width.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +7,7 @@
 
 #include "rave/base/control_characters.hpp"
 
-namespace rave::report {
+namespace rave {
 namespace {
 
 struct CodePoint {
@@ -23,7 +22,7 @@ struct Range {
 };
 
 /// The code point at the start of non-empty `text`.
-CodePoint decode(std::string_view text) noexcept {
+CodePoint code_point(std::string_view text) noexcept {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const std::uint8_t lead = byte(0);
   if (lead < 0x80) return {lead, 1, true};
@@ -62,11 +61,24 @@ std::size_t columns_of(CodePoint point) noexcept {
   return std::any_of(kWide.begin(), kWide.end(), in) ? 2 : 1;
 }
 
+/// The number of bytes of as many characters as fit, and of one at least.
+std::size_t bytes_within(std::string_view text, std::size_t columns) noexcept {
+  std::size_t used = 0;
+  std::size_t bytes = 0;
+  while (bytes < text.size()) {
+    const CodePoint point = code_point(text.substr(bytes));
+    used += columns_of(point);
+    if (used > columns && bytes > 0) break;
+    bytes += point.bytes;
+  }
+  return bytes;
+}
+
 }  // namespace
 
 bool is_utf8(std::string_view text) noexcept {
   while (!text.empty()) {
-    const CodePoint point = decode(text);
+    const CodePoint point = code_point(text);
     if (!point.valid) return false;
     text.remove_prefix(point.bytes);
   }
@@ -76,7 +88,7 @@ bool is_utf8(std::string_view text) noexcept {
 std::size_t columns_of(std::string_view text) noexcept {
   std::size_t columns = 0;
   while (!text.empty()) {
-    const CodePoint point = decode(text);
+    const CodePoint point = code_point(text);
     columns += columns_of(point);
     text.remove_prefix(point.bytes);
   }
@@ -91,7 +103,7 @@ std::string clip_to_columns(std::string_view text, std::size_t columns) {
   std::size_t used = 0;
   std::size_t bytes = 0;
   while (bytes < text.size()) {
-    const CodePoint point = decode(text.substr(bytes));
+    const CodePoint point = code_point(text.substr(bytes));
     if (used + columns_of(point) > columns - 1) break;
     used += columns_of(point);
     bytes += point.bytes;
@@ -99,4 +111,38 @@ std::string clip_to_columns(std::string_view text, std::size_t columns) {
   return std::string(text.substr(0, bytes)) + "…";
 }
 
-}  // namespace rave::report
+std::vector<std::string> wrap_to_columns(std::string_view text, std::size_t columns) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  std::vector<std::string> lines(1);
+  while (true) {
+    const std::size_t begin = text.find_first_not_of(kBlanks);
+    if (begin == std::string_view::npos) return lines;
+    text.remove_prefix(begin);
+    std::string_view word = text.substr(0, text.find_first_of(kBlanks));
+    text.remove_prefix(word.size());
+    if (!lines.back().empty()) {
+      if (columns_of(lines.back()) + 1 + columns_of(word) <= columns) {
+        lines.back().append(" ").append(word);
+        continue;
+      }
+      lines.emplace_back();
+    }
+    while (columns_of(word) > columns) {
+      const std::size_t cut = bytes_within(word, columns);
+      lines.back() = word.substr(0, cut);
+      lines.emplace_back();
+      word.remove_prefix(cut);
+    }
+    lines.back() = word;
+  }
+}
+
+std::string indented(std::string_view text, std::size_t indent, std::size_t columns) {
+  std::string out;
+  for (const std::string& line : wrap_to_columns(text, columns - indent)) {
+    out += std::string(line.empty() ? 0 : indent, ' ') + line + "\n";
+  }
+  return out;
+}
+
+}  // namespace rave

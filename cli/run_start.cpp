@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run_start.hpp"
+
+#include <utility>
+
+#include "interrupt.hpp"
+#include "places.hpp"
+#include "rave/host/host_run.hpp"
+#include "run_scenario.hpp"
+
+namespace rave::cli {
+
+Result<bus::BusConfig> bus_of_run(const BusOptions& options, const std::string& participant,
+                                  const config::ExpandedScenario& scenario, bus::Reach reach) {
+  RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
+  RAVE_TRY_ASSIGN(auto bus, bus_config(options, participant, runtime::shared_number(scenario)));
+  make_room(bus, hosts.size(), reach);
+  return bus;
+}
+
+RunStart::RunStart(RunFolder folder, bool quiet)
+    : folder_(std::move(folder)), console_(quiet), control_(ended_by_signals()) {}
+
+Result<std::unique_ptr<RunStart>> RunStart::open(const RunCommand& options, std::string_view name) {
+  RAVE_TRY_ASSIGN(auto folder, RunFolder::create(wanted_folder(options), name));
+  std::unique_ptr<RunStart> start(new RunStart(std::move(folder), options.quiet));
+  RAVE_TRY(start->console_.open_file(start->path() / "console.log"));
+  return start;
+}
+
+void RunStart::serve(const std::string& run_name, std::string_view source, std::string_view what) {
+  auto server = control::Server::start(run_name, control_);
+  if (server) {
+    server_ = *std::move(server);
+    return;
+  }
+  console_.warn(source, "{} cannot be controlled from other terminals: {}", what,
+                server.error().message);
+}
+
+runtime::RunOptions RunStart::run_options(const RunCommand& options, std::string run_name) {
+  runtime::RunOptions run;
+  run.output = path();
+  run.program_runner = program_runner();
+  run.picture = !options.no_picture;
+  run.record = !options.no_record;
+  run.log = &console_;
+  run.control = &control_;
+  run.arm = options.arm;
+  run.run_name = std::move(run_name);
+  return run;
+}
+
+}  // namespace rave::cli

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bus_options.hpp"
+#include "commands/run.hpp"
+#include "console.hpp"
+#include "rave/base/result.hpp"
+#include "rave/config/expanded_scenario.hpp"
+#include "rave/control/run_control.hpp"
+#include "rave/control/server.hpp"
+#include "rave/host/run.hpp"
+#include "run_folder.hpp"
+
+namespace rave::cli {
+
+/// The bus of a process of a run, with room for all hosts. Errors: of the hosts of the scenario,
+/// those of bus_config().
+[[nodiscard]] Result<bus::BusConfig> bus_of_run(const BusOptions& options,
+                                                const std::string& participant,
+                                                const config::ExpandedScenario& scenario,
+                                                bus::Reach reach);
+
+/// What every command that starts a process of a run begins with: the folder, the console with its
+/// file, the control that signals end, and the socket for other terminals. One thread.
+class RunStart {
+ public:
+  /// Creates the folder; `name` is for a folder that the user has not named. Errors: those of
+  /// RunFolder::create() and Console::open_file().
+  [[nodiscard]] static Result<std::unique_ptr<RunStart>> open(const RunCommand& options,
+                                                              std::string_view name);
+
+  /// Lets other terminals control this process under `run_name` for as long as this object lives.
+  /// A process that nobody can reach goes on, but whoever relies on `rave stop` should know: the
+  /// log then says that `what` cannot be controlled.
+  void serve(const std::string& run_name, std::string_view source, std::string_view what);
+
+  /// What the command line says of a run in this process. Borrows the console and the control.
+  [[nodiscard]] runtime::RunOptions run_options(const RunCommand& options, std::string run_name);
+
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return folder_.path(); }
+  [[nodiscard]] Console& console() noexcept { return console_; }
+  [[nodiscard]] runtime::RunControl& control() noexcept { return control_; }
+  /// For a run that did not start: as RunFolder::discard().
+  void discard() const { folder_.discard(); }
+
+ private:
+  RunStart(RunFolder folder, bool quiet);
+
+  RunFolder folder_;
+  Console console_;
+  runtime::RunControl& control_;
+  std::unique_ptr<control::Server> server_;
+};
+
+}  // namespace rave::cli

@@ -179,13 +179,6 @@ void Snapshot::index_obstacles() {
   ++generation_;
 }
 
-void Snapshot::find_codes() {
-  coded_.clear();
-  for (std::uint32_t r = 0; r < model_->robots.size(); ++r) {
-    if (model_->robots[r].code) coded_.push_back(r);
-  }
-}
-
 double Snapshot::place(std::uint32_t body, const Body& description, Vec2 p_WB, SinCos turn,
                        bool present) {
   double farthest_m2 = 0;
@@ -283,19 +276,6 @@ void Snapshot::index_robots(double farthest_m) {
   const std::uint32_t last = first_disc_[first_shape_[first_added()]];
   moving_.build(std::span(pieces_).subspan(first, last - first), kCellSize_m);
   rebuild_landmarks();
-}
-
-// Robots that carry codes move, so their landmarks are made anew in each step, behind those of
-// obstacles.
-void Snapshot::rebuild_landmarks() {
-  landmarks_.erase(landmarks_.begin() + static_cast<std::ptrdiff_t>(fixed_landmarks_),
-                   landmarks_.end());
-  for (const std::uint32_t r : coded_) {
-    if (!robots_[r].present) continue;
-    const Body& body = model_->robots[r];
-    landmarks_.push_back({body_of(RobotId(r)), *body.code, robots_[r].X_WR.position(),
-                          body.code_z0_m, body.code_z1_m, RobotId(r), 0});
-  }
 }
 
 void Snapshot::gather(Vec2 p_W, double radius_m, std::vector<std::uint32_t>& found) const {

@@ -64,10 +64,10 @@ bool resumes(const ManagedRun& run) {
 }
 
 /// What processes of hosts have sent goes to the host that it is of.
-void take_findings(std::vector<lock_step::Findings> findings, ManagedEnd& end) {
-  for (lock_step::Findings& sent : findings) {
+void take_host_results(std::vector<lock_step::HostResults> host_results, ManagedEnd& end) {
+  for (lock_step::HostResults& sent : host_results) {
     if (sent.host >= end.end.hosts.size()) continue;
-    end.end.hosts[sent.host].findings.push_back(std::move(sent.bytes));
+    end.end.hosts[sent.host].host_results.push_back(std::move(sent.bytes));
   }
 }
 
@@ -119,7 +119,7 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, runtime::BuiltScenario bu
   end.end.problems = std::move(outcome.problems);
   // A run that never began left nothing to wait for.
   for (runtime::SharedHost& host : end.end.hosts) host.awaited = outcome.steps > 0;
-  take_findings(std::move(outcome.findings), end);
+  take_host_results(std::move(outcome.host_results), end);
   return end;
 }
 
@@ -137,7 +137,7 @@ Result<ManagedEnd> begin_live(const ManagedRun& run, const runtime::BuiltScenari
 
 /// What is known of it then; without a manager the hosts alone know more.
 void note_outcome(LiveManagerOutcome outcome, ManagedEnd& end) {
-  take_findings(std::move(outcome.findings), end);
+  take_host_results(std::move(outcome.host_results), end);
   for (runtime::SharedHost& host : end.end.hosts) {
     for (const LiveManagerOutcome::Host& met : outcome.hosts) {
       if (met.name != host.name) continue;

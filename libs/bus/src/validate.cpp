@@ -268,9 +268,9 @@ Status validate(const ClockPong& sample) {
   return check_time("zero_ns", sample.zero_ns);
 }
 
-Status validate(const FindingsPart& sample) {
-  constexpr std::uint64_t kPart = rave_wire_kMaxFindingsPart;
-  constexpr std::uint64_t kMost = kPart * rave_wire_kMaxFindingsParts;
+Status validate(const HostResultsPart& sample) {
+  constexpr std::uint64_t kPart = rave_wire_kMaxHostResultsPart;
+  constexpr std::uint64_t kMost = kPart * rave_wire_kMaxHostResultsParts;
   RAVE_TRY(check_writer(sample));
   RAVE_TRY(check_id("host", sample.host));
   if (sample.size == 0 || sample.size > kMost) {

@@ -49,7 +49,9 @@ class SteppedExchange final : public HostExchange {
     json["steps"] = outcome.steps;
     json["hash_part"] = fmt::format("{:016x}", run_.engine.hash().value());
   }
-  Status deliver(std::span<const std::byte> findings) override { return port_.deliver(findings); }
+  Status deliver(std::span<const std::byte> host_results) override {
+    return port_.deliver(host_results);
+  }
 
  private:
   Status propose();

@@ -45,8 +45,8 @@ class HostExchange : public WorldExchange {
   /// Adds to result.json, behind `whole`, what only this kind of run has.
   virtual void describe(nlohmann::ordered_json& json, const HostOutcome& outcome,
                         const RunFacts& facts) const = 0;
-  /// Sends the findings of this host to the environment manager.
-  virtual Status deliver(std::span<const std::byte> findings) = 0;
+  /// Sends the results of this host to the environment manager.
+  virtual Status deliver(std::span<const std::byte> host_results) = 0;
 };
 
 /// The exchange of a run whose session is there.

@@ -71,7 +71,9 @@ class LiveExchange final : public HostExchange {
   void complete(RunFacts& /*facts*/) override {}
   void describe(nlohmann::ordered_json& json, const HostOutcome& outcome,
                 const RunFacts& facts) const override;
-  Status deliver(std::span<const std::byte> findings) override { return link_.deliver(findings); }
+  Status deliver(std::span<const std::byte> host_results) override {
+    return link_.deliver(host_results);
+  }
 
  private:
   bool asked_to_end();

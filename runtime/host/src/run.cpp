@@ -125,11 +125,12 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   tell_events(*engine, unfinished_hand_overs(*engine), &console, session.events);
   if (options.control != nullptr) options.control->end();
   RunFacts facts = end_run(session);
-  Findings findings{adjusted, engine->spec(), observers->results().kinds, built.live_reason, facts};
-  findings.wall_s = session.wall_s;
-  findings.ended_early = session.stopped;
-  if (!live) findings.hash = engine->hash().value();
-  return write_results(findings, options.output, options.picture);
+  RunResults results{adjusted, engine->spec(), observers->results().kinds, built.live_reason,
+                     facts};
+  results.wall_s = session.wall_s;
+  results.ended_early = session.stopped;
+  if (!live) results.hash = engine->hash().value();
+  return write_results(results, options.output, options.picture);
 }
 
 }  // namespace rave::runtime

@@ -14,7 +14,7 @@ struct BusEndpoint::Parts {
   std::unique_ptr<bus::RequestBox> requests;
   std::unique_ptr<bus::CommandBox> commands;
   lock_step::Pulse pulse;
-  lock_step::FindingsCollector findings;
+  lock_step::HostResultsCollector host_results;
 };
 
 BusEndpoint::BusEndpoint(Parts parts)
@@ -28,7 +28,7 @@ BusEndpoint::BusEndpoint(Parts parts)
       requests_(std::move(parts.requests)),
       commands_(std::move(parts.commands)),
       pulse_(std::move(parts.pulse)),
-      findings_(std::move(parts.findings)),
+      host_results_(std::move(parts.host_results)),
       introduced_(lock_step::introduction(identity_)) {}
 
 Result<std::unique_ptr<BusEndpoint>> BusEndpoint::open(const bus::BusConfig& config,
@@ -47,15 +47,15 @@ Result<std::unique_ptr<BusEndpoint>> BusEndpoint::open(const bus::BusConfig& con
   RAVE_TRY_ASSIGN(auto requests, bus::RequestBox::create(*bus, std::move(begin_request), log));
   RAVE_TRY_ASSIGN(auto commands, bus::CommandBox::create(*bus, std::move(on_command)));
   RAVE_TRY_ASSIGN(auto pulse, lock_step::Pulse::create(*bus, identity));
-  RAVE_TRY_ASSIGN(auto findings, lock_step::FindingsCollector::create(*bus));
+  RAVE_TRY_ASSIGN(auto host_results, lock_step::HostResultsCollector::create(*bus));
   return std::unique_ptr<BusEndpoint>(new BusEndpoint(
       {std::move(identity), log, std::move(bus), std::move(states), std::move(own_info),
        std::move(infos), std::move(roster), std::move(requests), std::move(commands),
-       std::move(pulse), std::move(findings)}));
+       std::move(pulse), std::move(host_results)}));
 }
 
 Status BusEndpoint::wake(bus::WaitSet& waits) {
-  RAVE_TRY(findings_.wake(waits));
+  RAVE_TRY(host_results_.wake(waits));
   if (commands_) RAVE_TRY(commands_->wake(waits));
   return requests_ ? requests_->wake(waits) : Status();
 }

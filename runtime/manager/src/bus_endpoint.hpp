@@ -18,7 +18,7 @@
 #include "rave/bus/standstill.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
-#include "rave/protocol/findings.hpp"
+#include "rave/protocol/host_results.hpp"
 #include "rave/protocol/introduction.hpp"
 #include "rave/protocol/pulse.hpp"
 
@@ -37,7 +37,7 @@ class BusEndpoint final : public ManagerEndpoint {
 
   /// For the topics that only one kind of run has.
   [[nodiscard]] bus::Bus& bus() noexcept { return *bus_; }
-  /// Wakes `waits` when findings or requests come.
+  /// Wakes `waits` when results or requests come.
   Status wake(bus::WaitSet& waits);
   /// ... and when processes come or go; then look_at_processes() is due after each wait.
   Status wake_for_processes(bus::WaitSet& waits);
@@ -61,11 +61,15 @@ class BusEndpoint final : public ManagerEndpoint {
   void take_roster(RosterBook& book, const Serving& serving) override {
     read_roster(roster_, book, serving);
   }
-  void take_findings(const std::function<bool(std::uint64_t, std::uint32_t)>& sat) override {
-    findings_.take(sat);
+  void take_host_results(const std::function<bool(std::uint64_t, std::uint32_t)>& sat) override {
+    host_results_.take(sat);
   }
-  bool owes_findings(std::uint64_t writer) const override { return !findings_.done_with(writer); }
-  std::vector<lock_step::Findings> hand_out_findings() override { return findings_.hand_out(); }
+  bool owes_host_results(std::uint64_t writer) const override {
+    return !host_results_.done_with(writer);
+  }
+  std::vector<lock_step::HostResults> hand_out_host_results() override {
+    return host_results_.hand_out();
+  }
   void publish(bus::RunState& state) override { static_cast<void>(states_.write(state)); }
   std::uint64_t writer() const override { return bus_->writer(); }
   std::chrono::steady_clock::time_point silence_counts_from() const override {
@@ -91,7 +95,7 @@ class BusEndpoint final : public ManagerEndpoint {
   std::unique_ptr<bus::RequestBox> requests_;  ///< May be null.
   std::unique_ptr<bus::CommandBox> commands_;  ///< May be null.
   lock_step::Pulse pulse_;
-  lock_step::FindingsCollector findings_;
+  lock_step::HostResultsCollector host_results_;
   bus::HostInfo introduced_;                        ///< What the others are told of this process.
   std::map<std::uint64_t, std::uint32_t> host_of_;  ///< Of processes that fit.
   std::uint64_t standstills_ = 0;

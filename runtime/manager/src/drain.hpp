@@ -13,7 +13,7 @@
 namespace rave::manager {
 
 /// How long a manager waits at the end for hosts that are still there, and for one that owes its
-/// findings.
+/// host_results.
 struct DrainLimits {
   std::chrono::steady_clock::duration usual = kFarewell;
   std::chrono::steady_clock::duration owing = kLongFarewell;
@@ -21,16 +21,16 @@ struct DrainLimits {
 
 /// The end of a run: hosts hear of it before the manager goes, and what they know of the run
 /// reaches it. Until all are gone, or the limits are over. `slots`: by host, each with `name` and
-/// `writer`. `owes_findings`: whether a process has yet to send what it knows, and is waited for.
-/// `turn` waits a little and takes in what has come; false: the bus is of no use any more.
+/// `writer`. `owes_host_results`: whether a process has yet to send what it knows, and is waited
+/// for. `turn` waits a little and takes in what has come; false: the bus is of no use any more.
 template <class Slots, class Owes, class Turn>
-void drain(const Slots& slots, LogSink* log, Owes&& owes_findings, Turn&& turn,
+void drain(const Slots& slots, LogSink* log, Owes&& owes_host_results, Turn&& turn,
            const DrainLimits& limits = {}) {
   using Steady = std::chrono::steady_clock;
   const auto began = Steady::now();
   const auto here = [](const auto& slot) { return slot.writer != 0; };
   const auto owes = [&](const auto& slot) {
-    return slot.writer != 0 && owes_findings(slot.writer);
+    return slot.writer != 0 && owes_host_results(slot.writer);
   };
   bool told = false;
   while (std::ranges::any_of(slots, here)) {

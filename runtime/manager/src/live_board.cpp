@@ -134,8 +134,8 @@ void LiveBoard::take_roster(runtime::RunControl* control) {
   show_kinds(book_, serving, control);
 }
 
-void LiveBoard::take_findings() {
-  endpoint().take_findings(
+void LiveBoard::take_host_results() {
+  endpoint().take_host_results(
       [this](std::uint64_t writer, std::uint32_t host) { return has_sat(slots_, writer, host); });
 }
 

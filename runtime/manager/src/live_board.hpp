@@ -94,7 +94,7 @@ class LiveBoard {
   /// (larger than the bus carries), kIo.
   Status publish(const real_time::ObstacleSight& sight);
   /// Takes in what hosts know of the run when it is over for them.
-  void take_findings();
+  void take_host_results();
   /// Asks the hosts that sit here what they know of the obstacles of the manager that was here
   /// before; again if others have sat down since the last call. Errors: kState, kIo.
   Status ask_for_handed();

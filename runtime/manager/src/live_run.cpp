@@ -121,7 +121,7 @@ Status LiveRun::listen() {
   board_->take_pings([this](const bus::ClockPing& ping) { hear(ping); });
   if (left_alone_) return tl::unexpected(*left_alone_);
   board_->take_states();
-  board_->take_findings();
+  board_->take_host_results();
   board_->endpoint().serve_requests();
   // The rest is not urgent, and in a large run it costs more than a world.
   if (Clock::now() < next_look_) return {};
@@ -186,14 +186,14 @@ void LiveRun::tell_progress() {
 /// Hosts hear of the end before this process goes.
 void LiveRun::drain_hosts() {
   const auto owes = [this](std::uint64_t writer) {
-    return begun_ && board_->endpoint().owes_findings(writer);
+    return begun_ && board_->endpoint().owes_host_results(writer);
   };
   drain(board_->slots(), options_.log, owes, [this] {
     board_->wait(Duration{std::chrono::nanoseconds(kLook).count()});
     return listen().has_value();
   });
   // What a process sent before it went is here.
-  board_->take_findings();
+  board_->take_host_results();
 }
 
 Result<LiveManagerOutcome> LiveRun::go() {
@@ -266,17 +266,17 @@ LiveManagerOutcome LiveRun::outcome() {
   const bool ends =
       options_.ends_hosts || (options_.control != nullptr && options_.control->ends_everybody());
   if (!over && !ends) {
-    board_->take_findings();
-    outcome.findings = board_->endpoint().hand_out_findings();
-    order_by_sitting(board_->slots(), outcome.findings);
+    board_->take_host_results();
+    outcome.host_results = board_->endpoint().hand_out_host_results();
+    order_by_sitting(board_->slots(), outcome.host_results);
     return outcome;
   }
   tell_state(over ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
              over || problems_.empty() ? std::string() : problems_.front());
   drain_hosts();
   outcome.saw_off = true;
-  outcome.findings = board_->endpoint().hand_out_findings();
-  order_by_sitting(board_->slots(), outcome.findings);
+  outcome.host_results = board_->endpoint().hand_out_host_results();
+  order_by_sitting(board_->slots(), outcome.host_results);
   return outcome;
 }
 

@@ -10,7 +10,7 @@
 
 #include "rave/base/result.hpp"
 #include "rave/bus/topics.hpp"
-#include "rave/protocol/findings.hpp"
+#include "rave/protocol/host_results.hpp"
 #include "roster_book.hpp"
 
 namespace rave::manager {
@@ -37,11 +37,11 @@ class ManagerEndpoint {
   virtual void take_roster(RosterBook& book, const Serving& serving) = 0;
   /// Takes in what hosts know of the run when it is over for them: of processes that have `sat` in
   /// the place of their host.
-  virtual void take_findings(const std::function<bool(std::uint64_t, std::uint32_t)>& sat) = 0;
+  virtual void take_host_results(const std::function<bool(std::uint64_t, std::uint32_t)>& sat) = 0;
   /// Whether a process has yet to send what it knows.
-  [[nodiscard]] virtual bool owes_findings(std::uint64_t writer) const = 0;
+  [[nodiscard]] virtual bool owes_host_results(std::uint64_t writer) const = 0;
   /// All that was sent, each once.
-  [[nodiscard]] virtual std::vector<lock_step::Findings> hand_out_findings() = 0;
+  [[nodiscard]] virtual std::vector<lock_step::HostResults> hand_out_host_results() = 0;
   virtual void publish(bus::RunState& state) = 0;
 
   /// What its messages are signed with.

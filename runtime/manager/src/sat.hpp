@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "rave/protocol/findings.hpp"
+#include "rave/protocol/host_results.hpp"
 
 namespace rave::manager {
 
@@ -20,11 +20,11 @@ bool has_sat(const Slots& slots, std::uint64_t writer, std::uint32_t host) {
   return host < slots.size() && std::ranges::find(slots[host].sat, writer) != slots[host].sat.end();
 }
 
-/// Findings of one host in the order in which its processes served it, since the last one knows
+/// HostResults of one host in the order in which its processes served it, since the last one knows
 /// best. All of them are of processes that have sat.
 template <class Slots>
-void order_by_sitting(const Slots& slots, std::vector<lock_step::Findings>& findings) {
-  std::ranges::stable_sort(findings, {}, [&slots](const lock_step::Findings& one) {
+void order_by_sitting(const Slots& slots, std::vector<lock_step::HostResults>& host_results) {
+  std::ranges::stable_sort(host_results, {}, [&slots](const lock_step::HostResults& one) {
     const auto& sat = slots[one.host].sat;
     return std::ranges::find(sat, one.writer) - sat.begin();
   });

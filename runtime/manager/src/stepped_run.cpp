@@ -297,8 +297,8 @@ ManagerOutcome SteppedRun::outcome() {
   tell_state(outcome.whole ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
              problems_.empty() ? std::string() : problems_.back());
   drain_hosts(begun_);
-  outcome.findings = board_->endpoint().hand_out_findings();
-  order_by_sitting(slots_, outcome.findings);
+  outcome.host_results = board_->endpoint().hand_out_host_results();
+  order_by_sitting(slots_, outcome.host_results);
   return outcome;
 }
 

@@ -41,8 +41,8 @@ class SteppedRun {
   Status look();
   void look_at_roster();
   void miss(std::uint64_t writer);
-  void drain_hosts(bool awaits_findings);
-  void take_findings();
+  void drain_hosts(bool awaits_host_results);
+  void take_host_results();
   Status hear(const bus::HostReport& message);
   Status refuse_ahead(const HostSlot& slot, const bus::HostReport& message);
   void count_newest();

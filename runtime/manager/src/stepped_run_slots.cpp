@@ -181,14 +181,14 @@ void SteppedRun::count_newest() {
   for (const HostSlot& slot : slots_) newest_report_ = std::max(newest_report_, slot.last_step);
 }
 
-void SteppedRun::take_findings() {
-  board_->endpoint().take_findings(
+void SteppedRun::take_host_results() {
+  board_->endpoint().take_host_results(
       [this](std::uint64_t writer, std::uint32_t host) { return has_sat(slots_, writer, host); });
 }
 
 /// What can wait until nothing else is to be done.
 Status SteppedRun::look() {
-  take_findings();
+  take_host_results();
   RAVE_TRY_ASSIGN(const auto gone, board_->endpoint().look_at_processes(begun_));
   if (!begun_) handed_over_ = board_->take_last_world(world_, state_, handed_over_) || handed_over_;
   for (const std::uint64_t writer : gone) {
@@ -236,16 +236,16 @@ void SteppedRun::look_at_clock(Clock::time_point since) {
 }
 
 /// The last step reaches everybody before this process goes.
-void SteppedRun::drain_hosts(bool awaits_findings) {
+void SteppedRun::drain_hosts(bool awaits_host_results) {
   const auto owes = [&](std::uint64_t writer) {
-    return awaits_findings && board_->endpoint().owes_findings(writer);
+    return awaits_host_results && board_->endpoint().owes_host_results(writer);
   };
   drain(slots_, options_.log, owes, [this] {
     board_->wait(Duration{std::chrono::nanoseconds(kLook).count()}, {});
     return listen() && look();
   });
   // What a process sent before it went is here.
-  take_findings();
+  take_host_results();
 }
 
 }  // namespace rave::manager

@@ -65,7 +65,7 @@ TEST_F(DrainTest, EndsWithTheUsualTimeIfNobodyOwesAnything) {
   EXPECT_EQ(turns_, 0);
 }
 
-TEST_F(DrainTest, WaitsLongerForFindingsAndSaysSoOnce) {
+TEST_F(DrainTest, WaitsLongerForHostResultsAndSaysSoOnce) {
   owing_ = 2;
   go({kNever, kEver}, [this] {
     if (turns_ == 3) owing_ = 0;

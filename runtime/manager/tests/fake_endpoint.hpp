@@ -29,9 +29,10 @@ class FakeEndpoint final : public ManagerEndpoint {
   }
   void forget(std::uint64_t writer) override { hosts.erase(writer); }
   void take_roster(RosterBook& /*book*/, const Serving& /*serving*/) override {}
-  void take_findings(const std::function<bool(std::uint64_t, std::uint32_t)>& /*sat*/) override {}
-  bool owes_findings(std::uint64_t /*writer*/) const override { return false; }
-  std::vector<lock_step::Findings> hand_out_findings() override { return {}; }
+  void take_host_results(
+      const std::function<bool(std::uint64_t, std::uint32_t)>& /*sat*/) override {}
+  bool owes_host_results(std::uint64_t /*writer*/) const override { return false; }
+  std::vector<lock_step::HostResults> hand_out_host_results() override { return {}; }
   void publish(bus::RunState& state) override {
     phases.push_back(state.phase);
     for (const auto& host : bus::elements(state.hosts)) {

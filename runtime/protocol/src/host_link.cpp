@@ -54,7 +54,7 @@ Status HostLink::Impl::open_endpoints() {
     // Written by hosts, read by a manager that takes the place of a lost one: hosts are then the
     // only processes that still know the obstacles.
     RAVE_TRY(make(last_obstacles, *bus));
-    RAVE_TRY(make(findings, *bus));
+    RAVE_TRY(make(host_results, *bus));
     RAVE_TRY(set.add(*pongs));
     RAVE_TRY(set.add(*runs));
   }
@@ -281,7 +281,7 @@ void HostLink::obstacles_shown() {
   link.ping_at = {};
 }
 
-Status HostLink::deliver(std::span<const std::byte> findings) {
+Status HostLink::deliver(std::span<const std::byte> host_results) {
   Impl& link = *impl_;
   if (link.started) {
     const bool good = !link.ending || link.ending->good;
@@ -289,8 +289,9 @@ Status HostLink::deliver(std::span<const std::byte> findings) {
     // Server does not hear it.
     link.host_word->tell_end(good, link.facts.step, link.ending ? link.ending->text : "");
   }
-  if (!link.findings || !link.started) return {};
-  return link.findings->send(link.options.self.host, findings, lock_step::kFindingsPatience);
+  if (!link.host_results || !link.started) return {};
+  return link.host_results->send(link.options.self.host, host_results,
+                                 lock_step::kHostResultsPatience);
 }
 
 std::vector<RobotReality> HostLink::take_realities() {

@@ -13,8 +13,8 @@
 #include "rave/bus/request_box.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
-#include "rave/protocol/findings.hpp"
 #include "rave/protocol/host_link.hpp"
+#include "rave/protocol/host_results.hpp"
 #include "rave/protocol/live_messages.hpp"
 #include "rave/protocol/pulse.hpp"
 #include "rave/protocol/run_words.hpp"
@@ -56,7 +56,7 @@ struct HostLink::Impl {
   std::optional<bus::Reader<bus::RunState>> runs{};
   std::optional<bus::Reader<bus::Obstacle>> obstacles{};  ///< Created anew for each manager.
   std::optional<bus::Writer<bus::LastObstacle>> last_obstacles{};
-  std::optional<lock_step::FindingsSender> findings{};
+  std::optional<lock_step::HostResultsSender> host_results{};
   std::optional<bus::Reader<bus::World>> worlds{};        // If a robot here sees others.
   std::optional<bus::Writer<bus::Packet>> packets_out{};  // If a robot here communicates.
   std::optional<bus::Reader<bus::Packet>> packets_in{};

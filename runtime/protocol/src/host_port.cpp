@@ -110,7 +110,7 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
   RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
   RAVE_TRY_ASSIGN(auto pulse, Pulse::create(*bus, identity));
   RAVE_TRY_ASSIGN(auto roster, Roster::create(*bus, identity.host));
-  RAVE_TRY_ASSIGN(auto findings, FindingsSender::create(*bus));
+  RAVE_TRY_ASSIGN(auto host_results, HostResultsSender::create(*bus));
   RAVE_TRY_ASSIGN(auto requests, bus::RequestBox::create(*bus, std::move(begin_request), log));
   RAVE_TRY(waits.add(worlds));
   RAVE_TRY(waits.add(states));
@@ -123,7 +123,7 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
       new Impl{std::move(identity), log, bus::EventLog(log), std::move(bus), std::move(reports),
                std::move(own_info), std::move(last_worlds), std::move(worlds), std::move(states),
                std::move(infos), std::move(requests), std::move(waits), std::move(pulse),
-               std::move(roster), std::move(findings), info, patience});
+               std::move(roster), std::move(host_results), info, patience});
   RAVE_TRY_ASSIGN(auto states_out, bus::Writer<bus::HostState>::create(*impl->bus));
   impl->states_out.emplace(std::move(states_out));
   RAVE_TRY_ASSIGN(auto word, HostWord::create(*impl->bus, impl->self.host, impl->self.name));
@@ -194,11 +194,11 @@ const sim::AuthorityState& HostPort::authority() const noexcept { return impl_->
 bool HostPort::changed_hands() const noexcept { return impl_->changed_hands; }
 const HostPort::Ending& HostPort::ending() const noexcept { return impl_->ending; }
 
-Status HostPort::deliver(std::span<const std::byte> findings) {
+Status HostPort::deliver(std::span<const std::byte> host_results) {
   Impl& port = *impl_;
   if (!port.has_world) return {};
   port.host_word->tell_end(!port.over || port.ending.good, port.last_step, port.ending.text);
-  return port.findings.send(port.self.host, findings, kFindingsPatience);
+  return port.host_results.send(port.self.host, host_results, kHostResultsPatience);
 }
 
 void HostPort::farewell(const sim::HostReport& report, std::uint64_t hash) {

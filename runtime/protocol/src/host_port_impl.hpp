@@ -13,8 +13,8 @@
 #include "rave/bus/request_box.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
-#include "rave/protocol/findings.hpp"
 #include "rave/protocol/host_port.hpp"
+#include "rave/protocol/host_results.hpp"
 #include "rave/protocol/pulse.hpp"
 #include "rave/protocol/robot_columns.hpp"
 #include "rave/protocol/run_words.hpp"
@@ -42,7 +42,7 @@ struct HostPort::Impl {
   bus::WaitSet waits;
   Pulse pulse;
   Roster roster;
-  FindingsSender findings;
+  HostResultsSender host_results;
   bus::HostInfo introduced;  ///< What this process published about itself.
   Patience patience;
   ReportMessage message{};

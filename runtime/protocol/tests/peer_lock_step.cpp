@@ -4,12 +4,12 @@
 #include <array>
 #include <string>
 
-#include "made_findings.hpp"
+#include "made_host_results.hpp"
 #include "peer_console.hpp"
 #include "peer_roles.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
-#include "rave/protocol/findings.hpp"
+#include "rave/protocol/host_results.hpp"
 #include "rave/protocol/pulse.hpp"
 #include "rave/protocol/step_messages.hpp"
 
@@ -21,21 +21,21 @@ using namespace lock_step::testing;
 
 /// A manager that does nothing but collect.
 void collect(Bus& bus) {
-  auto collector = FindingsCollector::create(bus);
+  auto collector = HostResultsCollector::create(bus);
   auto waits = WaitSet::create(bus);
   static_cast<void>(collector->wake(*waits));
   say("ready");
   while (!ended(0)) {
     static_cast<void>(waits->wait(Duration{20'000'000}));
     collector->take([](std::uint64_t, std::uint32_t) { return true; });
-    for (const Findings& whole : collector->hand_out()) say(whole_line(whole.host, whole.bytes));
+    for (const HostResults& whole : collector->hand_out()) say(whole_line(whole.host, whole.bytes));
   }
 }
 
 /// A host that waits for `managers` to be there. A byte on the input: its run is over; it gives
 /// them two seconds to take what it knows.
 void deliver(Bus& bus, const Arguments& arguments) {
-  auto sender = FindingsSender::create(bus);
+  auto sender = HostResultsSender::create(bus);
   while (sender->readers() < std::stoul(arguments.at("managers"))) {
     if (ended(5)) return;
   }
@@ -43,7 +43,7 @@ void deliver(Bus& bus, const Arguments& arguments) {
   char byte = 0;
   if (::read(STDIN_FILENO, &byte, 1) != 1) return;
   const auto host = static_cast<std::uint32_t>(std::stoul(arguments.at("host")));
-  const auto bytes = made_findings(host, std::stoul(arguments.at("size")));
+  const auto bytes = made_host_results(host, std::stoul(arguments.at("size")));
   const Status sent = sender->send(host, bytes, from_seconds(2));
   say(sent ? "sent" : sent.error().message);
   while (!ended(-1)) continue;

@@ -25,10 +25,10 @@ void fail_check(RunOutcome& outcome, bool made, std::string problem) {
   outcome.problems.push_back(std::move(problem));
 }
 
-void judge_capture(const Findings& findings, RunOutcome& outcome) {
-  const auto& check = findings.scenario.scenario.checks.capture;
+void judge_capture(const RunResults& results, RunOutcome& outcome) {
+  const auto& check = results.scenario.scenario.checks.capture;
   if (!check) return;
-  const RunFacts& facts = findings.facts;
+  const RunFacts& facts = results.facts;
   if (!facts.capture) {
     fail_check(outcome, false,
                "the capture check was not evaluated: no host saw all of the robots");
@@ -47,12 +47,12 @@ void judge_capture(const Findings& findings, RunOutcome& outcome) {
       fmt::format("the capture check fails: no robot was captured before {} s", *check->before_s));
 }
 
-void judge_sightings(const Findings& findings, RunOutcome& outcome) {
-  const auto& limits = findings.scenario.scenario.checks.sightings;
+void judge_sightings(const RunResults& results, RunOutcome& outcome) {
+  const auto& limits = results.scenario.scenario.checks.sightings;
   if (!limits) return;
-  const SightingTally tally = findings.facts.sightings.value_or(SightingFacts()).all();
+  const SightingTally tally = results.facts.sightings.value_or(SightingFacts()).all();
   // First: with results missing, the numbers below are too small for a judgement.
-  if (findings.any_lost()) {
+  if (results.any_lost()) {
     fail_check(outcome, false,
                "the sighting check was not evaluated: the results of a host are missing");
   } else if (tally.total < static_cast<std::uint64_t>(limits->min_compared)) {
@@ -74,11 +74,11 @@ void judge_sightings(const Findings& findings, RunOutcome& outcome) {
   }
 }
 
-void judge_checks(const Findings& findings, RunOutcome& outcome) {
-  judge_capture(findings, outcome);
-  judge_sightings(findings, outcome);
+void judge_checks(const RunResults& results, RunOutcome& outcome) {
+  judge_capture(results, outcome);
+  judge_sightings(results, outcome);
   for (const CheckResult& check :
-       goal_results(findings.scenario, findings.spec, findings.facts, findings.lost)) {
+       goal_results(results.scenario, results.spec, results.facts, results.lost)) {
     if (check.holds) continue;
     fail_check(outcome, check.made,
                fmt::format("a check {}: {}: {}", check.made ? "fails" : "was not evaluated",
@@ -88,44 +88,44 @@ void judge_checks(const Findings& findings, RunOutcome& outcome) {
 
 }  // namespace
 
-bool Findings::any_lost() const noexcept {
+bool RunResults::any_lost() const noexcept {
   return std::any_of(lost.begin(), lost.end(), [](auto robot) { return robot != 0; });
 }
 
-double Findings::done_s() const noexcept {
+double RunResults::done_s() const noexcept {
   return static_cast<double>(facts.steps) * spec.step.seconds();
 }
 
-std::size_t Findings::real_robots() const {
+std::size_t RunResults::real_robots() const {
   return static_cast<std::size_t>(std::count_if(
       spec.robots.begin(), spec.robots.end(),
       [&](const sim::RobotSpec& robot) { return !spec.types[robot.type].simulated; }));
 }
 
-std::size_t Findings::count(sim::EventKind kind) const {
+std::size_t RunResults::count(sim::EventKind kind) const {
   return static_cast<std::size_t>(
       std::count_if(facts.events.begin(), facts.events.end(),
                     [kind](const sim::Event& event) { return event.kind == kind; }));
 }
 
-GuardCounts guard_counts(const Findings& findings) {
+GuardCounts guard_counts(const RunResults& results) {
   GuardCounts counts;
-  for (const sim::Event& event : findings.facts.events) {
+  for (const sim::Event& event : results.facts.events) {
     const bool slowed = event.kind == sim::EventKind::kGuardSlowed;
     if (!slowed && event.kind != sim::EventKind::kGuardStopped) continue;
     const std::string_view limit = to_string(static_cast<sim::GuardLimit>(event.detail));
-    ++counts[findings.spec.robots[event.robot.value()].name]
+    ++counts[results.spec.robots[event.robot.value()].name]
             [fmt::format("{} by {}", slowed ? "slowed" : "stopped", limit)];
   }
   return counts;
 }
 
-RunOutcome judge(const Findings& findings) {
+RunOutcome judge(const RunResults& results) {
   RunOutcome outcome;
-  if (findings.ended_early) outcome.problems.emplace_back("the run was ended early");
-  const RunFacts& facts = findings.facts;
+  if (results.ended_early) outcome.problems.emplace_back("the run was ended early");
+  const RunFacts& facts = results.facts;
   outcome.problems.insert(outcome.problems.end(), facts.problems.begin(), facts.problems.end());
-  const sim::EngineSpec& spec = findings.spec;
+  const sim::EngineSpec& spec = results.spec;
   for (const sim::Event& event : facts.events) {
     // A program or driver that failed means that the robot did not do what the scenario asks, even
     // if all checks hold.
@@ -157,33 +157,33 @@ RunOutcome judge(const Findings& findings) {
   outcome.whole = outcome.problems.empty();
   // The run used all that its recordings contained, but the reader of the result should know of
   // gaps.
-  for (std::string& loss : stream_losses(findings)) outcome.problems.push_back(std::move(loss));
-  judge_checks(findings, outcome);
-  if (findings.hash) outcome.hash = fmt::format("{:016x}", *findings.hash);
+  for (std::string& loss : stream_losses(results)) outcome.problems.push_back(std::move(loss));
+  judge_checks(results, outcome);
+  if (results.hash) outcome.hash = fmt::format("{:016x}", *results.hash);
   return outcome;
 }
 
-std::string why_no_hash(const Findings& findings, const RunOutcome& outcome) {
+std::string why_no_hash(const RunResults& results, const RunOutcome& outcome) {
   if (!outcome.hash.empty()) return {};
-  if (!findings.live_reason.empty()) return findings.live_reason;
+  if (!results.live_reason.empty()) return results.live_reason;
   return outcome.problems.empty() ? std::string("the results of some hosts are missing")
                                   : "the run did not complete: " + outcome.problems.front();
 }
 
-Result<RunOutcome> write_results(const Findings& findings, const std::filesystem::path& folder,
+Result<RunOutcome> write_results(const RunResults& results, const std::filesystem::path& folder,
                                  bool picture) {
-  RunOutcome outcome = judge(findings);
+  RunOutcome outcome = judge(results);
   if (picture) {
-    const report::Picture drawn = make_picture(findings, outcome);
+    const report::Picture drawn = make_picture(results, outcome);
     RAVE_TRY(report::write_svg(drawn, folder / "picture.svg"));
     RAVE_TRY(report::write_png(drawn, folder / "picture.png"));
   }
   // `result.json` is written last, so a program that waits for it finds the other files complete.
-  outcome.summary = summary_text(findings, outcome);
+  outcome.summary = summary_text(results, outcome);
   RAVE_TRY(write_file_atomically(folder / "summary.txt", outcome.summary));
   RAVE_TRY(write_file_atomically(folder / "events.log",
-                                 events_log(findings.spec, findings.kinds, findings.facts.events)));
-  RAVE_TRY(write_file_atomically(folder / "result.json", result_json(findings, outcome)));
+                                 events_log(results.spec, results.kinds, results.facts.events)));
+  RAVE_TRY(write_file_atomically(folder / "result.json", result_json(results, outcome)));
   return outcome;
 }
 

@@ -53,14 +53,13 @@ Json sightings_json(const config::SightingsCheckFile& limits, const SightingFact
   return json;
 }
 
-Json encounters_json(const Findings& findings) {
+Json encounters_json(const RunResults& results) {
   Json json = Json::object();
-  for (const auto& [pair, encounter] : findings.facts.closest) {
-    json[pair] = {
-        {"gap_m", rounded(encounter.gap_m, 4)},
-        {"centres_m", rounded(encounter.centres_m, 4)},
-        {"time_s", encounter.time_s},
-        {"between", {findings.kinds.name(encounter.a), findings.kinds.name(encounter.b)}}};
+  for (const auto& [pair, encounter] : results.facts.closest) {
+    json[pair] = {{"gap_m", rounded(encounter.gap_m, 4)},
+                  {"centres_m", rounded(encounter.centres_m, 4)},
+                  {"time_s", encounter.time_s},
+                  {"between", {results.kinds.name(encounter.a), results.kinds.name(encounter.b)}}};
   }
   return json;
 }
@@ -80,11 +79,11 @@ void add_report(const std::string& text, Json& entry) {
 }
 
 /// The reports of the drivers of one kind of part; `part` is the key of its name in the JSON.
-Json instruments_json(const Findings& findings, const std::vector<InstrumentFacts>& instruments,
+Json instruments_json(const RunResults& results, const std::vector<InstrumentFacts>& instruments,
                       const char* part) {
   Json json = Json::array();
   for (const InstrumentFacts& instrument : instruments) {
-    Json entry = {{"robot", findings.spec.robots[instrument.robot].name},
+    Json entry = {{"robot", results.spec.robots[instrument.robot].name},
                   {part, instrument.name},
                   {"driver", instrument.driver}};
     add_report(instrument.report, entry);
@@ -94,9 +93,9 @@ Json instruments_json(const Findings& findings, const std::vector<InstrumentFact
 }
 
 /// A transmitter's report comes from its driver: text that is not JSON is omitted.
-Json robot_json(const Findings& findings, const RobotFacts& robot) {
-  const sim::RobotSpec& spec = findings.spec.robots[robot.robot];
-  const bool simulated = findings.spec.types[spec.type].simulated;
+Json robot_json(const RunResults& results, const RobotFacts& robot) {
+  const sim::RobotSpec& spec = results.spec.robots[robot.robot];
+  const bool simulated = results.spec.types[spec.type].simulated;
   Json json = {{"name", spec.name},        {"reality", simulated ? "simulated" : "real"},
                {"program", robot.program}, {"commands", robot.commands},
                {"obeys", robot.obeys},     {"way_m", rounded(robot.way_m, 3)}};
@@ -108,21 +107,21 @@ Json robot_json(const Findings& findings, const RobotFacts& robot) {
   return json;
 }
 
-Json robots_json(const Findings& findings) {
+Json robots_json(const RunResults& results) {
   Json json = Json::array();
-  for (const RobotFacts& robot : findings.facts.robots) {
-    json.push_back(robot_json(findings, robot));
+  for (const RobotFacts& robot : results.facts.robots) {
+    json.push_back(robot_json(results, robot));
   }
   return json;
 }
 
 /// For each host, the source of the facts about its robots.
-Json hosts_json(const Findings& findings) {
+Json hosts_json(const RunResults& results) {
   const auto value = [](const auto& optional) { return optional ? Json(*optional) : Json(); };
   Json json = Json::array();
-  for (const HostShare& host : findings.hosts) {
+  for (const HostShare& host : results.hosts) {
     Json entry = {{"name", host.name}, {"found", host.found}, {"folders", host.folders}};
-    if (!findings.live_reason.empty()) {
+    if (!results.live_reason.empty()) {
       if (host.heard) entry["heard"] = *host.heard;
       if (host.losses) entry["losses"] = *host.losses;
       entry["clock_offset_s"] = value(host.offset_s);
@@ -133,7 +132,7 @@ Json hosts_json(const Findings& findings) {
   return json;
 }
 
-Json events_json(const Findings& findings) {
+Json events_json(const RunResults& results) {
   Json json = Json::object();
   // A fixed list, so that each run has all keys, with 0 for what did not happen.
   for (const auto kind : {sim::EventKind::kContact,
@@ -164,22 +163,22 @@ Json events_json(const Findings& findings) {
     std::string name(to_string(kind));
     // Keys of JSON without spaces are easier to use in queries.
     std::replace(name.begin(), name.end(), ' ', '_');
-    json[name] = findings.count(kind);
+    json[name] = results.count(kind);
   }
   return json;
 }
 
-Json capture_json(const Findings& findings) {
-  const sim::EngineSpec& spec = findings.spec;
-  const config::CaptureCheckFile& check = *findings.scenario.scenario.checks.capture;
+Json capture_json(const RunResults& results) {
+  const sim::EngineSpec& spec = results.spec;
+  const config::CaptureCheckFile& check = *results.scenario.scenario.checks.capture;
   Json json = {{"within_m", check.within_m},
                {"holds", nullptr},
                {"captured_at_s", nullptr},
                {"captures", Json::array()}};
-  if (!findings.facts.capture) return json;
-  const CaptureFacts& facts = *findings.facts.capture;
+  if (!results.facts.capture) return json;
+  const CaptureFacts& facts = *results.facts.capture;
   // A capture that is known holds. Without one, an unknown beginning leaves the answer open (null).
-  if (holds(check, facts) || findings.facts.world_from == 0) json["holds"] = holds(check, facts);
+  if (holds(check, facts) || results.facts.world_from == 0) json["holds"] = holds(check, facts);
   if (facts.closest_m.value_or(1e9) < 1e9) json["closest_m"] = rounded(*facts.closest_m, 4);
   for (const Capture& capture : facts.captures) {
     if (json["captured_at_s"].is_null()) json["captured_at_s"] = capture.time_s;
@@ -192,10 +191,10 @@ Json capture_json(const Findings& findings) {
 }
 
 /// The changes made during the run, with their times.
-Json changes_json(const Findings& findings) {
+Json changes_json(const RunResults& results) {
   Json json = Json::array();
-  const sim::EngineSpec& spec = findings.spec;
-  for (const sim::Event& event : findings.facts.events) {
+  const sim::EngineSpec& spec = results.spec;
+  for (const sim::Event& event : results.facts.events) {
     if (event.kind != sim::EventKind::kChanged && event.kind != sim::EventKind::kChangeRefused &&
         !is_of_obstacle(event.kind)) {
       continue;
@@ -209,13 +208,13 @@ Json changes_json(const Findings& findings) {
 }
 
 /// The outcome of each hand-over, and the shadows; nothing is added for a scenario without twins.
-void add_hand_overs(const Findings& findings, Json& json) {
-  const sim::EngineSpec& spec = findings.spec;
+void add_hand_overs(const RunResults& results, Json& json) {
+  const sim::EngineSpec& spec = results.spec;
   const bool twins = std::any_of(spec.robots.begin(), spec.robots.end(),
                                  [](const auto& robot) { return robot.twin.has_value(); });
   if (!twins) return;
   json["hand_overs"] = Json::array();
-  for (const sim::Event& event : findings.facts.events) {
+  for (const sim::Event& event : results.facts.events) {
     const bool made = event.kind == sim::EventKind::kHandedOver;
     if (!made && event.kind != sim::EventKind::kHandOverRefused) continue;
     json["hand_overs"].push_back({{"time_s", static_cast<double>(event.step) * spec.step.seconds()},
@@ -223,7 +222,7 @@ void add_hand_overs(const Findings& findings, Json& json) {
                                   {"made", made},
                                   {"what", event.text}});
   }
-  if (!findings.facts.shadows.empty()) json["shadows"] = shadows_json(findings.facts.shadows);
+  if (!results.facts.shadows.empty()) json["shadows"] = shadows_json(results.facts.shadows);
 }
 
 void add_edits(const SharedEdits& edits, Json& json) {
@@ -237,8 +236,8 @@ void add_edits(const SharedEdits& edits, Json& json) {
 
 }  // namespace
 
-std::string result_json(const Findings& findings, const RunOutcome& outcome) {
-  const config::ScenarioFile& scenario = findings.scenario.scenario;
+std::string result_json(const RunResults& results, const RunOutcome& outcome) {
+  const config::ScenarioFile& scenario = results.scenario.scenario;
   Json json;
   json["scenario"] = scenario.name.value;
   json["whole"] = outcome.whole;
@@ -246,46 +245,46 @@ std::string result_json(const Findings& findings, const RunOutcome& outcome) {
   json["problems"] = outcome.problems;
   json["seed"] = scenario.seed;
   json["step_s"] = scenario.step_s.value;
-  json["steps"] = findings.facts.steps;
+  json["steps"] = results.facts.steps;
   // Contacts, changes of the world and captures before this step are unknown.
-  if (findings.facts.world_from > 0) json["world_from_step"] = findings.facts.world_from;
-  json["simulated_s"] = findings.done_s();
-  json["wall_s"] = rounded(findings.wall_s, 3);
-  json["lateness"] = lateness_json(findings.facts.lateness);
-  json["threads"] = findings.spec.threads;
+  if (results.facts.world_from > 0) json["world_from_step"] = results.facts.world_from;
+  json["simulated_s"] = results.done_s();
+  json["wall_s"] = rounded(results.wall_s, 3);
+  json["lateness"] = lateness_json(results.facts.lateness);
+  json["threads"] = results.spec.threads;
   json["hash"] = outcome.hash.empty() ? Json(nullptr) : Json(outcome.hash);
-  if (outcome.hash.empty()) json["no_hash_because"] = why_no_hash(findings, outcome);
+  if (outcome.hash.empty()) json["no_hash_because"] = why_no_hash(results, outcome);
   if (scenario.checks.sightings) {
     json["sightings"] =
         sightings_json(*scenario.checks.sightings,
-                       findings.facts.sightings.value_or(SightingFacts()), !findings.any_lost());
+                       results.facts.sightings.value_or(SightingFacts()), !results.any_lost());
   }
   json["checks"] = Json::array();
   for (const CheckResult& check :
-       goal_results(findings.scenario, findings.spec, findings.facts, findings.lost)) {
+       goal_results(results.scenario, results.spec, results.facts, results.lost)) {
     json["checks"].push_back({{"check", check.name},
                               {"holds", check.made ? Json(check.holds) : Json()},
                               {"text", check.text}});
   }
-  json["hits"] = findings.facts.hits;
-  json["closest"] = encounters_json(findings);
-  json["events"] = events_json(findings);
-  if (has_radio(findings.spec)) {
-    json["radio"] = radio_json(findings.facts.radio);
-    json["radio"]["transmitters"] = transmitters_json(findings.spec, findings.facts.transmitters);
+  json["hits"] = results.facts.hits;
+  json["closest"] = encounters_json(results);
+  json["events"] = events_json(results);
+  if (has_radio(results.spec)) {
+    json["radio"] = radio_json(results.facts.radio);
+    json["radio"]["transmitters"] = transmitters_json(results.spec, results.facts.transmitters);
   }
-  json["guard"] = guard_counts(findings);
-  json["changes"] = changes_json(findings);
-  json["inputs_by_hand"] = findings.facts.inputs_by_hand;
-  add_hand_overs(findings, json);
-  if (scenario.checks.capture) json["capture"] = capture_json(findings);
-  json["robots"] = robots_json(findings);
-  json["devices"] = instruments_json(findings, findings.facts.devices, "device");
-  json["streams"] = instruments_json(findings, findings.facts.streams, "sensor");
-  if (findings.worlds) json["worlds"] = *findings.worlds;
-  if (findings.states) json["states"] = *findings.states;
-  if (findings.edits) add_edits(*findings.edits, json);
-  if (!findings.hosts.empty()) json["hosts"] = hosts_json(findings);
+  json["guard"] = guard_counts(results);
+  json["changes"] = changes_json(results);
+  json["inputs_by_hand"] = results.facts.inputs_by_hand;
+  add_hand_overs(results, json);
+  if (scenario.checks.capture) json["capture"] = capture_json(results);
+  json["robots"] = robots_json(results);
+  json["devices"] = instruments_json(results, results.facts.devices, "device");
+  json["streams"] = instruments_json(results, results.facts.streams, "sensor");
+  if (results.worlds) json["worlds"] = *results.worlds;
+  if (results.states) json["states"] = *results.states;
+  if (results.edits) add_edits(*results.edits, json);
+  if (!results.hosts.empty()) json["hosts"] = hosts_json(results);
   // Text from other processes may be invalid UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -27,17 +27,17 @@ report::PictureInstant shown(const InstantFacts& facts) {
 
 }  // namespace
 
-report::Picture make_picture(const Findings& findings, const RunOutcome& outcome) {
+report::Picture make_picture(const RunResults& results, const RunOutcome& outcome) {
   report::Picture picture;
-  const config::ScenarioFile& scenario = findings.scenario.scenario;
+  const config::ScenarioFile& scenario = results.scenario.scenario;
   picture.title = scenario.picture && !scenario.picture->title.empty() ? scenario.picture->title
                                                                        : scenario.name.value;
-  const std::size_t count = findings.spec.robots.size();
-  const std::size_t real = findings.real_robots();
+  const std::size_t count = results.spec.robots.size();
+  const std::size_t real = results.real_robots();
   picture.subtitle = fmt::format("{} real and {} simulated robots in one world, {:.0f} s", real,
-                                 count - real, findings.done_s());
-  if (scenario.checks.sightings && findings.facts.sightings) {
-    const SightingTally tally = findings.facts.sightings->all();
+                                 count - real, results.done_s());
+  if (scenario.checks.sightings && results.facts.sightings) {
+    const SightingTally tally = results.facts.sightings->all();
     picture.caption.push_back(
         fmt::format("{:.2f} % of {} real camera sightings agree with the virtual camera within "
                     "{} m and {}\u00b0.",
@@ -45,7 +45,7 @@ report::Picture make_picture(const Findings& findings, const RunOutcome& outcome
                     scenario.checks.sightings->bearing_deg));
   }
   if (!outcome.hash.empty()) picture.caption.push_back("Run hash " + outcome.hash);
-  const world::WorldModel& world = findings.spec.world;
+  const world::WorldModel& world = results.spec.world;
   for (std::size_t number = 0; number < world.obstacle_count(); ++number) {
     const std::uint32_t body = world.obstacle_id(number);
     const world::Obstacle& obstacle = *world.obstacle(body);
@@ -54,7 +54,7 @@ report::Picture make_picture(const Findings& findings, const RunOutcome& outcome
     for (std::size_t i = 0; i < obstacle.body.shapes.size(); ++i) {
       report::PictureBody shown;
       shown.outline_W = outline_of(obstacle.body.shapes[i], obstacle.X_WB);
-      shown.kind = findings.kinds.kind(body);
+      shown.kind = results.kinds.kind(body);
       // Landmarks are labelled with their number; the walls of a map are too numerous to be
       // labelled.
       if (i == 0 && shown.kind == report::Kind::kLandmark) {
@@ -68,8 +68,8 @@ report::Picture make_picture(const Findings& findings, const RunOutcome& outcome
       picture.bodies.push_back(std::move(shown));
     }
   }
-  picture.tracks = tracks_of(findings.facts);
-  if (findings.facts.instant) picture.instant = shown(*findings.facts.instant);
+  picture.tracks = tracks_of(results.facts);
+  if (results.facts.instant) picture.instant = shown(*results.facts.instant);
   return picture;
 }
 

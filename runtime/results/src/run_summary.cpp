@@ -11,9 +11,9 @@
 namespace rave::runtime {
 namespace {
 
-void add_guard_row(const Findings& findings, Table& table) {
+void add_guard_row(const RunResults& results, Table& table) {
   std::map<std::string, std::size_t> total;
-  for (const auto& [robot, counts] : guard_counts(findings)) {
+  for (const auto& [robot, counts] : guard_counts(results)) {
     for (const auto& [what, count] : counts) total[what] += count;
   }
   std::string text;
@@ -25,14 +25,14 @@ void add_guard_row(const Findings& findings, Table& table) {
   if (!text.empty()) table.rows.push_back({"guard", text});
 }
 
-void add_capture_rows(const Findings& findings, Table& table) {
-  if (!findings.scenario.scenario.checks.capture) return;
-  if (!findings.facts.capture) {
+void add_capture_rows(const RunResults& results, Table& table) {
+  if (!results.scenario.scenario.checks.capture) return;
+  if (!results.facts.capture) {
     table.rows.push_back({"captured", "not evaluated: no host saw all of the robots"});
     return;
   }
-  const sim::EngineSpec& spec = findings.spec;
-  const CaptureFacts& capture = *findings.facts.capture;
+  const sim::EngineSpec& spec = results.spec;
+  const CaptureFacts& capture = *results.facts.capture;
   for (const Capture& caught : capture.captures) {
     table.rows.push_back(
         {"captured", fmt::format("{} by {} at {:.2f} s", spec.robots[caught.prey.value()].name,
@@ -43,12 +43,12 @@ void add_capture_rows(const Findings& findings, Table& table) {
   table.rows.push_back({"captured", fmt::format("nobody; nearest {:.2f} m", closest_m)});
 }
 
-void add_sighting_row(const Findings& findings, Table& table) {
-  if (!findings.scenario.scenario.checks.sightings) return;
-  const config::SightingsCheckFile& limits = *findings.scenario.scenario.checks.sightings;
-  const SightingFacts facts = findings.facts.sightings.value_or(SightingFacts());
+void add_sighting_row(const RunResults& results, Table& table) {
+  if (!results.scenario.scenario.checks.sightings) return;
+  const config::SightingsCheckFile& limits = *results.scenario.scenario.checks.sightings;
+  const SightingFacts facts = results.facts.sightings.value_or(SightingFacts());
   const SightingTally tally = facts.all();
-  const bool holds = runtime::holds(limits, tally) && !findings.any_lost();
+  const bool holds = runtime::holds(limits, tally) && !results.any_lost();
   std::vector<std::string_view> blind;
   for (const auto& [robot, own] : facts.by_robot) {
     // A robot whose camera saw nothing at all has confirmed nothing, which the percentage alone
@@ -66,30 +66,30 @@ void add_sighting_row(const Findings& findings, Table& table) {
 }
 
 /// The real robots whose commands had no effect, as `a, b and c`.
-std::string disobedient(const Findings& findings) {
+std::string disobedient(const RunResults& results) {
   std::vector<std::string_view> names;
-  for (const RobotFacts& robot : findings.facts.robots) {
+  for (const RobotFacts& robot : results.facts.robots) {
     if (robot.commands > 0 && !robot.obeys) {
-      names.emplace_back(findings.spec.robots[robot.robot].name);
+      names.emplace_back(results.spec.robots[robot.robot].name);
     }
   }
   return names.empty() ? std::string() : join_names(names);
 }
 
-void add_encounter_rows(const Findings& findings, Table& table) {
-  for (const auto& [pair, encounter] : findings.facts.closest) {
+void add_encounter_rows(const RunResults& results, Table& table) {
+  for (const auto& [pair, encounter] : results.facts.closest) {
     table.rows.push_back(
         {fmt::format("closest {}", pair),
          fmt::format("{:.3f} m between outlines at {:.2f} s ({} and {})",
                      // Outlines that overlap have a negative distance, which says nothing to a
                      // reader of the summary.
                      std::max(encounter.gap_m, 0.0), encounter.time_s,
-                     findings.kinds.name(encounter.a), findings.kinds.name(encounter.b))});
+                     results.kinds.name(encounter.a), results.kinds.name(encounter.b))});
   }
 }
 
-void add_hit_rows(const Findings& findings, Table& table) {
-  for (const auto& [who, counts] : findings.facts.hits) {
+void add_hit_rows(const RunResults& results, Table& table) {
+  for (const auto& [who, counts] : results.facts.hits) {
     std::string text;
     for (const auto& [what, count] : counts) {
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", what, count);
@@ -99,72 +99,72 @@ void add_hit_rows(const Findings& findings, Table& table) {
 }
 
 /// What somebody has to know beside the results, the hash and the problems.
-void add_notes(const Findings& findings, const RunOutcome& outcome, Table& table) {
-  const std::string deaf = disobedient(findings);
+void add_notes(const RunResults& results, const RunOutcome& outcome, Table& table) {
+  const std::string deaf = disobedient(results);
   if (!deaf.empty()) {
     table.rows.push_back(
         {"ignored commands", deaf + ": recorded robots do; the commands were logged"});
   }
-  for (const HostShare& host : findings.hosts) {
+  for (const HostShare& host : results.hosts) {
     if (host.found || !host.folders.empty()) continue;
     table.rows.push_back(
         {fmt::format("host {}", host.name),
          "on another machine: its results are there, in the folder of its `rave robot`"});
   }
-  table.rows.push_back({"run hash", outcome.hash.empty() ? "none: " + why_no_hash(findings, outcome)
-                                                         : outcome.hash});
+  table.rows.push_back(
+      {"run hash", outcome.hash.empty() ? "none: " + why_no_hash(results, outcome) : outcome.hash});
   for (const std::string& problem : outcome.problems) table.rows.push_back({"problem", problem});
 }
 
 }  // namespace
 
-std::string summary_text(const Findings& findings, const RunOutcome& outcome) {
+std::string summary_text(const RunResults& results, const RunOutcome& outcome) {
   Table table;
-  table.title = findings.scenario.scenario.name.value;
+  table.title = results.scenario.scenario.name.value;
   table.columns = {{"what", Align::kLeft, false}, {"result", Align::kLeft, true}};
-  const std::size_t count = findings.spec.robots.size();
-  const std::size_t real = findings.real_robots();
-  const double simulated_s = findings.done_s();
+  const std::size_t count = results.spec.robots.size();
+  const std::size_t real = results.real_robots();
+  const double simulated_s = results.done_s();
   table.rows.push_back(
       {"robots", fmt::format("{}: {} real, {} simulated", count, real, count - real)});
   table.rows.push_back(
-      {"time", fmt::format("{:.2f} s simulated in {:.2f} s ({:.1f}x)", simulated_s, findings.wall_s,
-                           simulated_s / std::max(findings.wall_s, 1e-9))});
-  if (const LatenessFacts& late = findings.facts.lateness; late.deadlines > 0) {
+      {"time", fmt::format("{:.2f} s simulated in {:.2f} s ({:.1f}x)", simulated_s, results.wall_s,
+                           simulated_s / std::max(results.wall_s, 1e-9))});
+  if (const LatenessFacts& late = results.facts.lateness; late.deadlines > 0) {
     table.rows.push_back({"deadlines", lateness_text(late)});
   }
-  add_sighting_row(findings, table);
-  const auto goals = goal_results(findings.scenario, findings.spec, findings.facts, findings.lost);
+  add_sighting_row(results, table);
+  const auto goals = goal_results(results.scenario, results.spec, results.facts, results.lost);
   for (const CheckResult& check : goals) {
     table.rows.push_back(
         {check.name, fmt::format("{}: {}", check.holds ? "holds" : "FAILS", check.text)});
   }
   table.rules_before.push_back(table.rows.size());
-  add_encounter_rows(findings, table);
+  add_encounter_rows(results, table);
   table.rules_before.push_back(table.rows.size());
-  add_hit_rows(findings, table);
+  add_hit_rows(results, table);
   table.rules_before.push_back(table.rows.size());
   table.rows.push_back(
-      {"contacts, pinned robots", fmt::format("{}, {}", findings.count(sim::EventKind::kContact),
-                                              findings.count(sim::EventKind::kPinned))});
-  if (findings.facts.world_from > 0) {
+      {"contacts, pinned robots", fmt::format("{}, {}", results.count(sim::EventKind::kContact),
+                                              results.count(sim::EventKind::kPinned))});
+  if (results.facts.world_from > 0) {
     table.rows.push_back(
         {"",
          fmt::format(
              "and captures, from step {} on: the earlier ones were lost with the previous manager",
-             findings.facts.world_from)});
+             results.facts.world_from)});
   }
-  if (has_radio(findings.spec)) {
-    table.rows.push_back({"messages", radio_line(findings.facts.radio)});
+  if (has_radio(results.spec)) {
+    table.rows.push_back({"messages", radio_line(results.facts.radio)});
   }
-  add_guard_row(findings, table);
-  add_capture_rows(findings, table);
-  if (const auto by_hand = findings.facts.inputs_by_hand; by_hand > 0) {
+  add_guard_row(results, table);
+  add_capture_rows(results, table);
+  if (const auto by_hand = results.facts.inputs_by_hand; by_hand > 0) {
     table.rows.push_back(
         {"changed by people",
          fmt::format("{} inputs; the scenario without them gives another run", by_hand)});
   }
-  add_notes(findings, outcome, table);
+  add_notes(results, outcome, table);
   return render_table(table, {100, false});
 }
 

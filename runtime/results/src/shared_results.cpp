@@ -58,7 +58,7 @@ struct SharedResults::Impl {
   Status add(const SharedHost& host, std::string bytes, std::vector<std::string>& added);
   [[nodiscard]] HostShare share_of(const SharedHost& host) const;
   void fill_in_before(std::uint64_t steps);
-  void take(const SharedHost& host, const std::vector<std::size_t>& robots, Findings& findings);
+  void take(const SharedHost& host, const std::vector<std::size_t>& robots, RunResults& results);
 
   const config::ExpandedScenario& scenario;
   Options options;
@@ -108,7 +108,7 @@ void SharedResults::Impl::note_step(const sim::WorldAuthority& authority) {
   facts.inputs_by_hand += count_by_hand(authority.events());
 }
 
-/// Adds the findings of one process of a host; a repeated copy, by whichever way it came, is
+/// Adds the results of one process of a host; a repeated copy, by whichever way it came, is
 /// ignored.
 Status SharedResults::Impl::add(const SharedHost& host, std::string bytes,
                                 std::vector<std::string>& added) {
@@ -138,7 +138,7 @@ HostShare SharedResults::Impl::share_of(const SharedHost& host) const {
 }
 
 void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::size_t>& robots,
-                               Findings& findings) {
+                               RunResults& results) {
   HostShare share = share_of(host);
   std::vector<std::string> added;
   for (const auto& folder : host.folders) {
@@ -152,7 +152,7 @@ void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::si
   }
   // Results reach the manager in two ways: in a folder on the same machine, and over the bus. Both
   // may have them.
-  for (const std::vector<std::byte>& bytes : host.findings) {
+  for (const std::vector<std::byte>& bytes : host.results) {
     const Status status =
         add(host, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, added);
     if (status) continue;
@@ -161,16 +161,16 @@ void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::si
   }
   share.found = !added.empty();
   if (!share.found) {
-    findings.lost.resize(spec.robots.size());
-    for (const std::size_t robot : robots) findings.lost[robot] = 1;
-    // The findings of a remote host stay in its own folder if it could not be asked for them.
+    results.lost.resize(spec.robots.size());
+    for (const std::size_t robot : robots) results.lost[robot] = 1;
+    // The results of a remote host stay in its own folder if it could not be asked for them.
     if (!host.folders.empty() || host.awaited) {
       facts.problems.push_back(
           fmt::format("host `{}` {}: nothing is known about its robots here", host.name,
                       host.folders.empty() ? "did not send its results" : "left no results"));
     }
   }
-  findings.hosts.push_back(std::move(share));
+  results.hosts.push_back(std::move(share));
 }
 
 /// If a host saw the whole run, the time before this manager is known as well. `steps` is the
@@ -261,18 +261,18 @@ Result<RunOutcome> SharedResults::write(const SharedEnd& end) {
   facts.problems.insert(facts.problems.begin(), end.problems.begin(), end.problems.end());
   facts.events.insert(facts.events.end(), end.events.begin(), end.events.end());
   facts.lateness += end.lateness;
-  Findings findings{impl.scenario, impl.spec, impl.kinds, impl.live_reason, facts};
+  RunResults results{impl.scenario, impl.spec, impl.kinds, impl.live_reason, facts};
   for (std::size_t h = 0; h < planned.size() && h < end.hosts.size(); ++h) {
-    impl.take(end.hosts[h], planned[h].robots, findings);
+    impl.take(end.hosts[h], planned[h].robots, results);
   }
   if (impl.live_reason.empty()) facts.steps = end.steps;
   impl.fill_in_before(facts.steps);
-  findings.worlds = end.worlds;
-  findings.states = end.states;
-  findings.edits = end.edits;
-  findings.wall_s = end.wall_s;
-  if (!impl.missed_steps) findings.hash = end.hash;
-  return write_results(findings, impl.options.folder, impl.options.picture);
+  results.worlds = end.worlds;
+  results.states = end.states;
+  results.edits = end.edits;
+  results.wall_s = end.wall_s;
+  if (!impl.missed_steps) results.hash = end.hash;
+  return write_results(results, impl.options.folder, impl.options.picture);
 }
 
 }  // namespace rave::runtime

@@ -20,7 +20,7 @@ std::uint64_t count_of(const Json& object, const char* key) {
   return is_count ? found->get<std::uint64_t>() : 0;
 }
 
-std::string loss_of(const Findings& findings, const InstrumentFacts& stream) {
+std::string loss_of(const RunResults& results, const InstrumentFacts& stream) {
   const Json report = Json::parse(stream.report, nullptr, false);
   if (!report.is_object() || !report.contains("dropped")) return {};
   const Json& dropped = report["dropped"];
@@ -33,16 +33,16 @@ std::string loss_of(const Findings& findings, const InstrumentFacts& stream) {
   const bool said = because != dropped.end() && because->is_string() &&
                     !because->get_ref<const std::string&>().empty();
   return fmt::format("sensor `{}` of robot `{}` lost {} of {} readings ({:.1f} %){}", stream.name,
-                     findings.spec.robots[stream.robot].name, count, of, 100 * share,
+                     results.spec.robots[stream.robot].name, count, of, 100 * share,
                      said ? ": " + because->get<std::string>() : "");
 }
 
 }  // namespace
 
-std::vector<std::string> stream_losses(const Findings& findings) {
+std::vector<std::string> stream_losses(const RunResults& results) {
   std::vector<std::string> losses;
-  for (const InstrumentFacts& stream : findings.facts.streams) {
-    if (std::string loss = loss_of(findings, stream); !loss.empty()) {
+  for (const InstrumentFacts& stream : results.facts.streams) {
+    if (std::string loss = loss_of(results, stream); !loss.empty()) {
       losses.push_back(std::move(loss));
     }
   }

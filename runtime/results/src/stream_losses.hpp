@@ -11,6 +11,6 @@ namespace rave::runtime {
 /// One sentence for each sensor of which more than 5 % of the readings were not played or not used
 /// by the driver. Computed from `dropped` in the driver's report: {"count", "of", "because"};
 /// sensors without it are skipped.
-[[nodiscard]] std::vector<std::string> stream_losses(const Findings& findings);
+[[nodiscard]] std::vector<std::string> stream_losses(const RunResults& results);
 
 }  // namespace rave::runtime

@@ -53,7 +53,7 @@ TEST(Facts, OfThisVersionHaveTheBytesOfTheSample) {
       text.size() == bytes.size() && std::memcmp(text.data(), bytes.data(), bytes.size()) == 0;
   EXPECT_TRUE(same) << "another layout needs another version, and a new sample";
   if (same) return;
-  const std::string now = ::testing::TempDir() + "rave-findings-sample.cdr";
+  const std::string now = ::testing::TempDir() + "rave-results-sample.cdr";
   std::ofstream(now, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()),
              static_cast<std::streamsize>(bytes.size()));

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "idl/rave/command.h"
-#include "idl/rave/findings.h"
 #include "idl/rave/host.h"
+#include "idl/rave/host_results.h"
 #include "idl/rave/line.h"
 #include "idl/rave/lock_step.h"
 #include "idl/rave/look.h"
@@ -37,7 +37,7 @@ using ClockPing = rave_wire_ClockPing;
 using ClockPong = rave_wire_ClockPong;
 using LineInfo = rave_wire_LineInfo;
 using LineWithdrawal = rave_wire_LineWithdrawal;
-using FindingsPart = rave_wire_FindingsPart;
+using HostResultsPart = rave_wire_HostResultsPart;
 using Look = rave_wire_Look;
 using Readings = rave_wire_Readings;
 using RunEvents = rave_wire_RunEvents;
@@ -133,8 +133,8 @@ inline TopicSpec topic_of<LineWithdrawal>() {
   return {"rave/withdrawal", &rave_wire_LineWithdrawal_desc, kDurable};
 }
 template <>
-inline TopicSpec topic_of<FindingsPart>() {
-  return {"rave/findings", &rave_wire_FindingsPart_desc, kDurable};
+inline TopicSpec topic_of<HostResultsPart>() {
+  return {"rave/host_results", &rave_wire_HostResultsPart_desc, kDurable};
 }
 template <>
 inline TopicSpec topic_of<Look>() {

@@ -32,7 +32,7 @@ inline constexpr double kMaxTurn_radps = 1e4;
 [[nodiscard]] Status validate(const ProcessState& sample);
 [[nodiscard]] Status validate(const ClockPing& sample);
 [[nodiscard]] Status validate(const ClockPong& sample);
-[[nodiscard]] Status validate(const FindingsPart& sample);
+[[nodiscard]] Status validate(const HostResultsPart& sample);
 [[nodiscard]] Status validate(const Look& sample);
 [[nodiscard]] Status validate(const Readings& sample);
 [[nodiscard]] Status validate(const RunEvents& sample);

@@ -36,8 +36,8 @@ struct HostOptions {
   bus::OnCommand on_command;  ///< The same of commands, in real time; in lock-step the manager's.
 };
 
-/// How it ended for this host. It leaves result.json, events.log, scenario.yaml, findings.cdr (of
-/// which the results of the whole run are made, SharedResults) and run.mcap, whose percepts and
+/// How it ended for this host. It leaves result.json, events.log, scenario.yaml, facts.cdr
+/// (of which the results of the whole run are made, SharedResults) and run.mcap, whose percepts and
 /// commands are of its robots, and whose poses are of all.
 struct HostOutcome {
   bool whole = false;       ///< It took part from the first step to the last, and lost no driver.

@@ -13,7 +13,7 @@
 #include "rave/bus/request_book.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/control/run_control.hpp"
-#include "rave/protocol/findings.hpp"
+#include "rave/protocol/host_results.hpp"
 #include "rave/protocol/introduction.hpp"
 #include "rave/sim/engine_spec.hpp"
 #include "rave/sim/event.hpp"
@@ -89,7 +89,7 @@ struct LiveManagerOutcome {
   std::vector<std::string> problems;  ///< What else is wrong, one sentence each.
   /// What processes of hosts have sent of what they know; of all that were there at the end if
   /// `saw_off`: this manager stayed until the hosts had gone.
-  std::vector<lock_step::Findings> findings;
+  std::vector<lock_step::HostResults> host_results;
   bool saw_off = false;
 };
 

@@ -15,7 +15,7 @@
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/control/run_control.hpp"
 #include "rave/pace/lateness.hpp"
-#include "rave/protocol/findings.hpp"
+#include "rave/protocol/host_results.hpp"
 #include "rave/protocol/introduction.hpp"
 #include "rave/sim/engine_spec.hpp"
 #include "rave/sim/world_authority.hpp"
@@ -71,7 +71,7 @@ struct ManagerOutcome {
   double wall_s = 0;                  ///< From the first step to the last.
   std::vector<std::string> problems;  ///< One sentence each; empty if all is well.
   /// What processes of hosts have sent of what they know, by host.
-  std::vector<lock_step::Findings> findings;
+  std::vector<lock_step::HostResults> host_results;
 };
 
 /// Holds the world of a run for its hosts, from the first report to the last step, in the calling

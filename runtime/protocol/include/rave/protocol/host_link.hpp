@@ -99,10 +99,10 @@ class HostLink {
   /// is told if that has increased.
   void obstacles_shown();
 
-  /// Sends the findings of this host to the Environment Manager once, at the end of the run, and
-  /// waits for the acknowledgement, ten seconds at most. No effect without a manager, or before the
-  /// start. Errors: those of lock_step::FindingsSender::send().
-  [[nodiscard]] Status deliver(std::span<const std::byte> findings);
+  /// Sends the results of this host to the Environment Manager once, at the end of the run,
+  /// and waits for the acknowledgement, ten seconds at most. No effect without a manager, or before
+  /// the start. Errors: those of lock_step::HostResultsSender::send().
+  [[nodiscard]] Status deliver(std::span<const std::byte> host_results);
 
   /// Changes of realities that hosts published since the last call; see Options::host_of.
   [[nodiscard]] std::vector<RobotReality> take_realities();

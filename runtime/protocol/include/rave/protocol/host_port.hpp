@@ -87,10 +87,10 @@ class HostPort {
   /// has failed.
   void farewell(const sim::HostReport& report, std::uint64_t hash);
 
-  /// Sends the findings of this host to the Environment Manager once, at the end of the run, and
-  /// waits for the acknowledgement, ten seconds at most. No effect for a host that never took part.
-  /// Errors: those of FindingsSender::send().
-  [[nodiscard]] Status deliver(std::span<const std::byte> findings);
+  /// Sends the results of this host to the Environment Manager once, at the end of the run,
+  /// and waits for the acknowledgement, ten seconds at most. No effect for a host that never took
+  /// part. Errors: those of HostResultsSender::send().
+  [[nodiscard]] Status deliver(std::span<const std::byte> host_results);
 
  private:
   struct Impl;

@@ -13,7 +13,7 @@
 namespace rave::runtime {
 
 /// Name of the file with a host's facts in its folder, for the results of the whole run.
-inline constexpr const char* kFactsFile = "findings.cdr";
+inline constexpr const char* kFactsFile = "results.cdr";
 
 /// The run and host of facts.
 struct FactsOf {

@@ -26,7 +26,7 @@ struct HostShare {
 };
 
 /// All inputs of the results of a run after its end.
-struct Findings {
+struct RunResults {
   const config::ExpandedScenario& scenario;
   const sim::EngineSpec& spec;  ///< Its world is that at the end.
   const BodyKinds& kinds;
@@ -52,26 +52,26 @@ struct Findings {
 
 /// How often guards acted, by robot and action, such as `slowed by fence`.
 using GuardCounts = std::map<std::string, std::map<std::string, std::size_t>>;
-[[nodiscard]] GuardCounts guard_counts(const Findings& findings);
+[[nodiscard]] GuardCounts guard_counts(const RunResults& results);
 
 /// Evaluates the run: completeness, checks, hash.
-[[nodiscard]] RunOutcome judge(const Findings& findings);
+[[nodiscard]] RunOutcome judge(const RunResults& results);
 
 /// Why there is no run hash; empty if there is one.
-[[nodiscard]] std::string why_no_hash(const Findings& findings, const RunOutcome& outcome);
+[[nodiscard]] std::string why_no_hash(const RunResults& results, const RunOutcome& outcome);
 
 /// The content of result.json.
-[[nodiscard]] std::string result_json(const Findings& findings, const RunOutcome& outcome);
+[[nodiscard]] std::string result_json(const RunResults& results, const RunOutcome& outcome);
 
 /// The table of the summary for a terminal.
-[[nodiscard]] std::string summary_text(const Findings& findings, const RunOutcome& outcome);
+[[nodiscard]] std::string summary_text(const RunResults& results, const RunOutcome& outcome);
 
 /// The picture of the run.
-[[nodiscard]] report::Picture make_picture(const Findings& findings, const RunOutcome& outcome);
+[[nodiscard]] report::Picture make_picture(const RunResults& results, const RunOutcome& outcome);
 
 /// Evaluates the run and writes result.json, summary.txt, events.log and, if requested, the
 /// pictures.
-[[nodiscard]] Result<RunOutcome> write_results(const Findings& findings,
+[[nodiscard]] Result<RunOutcome> write_results(const RunResults& results,
                                                const std::filesystem::path& folder, bool picture);
 
 }  // namespace rave::runtime

@@ -27,7 +27,7 @@ struct SharedHost {
   /// Its result folders, one per start; empty: it runs on another machine.
   std::vector<std::filesystem::path> folders;
   /// The facts that its processes have sent: the same bytes as in its folders.
-  std::vector<std::vector<std::byte>> findings;
+  std::vector<std::vector<std::byte>> results;
   bool awaited = false;  ///< The run has waited for its facts.
   // In real time:
   std::optional<double> offset_s;  ///< Offset of its clock relative to the manager's.

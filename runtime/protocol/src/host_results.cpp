@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rave/protocol/findings.hpp"
+#include "rave/protocol/host_results.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -16,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kPart = rave_wire_kMaxFindingsPart;
+constexpr std::size_t kPart = rave_wire_kMaxHostResultsPart;
 
 Status too_late(Duration patience) {
   return fail(ErrorCode::kTimeout, "the environment manager did not accept them within {} s",
@@ -31,22 +31,22 @@ Status nobody(bool listened) {
 
 }  // namespace
 
-Result<FindingsSender> FindingsSender::create(bus::Bus& bus) {
-  RAVE_TRY_ASSIGN(auto writer, bus::Writer<bus::FindingsPart>::create(bus));
-  return FindingsSender(std::move(writer));
+Result<HostResultsSender> HostResultsSender::create(bus::Bus& bus) {
+  RAVE_TRY_ASSIGN(auto writer, bus::Writer<bus::HostResultsPart>::create(bus));
+  return HostResultsSender(std::move(writer));
 }
 
-Status FindingsSender::send(std::uint32_t host, std::span<const std::byte> bytes,
-                            Duration patience) {
+Status HostResultsSender::send(std::uint32_t host, std::span<const std::byte> bytes,
+                               Duration patience) {
   // Remembered before sending, so that the error can tell a manager that was lost meanwhile from
   // one that was never there.
   const bool listened = readers() > 0;
-  if (bytes.empty() || bytes.size() > kMostFindings) {
+  if (bytes.empty() || bytes.size() > kMostHostResults) {
     return fail(ErrorCode::kInvalidArgument, "they have {} bytes; at most {} can be sent",
-                bytes.size(), kMostFindings);
+                bytes.size(), kMostHostResults);
   }
   const auto end = Clock::now() + std::chrono::nanoseconds(patience.ns);
-  bus::FindingsPart part{};
+  bus::HostResultsPart part{};
   part.host = host;
   part.size = bytes.size();
   // The hash is of all bytes and the same in each part. Parts of two attempts of one process can
@@ -81,7 +81,7 @@ Status FindingsSender::send(std::uint32_t host, std::span<const std::byte> bytes
   return fail(ErrorCode::kIo, "their arrival was not confirmed: {}", dds_strretcode(confirmed));
 }
 
-Status FindingsParts::add(const bus::FindingsPart& part) {
+Status HostResultsParts::add(const bus::HostResultsPart& part) {
   // A writer that repeats its parts after completion would otherwise be collected a second time.
   if (done_.contains(part.writer)) return {};
   const auto [place, is_new] = partial_.try_emplace(part.writer);
@@ -107,32 +107,33 @@ Status FindingsParts::add(const bus::FindingsPart& part) {
   return finish(part.writer, std::move(all));
 }
 
-Status FindingsParts::finish(std::uint64_t writer, Partial partial) {
+Status HostResultsParts::finish(std::uint64_t writer, Partial partial) {
   // Also if the checksum is wrong: the same process cannot send better bytes later, and the manager
   // must not wait for it.
   done_.insert(writer);
-  Findings findings{writer, partial.host, {}};
-  findings.bytes.reserve(partial.size);
+  HostResults host_results{writer, partial.host, {}};
+  host_results.bytes.reserve(partial.size);
   for (const auto& [number, bytes] : partial.parts) {
-    findings.bytes.insert(findings.bytes.end(), bytes.begin(), bytes.end());
+    host_results.bytes.insert(host_results.bytes.end(), bytes.begin(), bytes.end());
   }
-  if (findings.bytes.size() != partial.size || content_hash(findings.bytes) != partial.hash) {
+  if (host_results.bytes.size() != partial.size ||
+      content_hash(host_results.bytes) != partial.hash) {
     return fail(ErrorCode::kParse, "the results of host {} do not match their checksum",
                 partial.host);
   }
-  whole_.push_back(std::move(findings));
+  whole_.push_back(std::move(host_results));
   return {};
 }
 
-std::vector<Findings> FindingsParts::hand_out() { return std::exchange(whole_, {}); }
+std::vector<HostResults> HostResultsParts::hand_out() { return std::exchange(whole_, {}); }
 
-Result<FindingsCollector> FindingsCollector::create(bus::Bus& bus) {
-  RAVE_TRY_ASSIGN(auto reader, bus::Reader<bus::FindingsPart>::create(bus));
-  return FindingsCollector(std::move(reader));
+Result<HostResultsCollector> HostResultsCollector::create(bus::Bus& bus) {
+  RAVE_TRY_ASSIGN(auto reader, bus::Reader<bus::HostResultsPart>::create(bus));
+  return HostResultsCollector(std::move(reader));
 }
 
-void FindingsCollector::take(const std::function<bool(std::uint64_t, std::uint32_t)>& sat) {
-  const auto hear = [&](const bus::FindingsPart& part) {
+void HostResultsCollector::take(const std::function<bool(std::uint64_t, std::uint32_t)>& sat) {
+  const auto hear = [&](const bus::HostResultsPart& part) {
     if (!sat(part.writer, part.host)) {
       reader_.refuse(part, fmt::format("it is not a process of host {} of this run", part.host));
       return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Findings that go from one process to another.
+// HostResults that go from one process to another.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -9,9 +9,9 @@
 #include <span>
 #include <string>
 
-#include "made_findings.hpp"
+#include "made_host_results.hpp"
 #include "peer_process.hpp"
-#include "rave/protocol/findings.hpp"
+#include "rave/protocol/host_results.hpp"
 
 namespace rave::lock_step {
 namespace {
@@ -20,7 +20,7 @@ using bus::testing::eventually;
 using bus::testing::PeerProcess;
 using bus::testing::TestDomain;
 using testing::kMuch;
-using testing::made_findings;
+using testing::made_host_results;
 using testing::whole_line;
 
 constexpr const char* kProgram = "peer_lock_step";
@@ -32,13 +32,13 @@ constexpr std::chrono::seconds kFarMoreThanTold{60};
 /// A host of the test's own process.
 struct Host {
   std::unique_ptr<bus::Bus> bus;
-  std::optional<FindingsSender> sender;
+  std::optional<HostResultsSender> sender;
 
   explicit Host(const TestDomain& domain) {
     auto opened = bus::Bus::open(domain.config("host"));
     if (!opened) return;
     bus = *std::move(opened);
-    if (auto created = FindingsSender::create(*bus)) sender.emplace(*std::move(created));
+    if (auto created = HostResultsSender::create(*bus)) sender.emplace(*std::move(created));
   }
   [[nodiscard]] bool meets(std::size_t managers) const {
     return sender && eventually([&] { return sender->readers() == managers; });
@@ -54,20 +54,20 @@ struct Host {
   }
 };
 
-TEST(FindingsProcesses, SendMoreThanAWriterMayHold) {
+TEST(HostResultsProcesses, SendMoreThanAWriterMayHold) {
   const TestDomain domain;
   PeerProcess manager(domain, "collect", "manager", {}, kProgram);
   ASSERT_EQ(manager.line(), "ready");
   Host host(domain);
   ASSERT_TRUE(host.meets(1));
-  const auto bytes = made_findings(3, kMuch);
+  const auto bytes = made_host_results(3, kMuch);
   const Status sent = host.sender->send(3, bytes, from_seconds(bus::testing::kPatience_s));
   EXPECT_TRUE(sent) << sent.error().text();
   EXPECT_EQ(manager.line(), whole_line(3, bytes));
   EXPECT_EQ(manager.end(), 0);
 }
 
-TEST(FindingsProcesses, AManagerThatStandsHoldsUpNobodyForLongerThanTold) {
+TEST(HostResultsProcesses, AManagerThatStandsHoldsUpNobodyForLongerThanTold) {
   const TestDomain domain;
   PeerProcess stuck(domain, "collect", "stuck", {kLongLease}, kProgram);
   PeerProcess manager(domain, "collect", "manager", {}, kProgram);
@@ -79,34 +79,34 @@ TEST(FindingsProcesses, AManagerThatStandsHoldsUpNobodyForLongerThanTold) {
   ASSERT_EQ(other.line(), "met");
   stuck.pause();
   other.poke();
-  const auto bytes = made_findings(3, 1'000'000);
+  const auto bytes = made_host_results(3, 1'000'000);
   host.expect_gives_up(bytes);
   EXPECT_EQ(other.line(), "the environment manager did not accept them within 2 s");
   // Who goes on has what all hosts know.
   const std::set<std::string> has = {manager.line(), manager.line()};
   const std::set<std::string> expected = {whole_line(3, bytes),
-                                          whole_line(4, made_findings(4, 300'000))};
+                                          whole_line(4, made_host_results(4, 300'000))};
   EXPECT_EQ(has, expected);
   EXPECT_EQ(manager.end(), 0);
 }
 
-TEST(FindingsProcesses, AManagerThatStandsIsNotWaitedForWithWhatIsMoreThanAWriterMayHold) {
+TEST(HostResultsProcesses, AManagerThatStandsIsNotWaitedForWithWhatIsMoreThanAWriterMayHold) {
   const TestDomain domain;
   PeerProcess stuck(domain, "collect", "stuck", {kLongLease}, kProgram);
   ASSERT_EQ(stuck.line(), "ready");
   Host host(domain);
   ASSERT_TRUE(host.meets(1));
   stuck.pause();
-  host.expect_gives_up(made_findings(3, kMuch));
+  host.expect_gives_up(made_host_results(3, kMuch));
 }
 
-TEST(FindingsProcesses, AManagerThatDiesMeanwhileIsNotWaitedFor) {
+TEST(HostResultsProcesses, AManagerThatDiesMeanwhileIsNotWaitedFor) {
   const TestDomain domain;
   PeerProcess manager(domain, "collect", "manager", {"lease_s=10"}, kProgram);
   ASSERT_EQ(manager.line(), "ready");
   Host host(domain);
   ASSERT_TRUE(host.meets(1));
-  const auto bytes = made_findings(3, kMuch);
+  const auto bytes = made_host_results(3, kMuch);
   // It is missed when its lease has run out, in the middle of what it should have taken.
   manager.kill();
   // A patience that no test survives: it is the loss of the manager that ends this.
@@ -116,17 +116,17 @@ TEST(FindingsProcesses, AManagerThatDiesMeanwhileIsNotWaitedFor) {
   EXPECT_EQ(sent.error().message, "the environment manager was lost before it had received them");
 }
 
-TEST(FindingsProcesses, WithoutAManagerAreNotSent) {
+TEST(HostResultsProcesses, WithoutAManagerAreNotSent) {
   const TestDomain domain;
   Host host(domain);
   ASSERT_TRUE(host.meets(0));
-  const Status sent = host.sender->send(3, made_findings(3, kMuch), from_seconds(3600));
+  const Status sent = host.sender->send(3, made_host_results(3, kMuch), from_seconds(3600));
   ASSERT_FALSE(sent);
   EXPECT_EQ(sent.error().code, ErrorCode::kState);
   EXPECT_EQ(sent.error().message, "there is no environment manager to receive them");
 }
 
-TEST(FindingsProcesses, OfAHostThatDiesDoNotKeepThoseOfAnother) {
+TEST(HostResultsProcesses, OfAHostThatDiesDoNotKeepThoseOfAnother) {
   const TestDomain domain;
   PeerProcess manager(domain, "collect", "manager", {}, kProgram);
   ASSERT_EQ(manager.line(), "ready");
@@ -140,11 +140,11 @@ TEST(FindingsProcesses, OfAHostThatDiesDoNotKeepThoseOfAnother) {
   }
   Host host(domain);
   ASSERT_TRUE(host.meets(1));
-  const auto bytes = made_findings(3, kMuch);
+  const auto bytes = made_host_results(3, kMuch);
   const Status sent = host.sender->send(3, bytes, from_seconds(bus::testing::kPatience_s));
   EXPECT_TRUE(sent) << sent.error().text();
   // Those of the other come whole or not at all.
-  const std::string others = whole_line(4, made_findings(4, kMuch));
+  const std::string others = whole_line(4, made_host_results(4, kMuch));
   std::string line = manager.line();
   if (line == others) line = manager.line();
   EXPECT_EQ(line, whole_line(3, bytes));

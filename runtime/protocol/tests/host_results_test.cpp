@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rave/protocol/findings.hpp"
+#include "rave/protocol/host_results.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,13 +12,13 @@
 namespace rave::lock_step {
 namespace {
 
-constexpr std::size_t kPart = rave_wire_kMaxFindingsPart;
+constexpr std::size_t kPart = rave_wire_kMaxHostResultsPart;
 
 /// What a host would send, cut as it cuts it.
 struct Sent {
   std::vector<std::byte> bytes;
   std::vector<std::vector<std::uint8_t>> pieces;
-  std::vector<bus::FindingsPart> parts;
+  std::vector<bus::HostResultsPart> parts;
 
   Sent(std::uint64_t writer, std::uint32_t host, std::size_t size) : bytes(size) {
     for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<std::byte>(i * 7 + host);
@@ -29,7 +29,7 @@ struct Sent {
       }
     }
     for (std::size_t p = 0; p < pieces.size(); ++p) {
-      bus::FindingsPart& part = parts.emplace_back();
+      bus::HostResultsPart& part = parts.emplace_back();
       part.writer = writer;
       part.part = static_cast<std::uint32_t>(p);
       part.host = host;
@@ -42,11 +42,11 @@ struct Sent {
   Sent& operator=(const Sent&) = delete;
 };
 
-TEST(Findings, ComeTogetherInAnyOrderAndOnce) {
+TEST(HostResults, ComeTogetherInAnyOrderAndOnce) {
   const Sent one(11, 0, 2 * kPart + 5);
   const Sent two(12, 1, 3);
-  FindingsParts parts;
-  for (const bus::FindingsPart& part : one.parts) EXPECT_TRUE(bus::validate(part));
+  HostResultsParts parts;
+  for (const bus::HostResultsPart& part : one.parts) EXPECT_TRUE(bus::validate(part));
   EXPECT_TRUE(parts.add(one.parts[2]));
   EXPECT_TRUE(parts.add(one.parts[2])) << "twice is once";
   EXPECT_TRUE(parts.add(two.parts[0]));
@@ -65,10 +65,10 @@ TEST(Findings, ComeTogetherInAnyOrderAndOnce) {
   EXPECT_TRUE(parts.hand_out().empty());
 }
 
-TEST(Findings, OfWhichAByteIsAnotherAreRefused) {
+TEST(HostResults, OfWhichAByteIsAnotherAreRefused) {
   Sent sent(11, 4, kPart + 9);
   sent.pieces[1][3] ^= 1;
-  FindingsParts parts;
+  HostResultsParts parts;
   EXPECT_TRUE(parts.add(sent.parts[0]));
   const Status last = parts.add(sent.parts[1]);
   ASSERT_FALSE(last);
@@ -77,9 +77,9 @@ TEST(Findings, OfWhichAByteIsAnotherAreRefused) {
   EXPECT_TRUE(parts.hand_out().empty());
 }
 
-TEST(Findings, ThatContradictThemselvesAreRefused) {
+TEST(HostResults, ThatContradictThemselvesAreRefused) {
   Sent sent(11, 4, kPart + 9);
-  FindingsParts parts;
+  HostResultsParts parts;
   EXPECT_TRUE(parts.add(sent.parts[0]));
   sent.parts[1].host = 5;
   const Status other = parts.add(sent.parts[1]);
@@ -90,13 +90,13 @@ TEST(Findings, ThatContradictThemselvesAreRefused) {
   EXPECT_EQ(parts.hand_out().size(), 1U);
 }
 
-TEST(Findings, AreAsLongAsTheySay) {
+TEST(HostResults, AreAsLongAsTheySay) {
   Sent sent(11, 0, kPart + 9);
-  const auto reason = [](const bus::FindingsPart& part) {
+  const auto reason = [](const bus::HostResultsPart& part) {
     const Status status = bus::validate(part);
     return status ? "accepted" : status.error().message;
   };
-  bus::FindingsPart part = sent.parts[1];
+  bus::HostResultsPart part = sent.parts[1];
   EXPECT_EQ(reason(part), "accepted");
   part.part = 2;
   EXPECT_EQ(reason(part), "part is 2, but 262153 bytes have 2 parts");
@@ -104,7 +104,7 @@ TEST(Findings, AreAsLongAsTheySay) {
   EXPECT_EQ(reason(part), "bytes has 9 entries in part 0, not 262144");
   part.size = 0;
   EXPECT_NE(reason(part).find("size is 0"), std::string::npos) << reason(part);
-  part.size = kMostFindings + 1;
+  part.size = kMostHostResults + 1;
   EXPECT_NE(reason(part).find("size is 268435457"), std::string::npos) << reason(part);
   part = sent.parts[1];
   part.writer = 0;

@@ -18,52 +18,54 @@
 
 namespace rave::lock_step {
 
-/// Limit of the findings of one host, in bytes.
-inline constexpr std::uint64_t kMostFindings =
-    std::uint64_t{rave_wire_kMaxFindingsPart} * rave_wire_kMaxFindingsParts;
+/// Limit of the results of one host, in bytes.
+inline constexpr std::uint64_t kMostHostResults =
+    std::uint64_t{rave_wire_kMaxHostResultsPart} * rave_wire_kMaxHostResultsParts;
 
-/// How long a host waits until a manager has received its findings, after it has written its own
-/// files. A manager waits for present hosts for 20 s from the end of the run.
-inline constexpr Duration kFindingsPatience{10'000'000'000};
+/// How long a host waits until a manager has received its results, after it has written its
+/// own files. A manager waits for present hosts for 20 s from the end of the run.
+inline constexpr Duration kHostResultsPatience{10'000'000'000};
 
 /// The results of one process of a run after its end, as bytes for the results of the whole run.
-struct Findings {
+struct HostResults {
   std::uint64_t writer = 0;
   std::uint32_t host = 0;  ///< Number of the host in the scenario.
   std::vector<std::byte> bytes;
 };
 
-/// The host's side of the topic rave/findings. Destroy it before its bus; thread: that of the bus.
-class FindingsSender {
+/// The host's side of the topic rave/host_results. Destroy it before its bus; thread: that of the
+/// bus.
+class HostResultsSender {
  public:
   /// Errors: those of bus::Writer::create().
-  [[nodiscard]] static Result<FindingsSender> create(bus::Bus& bus);
+  [[nodiscard]] static Result<HostResultsSender> create(bus::Bus& bus);
 
-  /// Sends the findings once, and waits until all present managers have acknowledged them, at most
-  /// for `patience`. Errors: kInvalidArgument (empty, or more than kMostFindings), kTimeout (a
-  /// receiver does not keep up), kState (no receiver, or it has left).
+  /// Sends the results once, and waits until all present managers have acknowledged them, at
+  /// most for `patience`. Errors: kInvalidArgument (empty, or more than kMostHostResults), kTimeout
+  /// (a receiver does not keep up), kState (no receiver, or it has left).
   [[nodiscard]] Status send(std::uint32_t host, std::span<const std::byte> bytes,
                             Duration patience);
   /// The number of managers that listen.
   [[nodiscard]] std::size_t readers() const { return writer_.readers(); }
 
  private:
-  explicit FindingsSender(bus::Writer<bus::FindingsPart> writer) : writer_(std::move(writer)) {}
+  explicit HostResultsSender(bus::Writer<bus::HostResultsPart> writer)
+      : writer_(std::move(writer)) {}
 
-  bus::Writer<bus::FindingsPart> writer_;
+  bus::Writer<bus::HostResultsPart> writer_;
 };
 
-/// Assembles findings from their parts. Independent of the bus.
-class FindingsParts {
+/// Assembles results from their parts. Independent of the bus.
+class HostResultsParts {
  public:
   /// Adds a part that has passed validate(). Duplicates and out-of-range parts are ignored. Errors:
   /// kInvalidArgument (it contradicts an earlier part of the same process), kParse (all parts are
   /// present but the checksum does not match; further parts of that process are dropped).
-  [[nodiscard]] Status add(const bus::FindingsPart& part);
-  /// Whether the findings of a process are complete, or can never be.
+  [[nodiscard]] Status add(const bus::HostResultsPart& part);
+  /// Whether the results of a process are complete, or can never be.
   [[nodiscard]] bool done_with(std::uint64_t writer) const { return done_.contains(writer); }
-  /// The completed findings, in order of completion; each is returned once.
-  [[nodiscard]] std::vector<Findings> hand_out();
+  /// The completed results, in order of completion; each is returned once.
+  [[nodiscard]] std::vector<HostResults> hand_out();
 
  private:
   struct Partial {
@@ -76,27 +78,28 @@ class FindingsParts {
 
   std::map<std::uint64_t, Partial> partial_;  ///< By process.
   std::set<std::uint64_t> done_;
-  std::vector<Findings> whole_;
+  std::vector<HostResults> whole_;
 };
 
 /// The manager's side. Destroy it before its bus; thread: that of the bus.
-class FindingsCollector {
+class HostResultsCollector {
  public:
   /// Errors: those of bus::Reader::create().
-  [[nodiscard]] static Result<FindingsCollector> create(bus::Bus& bus);
+  [[nodiscard]] static Result<HostResultsCollector> create(bus::Bus& bus);
   [[nodiscard]] Status wake(bus::WaitSet& waits) { return waits.add(reader_); }
 
   /// Receives parts. Those of a process for which `sat(writer, host)` is false, because it did not
   /// have the place of this host, are refused.
   void take(const std::function<bool(std::uint64_t, std::uint32_t)>& sat);
   [[nodiscard]] bool done_with(std::uint64_t writer) const { return parts_.done_with(writer); }
-  [[nodiscard]] std::vector<Findings> hand_out() { return parts_.hand_out(); }
+  [[nodiscard]] std::vector<HostResults> hand_out() { return parts_.hand_out(); }
 
  private:
-  explicit FindingsCollector(bus::Reader<bus::FindingsPart> reader) : reader_(std::move(reader)) {}
+  explicit HostResultsCollector(bus::Reader<bus::HostResultsPart> reader)
+      : reader_(std::move(reader)) {}
 
-  bus::Reader<bus::FindingsPart> reader_;
-  FindingsParts parts_;
+  bus::Reader<bus::HostResultsPart> reader_;
+  HostResultsParts parts_;
 };
 
 }  // namespace rave::lock_step

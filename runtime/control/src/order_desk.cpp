@@ -39,8 +39,8 @@ Status OrderDesk::check_rate(const std::string& robot, Time now) {
   }
   bucket.since = now;
   if (bucket.left < 1) {
-    return fail(ErrorCode::kState, "robot `{}`: more than {} orders in a second", robot,
-                kMostInSecond);
+    return fail(ErrorCode::kState, "robot `{}`: more than {} orders in a second",
+                robot.substr(0, robot.find('\n')), kMostInSecond);
   }
   bucket.left -= 1;
   return {};
@@ -81,7 +81,13 @@ Result<std::string> OrderDesk::serve(const RunRequest& request, const Give& give
   if (for_all && !request.by.empty() && !request.overrides) {
     return fail(ErrorCode::kState, "only a super-user can cancel the orders of all robots");
   }
-  RAVE_TRY(check_rate(request.robot, now));
+  const bool of_lease =
+      request.kind == RunRequest::Kind::kTake || request.kind == RunRequest::Kind::kGive;
+  // What others send to a robot that somebody drives must not use up what its driver may send.
+  if (!of_lease && !request.robot.empty()) {
+    RAVE_TRY(leases_.use(request.robot, person_of(request), HostLeases::Use::kLook, now));
+  }
+  RAVE_TRY(check_rate(of_lease ? request.robot + "\n" : request.robot, now));
   Result<std::string> answer;
   if (request.kind == RunRequest::Kind::kTake) {
     if (!request.value.empty() && request.value != "force") {

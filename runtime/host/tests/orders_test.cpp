@@ -97,6 +97,13 @@ TEST(OrderDesk, ASilentDriverLetsTheRobotStandAndLosesItLater) {
   EXPECT_EQ(office.serve(drive("bert", 0.1)), "done");
 }
 
+TEST(OrderDesk, AFloodOfOthersTakesNothingFromTheDriver) {
+  Office office;
+  EXPECT_EQ(office.serve(drive("anna", 0.3)), "done");
+  for (int i = 0; i < 1000; ++i) EXPECT_EQ(office.serve(drive("bert", 0.1)), "`anna` drives r1");
+  EXPECT_EQ(office.serve(drive("anna", 0.2)), "done");
+}
+
 TEST(OrderDesk, AStickAtRestKeepsTheRobot) {
   Office office;
   for (int i = 0; i < 300; ++i) {

@@ -36,7 +36,7 @@ struct HostOptions {
   bus::OnCommand on_command;  ///< The same of commands, in real time; in lock-step the manager's.
 };
 
-/// How it ended for this host. It leaves result.json, events.log, scenario.yaml, facts.cdr
+/// How it ended for this host. It leaves result.json, events.log, scenario.yaml, results.cdr
 /// (of which the results of the whole run are made, SharedResults) and run.mcap, whose percepts and
 /// commands are of its robots, and whose poses are of all.
 struct HostOutcome {

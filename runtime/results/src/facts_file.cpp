@@ -10,7 +10,7 @@
 namespace rave::runtime {
 namespace {
 
-constexpr const char* kMark = "rave results";
+constexpr const char* kMark = "rave findings";
 constexpr std::uint32_t kVersion = 3;
 
 /// The list of members and their order, used for reading and writing: each member is passed to

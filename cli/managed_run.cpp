@@ -67,7 +67,7 @@ bool resumes(const ManagedRun& run) {
 void take_host_results(std::vector<lock_step::HostResults> host_results, ManagedEnd& end) {
   for (lock_step::HostResults& sent : host_results) {
     if (sent.host >= end.end.hosts.size()) continue;
-    end.end.hosts[sent.host].host_results.push_back(std::move(sent.bytes));
+    end.end.hosts[sent.host].results.push_back(std::move(sent.bytes));
   }
 }
 

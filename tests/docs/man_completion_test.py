@@ -5,6 +5,7 @@
     tests/docs/man_completion_test.py --rave PROGRAM
 """
 import argparse
+import json
 import os
 import pathlib
 import re
@@ -17,6 +18,14 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 TOOL = ROOT / "tools/docs/command_docs.py"
 RAVE = None
+ARENA = """\
+name: arena
+duration_s: 600
+robots:
+  - name: r
+    pose: {x_m: 0, y_m: 0}
+    robot: {body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}}
+"""
 
 
 def output_of(*command, **more):
@@ -41,8 +50,9 @@ class CommandDocs(unittest.TestCase):
         script = (f"source '{self.bash}'; COMP_WORDS=({line}); COMP_CWORD={len(words) - 1}; "
                   "_rave; printf '%s\\n' \"${COMPREPLY[@]}\"")
         path = f"{RAVE.parent}:{os.environ['PATH']}"
-        return set(output_of("bash", "-c", script, env=dict(os.environ, PATH=path),
-                             cwd=self.folder).split())
+        # A folder for the sockets of runs apart from that of the user, whose runs are none of ours.
+        env = dict(os.environ, PATH=path, XDG_RUNTIME_DIR=str(self.folder))
+        return set(output_of("bash", "-c", script, env=env, cwd=self.folder).split())
 
     def test_every_command_has_a_page(self):
         listed = output_of(RAVE, "--help").partition("\nExamples:")[0]
@@ -90,6 +100,28 @@ class CommandDocs(unittest.TestCase):
         self.assertEqual(self.complete("rave", "edit", "add", ""), {"box", "disc", "polygon"})
         self.assertEqual(self.complete("rave", "run", "--pace", "r"), {"realtime"})
         self.assertEqual(self.complete("rave", "bench", "swarm", "--workload", ""), {"A", "B"})
+
+    def test_completes_drivers_and_not_what_they_contain(self):
+        offered = self.complete("rave", "describe", "r")
+        drivers = json.loads(output_of(RAVE, "drivers", "--json"))["drivers"]
+        self.assertEqual(offered, {d["name"] for d in drivers if d["name"].startswith("r")})
+
+    def test_completes_runs_and_not_the_table_around_them(self):
+        (self.folder / "arena.yaml").write_text(ARENA)
+        env = dict(os.environ, XDG_RUNTIME_DIR=str(self.folder))
+        command = [RAVE, "run", "arena.yaml", "--pace", "realtime", "--no-record", "--no-picture",
+                   "--quiet"]
+        with subprocess.Popen(command, cwd=self.folder, env=env, stderr=subprocess.DEVNULL) as run:
+            try:
+                offered = self.complete("rave", "pause", "")
+                for _ in range(200):
+                    if offered or run.poll() is not None:
+                        break
+                    offered = self.complete("rave", "pause", "")
+                self.assertEqual(offered, {f"arena-{run.pid}"})
+                self.assertEqual(self.complete("rave", "pause", "x"), set())
+            finally:
+                run.terminate()
 
 
 if __name__ == "__main__":

@@ -222,10 +222,10 @@ _rave_offer() {
         sed 's|/$||; s|.*/||' | sort -u)" -- "$cur")) ;;
     drivers)
       COMPREPLY=($(compgen -W "$("${COMP_WORDS[0]}" drivers --json 2>/dev/null |
-        sed -n 's/^ *"name": "\([a-z0-9_]*\)".*/\1/p' | sort -u)" -- "$cur")) ;;
+        sed -n 's/^      "name": "\([a-z0-9_]*\)".*/\1/p' | sort -u)" -- "$cur")) ;;
     runs)
       COMPREPLY=($(compgen -W "$("${COMP_WORDS[0]}" ps 2>/dev/null |
-        awk 'NR > 1 { print $1 }')" -- "$cur")) ;;
+        awk 'NR > 2 && $1 == "│" && $2 != "│" { print $2 }' | sort -u)" -- "$cur")) ;;
   esac
 }
 

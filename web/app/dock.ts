@@ -15,18 +15,22 @@ const kVersion = 2;
 export type LayoutName = 'Watch' | 'Drive' | 'Analyse' | 'Conduct';
 export const kLayouts: readonly LayoutName[] = ['Watch', 'Drive', 'Analyse', 'Conduct'];
 
-/** A panel in the dock: makes the element and gives it its context. */
+/** A panel in the dock: makes the element and gives it its context. Without a kind it is an empty place. */
 class DockedPanel implements IContentRenderer {
   readonly element = document.createElement('div');
 
-  constructor(private readonly kind: PanelKind, private readonly context: PanelContext) {
+  constructor(private readonly kind: PanelKind | undefined, private readonly context: PanelContext) {
     this.element.style.height = '100%';
   }
 
   init(_parameters: GroupPanelPartInitParameters): void {
-    const panel = this.kind.make?.() ?? (document.createElement(this.kind.tag) as PanelElement);
+    if (this.kind !== undefined) this.fill(this.kind);
+  }
+
+  fill(kind: PanelKind): void {
+    const panel = kind.make?.() ?? (document.createElement(kind.tag) as PanelElement);
     panel.context = this.context;
-    this.element.append(panel);
+    this.element.replaceChildren(panel);
   }
 }
 
@@ -38,6 +42,8 @@ export class Dock {
   away: KeptWindow[] = [];
   /** `away` is another one. */
   readonly changed = new Signal();
+  /** Places that a kept layout has for panels that are not known, or not yet: the run brings its own along later. */
+  private readonly empty = new Map<string, DockedPanel>();
   private restoring = false;
   /** The page goes, and its windows with it: that is no change of the layout. */
   private leaving = false;
@@ -56,8 +62,9 @@ export class Dock {
       createRightHeaderActionComponent: (group) => new HeaderActions(group, (panel) => void this.moveOut(panel)),
       createComponent: (options) => {
         const kind = kinds().find((known) => known.id === options.name);
-        if (kind === undefined) throw new Error(`unknown panel ${options.name}`); // Caught by restore().
-        return new DockedPanel(kind, context);
+        const docked = new DockedPanel(kind, context);
+        if (kind === undefined) this.empty.set(options.id, docked);
+        return docked;
       },
     });
     this.kept = `${kKept}.${this.width >= 1280 ? 'wide' : this.width >= 900 ? 'middle' : 'narrow'}`;
@@ -125,11 +132,20 @@ export class Dock {
     this.view.dispose();
   }
 
-  /** A panel that came while the page was open, beside the Sensor Display; not where it was closed or kept. */
+  /** A panel that came while the page was open: in the place that was kept for it, otherwise beside the Sensor Display. */
   offer(id: string): void {
+    const kind = this.kinds().find((known) => known.id === id);
+    if (kind !== undefined) this.empty.get(id)?.fill(kind);
+    this.empty.delete(id);
     if (this.view.panels.some((panel) => panel.id === id)) return;
     const beside = this.view.panels.find((panel) => panel.id === 'sensors' || panel.id === 'robot')?.id;
     this.add(id, beside === undefined ? undefined : {referencePanel: beside, direction: 'within'}, {inactive: true});
+  }
+
+  /** Everything that the run brings is here: what is still empty belongs to another run. */
+  closeEmpty(): void {
+    for (const id of this.empty.keys()) this.view.panels.find((panel) => panel.id === id)?.api.close();
+    this.empty.clear();
   }
 
   /** Titles with their numbers, such as `Robots 16`. */
@@ -148,6 +164,7 @@ export class Dock {
     this.away = [];
     this.restoring = true;
     this.view.clear();
+    this.empty.clear();
     this.add('world');
     if (this.width >= 1280) this.layOutWide(layout);
     else if (this.width >= 900) {

@@ -39,7 +39,7 @@ export function renderSeenBy(model: RunModel, back: () => void): TemplateResult 
 
 /** The frame stands at once; the world fills in as it comes. */
 export function renderOpening(): TemplateResult {
-  return html`<div class="opening" role="status"><b>Opening the run</b></div>`;
+  return html`<div class="opening" role="status"><b>Loading the run ...</b></div>`;
 }
 
 /** The server runs, but no run does. The page keeps asking. */

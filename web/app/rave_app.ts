@@ -43,6 +43,8 @@ export class RaveApp extends LitElement {
   private phone = matchMedia(`(max-width: ${kPhone_px - 1}px)`);
   /** Addresses of components that were loaded. */
   private readonly brought = new Set<string>();
+  /** Components that are on their way. */
+  private bringing = 0;
   /** In the hand and low: tools and STOP at the bottom, nothing else. */
   private pen = matchMedia(`(max-width: ${kPhone_px - 1}px) and (max-height: 700px)`);
   private finding = false;
@@ -114,16 +116,21 @@ export class RaveApp extends LitElement {
 
   /** Loads the panels that the run brings along; once, since a module stays. */
   private async bringComponents(): Promise<void> {
-    const named = (this.model.hello?.components ?? []).filter(({url}) => !this.brought.has(url));
-    if (named.length === 0) return;
+    if (this.model.hello === null) return;
+    const named = (this.model.hello.components ?? []).filter(({url}) => !this.brought.has(url));
     for (const {url} of named) this.brought.add(url);
-    const {loadComponents} = await import('./component_loader');
-    for (const component of await loadComponents(named, this.context)) {
-      for (const kind of component.kinds()) {
-        addPanelKind(kind);
-        this.dock?.offer(kind.id);
+    this.bringing += named.length;
+    if (named.length > 0) {
+      const {loadComponents} = await import('./component_loader');
+      for (const component of await loadComponents(named, this.context)) {
+        for (const kind of component.kinds()) {
+          addPanelKind(kind);
+          this.dock?.offer(kind.id);
+        }
       }
     }
+    this.bringing -= named.length;
+    if (this.bringing === 0) this.dock?.closeEmpty();
     this.requestUpdate();
   }
 
@@ -146,6 +153,7 @@ export class RaveApp extends LitElement {
     const keys = (there: Document) => bindKeys(() => this.actions(), there);
     this.dock = new Dock(this.dockHost(place), allPanels, this.context, keys);
     this.dock.changed.on(() => this.requestUpdate());
+    if (this.model.hello !== null && this.bringing === 0) this.dock.closeEmpty();
     if (this.dock.away.length > 0) this.requestUpdate();
   }
 
@@ -292,7 +300,7 @@ export class RaveApp extends LitElement {
       ${this.refusal === '' ? nothing : html`<div class="strip refused" role="alert">${icon('circleX', 16)}<span>${this.refusal}</span>
         <button @click=${() => { this.refusal = ''; this.requestUpdate(); }}>Close</button></div>`}
       ${renderAway(this.dock)}
-      ${model.hello === null && !old ? renderOpening() : nothing}
+      ${!model.rosterCame && !old ? renderOpening() : nothing}
       <main class=${old ? 'old' : ''}>
         ${this.phone.matches ? html`<div class="phone"></div>${this.phonePanel === 'world' && !this.pen.matches ? html`<rave-sheet .context=${this.context}></rave-sheet>` : nothing}` : html`<div class="dock"><slot name="dock"></slot></div>`}
       </main>

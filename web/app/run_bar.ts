@@ -105,8 +105,8 @@ export class RunBar extends LitElement {
         ${button('stepForward', 'One step on (.)', 'step', () => this.stepBy(1))}
         ${replay ? button('skipForward', 'To the end', 'seek', () => this.context.seek(end)) : nothing}
       </div>
-      <div class="clock"><b>${bigClock(nowOf(model))}</b>
-        <span>of ${bigClock(end)} · step ${model.poses.newest?.step ?? model.time?.step ?? 0}</span></div>
+      <div class="clock">${model.time === null ? html`<span>Loading ...</span>` : html`<b>${bigClock(nowOf(model))}</b>
+        <span>of ${bigClock(end)} · step ${model.poses.newest?.step ?? model.time?.step ?? 0}</span>`}</div>
       <rave-timeline .context=${this.context}></rave-timeline>
       ${this.renderPace(replay)}
       <rave-stop .context=${this.context}></rave-stop>`;

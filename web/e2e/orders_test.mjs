@@ -266,6 +266,35 @@ try {
     await page.getByText(/Failed to fetch|error/).first().waitFor();
   });
 
+  await check('a layout that was kept has its component in its place, and outlives a run without it', async () => {
+    const own = await (await browser.newContext({viewport: {width: 1500, height: 950}})).newPage();
+    const errors = [];
+    own.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
+    const kept = () => own.evaluate(() => JSON.parse(localStorage.getItem('rave.layout.wide')).layout);
+    server.run.components = [{name: 'heat', url: 'components/0/heat.js'}];
+    await own.goto(server.origin);
+    await own.locator('.dv-tab', {hasText: 'Heat map'}).waitFor();
+    // Among the tabs of the log, where no layout of the page has it.
+    await own.locator('.dv-tab', {hasText: 'Heat map'}).dragTo(own.locator('.dv-tab', {hasText: 'Log'}));
+    await own.locator('.dv-groupview', {has: own.locator('.dv-tab', {hasText: 'Heat map'})}).locator('.dv-tab', {hasText: 'Log'}).waitFor();
+    const before = Object.keys((await kept()).panels).sort();
+    await own.reload();
+    await own.locator('.dv-groupview', {has: own.locator('.dv-tab', {hasText: 'Heat map'})}).locator('.dv-tab', {hasText: 'Log'}).waitFor();
+    await own.getByText('16 robots are warm').waitFor();
+    assert.deepEqual(Object.keys((await kept()).panels).sort(), before);
+    await own.locator('.dv-tab', {hasText: 'Hosts'}).click();
+    await own.locator('.dv-tab', {hasText: 'Hosts'}).locator('.dv-default-tab-action').click();
+    await own.locator('.dv-tab', {hasText: 'Hosts'}).waitFor({state: 'detached'});
+    server.run.components = [];
+    await own.reload();
+    await until(own, `${app}?.model?.poses?.newest != null`);
+    await own.locator('.dv-tab', {hasText: 'Heat map'}).waitFor({state: 'detached'});
+    assert.equal(await own.locator('.dv-tab', {hasText: 'Hosts'}).count(), 0, 'what was closed stays closed');
+    assert.equal(await own.locator('.dv-tab', {hasText: 'World View'}).count(), 1);
+    assert.deepEqual(errors, []);
+    await own.close();
+  });
+
   await check('axe-core finds nothing serious', async () => {
     await page.getByRole('radio', {name: 'Drive'}).click();
     await page.waitForTimeout(300);

@@ -225,6 +225,29 @@ try {
     // The link that was lost is told by the browser as well.
     assert.deepEqual(errors.filter((text) => !/WebSocket|ERR_CONNECTION_REFUSED|Failed to load resource/.test(text)), []);
   });
+
+  await check('a panel of the scenario is there in the replay, and a module that is gone is no error', async () => {
+    const home = join(folder, 'panels');
+    mkdirSync(home);
+    writeFileSync(join(home, 'count.mjs'), `class Count extends HTMLElement { connectedCallback() { this.textContent = this.context.model.robots.length + ' robot counted'; } }
+      export const component = {api: 1, name: 'count', version: '1', panels: [{id: 'count', title: 'Counted', element: Count}]};`);
+    writeFileSync(join(home, 'lost.mjs'), 'export const component = {};');
+    writeFileSync(join(home, 'scenario.yaml'), `name: counted
+duration_s: 1
+gui: {components: [{module: lost.mjs, roles: [observer]}, {module: count.mjs, roles: [observer]}]}
+robots: [{name: r, pose: {x_m: 0, y_m: 0}, robot: {body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}}}]
+`);
+    execFileSync(rave, ['run', join(home, 'scenario.yaml'), '--pace', 'max', '--quiet', '--no-picture', '--output', join(home, 'run')], {stdio: ['ignore', 'ignore', 'inherit']});
+    rmSync(join(home, 'lost.mjs'));
+    const other = await startServer(rave, ['gui', join(home, 'run')]);
+    const replay = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
+    await replay.goto(other.link);
+    await replay.locator('.dv-tab', {hasText: 'Counted'}).click();
+    await replay.getByText('1 robot counted').waitFor();
+    assert.equal(await replay.locator('.dv-tab', {hasText: 'lost'}).count(), 0);
+    await replay.close();
+    await other.end();
+  });
 } finally {
   await browser.close();
   gui.child.kill('SIGKILL');

@@ -180,6 +180,29 @@ try {
     await page.locator('rave-robots .row').first().waitFor();
   });
 
+  await check('before the data come the page says that it loads, not that there is nothing', async () => {
+    const late = new FakeRun(3, {name: 'late'});
+    const opening = late.opening.bind(late);
+    late.opening = () => [late.hello()];
+    const other = await serveFake(built, late);
+    clearInterval(other.clock);
+    const early = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
+    await early.goto(other.origin);
+    await early.getByText('late', {exact: true}).waitFor();
+    await early.getByText('Loading the robots ...').waitFor();
+    await early.getByText('Loading the run ...').waitFor();
+    assert.equal(await early.getByText('No robots in this run.').count(), 0);
+    assert.equal(await early.locator('rave-robots .chip').count(), 0);
+    assert.equal(await early.locator('rave-run-bar .clock b').count(), 0);
+    late.opening = opening;
+    for (const message of opening()) other.say(message);
+    await early.locator('rave-robots .row').first().waitFor();
+    await early.locator('rave-run-bar .clock b').waitFor();
+    assert.equal(await early.getByText('Loading').count(), 0);
+    await early.close();
+    await other.end();
+  });
+
   await check('a super-user changes a right, takes it back, and sees as somebody else', async () => {
     server.run.role = 'super_user';
     server.run.seeAs(null);

@@ -66,6 +66,9 @@ export class RunModel {
   readonly pictureChanged = new Signal();
   readonly answered = new Signal<Answer>();
 
+  /** The robots were told at least once; before that, none says nothing about the run. */
+  rosterCame = false;
+
   /** The run goes on at this moment; otherwise what is shown is its recording. */
   get live(): boolean {
     return this.hello?.run.source === 'live';
@@ -122,6 +125,7 @@ export class RunModel {
         break;
       case 'roster':
         this.robots = message.robots;
+        this.rosterCame = true;
         for (const robot of this.robots) if (robot.twin !== undefined) robot.mixed = robot.twin.kind !== robot.kind;
         this.mixed = this.robots.flatMap((robot, slot) => (robot.mixed === true ? [slot] : []));
         this.poses.clear();

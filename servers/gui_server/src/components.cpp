@@ -21,24 +21,41 @@ std::string plain_name(const std::filesystem::path& file) {
   return name;
 }
 
+PageComponent component_of(const config::GuiComponentFile& file) {
+  PageComponent component;
+  component.file = file.module.value;
+  component.name = plain_name(component.file);
+  for (const config::GuiRole role : file.roles) {
+    component.roles.insert(role == config::GuiRole::kCommander ? Role::kCommander
+                                                               : Role::kObserver);
+  }
+  return component;
+}
+
+bool is_there(const PageComponent& component) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(component.file, error);
+}
+
 }  // namespace
 
 Result<std::vector<PageComponent>> components_of(const config::GuiFile& gui) {
   std::vector<PageComponent> components;
   for (const config::GuiComponentFile& file : gui.components) {
-    PageComponent component;
-    component.file = file.module.value;
-    component.name = plain_name(component.file);
-    for (const config::GuiRole role : file.roles) {
-      component.roles.insert(role == config::GuiRole::kCommander ? Role::kCommander
-                                                                 : Role::kObserver);
-    }
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(component.file, error)) {
+    components.push_back(component_of(file));
+    if (!is_there(components.back())) {
       return fail(ErrorCode::kNotFound, "the component `{}` of the page is not a file",
-                  component.file.string());
+                  components.back().file.string());
     }
-    components.push_back(std::move(component));
+  }
+  return components;
+}
+
+std::vector<PageComponent> components_left(const config::GuiFile& gui) {
+  std::vector<PageComponent> components;
+  for (const config::GuiComponentFile& file : gui.components) {
+    components.push_back(component_of(file));
+    if (!is_there(components.back())) components.pop_back();
   }
   return components;
 }

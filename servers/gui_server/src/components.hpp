@@ -16,6 +16,10 @@ namespace rave::gui_server {
 /// Error: kNotFound, a file that is not there.
 [[nodiscard]] Result<std::vector<PageComponent>> components_of(const config::GuiFile& gui);
 
+/// The components of a recorded run whose files are still there. A recording can be older than its
+/// files, or come from another machine, and must open all the same.
+[[nodiscard]] std::vector<PageComponent> components_left(const config::GuiFile& gui);
+
 /// Where the page finds a component, relative to the page: `components/0/heat_map.js`.
 [[nodiscard]] std::string component_path(std::size_t number, const PageComponent& component);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "components.hpp"
 #include "event_fold.hpp"
 #include "map_book.hpp"
 #include "rave/config/expanded_scenario.hpp"
@@ -104,6 +105,7 @@ Status Recording::read(const std::filesystem::path& file) {
   about_.step_s = run.step_s;
   about_.seed = run.seed;
   about_.rights = rights_of(scenario.scenario.gui);
+  about_.components = components_left(scenario.scenario.gui);
   about_.recording = file;
   about_.recording_bytes = reader_.file_size();
   about_.recording_whole = reader_.whole();

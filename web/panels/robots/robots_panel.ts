@@ -71,6 +71,7 @@ export class RobotsPanel extends LitElement {
       if (members === undefined) teams.set(team, [slot]);
       else members.push(slot);
     }
+    if (!this.context.model.rosterCame) return html`<p class="none" role="status">Loading the robots ...</p>`;
     return html`
       <label class="field">${icon('search', 14)}<input aria-label="Filter robots" placeholder=${robots.length > kMany ? 'Name, team, or speed < 0.02' : 'Filter by name, team, state'}
         .value=${this.filterText} @input=${(event: Event) => this.setFilter((event.target as HTMLInputElement).value)}></label>

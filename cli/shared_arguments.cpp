@@ -18,8 +18,7 @@ void add_whole_number(CLI::App& app, const char* name, std::optional<std::uint64
     if (problem == std::errc() && parsed == end) return {};
     return fmt::format("found `{}`, expected a whole number from 0 to {}", word, UINT64_MAX);
   };
-  // The text is checked before CLI11 reads it.
-  add_value(app, name, value, what, "N")->transform(check);
+  add_value(app, name, value, what, "N")->check(check);
 }
 
 void add_processes(CLI::App& app, std::optional<int>& processes, const char* what, int least) {

@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::json;
 
 Json finding(const Json& document, const std::string& check) {
-  for (const Json& finding : document.value("host_results", Json::array())) {
+  for (const Json& finding : document.value("findings", Json::array())) {
     if (finding["check"] == check) return finding;
   }
   return {{"verdict", "not there"}};

@@ -120,9 +120,11 @@ TEST(Run, EachFileOfARunTellsThatAFolderIsUsed) {
 TEST(Run, TheScenarioThatRunsIsNeverReplaced) {
   const TemporaryFolder folder;
   const std::string own = folder.path() / "scenario.yaml";
-  fs::copy_file("good_scenario.yaml", own);
-  fs::copy_file("good_robot.yaml", folder.path() / "good_robot.yaml");
-  fs::copy_file("good_world.yaml", folder.path() / "good_world.yaml");
+  fs::copy_file(fs::path(RAVE_SOURCE_DIR "/tests/cli/data") / "good_scenario.yaml", own);
+  fs::copy_file(fs::path(RAVE_SOURCE_DIR "/tests/cli/data") / "good_robot.yaml",
+                folder.path() / "good_robot.yaml");
+  fs::copy_file(fs::path(RAVE_SOURCE_DIR "/tests/cli/data") / "good_world.yaml",
+                folder.path() / "good_world.yaml");
   const std::string before = content_of(own);
   for (const std::string& word : {own, folder.path().string()}) {
     const Ended ended = run_rave({"run", word, "--output", folder.path(), "--replace"});

@@ -6,6 +6,9 @@ export const kCourse_s = 15;
 /** The same of the velocities that a robot is told. */
 export const kToldCourse_s = 30;
 
+/** Times of frames are rounded. */
+const kMoment_s = 1e-3;
+
 /** One point of the course of a sensor. */
 export interface CoursePoint {
   time_s: number;
@@ -52,7 +55,16 @@ export class Readings {
     }
   }
 
-  /** Forgets everything, as after a jump in time. */
+  /** Forgets what is later than this time of the run, as after a jump back; the courses begin anew. */
+  forgetAfter(time_s: number): void {
+    for (const [key, reading] of this.newest) {
+      if (reading.stamp_s <= time_s + kMoment_s) continue;
+      this.newest.delete(key);
+      this.courses.delete(key);
+    }
+  }
+
+  /** Forgets everything. */
   clear(): void {
     this.newest.clear();
     this.courses.clear();

@@ -2,6 +2,7 @@
 // Robots with several controllers: which of them drives.
 #include <array>
 
+#include "given.hpp"
 #include "obedient.hpp"
 
 namespace rave::sim::testing {
@@ -34,8 +35,8 @@ class Share final : public Controller {
   static constexpr CommandKind kAccepts = CommandKind::kVelocity;
   static constexpr CommandKind kGives = CommandKind::kVelocity;
   Status start(const DeviceSetup& setup) override {
-    share_ = setup.parameters().number("share");
-    throw_at_ = setup.parameters().integer("throw_at");
+    share_ = given(setup.parameters(), "share");
+    throw_at_ = static_cast<std::int64_t>(given(setup.parameters(), "throw_at"));
     return {};
   }
   Command control(const ControlInput& input) override {

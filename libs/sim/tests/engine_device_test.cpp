@@ -2,6 +2,7 @@
 #include <chrono>
 
 #include "engine_fixture.hpp"
+#include "given.hpp"
 
 namespace rave::sim::testing {
 namespace {
@@ -24,7 +25,7 @@ void jot(const std::string& line) { notebook->lines.push_back(line); }
 class Base final : public HardwareDevice {
  public:
   Status configure(const HardwareDeviceSetup& setup) override {
-    broken_ = setup.parameters().flag("broken");
+    broken_ = (given(setup.parameters(), "broken") != 0);
     jot("base configured");
     return {};
   }

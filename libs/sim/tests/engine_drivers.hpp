@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "given.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/robot/plugin_entry.hpp"
 #include "rave/sim/virtual_sensor.hpp"
@@ -19,7 +20,7 @@ namespace rave::sim::testing {
 class Drive final : public DecisionProcess {
  public:
   Status start(const Setup& setup) override {
-    params_ = {setup.params().number("v"), setup.params().number("w")};
+    params_ = {given(setup.params(), "v"), given(setup.params(), "w")};
     quiet_after_ = when(setup, "quiet_after");
     throw_at_ = when(setup, "throw_at");
     nan_at_ = when(setup, "nan_at");
@@ -37,7 +38,7 @@ class Drive final : public DecisionProcess {
  private:
   /// 0 stands for never, so that tests need not give it.
   static int when(const Setup& setup, std::string_view name) {
-    const auto decision = static_cast<int>(setup.params().integer(name));
+    const auto decision = static_cast<int>(given(setup.params(), name));
     return decision > 0 ? decision : -1;
   }
   VelocityReading params_;
@@ -94,7 +95,7 @@ class Diary final : public DecisionProcess {
     if (found) values_ = *found;
     RAVE_TRY_ASSIGN(drive_, setup.controller(CommandKind::kVelocity));
     entries().clear();
-    v_mps_ = setup.params().number("v");
+    v_mps_ = given(setup.params(), "v");
     return {};
   }
   void decide(const Percepts& percepts, Commands& commands) override {
@@ -125,7 +126,7 @@ class Pass final : public Controller {
   static constexpr CommandKind kAccepts = CommandKind::kVelocity;
   static constexpr CommandKind kGives = CommandKind::kVelocity;
   Status start(const DeviceSetup& setup) override {
-    throw_after_ = setup.parameters().integer("throw_after");
+    throw_after_ = static_cast<std::int64_t>(given(setup.parameters(), "throw_after"));
     return {};
   }
   Command control(const ControlInput& input) override {
@@ -145,9 +146,9 @@ class Wheels final : public VirtualActuator {
   static constexpr CommandKind kAccepts = CommandKind::kVelocity;
   Status start(const DeviceSetup& setup) override {
     const Params params = setup.parameters();
-    throw_after_ = params.integer("throw_after");
-    nan_after_ = params.integer("nan_after");
-    shake_ = params.number("shake");
+    throw_after_ = static_cast<std::int64_t>(given(params, "throw_after"));
+    nan_after_ = static_cast<std::int64_t>(given(params, "nan_after"));
+    shake_ = given(params, "shake");
     return {};
   }
   Twist2 propose(const MotionInput& input) override {
@@ -172,13 +173,14 @@ class Laser final : public VirtualSensor {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kRanges;
   Status configure(const VirtualSensorSetup& setup, VirtualDeclaration& declaration) override {
-    const auto rays = static_cast<std::uint32_t>(setup.parameters().integer("rays"));
-    const double fov_rad = setup.parameters().number("fov_rad");
+    const auto rays =
+        static_cast<std::uint32_t>(static_cast<std::int64_t>(given(setup.parameters(), "rays")));
+    const double fov_rad = given(setup.parameters(), "fov_rad");
     for (std::uint32_t i = 0; i < rays; ++i) {
       bearings_rad_.push_back(rays == 1 ? 0 : fov_rad * (double{1} * i / (rays - 1) - 0.5));
     }
     declaration.uses_fan = 1;
-    declaration.fan = {bearings_rad_.data(), rays, 1, 0.01, setup.parameters().number("range_m")};
+    declaration.fan = {bearings_rad_.data(), rays, 1, 0.01, given(setup.parameters(), "range_m")};
     return {};
   }
   void sample(const WorldView&, const SampleItem&) const override {}
@@ -195,7 +197,7 @@ class Counter final : public VirtualSensor {
     double calls = 0;
   };
   Status configure(const VirtualSensorSetup& setup, VirtualDeclaration&) override {
-    throw_at_ = setup.parameters().number("throw_at");
+    throw_at_ = given(setup.parameters(), "throw_at");
     return {};
   }
   void sample(const WorldView&, const SampleItem& item) const override {
@@ -215,8 +217,8 @@ class Beacon final : public VirtualSensor {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kPose;
   Status configure(const VirtualSensorSetup& setup, VirtualDeclaration&) override {
-    offset_m_ = setup.parameters().number("offset_m");
-    error_m_ = setup.parameters().number("error_m");
+    offset_m_ = given(setup.parameters(), "offset_m");
+    error_m_ = given(setup.parameters(), "error_m");
     return {};
   }
   void sample(const WorldView&, const SampleItem& item) const override {
@@ -240,18 +242,18 @@ class Recording final : public HardwareSensor {
   ~Recording() override { close(); }
   Status configure(const HardwareSetup& setup, HardwareDeclaration& declaration) override {
     const Params params = setup.parameters();
-    x_m_ = params.number("x");
-    y_m_ = params.number("y");
-    vx_mps_ = params.number("vx");
-    vy_mps_ = params.number("vy");
-    first_s_ = params.number("first_s");
-    gap_s_ = params.number("gap_s");
-    gap_end_s_ = params.number("gap_end_s");
-    fail_s_ = params.number("fail_s");
-    silent_ = params.flag("silent");
-    steps_back_ = params.flag("steps_back");
-    if (params.flag("live")) declaration.clock = DriverClock::kLive;
-    declaration.period_s = params.flag("no_period") ? 0 : 0.007;
+    x_m_ = given(params, "x");
+    y_m_ = given(params, "y");
+    vx_mps_ = given(params, "vx");
+    vy_mps_ = given(params, "vy");
+    first_s_ = given(params, "first_s");
+    gap_s_ = given(params, "gap_s");
+    gap_end_s_ = given(params, "gap_end_s");
+    fail_s_ = given(params, "fail_s");
+    silent_ = (given(params, "silent") != 0);
+    steps_back_ = (given(params, "steps_back") != 0);
+    if ((given(params, "live") != 0)) declaration.clock = DriverClock::kLive;
+    declaration.period_s = (given(params, "no_period") != 0) ? 0 : 0.007;
     return {};
   }
   Status open(SampleSink& sink) override {
@@ -303,8 +305,9 @@ class Ticker final : public HardwareSensor {
   static constexpr ReadingKind kReading = ReadingKind::kValues;
   ~Ticker() override { close(); }
   Status configure(const HardwareSetup& setup, HardwareDeclaration& declaration) override {
-    period_s_ = setup.parameters().number("period_s");
-    declaration.capacity = static_cast<std::uint32_t>(setup.parameters().integer("room"));
+    period_s_ = given(setup.parameters(), "period_s");
+    declaration.capacity =
+        static_cast<std::uint32_t>(static_cast<std::int64_t>(given(setup.parameters(), "room")));
     declaration.collect = 1;
     return {};
   }

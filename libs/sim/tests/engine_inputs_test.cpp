@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine_fixture.hpp"
+#include "given.hpp"
 
 namespace rave::sim::testing {
 namespace {
@@ -19,12 +20,13 @@ class Cruiser final : public DecisionProcess {
     return parameters_changed(setup.params());
   }
   Status parameters_changed(const Params& params) override {
-    if (params.integer("gear") % 2 == 0) return fail(ErrorCode::kInvalidArgument, "no such gear");
-    if (params.number("w") != 0 && params.number("v") > 0.5) {
+    if (static_cast<std::int64_t>(given(params, "gear")) % 2 == 0)
+      return fail(ErrorCode::kInvalidArgument, "no such gear");
+    if (given(params, "w") != 0 && given(params, "v") > 0.5) {
       return fail(ErrorCode::kInvalidArgument, "too fast for a curve");
     }
-    v_mps_ = params.number("v");
-    w_radps_ = params.number("w");
+    v_mps_ = given(params, "v");
+    w_radps_ = given(params, "w");
     radius_m_ = setup_->robot_radius_m();
     return {};
   }

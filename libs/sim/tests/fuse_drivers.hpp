@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine_fixture.hpp"
+#include "given.hpp"
 #include "rave/robot/hybrid_sensor.hpp"
 
 /// Drivers for tests of hybrid sensors in the engine.
@@ -20,14 +21,15 @@ class HandFed final : public HardwareSensor {
   static constexpr ReadingKind kReading = kKind;
   Status configure(const HardwareSetup& setup, HardwareDeclaration& declaration) override {
     const Params params = setup.parameters();
-    port_ = static_cast<std::size_t>(params.integer("port"));
-    const auto rays = static_cast<std::uint32_t>(std::max<std::int64_t>(1, params.integer("rays")));
+    port_ = static_cast<std::size_t>(static_cast<std::int64_t>(given(params, "port")));
+    const auto rays = static_cast<std::uint32_t>(
+        std::max<std::int64_t>(1, static_cast<std::int64_t>(given(params, "rays"))));
     for (std::uint32_t i = 0; i < rays; ++i) {
       const double share = rays == 1 ? 0 : double{1} * i / (rays - 1) - 0.5;
-      bearings_rad_.push_back(params.number("fov_rad") * share + params.number("turned_rad"));
+      bearings_rad_.push_back(given(params, "fov_rad") * share + given(params, "turned_rad"));
     }
     declaration.capacity = rays;
-    if (params.flag("live")) declaration.clock = DriverClock::kLive;
+    if ((given(params, "live") != 0)) declaration.clock = DriverClock::kLive;
     if (kKind != ReadingKind::kRanges) return {};
     declaration.bearings_rad = bearings_rad_.data();
     declaration.range_min_m = 0.1;
@@ -57,7 +59,7 @@ using HandFedBumper = HandFed<ReadingKind::kContact>;
 class Nearest final : public HybridSensor {
  public:
   Status start(const HybridSetup& setup) override {
-    throw_at_ = setup.parameters().integer("throw_at");
+    throw_at_ = static_cast<std::int64_t>(given(setup.parameters(), "throw_at"));
     return {};
   }
   void fuse(const FuseItem& item) const override {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <tuple>
 
+#include "given.hpp"
 #include "radio_fixture.hpp"
 
 namespace rave::sim::testing {
@@ -16,7 +17,8 @@ class Cable final : public Transmitter {
   ~Cable() override { close(); }
   Status configure(const HardwareSetup& setup, TransmitterDeclaration& declaration) override {
     declaration.max_packet_bytes = 200;
-    declaration.network = static_cast<std::uint32_t>(setup.parameters().integer("network"));
+    declaration.network =
+        static_cast<std::uint32_t>(static_cast<std::int64_t>(given(setup.parameters(), "network")));
     declaration.byte_rate = rate();
     declaration.boot = 1;
     return {};

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "engine_fixture.hpp"
+#include "given.hpp"
 
 /// Robots that talk, for tests of the radio.
 namespace rave::sim::testing {
@@ -40,12 +41,12 @@ class Chatter final : public DecisionProcess {
       if (found) radios_.push_back(*found);
     }
     own_ = setup.own_id();
-    count_ = params.integer("count");
-    size_ = static_cast<std::size_t>(params.integer("size"));
-    until_ = params.integer("until");
-    to_ = params.integer("to");
-    only_ = params.integer("only");
-    throw_at_ = params.integer("throw_at");
+    count_ = static_cast<std::int64_t>(given(params, "count"));
+    size_ = static_cast<std::size_t>(static_cast<std::int64_t>(given(params, "size")));
+    until_ = static_cast<std::int64_t>(given(params, "until"));
+    to_ = static_cast<std::int64_t>(given(params, "to"));
+    only_ = static_cast<std::int64_t>(given(params, "only"));
+    throw_at_ = static_cast<std::int64_t>(given(params, "throw_at"));
     return {};
   }
   void decide(const Percepts& percepts, Commands& commands) override {
@@ -125,18 +126,18 @@ class Model final : public Communicator {
     const auto whole = [&](const char* name) {
       return static_cast<std::uint32_t>(params.integer(name));
     };
-    radio.range_m = params.number("range_m");
+    radio.range_m = given(params, "range_m");
     radio.line_of_sight = whole("sight");
-    radio.byte_rate = params.number("rate");
+    radio.byte_rate = given(params, "rate");
     radio.max_queue_bytes = whole("queue");
     radio.overhead_bytes = whole("overhead");
     radio.max_messages = whole("messages");
     radio.max_message_bytes = 64;
     radio.max_mailbox_bytes = 64 * radio.max_messages;
-    delay_s_ = params.number("delay_s");
-    jitter_s_ = params.number("jitter_s");
-    loss_ = params.number("loss");
-    throws_ = params.flag("throws");
+    delay_s_ = given(params, "delay_s");
+    jitter_s_ = given(params, "jitter_s");
+    loss_ = given(params, "loss");
+    throws_ = (given(params, "throws") != 0);
     return {};
   }
   [[nodiscard]] LinkAnswer link(const LinkQuery& query) const override {
@@ -160,7 +161,7 @@ class Ether final : public Transmitter {
  public:
   Status configure(const HardwareSetup& setup, TransmitterDeclaration& declaration) override {
     declaration.in_process = 1;
-    declaration.byte_rate = setup.parameters().number("rate");
+    declaration.byte_rate = given(setup.parameters(), "rate");
     return {};
   }
   Status open(PacketSink&) override { return {}; }

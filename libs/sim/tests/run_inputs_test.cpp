@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "given.hpp"
 #include "input_parts.hpp"
 #include "order_programs.hpp"
 
@@ -13,7 +14,7 @@ class Gears final : public DecisionProcess {
   inline static std::vector<std::int64_t> seen;
   Status start(const Setup& /*setup*/) override { return {}; }
   Status parameters_changed(const Params& params) override {
-    const std::int64_t gear = params.integer("gear");
+    const std::int64_t gear = static_cast<std::int64_t>(given(params, "gear"));
     if (gear % 2 == 0) return fail(ErrorCode::kInvalidArgument, "no such gear");
     seen.push_back(gear);
     return {};

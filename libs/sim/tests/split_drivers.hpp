@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "fuse_drivers.hpp"
+#include "given.hpp"
 #include "radio_fixture.hpp"
 
 /// Drivers and a program that let all that passes between hosts show, for tests of split worlds.
@@ -32,8 +33,8 @@ class Gossip final : public DecisionProcess {
     return parameters_changed(setup.params());
   }
   Status parameters_changed(const Params& params) override {
-    v_mps_ = params.number("v");
-    throw_at_ = params.number("throw_at");
+    v_mps_ = given(params, "v");
+    throw_at_ = given(params, "throw_at");
     radius_m_ = setup_->robot_radius_m();
     return {};
   }
@@ -94,7 +95,7 @@ class Wagon final : public VirtualActuator {
  public:
   static constexpr CommandKind kAccepts = CommandKind::kVelocity;
   Status start(const DeviceSetup& setup) override {
-    shake_ = setup.parameters().number("shake");
+    shake_ = given(setup.parameters(), "shake");
     return {};
   }
   Twist2 propose(const MotionInput& input) override {

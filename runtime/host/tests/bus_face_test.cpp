@@ -220,7 +220,7 @@ TEST_F(BusFaceTest, ContactsAreToldToThoseWhoLookButNotAllOfACrowd) {
   crowd_.assign(onlook::Teller::kMostContacts + 50, contact);
   ASSERT_TRUE(until([&] { return has_event(sim::EventKind::kContact); }));
   EXPECT_EQ(events_[0].robot, RobotId(0));
-  EXPECT_EQ(events_[0].text, "with b ");
+  EXPECT_EQ(events_[0].text, "with b");
   ASSERT_GT(events_.size(), onlook::Teller::kMostContacts);
   EXPECT_FALSE(events_[onlook::Teller::kMostContacts].robot.valid());
   EXPECT_EQ(events_[onlook::Teller::kMostContacts].text, "50 more in this step");

@@ -11,6 +11,7 @@
 
 namespace rave {
 
+/// Where the text of a cell stands in its column.
 enum class Align : std::uint8_t { kLeft, kRight, kCentre };
 
 /// What a text means for who reads it; its colour on a terminal.
@@ -27,6 +28,7 @@ struct TableCell {
   Tone tone = Tone::kPlain;
 };
 
+/// How a column of a table is headed and how wide it may be.
 struct TableColumn {
   std::string heading{};
   Align align = Align::kLeft;
@@ -53,11 +55,13 @@ struct Table {
   std::vector<std::size_t> rules_before;
 };
 
+/// How columns are kept apart.
 enum class TableLook : std::uint8_t {
   kRules,   ///< Rules around and between the columns; bold headings.
   kSpaces,  ///< Two spaces between the columns, none at the ends of lines; faint headings.
 };
 
+/// How a table is shown.
 struct TableOptions {
   /// The width of the terminal in columns. The table is not wider if possible (each of its columns
   /// keeps at least one character). Empty: no limit.

@@ -43,7 +43,7 @@ class TwoMachines(Lab):
         return process
 
     def ask(self, *more):
-        """The host_results as {check: finding}; the worst of a check counts."""
+        """The findings as {check: finding}; the worst of a check counts."""
         run = subprocess.run(
             ["ip", "netns", "exec", self.space("here"), machines_test.RAVE, "doctor", "--json",
              "--interface", self.address("here"), "--peers",
@@ -51,7 +51,7 @@ class TwoMachines(Lab):
             stdout=subprocess.PIPE, text=True, timeout=PATIENCE_S, check=False)
         order = ["good", "unknown", "advice", "problem"]
         worst = {}
-        for finding in json.loads(run.stdout)["host_results"]:
+        for finding in json.loads(run.stdout)["findings"]:
             known = worst.get(finding["check"])
             if known is None or order.index(known["verdict"]) < order.index(finding["verdict"]):
                 worst[finding["check"]] = finding
@@ -64,69 +64,69 @@ class TwoMachines(Lab):
 
 
 class Doctor(unittest.TestCase):
-    def expect(self, host_results, check, verdict, what="", mend=""):
-        finding = host_results.get(check, {"verdict": "not there", "what": "", "mend": ""})
-        self.assertEqual(finding["verdict"], verdict, host_results)
+    def expect(self, findings, check, verdict, what="", mend=""):
+        finding = findings.get(check, {"verdict": "not there", "what": "", "mend": ""})
+        self.assertEqual(finding["verdict"], verdict, findings)
         self.assertIn(what, finding["what"])
         self.assertIn(mend, finding["mend"])
 
-    def expect_well(self, host_results, *checks):
+    def expect_well(self, findings, *checks):
         for check in checks:
-            self.expect(host_results, check, "good")
+            self.expect(findings, check, "good")
 
     def test_all_is_well(self):
         with TwoMachines() as lab:
             lab.listen()
-            code, host_results = lab.ask()
-            self.expect_well(host_results, "interface", "peers", "way", "version", "clock", "ports",
+            code, findings = lab.ask()
+            self.expect_well(findings, "interface", "peers", "way", "version", "clock", "ports",
                              "sizes", "bus", "domain", "keys", "self")
-            self.assertEqual(code, 0, host_results)
+            self.assertEqual(code, 0, findings)
 
     def test_all_is_well_by_multicast(self):
         with TwoMachines() as lab:
             for name in lab.names:
                 call("ip", "-n", lab.space(name), "route", "add", "224.0.0.0/4", "dev", "eth0")
             lab.listen("--multicast", "on")
-            code, host_results = lab.ask("--multicast", "on")
-            self.expect_well(host_results, "multicast", "bus", "way")
-            self.assertEqual(code, 0, host_results)
+            code, findings = lab.ask("--multicast", "on")
+            self.expect_well(findings, "multicast", "bus", "way")
+            self.assertEqual(code, 0, findings)
 
     def test_nobody_listens(self):
         with TwoMachines() as lab:
-            code, host_results = lab.ask()
+            code, findings = lab.ask()
             self.assertEqual(code, 1)
-            self.expect(host_results, "way", "problem", "`rave doctor --listen` does not run on it", "rave doctor --listen")
+            self.expect(findings, "way", "problem", "`rave doctor --listen` does not run on it", "rave doctor --listen")
 
     def test_a_firewall_here(self):
         with TwoMachines() as lab:
             lab.listen()
             lab.filter("here", "input priority 0", "udp dport 7400-7649 drop")
-            code, host_results = lab.ask()
+            code, findings = lab.ask()
             self.assertEqual(code, 1)
-            self.expect(host_results, "way", "problem", "no answer")
-            self.expect(host_results, "self", "problem", "do not arrive",
+            self.expect(findings, "way", "problem", "no answer")
+            self.expect(findings, "self", "problem", "do not arrive",
                         "sudo nft list ruleset    # shows the rules; accept UDP 7400 to 7649")
             subprocess.run(["ip", "netns", "exec", lab.space("here"), "nft", "delete", "table",
                             "inet", "t"], check=True)
-            code, host_results = lab.ask()
-            self.assertEqual(code, 0, host_results)
+            code, findings = lab.ask()
+            self.assertEqual(code, 0, findings)
 
     def test_a_firewall_there_that_lets_a_part_through(self):
         with TwoMachines() as lab:
             lab.listen()
             lab.filter("there", "input priority 0", "udp dport 7410-7649 drop")
-            code, host_results = lab.ask()
+            code, findings = lab.ask()
             self.assertEqual(code, 1)
-            self.expect_well(host_results, "way", "self")
-            self.expect(host_results, "ports", "problem", "cannot be reached, but 7402 can")
-            self.expect(host_results, "bus", "problem", "is not visible on the bus")
+            self.expect_well(findings, "way", "self")
+            self.expect(findings, "ports", "problem", "cannot be reached, but 7402 can")
+            self.expect(findings, "bus", "problem", "is not visible on the bus")
 
     def test_another_domain(self):
         with TwoMachines() as lab:
             lab.listen("--domain", "7")
-            code, host_results = lab.ask()
+            code, findings = lab.ask()
             self.assertEqual(code, 1)
-            self.expect(host_results, "domain", "problem", "it uses domain 7, this machine 0",
+            self.expect(findings, "domain", "problem", "it uses domain 7, this machine 0",
                         "--domain 7")
 
     def test_multicast_is_dropped(self):
@@ -135,9 +135,9 @@ class Doctor(unittest.TestCase):
                 call("ip", "-n", lab.space(name), "route", "add", "224.0.0.0/4", "dev", "eth0")
             lab.listen("--multicast", "on")
             lab.filter("there", "input priority 0", "ip daddr 224.0.0.0/4 drop")
-            code, host_results = lab.ask("--multicast", "on")
+            code, findings = lab.ask("--multicast", "on")
             self.assertEqual(code, 1)
-            self.expect(host_results, "multicast", "problem", "multicast packets from here do not arrive there",
+            self.expect(findings, "multicast", "problem", "multicast packets from here do not arrive there",
                         "--multicast off --peer")
 
     def test_fragments_are_dropped(self):
@@ -145,10 +145,10 @@ class Doctor(unittest.TestCase):
             lab.listen()
             # Before packets are put together again.
             lab.filter("there", "prerouting priority -450", "ip frag-off & 0x3fff != 0 drop")
-            code, host_results = lab.ask()
+            code, findings = lab.ask()
             self.assertEqual(code, 1)
-            self.expect_well(host_results, "way", "ports")
-            self.expect(host_results, "sizes", "problem", "datagrams of 4000 bytes and more do not arrive")
+            self.expect_well(findings, "way", "ports")
+            self.expect(findings, "sizes", "problem", "datagrams of 4000 bytes and more do not arrive")
 
     def test_keys_of_another_authority(self):
         with tempfile.TemporaryDirectory() as folder, TwoMachines() as lab:
@@ -156,17 +156,17 @@ class Doctor(unittest.TestCase):
                 subprocess.run([machines_test.RAVE, "keys", "new", f"{folder}/{name}-set", name],
                                check=True, stdout=subprocess.DEVNULL)
             lab.listen("--security", f"{folder}/there-set/there")
-            code, host_results = lab.ask("--security", f"{folder}/here-set/here")
+            code, findings = lab.ask("--security", f"{folder}/here-set/here")
             self.assertEqual(code, 1)
-            self.expect(host_results, "keys", "problem", "it has those of", "rave keys new SET")
+            self.expect(findings, "keys", "problem", "it has those of", "rave keys new SET")
 
     def test_no_cable(self):
         with TwoMachines() as lab:
             lab.listen()
             lab.cable("here", "down")
-            code, host_results = lab.ask()
+            code, findings = lab.ask()
             self.assertEqual(code, 1)
-            self.expect(host_results, "interface", "problem", "eth0 is down, or has no cable")
+            self.expect(findings, "interface", "problem", "eth0 is down, or has no cable")
 
 
 class Top(unittest.TestCase):

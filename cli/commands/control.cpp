@@ -147,7 +147,7 @@ Table runs_table(bool with_machines) {
 
 /// A line of `rave ps`. `machine`: nothing if no run has one.
 void add_row(Table& table, std::vector<TableCell> row, const std::string& machine) {
-  if (row.size() < table.columns.size()) row.push_back(machine);
+  if (row.size() < table.columns.size()) row.emplace_back(machine);
   table.rows.push_back(std::move(row));
 }
 

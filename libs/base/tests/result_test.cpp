@@ -69,6 +69,7 @@ TEST(Result, ACopyIsNoValue) {
   expect_copies_keep_the_error(std::string("yes"));
   Result<bool> no = false;
   const Result<bool> copy(no);
+  no = true;
   ASSERT_TRUE(copy);
   EXPECT_FALSE(*copy);
 }

@@ -36,7 +36,7 @@ class FakeEndpoint final : public ManagerEndpoint {
   void publish(bus::RunState& state) override {
     phases.push_back(state.phase);
     for (const auto& host : bus::elements(state.hosts)) {
-      seen.push_back({host.host, host.phase});
+      seen.emplace_back(host.host, host.phase);
     }
   }
   std::uint64_t writer() const override { return kManager; }

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <csignal>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <thread>
 
@@ -72,7 +73,6 @@ class StickKill : public KillRound {
     }
     start_gui();
     for (Side& side : sides_) take_stick(side);
-    for (const Side& side : sides_) wait_until_it_moves(side);
   }
   void TearDown() override {
     for (Side& side : sides_) drop_stick(side);
@@ -96,7 +96,7 @@ class StickKill : public KillRound {
   }
   [[nodiscard]] std::string key() const { return folder_.path() / "line_key"; }
 
-  /// Starts to drive, again and again until the line is there.
+  /// Starts to drive, again and again until the line is there and the robot moves.
   void take_stick(Side& side) {
     const std::string port = std::to_string(side.port);
     const std::string run = run_.text();
@@ -106,15 +106,16 @@ class StickKill : public KillRound {
         RAVE_BINARY_DIR "/tests/line_stick", port, side.host, side.robot, run, file, user};
     std::array<char*, 8> arguments{};
     std::ranges::transform(words, arguments.begin(), [](std::string& word) { return word.data(); });
-    wait_until(
-        [&] {
-          if (::posix_spawn(&side.stick, arguments[0], nullptr, nullptr, arguments.data(),
-                            environ) != 0)
-            return false;
-          std::this_thread::sleep_for(milliseconds(300));
-          return ::waitpid(side.stick, nullptr, WNOHANG) == 0;
-        },
-        "a line to host " + side.host);
+    const auto start = [&] {
+      return ::posix_spawn(&side.stick, arguments[0], nullptr, nullptr, arguments.data(),
+                           environ) == 0;
+    };
+    ASSERT_TRUE(start());
+    // A stick that finds no line ends.
+    wait_until_it_moves(side, [&] {
+      if (::waitpid(side.stick, nullptr, WNOHANG) == 0) return;
+      EXPECT_TRUE(start());
+    });
   }
   static void drop_stick(Side& side) {
     if (side.stick <= 0) return;
@@ -141,9 +142,11 @@ class StickKill : public KillRound {
     wait_until([&] { return (next_ns = newest_ns(side)) > now_ns; }, side.robot + " is heard of");
     return next_ns;
   }
-  void wait_until_it_moves(const Side& side) {
+  void wait_until_it_moves(
+      const Side& side, const std::function<void()>& meanwhile = [] {}) {
     wait_until(
         [&] {
+          meanwhile();
           listener_->listen();
           return listener_->places.contains(side.id);
         },
@@ -151,6 +154,7 @@ class StickKill : public KillRound {
     const LiveListener::Place from = listener_->places[side.id];
     wait_until(
         [&] {
+          meanwhile();
           listener_->listen();
           const LiveListener::Place& now = listener_->places[side.id];
           return std::hypot(now.x_m - from.x_m, now.y_m - from.y_m) > 0.05;
@@ -225,7 +229,6 @@ TEST_P(WhoDrivesIsKilled, TheRobotStandsAndTheOtherDrivesOn) {
   // Who comes back drives on, without any server.
   drop_stick(left);
   take_stick(left);
-  wait_until_it_moves(left);
   wait_until_it_moves(other);
   for (Side& side : sides_) {
     signal(side.host, SIGINT);
@@ -251,7 +254,6 @@ TEST_P(AHostOfASticksRobotIsKilled, TheOtherRobotIsDrivenOnAndItComesBack) {
                 key() + ".pub"}));
   wait_until_it_moves(other);
   take_stick(gone);
-  wait_until_it_moves(gone);
   wait_a_while("the stick of " + other.robot);
   lose_stick(other);
   const std::int64_t gone_ns = next_ns(other);

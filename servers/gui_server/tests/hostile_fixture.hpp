@@ -60,6 +60,14 @@ class Hostile : public ::testing::Test {
     set_right(boss, "observer", "pose", "\"own\"");
     set_right(boss, "observer", "obstacles", "\"none\"");
   }
+  /// Waits until so many commands have reached the run, ten seconds at most, and returns all.
+  [[nodiscard]] auto commands(std::size_t count) const {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (run_->commands().size() < count && std::chrono::steady_clock::now() < end) {
+      ::usleep(1000);
+    }
+    return run_->commands();
+  }
   static void set_right(RawSocket& boss, const char* role, const char* what, const char* reach) {
     boss.send(fmt::format(R"({{"type":"set_right","role":"{}","class":"{}","reach":{}}})", role,
                           what, reach));

@@ -141,8 +141,7 @@ TEST_F(Hostile, WhatAPageLeavesIsAnyPagesOfTheSamePerson) {
     EXPECT_NE(ben.text_with("\"to\":\"cancel\""), "");
     run_->lease_page = run_->commands()[0].second.page;
   }
-  for (int i = 0; i < 1000 && run_->commands().size() < 2; ++i) ::usleep(10'000);
-  const auto asked = run_->commands();
+  const auto asked = commands(2);
   ASSERT_EQ(asked.size(), 2U);
   EXPECT_EQ(asked[1].first.kind, CommandMessage::Kind::kGive);
   EXPECT_EQ(asked[1].first.value, "ben");
@@ -157,8 +156,7 @@ TEST_F(Hostile, APageThatGoesRightAfterItsFirstOrderLeavesItAsWell) {
     EXPECT_NE(ben.text_with("\"to\":\"goal\""), "");
     // The run tells of the lease of another page meanwhile.
   }
-  for (int i = 0; i < 1000 && run_->commands().size() < 2; ++i) ::usleep(10'000);
-  const auto asked = run_->commands();
+  const auto asked = commands(2);
   ASSERT_EQ(asked.size(), 2U);
   EXPECT_EQ(asked[1].first.kind, CommandMessage::Kind::kGive);
   EXPECT_EQ(asked[1].first.slots, (std::vector<std::uint32_t>{0}));
@@ -178,9 +176,9 @@ TEST_F(Hostile, APageThatGoesLeavesNoRobotDriving) {
     ben.send(R"({"type":"order","request":1,"kind":"drive","slots":[0],"v":0.5,"w":0})");
     EXPECT_NE(ben.text_with("\"to\":\"drive\"").find("\"good\":true"), std::string::npos);
   }
-  for (int i = 0; i < 1000 && run_->commands().size() < 2; ++i) ::usleep(10'000);
-  ASSERT_GE(run_->commands().size(), 2U);
-  EXPECT_TRUE(run_->commands()[1].first.stands());
+  const auto asked = commands(2);
+  ASSERT_GE(asked.size(), 2U);
+  EXPECT_TRUE(asked[1].first.stands());
 }
 
 TEST_F(Hostile, WhatIsSaidReachesWhoMayHearItAlone) {

@@ -106,7 +106,7 @@ try {
   await check('the block that is copied is good for the robot file', async () => {
     await fill('x_m', -0.16);
     await fill('yaw_deg', 180);
-    await until(page, `${app}.model.probes.sensor(${kFirst})?.mount[0] === -0.16`);
+    await until(page, `((mount) => mount?.[0] === -0.16 && Math.abs(mount[2] - Math.PI) < 1e-6)(${app}.model.probes.sensor(${kFirst})?.mount)`);
     await until(page, `${reading(real)}?.rows === 91`);
     const block = await copied();
     assert.match(block, /mount: \{x_m: -0.16, y_m: 0, z_m: 0.1, yaw_deg: 180\}/);

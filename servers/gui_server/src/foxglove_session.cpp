@@ -105,7 +105,7 @@ void FoxgloveSession::begin(Kind kind) {
   } else if (kind == Kind::kRobots) {
     robots_anew_ = true;
   } else if (kind == Kind::kLog) {
-    const std::size_t events = source_->events().size();
+    const std::size_t events = events_until(cursor_->poses().time_s);
     told_events_ = events - std::min(events, kMostPastEvents);
   }
 }
@@ -148,7 +148,7 @@ void FoxgloveSession::tick(Clock::time_point now, FoxgloveFrames& frames) {
   const bool due = now - last_time_ >= kFoxgloveClock || state.kind != told_kind_;
   if (state.picture == picture_ && !changed_ && !due) {
     // What happens while the run is held.
-    send_log();
+    send_log(state.now_s);
     return;
   }
   // On a grid: the tick of the server does not divide the spacing.
@@ -173,7 +173,7 @@ void FoxgloveSession::send_frame(const PlayState& state, FoxgloveFrames& frames)
   send_scans();
   send_robots();
   send_scene();
-  send_log();
+  send_log(state.now_s);
   send_data(Kind::kRun, state.now_s, FoxgloveTopics::run(state));
 }
 
@@ -281,11 +281,20 @@ void FoxgloveSession::send_scene() {
   send_data(Kind::kScene, time_s, scene_update(std::move(scene), time_s));
 }
 
-void FoxgloveSession::send_log() {
+std::size_t FoxgloveSession::events_until(double time_s) const {
+  const auto events = source_->events();
+  if (source_->about().live) return events.size();
+  // A recording knows what will happen; its clients shall not.
+  const auto later = std::ranges::upper_bound(events, time_s, {}, &LogEvent::t_s);
+  return static_cast<std::size_t>(later - events.begin());
+}
+
+void FoxgloveSession::send_log(double now_s) {
   if (!subscription_of(Kind::kLog)) return;
   const auto events = source_->events();
+  const std::size_t until = events_until(now_s);
   // Repetitions are folded into what was told; they are not told again.
-  for (; told_events_ < events.size(); ++told_events_) {
+  for (; told_events_ < until; ++told_events_) {
     send_data(Kind::kLog, events[told_events_].t_s, FoxgloveTopics::log(events[told_events_]));
   }
 }

@@ -63,7 +63,9 @@ class FoxgloveSession {
   void send_scans();
   void send_robots();
   void send_scene();
-  void send_log();
+  /// How many events may be told of at a time of the run.
+  [[nodiscard]] std::size_t events_until(double time_s) const;
+  void send_log(double now_s);
   void send_data(Kind kind, double time_s, std::string_view message);
   /// The subscription of a topic there is one of; nothing: none.
   [[nodiscard]] std::optional<std::uint32_t> subscription_of(Kind kind) const;

@@ -114,6 +114,18 @@ TEST_F(FoxgloveSessions, LookAtTheSensorsOfTheirSubscriptions) {
   EXPECT_TRUE(socket_.data(1).empty());
 }
 
+TEST_F(FoxgloveSessions, HearOfTheEventsOfARecordingAsTheirTimeComes) {
+  run_->facts.live = false;
+  subscribe(3, "/log");
+  pass(500ms);
+  EXPECT_TRUE(socket_.data(3).empty());
+  pass(4s);
+  // 10 ms of the run a tick of 16 ms.
+  EXPECT_EQ(socket_.data(3).size(), 2U);
+  pass(4s);
+  EXPECT_EQ(socket_.data(3).size(), 4U);
+}
+
 TEST_F(FoxgloveSessions, AreToldOfBodiesOnce) {
   subscribe(1, "/scene");
   subscribe(2, "/robots");

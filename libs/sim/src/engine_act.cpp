@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine_impl.hpp"
+#include "rave/sim/random_devices.hpp"
 
 namespace rave::sim {
 namespace {
@@ -146,9 +147,7 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
       input.dt_s = dt_s;
       input.seed = spec.seed;
       input.robot = r;
-      // The bit keeps the random numbers of actuators apart from those of sensors with the same
-      // index.
-      input.device = a | 0x4000'0000U;
+      input.device = a | kActuatorDevice;
       input.step = static_cast<std::uint32_t>(step);
       // Velocity and contact are those of the last step, because the motion of this one is not
       // resolved before all robots have proposed.

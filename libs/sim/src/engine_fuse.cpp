@@ -6,6 +6,7 @@
 
 #include "engine_impl.hpp"
 #include "rave/math/transform.hpp"
+#include "rave/sim/random_devices.hpp"
 
 namespace rave::sim {
 namespace {
@@ -13,14 +14,11 @@ namespace {
 /// A body that is nearer than this touches.
 constexpr double kTouch_m = 1e-3;
 
-/// Random numbers of the noise of one half. Apart from those of the processing, which draws with
-/// the bit 31 set.
+/// Random numbers of the noise of one half.
 RandomStream half_stream(const EngineSpec& spec, RobotId robot, std::uint32_t device,
                          std::uint32_t half_bit, const SampleHeader& sample) {
   return {spec.seed, robot.value(), device | half_bit, sample.sequence};
 }
-constexpr std::uint32_t kRealHalf = 0x4000'0000U;
-constexpr std::uint32_t kImaginedHalf = 0x2000'0000U;
 
 }  // namespace
 
@@ -159,7 +157,7 @@ bool Engine::Impl::fuse(RobotGroup& group, SensorSlots& slots, std::size_t membe
   // reading is from.
   if (fusion.real_noise) {
     fusion.real_noise->apply_noise(real, real_records,
-                                   half_stream(spec, robot, device, kRealHalf, sample));
+                                   half_stream(spec, robot, device, kRealHalfDevice, sample));
   }
   ErrorText error;
   bool failed = false;
@@ -169,9 +167,9 @@ bool Engine::Impl::fuse(RobotGroup& group, SensorSlots& slots, std::size_t membe
     return withhold(fusion, member, sample);
   }
   if (fusion.imagined_noise) {
-    fusion.imagined_noise->apply_noise(fusion.imagined_headers[member],
-                                       fusion.imagined_records_of(member),
-                                       half_stream(spec, robot, device, kImaginedHalf, sample));
+    fusion.imagined_noise->apply_noise(
+        fusion.imagined_headers[member], fusion.imagined_records_of(member),
+        half_stream(spec, robot, device, kVirtualHalfDevice, sample));
   }
   SampleHeader result = real;
   result.count = 0;

@@ -7,6 +7,7 @@
 
 #include "engine_impl.hpp"
 #include "rave/math/transform.hpp"
+#include "rave/sim/random_devices.hpp"
 
 namespace rave::sim {
 namespace {
@@ -31,7 +32,7 @@ RandomStream processing_stream(const EngineSpec& spec, RobotId robot, std::uint3
                                std::uint32_t sequence) {
   // Drivers draw with `device` alone. The top bit keeps the noise of the robot file apart from
   // them, so that switching it on changes no other number.
-  return {spec.seed, robot.value(), device | 0x8000'0000U, sequence};
+  return {spec.seed, robot.value(), device | kProcessingDevice, sequence};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "engine_impl.hpp"
 #include "listed_fan.hpp"
 #include "rave/math/transform.hpp"
+#include "rave/sim/random_devices.hpp"
 
 namespace rave::sim {
 
@@ -147,7 +148,7 @@ void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::ui
       // for many samples at once. Each sample has its own stream, so this changes no number.
       worker.noise.push_back(
           {&header, records,
-           RandomStream(spec.seed, robot.value(), device | 0x8000'0000U, sequence)});
+           RandomStream(spec.seed, robot.value(), device | kProcessingDevice, sequence)});
       worker.noisy_members.push_back(m);
     }
   }

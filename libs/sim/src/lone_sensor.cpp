@@ -9,15 +9,10 @@
 #include "declared_fan.hpp"
 #include "instances.hpp"
 #include "plugin_call.hpp"
+#include "rave/sim/random_devices.hpp"
 #include "rave/sim/range_engine.hpp"
 
 namespace rave::sim {
-namespace {
-
-/// No sensor of a robot has this number, so none draws the same random numbers.
-constexpr std::uint32_t kLoneDevice = 0x4000'0000U;
-
-}  // namespace
 
 struct LoneSensor::Parts {
   SensorSpec spec;

@@ -6,13 +6,10 @@
 #include <cstdlib>
 
 #include "rave/assemble/build.hpp"
+#include "rave/sim/random_devices.hpp"
 
 namespace rave::runtime {
 namespace {
-
-/// The bit that tells the random numbers of actuators from those of other devices, as in the
-/// engine.
-constexpr std::uint32_t kActuatorDevice = 0x4000'0000U;
 
 /// An instance of a driver in memory owned by this object.
 class Instance {
@@ -107,7 +104,7 @@ Result<GapTwin> GapTwin::make(config::RobotFile robot, const std::filesystem::pa
   RAVE_TRY_ASSIGN(impl->built,
                   build(alone(std::move(robot), file, step_s, seed), catalogue, BuildOptions{}));
   impl->actuator = &impl->built.spec.types.front().actuators.front();
-  impl->device = device | kActuatorDevice;
+  impl->device = device | sim::kActuatorDevice;
   RAVE_TRY_ASSIGN(const auto* const driver, catalogue.find(kVirtual, impl->actuator->driver));
   impl->accepts = static_cast<CommandKind>(driver->info.data_kind);
   impl->seed = seed;

@@ -24,6 +24,8 @@ TEST(Run, LeavesEverythingInOneFolder) {
     EXPECT_TRUE(fs::exists(output + "/" + file)) << file;
     EXPECT_NE(ended.out.find(file), std::string::npos) << file;
   }
+  EXPECT_NE(content_of(output + "/picture.svg").find("anna (simulated robot)"), std::string::npos)
+      << "few simulated robots are told apart by name and colour";
 }
 
 TEST(Run, QuietWithoutPicture) {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "arguments.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <initializer_list>
 #include <string_view>
+#include <vector>
 
 #include "bench_arguments.hpp"
 #include "command_tree.hpp"
@@ -14,11 +12,10 @@
 #include "file_arguments.hpp"
 #include "keys_arguments.hpp"
 #include "people_arguments.hpp"
-#include "rave/base/names.hpp"
-#include "rave/base/result.hpp"
 #include "record_arguments.hpp"
 #include "run_arguments.hpp"
 #include "shared_arguments.hpp"
+#include "usage_error.hpp"
 #include "watch_arguments.hpp"
 
 namespace rave::cli {
@@ -37,70 +34,6 @@ struct Everything {
   TopCommand top;
   DoctorCommand doctor;
 };
-
-std::vector<std::string_view> subcommands_of(const CLI::App& root,
-                                             std::vector<std::string>& names) {
-  for (const CLI::App* app : root.get_subcommands(nullptr)) names.push_back(app->get_name());
-  return {names.begin(), names.end()};
-}
-
-/// A word that is no subcommand, before CLI11 says something vague about it.
-std::optional<Finished> unknown_subcommand(const CLI::App& root, const std::string& word) {
-  std::vector<std::string> names;
-  const std::vector<std::string_view> views = subcommands_of(root, names);
-  if (word.starts_with("-") || std::find(views.begin(), views.end(), word) != views.end()) {
-    return std::nullopt;
-  }
-  const auto error = fail(ErrorCode::kInvalidArgument, "there is no subcommand `{}`{}", word,
-                          suggestion(word, views));
-  return Finished{complain(error.value())};
-}
-
-/// The subcommand that was named, as far down as names went.
-const CLI::App& chosen_app(const CLI::App& root) {
-  const CLI::App* app = &root;
-  while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
-  return *app;
-}
-
-/// `rave report gap`
-std::string full_name(const CLI::App& root) {
-  std::string name = "rave";
-  for (const CLI::App* app = &root; !app->get_subcommands().empty();) {
-    app = app->get_subcommands().front();
-    name += " " + app->get_name();
-  }
-  return name;
-}
-
-/// Says what is wrong with an option, and of an unknown one which is nearest.
-Finished usage_error(const CLI::App& root, const CLI::ParseError& e) {
-  const CLI::App& app = chosen_app(root);
-  std::string message = e.what();
-  const std::vector<std::string> extras = app.remaining();
-  std::vector<std::string> below;
-  const std::vector<std::string_view> subcommands = subcommands_of(app, below);
-  if (!subcommands.empty() && !extras.empty() && !extras.front().starts_with("-")) {
-    // Of `rave keys shwo`; the first word of all has been looked at before.
-    message = fmt::format("there is no subcommand `{} {}`{}", app.get_name(), extras.front(),
-                          suggestion(extras.front(), subcommands));
-  } else if (dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr && !extras.empty()) {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : app.get_options()) {
-      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    }
-    const std::vector<std::string_view> views(names.begin(), names.end());
-    const std::string word = extras.front().substr(0, extras.front().find('='));
-    message = word.starts_with("-")
-                  ? fmt::format("there is no option `{}`{}", word, suggestion(word, views))
-                  : fmt::format("unexpected argument `{}`", word);
-  }
-  while (!message.empty() && message.back() == '\n') message.pop_back();
-  const std::string name = full_name(root);
-  complain({ErrorCode::kInvalidArgument, message, {}});
-  put(stderr, fmt::format("for usage: `{} --help`\n", name));
-  return {kBadInput};
-}
 
 EditCommand chosen_edit(const std::string& name, EditCommand edit) {
   using What = EditCommand::What;
@@ -188,6 +121,25 @@ void group_commands(CLI::App& root) {
   }
 }
 
+/// `rave help run` is `rave run --help`.
+Finished help(CLI::App& root, int argc, const char* const* argv) {
+  std::vector<const char*> words = {argv[0]};
+  words.insert(words.end(), argv + 2, argv + argc);
+  words.push_back("--help");
+  if (argc > 2) {
+    if (const auto finished = unknown_subcommand(root, argv[2])) return *finished;
+  }
+  try {
+    root.parse(static_cast<int>(words.size()), words.data());
+  } catch (const CLI::CallForHelp&) {
+    put(stdout, root.help());
+    return Finished{kGood};
+  } catch (const CLI::ParseError& e) {
+    return usage_error(root, e);
+  }
+  return Finished{kBadInput};
+}
+
 }  // namespace
 
 Command parse_arguments(int argc, const char* const* argv) {
@@ -218,6 +170,7 @@ Command parse_arguments(int argc, const char* const* argv) {
     put(stdout, command_tree(root));
     return Finished{kGood};
   }
+  if (argc > 1 && std::string_view(argv[1]) == "help") return help(root, argc, argv);
   if (argc > 1) {
     if (const auto finished = unknown_subcommand(root, argv[1])) return *finished;
   }

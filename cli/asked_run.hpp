@@ -16,63 +16,62 @@ namespace rave::cli {
 
 /// A run on the bus, or one host of a run that has no manager, as `rave ps` lists it.
 struct SeenRun {
-  std::string name;      ///< What a command takes for it.
-  std::string machines;  ///< Where its processes are; empty if none is heard.
+  std::string name;      ///< Name for use in commands.
+  std::string machines;  ///< Machines of its processes; empty if none answered.
   Result<runtime::RunStatus> status;
 };
 
-/// What came of a request to one of several processes.
+/// The answer of one of several processes.
 struct Reply {
   std::string name;  ///< For people.
   Result<control::Answer> answer;
 };
 
-/// A process of a run that is asked something: of this user on this machine, over its socket, or
-/// else wherever it is, over the bus. One owner thread.
+/// A process of a run that receives requests: over its socket if it belongs to this user on this
+/// machine, otherwise over the bus. One owner thread.
 class AskedRun {
  public:
-  /// That of a run on this machine, by the name of its socket.
+  /// The process of a run on this machine, by the name of its socket.
   explicit AskedRun(std::string local) : name_(std::move(local)) {}
 
-  /// The one that a word stands for: on this machine, as of control::find_run(); if nothing
-  /// there can be meant, on the bus: the run, and behind an `@` the host of it, else its
-  /// environment manager. Errors: kNotFound with what there is, those of bus::Bus::open().
+  /// The process that a word refers to: on this machine, as of control::find_run(). If no process
+  /// there matches, on the bus: the run, and after an `@` its host, otherwise its environment
+  /// manager. Errors: kNotFound with the available runs, those of bus::Bus::open().
   [[nodiscard]] static Result<AskedRun> find(const std::string& word, const BusOptions& options);
 
-  /// Of a run on the bus, the process whose status has what is looked for; its environment manager
-  /// if all have answered and none has. Errors: those of find(); kNotFound (several have it); if
-  /// none has it, those of status() of one that did not answer.
+  /// The process of a run on the bus for whose status `has` is true; its environment manager if all
+  /// have answered and it is true for none. Errors: those of find(); kNotFound (several match); if
+  /// none matches, those of status() of a process that did not answer.
   using Has = std::function<bool(const runtime::RunStatus&)>;
   [[nodiscard]] static Result<AskedRun> find_on_bus(const std::string& word,
                                                     const BusOptions& options, const Has& has);
 
-  /// Asks every process on the bus that a word can mean: of each run that it can stand for, or of
-  /// all runs if it is empty, the host behind the `@`, else the environment manager in lock-step,
-  /// and all hosts. Each is asked as soon as it is found, and not after it is sure that no other
-  /// can be meant; what is done to one too many must do no harm, as a stop. Empty: nobody was
-  /// found. Errors: those of bus::Bus::open().
+  /// Sends a request to every process on the bus that a word can refer to: of each matching run, or
+  /// of all runs if it is empty, the host after the `@`, otherwise the environment manager in
+  /// lock-step, and all hosts. Each is asked as soon as it is found, before it is certain that the
+  /// word is unambiguous. So the request must do no harm to another run, as a stop. Empty: no
+  /// process was found. Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::vector<Reply>> ask_each_on_bus(const std::string& word,
                                                                   const BusOptions& options,
                                                                   const control::Request& request);
 
-  /// The processes that stop and arm the robots of this run: itself, or if it is the manager of a
-  /// run in real time the hosts, those of this machine if it was found here. Of several runs of a
-  /// scenario here it cannot be told whose hosts are whose: error kNotFound if that has to be
-  /// `sure`, else those of all.
+  /// The processes that stop and arm the robots of this run: itself, or for the manager of a run in
+  /// real time the hosts, only those of this machine if it was found here. With several runs of a
+  /// scenario here, hosts cannot be attributed to a run: error kNotFound if `sure` is set,
+  /// otherwise the hosts of all.
   [[nodiscard]] Result<std::vector<AskedRun>> controllers(bool sure) const;
 
-  /// Those that have to be asked to end a run: the one that does it alone, its environment manager,
-  /// or where that is gone its hosts. A run on this machine as of control::find_run(); else on
-  /// the bus; else hosts on this machine of the scenario that the word is. Errors: those of find().
+  /// The processes to be asked to end a run: the only one, its environment manager, or its hosts if
+  /// the manager has left. A run on this machine as of control::find_run(); else on the bus; else
+  /// hosts on this machine of the scenario with that name. Errors: those of find().
   [[nodiscard]] static Result<std::vector<AskedRun>> find_to_end(const std::string& word,
                                                                  const BusOptions& options);
 
-  /// The runs on the bus, each asked how it stands; those of this machine are among them. Looks for
-  /// 1.5 s, or 3 s beyond loopback, and asks one after the other. Errors: those of
-  /// bus::Bus::open().
+  /// The runs on the bus with their status, also those of this machine. Searches for 1.5 s, or 3 s
+  /// beyond loopback, and asks one after the other. Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::vector<SeenRun>> all_on_bus(const BusOptions& options);
 
-  /// Whether a run on this machine can be meant, which then counts before any on the bus.
+  /// Whether a run on this machine matches; then runs on the bus are not considered.
   [[nodiscard]] static bool may_be_here(const std::string& word);
 
   /// For people.
@@ -83,8 +82,8 @@ class AskedRun {
   /// control::BusRun::ask().
   [[nodiscard]] Result<control::Answer> ask(const control::Request& request,
                                             Duration patience = control::BusRun::kPatience) const;
-  /// Errors: those of ask(); kState (it was refused, as one that asks too often is, or the status
-  /// is larger than the bus carries).
+  /// Errors: those of ask(); kState (refused, for example because of too many requests, or the
+  /// status is larger than the bus carries).
   [[nodiscard]] Result<runtime::RunStatus> status(
       Duration patience = control::BusRun::kPatience) const;
 

@@ -17,14 +17,14 @@ void add_workload(CLI::App& app, swarm::Workload& workload, swarm::RunEnd& end) 
          },
          "A: 16 rays all around, 3 m; B: 180 rays ahead, 8 m [A]")
       ->type_name("A|B")
-      ->check(CLI::IsMember({"A", "B"}).description(""));
+      ->check(one_of({"A", "B"}));
   add_value(app, "--robots", workload.robots, "Number of robots [1000]", "N")
-      ->check(CLI::Range(std::uint32_t{1}, swarm::kMostRobots));
+      ->check(whole_number_in(1, swarm::kMostRobots));
   add_threads(app, workload.threads, "Number of threads; the result does not depend on it [1]");
   auto* const steps = add_value(app, "--steps", end.steps, "Number of steps of 0.1 s", "K")
-                          ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
+                          ->check(whole_number_in(1, 1'000'000'000));
   add_value(app, "--seconds", end.seconds, "Wall time to measure [5]", "S")
-      ->check(CLI::Range(1e-3, 1e6))
+      ->check(number_in(1e-3, 1e6))
       ->excludes(steps);
   app.add_option_function<std::string>(
          "--noise",
@@ -33,8 +33,9 @@ void add_workload(CLI::App& app, swarm::Workload& workload, swarm::RunEnd& end) 
          },
          "Noise of every range: none, or normal with 1 cm [none]")
       ->type_name("none|gaussian")
-      ->check(CLI::IsMember({"none", "gaussian"}).description(""));
-  add_value(app, "--seed", workload.seed, "Random seed: start poses and noise [1]", "N");
+      ->check(one_of({"none", "gaussian"}));
+  add_value(app, "--seed", workload.seed, "Random seed: start poses and noise [1]", "N")
+      ->check(whole_number_in(0, UINT64_MAX));
 }
 
 void add_swarm(CLI::App& parent, BenchSwarmCommand& c) {
@@ -58,7 +59,7 @@ void add_compare(CLI::App& parent, BenchCompareCommand& c) {
   add_word(app, "b", c.options.b, "Build folder or executable to compare with", "BUILD_B");
   add_workload(app, c.options.workload, c.options.end);
   add_value(app, "--rounds", c.options.rounds, "Runs of each build [7]", "N")
-      ->check(CLI::Range(1, 1000));
+      ->check(whole_number_in(1, 1000));
   app.add_flag("--allow-different-hash", c.options.allow_different_hash,
                "Compare even if the run hashes differ");
   app.footer(

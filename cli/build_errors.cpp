@@ -13,6 +13,7 @@ using config::ExpandedScenario;
 using config::RobotFile;
 using config::RobotGroup;
 
+/// Each error costs a build of the scenario.
 constexpr int kMostErrors = 200;
 
 bool same(const SourceLocation& a, const SourceLocation& b) {
@@ -26,6 +27,8 @@ bool begins_before(const SourceLocation& begin, const SourceLocation& where) {
          std::tie(begin.line, begin.column) <= std::tie(where.line, where.column);
 }
 
+/// runtime::build() stops at its first error. So the part with the error is taken out and the rest
+/// is built again, until it builds or nothing can be taken out.
 class Search {
  public:
   explicit Search(ExpandedScenario scenario) : scenario_(std::move(scenario)) {}
@@ -39,6 +42,7 @@ class Search {
       if (take_device(error.where)) {
         if (!known) errors_.push_back(error);
       } else {
+        // A group that lost a device fails for that reason alone, which was told already.
         const bool follows = is_tainted(error.where);
         if (!known && !follows) errors_.push_back(error);
         if (!take_group(error.where) && !take_map(error.where)) break;
@@ -100,6 +104,7 @@ class Search {
     const auto at = static_cast<std::ptrdiff_t>(index);
     if (list == 0) {
       const std::string name = robot.sensors[index].name.value;
+      // Else it would name a sensor that is no longer there, an error of this search.
       if (robot.pose_from && robot.pose_from->value == name) robot.pose_from.reset();
       robot.sensors.erase(robot.sensors.begin() + at);
     } else if (list == 1) {

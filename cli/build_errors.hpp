@@ -10,9 +10,9 @@
 
 namespace rave::cli {
 
-/// Everything that keeps a scenario from being built. Building stops at the first error, so the
-/// part that is wrong is taken out and the rest tried again, until it builds or nothing can be
-/// taken out. Errors that only follow from what was taken out are left out. `scenario` is consumed.
+/// All errors that prevent a scenario from being built. Building stops at the first error, so the
+/// wrong part is removed and the rest is built again, until it builds or nothing can be removed.
+/// Errors that only follow from a removal are omitted. `scenario` is consumed.
 [[nodiscard]] std::vector<Error> build_errors(config::ExpandedScenario scenario,
                                               plugin::Catalogue& catalogue,
                                               const runtime::BuildOptions& options);

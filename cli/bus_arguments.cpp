@@ -7,7 +7,7 @@ namespace rave::cli {
 
 void add_network_options(CLI::App& app, BusOptions& c) {
   add_value(app, "--domain", c.domain, "DDS domain of a run with several processes [0]", "N")
-      ->check(CLI::Range(0, 230));
+      ->check(whole_number_in(0, 230));
   add_value(app, "--interface", c.interface,
             "Network interface, by address or name [this machine only]", "ADDR");
   add_values(app, "--peer", c.peers,

@@ -9,10 +9,11 @@ class App;
 
 namespace rave::cli {
 
-/// How a process reaches others: domain, interface, peers, multicast, certificates.
+/// Adds the options with which a process reaches others: domain, interface, peers, multicast,
+/// certificates.
 void add_network_options(CLI::App& app, BusOptions& c);
 
-/// How a process takes part in a run of several: the same, and the name of the run.
+/// Adds the same options and the name of the run.
 void add_bus_options(CLI::App& app, BusOptions& c);
 
 }  // namespace rave::cli

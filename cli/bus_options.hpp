@@ -10,7 +10,7 @@
 
 namespace rave::cli {
 
-/// How a process of a shared run takes part in it, as the command line says.
+/// How a process takes part in a shared run, according to the command line.
 struct BusOptions {
   std::string run;  ///< A name, or 32 hexadecimal digits; empty: that of the scenario.
   std::uint32_t domain = 0;
@@ -21,7 +21,7 @@ struct BusOptions {
   bool dds_only = false;  ///< No local transport between processes of one machine; to measure.
   std::string tag;        ///< Hides the run from processes with another one; for tests.
 
-  /// Whether something says which bus, for people.
+  /// Whether any option selects a bus.
   [[nodiscard]] bool says_where() const;
 };
 
@@ -30,17 +30,17 @@ struct BusOptions {
 [[nodiscard]] Result<bus::BusConfig> bus_config(const BusOptions& options, std::string participant,
                                                 std::uint64_t scenario);
 
-/// The same, without a look at whether a bus can be made of it.
+/// The same, without checking that a bus can be opened with it.
 [[nodiscard]] Result<bus::BusConfig> read_bus_options(const BusOptions& options,
                                                       std::string participant,
                                                       std::uint64_t scenario);
 
-/// As many processes as one command starts; who looks on may look for all of them.
+/// Largest number of hosts that one command starts; monitors search for as many.
 inline constexpr std::size_t kMostHosts = 100;
 
-/// Lets so many hosts find one another, or their manager, if all run on this machine. Each process
-/// that there may be costs every other one a look now and then; of many, hosts look for their
-/// manager alone. `reach`: what this process then is.
+/// Configures discovery for so many hosts on this machine. Each possible process costs every other
+/// one some traffic, so in large runs hosts search for their manager only. `reach`: the role of
+/// this process.
 void make_room(bus::BusConfig& config, std::size_t hosts, bus::Reach reach = bus::Reach::kAll);
 
 /// The same as words for the command line of another process of the run.

@@ -11,16 +11,16 @@
 
 namespace rave::cli {
 
-/// What a run is looked for.
+/// The purpose of a search.
 enum class SearchFor : std::uint8_t {
-  kLook,  ///< To look on: quick, with those that are found soon.
-  kAct,   ///< To ask something of it: the whole patience, unless its name or whole number is said.
+  kLook,  ///< To monitor: quick, with the runs that are found soon.
+  kAct,   ///< To send a request: searches for the whole time, unless the full name or number is
+          ///< given.
 };
 
-/// The run of several processes on the bus of `config` that a word stands for: as of
-/// watch::choose_run(), or its scenario, if one alone is of it. Looks for it for `patience`; the
-/// scenario of each run is looked for after that, for up to 1.5 s. Errors: kNotFound (none, or
-/// several), those of bus::Bus::open().
+/// The run on the bus of `config` that a word refers to: as of watch::choose_run(), or the only one
+/// of that scenario. Searches for `patience`, then up to 1.5 s for the scenario of each run.
+/// Errors: kNotFound (none, or several), those of bus::Bus::open().
 [[nodiscard]] Result<bus::RunId> find_bus_run(const bus::BusConfig& config, const std::string& word,
                                               SearchFor what, Duration patience,
                                               const std::stop_token& stop = {});

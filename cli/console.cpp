@@ -52,6 +52,7 @@ Status Console::open_file(const std::filesystem::path& path) {
   }
   file_->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l %v");
   file_->set_level(spdlog::level::debug);
+  // A process that is killed leaves what it said; only details may be lost.
   file_->flush_on(spdlog::level::info);
   return {};
 }
@@ -61,6 +62,7 @@ void Console::write(LogLevel level, std::string_view source, std::string_view me
   if (file_) file_->log(level_of(level), text);
   if (!screen_->should_log(level_of(level))) return;
   const std::lock_guard lock(mutex_);
+  // The line of progress is below all messages: erased, and drawn again behind the new one.
   const std::string line = line_;
   erase();
   screen_->log(level_of(level), text);

@@ -18,7 +18,7 @@ class logger;
 
 namespace rave::cli {
 
-/// What a run says while it goes on: one progress line at the bottom of the terminal, warnings and
+/// The output of a run in progress: one progress line at the bottom of the terminal, warnings and
 /// errors above it, and every message with the time of day in a file. Writes to stderr. Messages
 /// may come from any thread; everything else belongs to one.
 class Console final : public LogSink {

@@ -73,7 +73,7 @@ void add_hold(CLI::App& root, HoldCommand& c) {
     add_network_options(*app, c.bus);
   }
   add_value(step, "--count", c.count, "Number of steps [1]", "N")
-      ->check(CLI::Range(1, 1'000'000'000));
+      ->check(whole_number_in(1, 1'000'000'000));
 }
 
 void add_end(CLI::App& root, EndCommand& c) {
@@ -129,7 +129,7 @@ void add_orders(CLI::App& root, ControlCommands& commands) {
            "Speed forward in m/s, and turning rate to the left in rad/s", "V W")
       ->expected(2);
   add_value(drive, "--for", commands.drive.for_s, "Duration in seconds [1]", "S")
-      ->check(CLI::Range(0.1, 3600.0));
+      ->check(number_in(0.1, 3600.0));
   add_order(drive, commands.drive);
   drive.footer(
       "The guard of the robot stays active. After the duration, or when this command is ended, "
@@ -181,7 +181,7 @@ void add_edit(CLI::App& root, EditCommand& c) {
   app.require_subcommand(1);
   CLI::App& add = *app.add_subcommand("add", "Add an obstacle");
   add_word(add, "shape", c.shape, "box, disc or polygon", "SHAPE")
-      ->check(CLI::IsMember({"box", "disc", "polygon"}));
+      ->check(one_of({"box", "disc", "polygon"}));
   add_word(add, "--name", c.name, "Name of the obstacle, unique in the run", "NAME");
   add_place(add, c.at);
   add_value(add, "--size", c.size, "Length x width of a box (LxW), or radius of a disc, in metres",

@@ -13,7 +13,7 @@ class App;
 
 namespace rave::cli {
 
-/// What those that reach into a run that goes on are given.
+/// Options of the commands that act on a run in progress.
 struct ControlCommands {
   PsCommand ps;
   StopCommand stop;

@@ -42,6 +42,7 @@ void keep_what_can_be_drawn(const InputFile& input, runtime::BuiltScenario& buil
     }
     std::erase_if(type.sensors, [](const auto& sensor) { return sensor.virtual_ops == nullptr; });
     for (sim::SensorSpec& sensor : type.sensors) {
+      // One step is drawn, so all sense in it, and without noise.
       sensor.phase_steps = 0;
       sensor.processing = {};
     }
@@ -49,6 +50,7 @@ void keep_what_can_be_drawn(const InputFile& input, runtime::BuiltScenario& buil
     type.controllers.clear();
     type.program.reset();
     type.pose_from.reset();
+    // A real robot would wait for its pose source; here it stands where the file puts it.
     type.simulated = true;
   }
   spec.threads = 1;
@@ -85,6 +87,7 @@ void add_rays(const sim::Engine& engine, RobotId robot, std::uint32_t index, Pic
 }
 
 Status add_robots(sim::EngineSpec spec, Picture& picture) {
+  // Before the engine takes the specification.
   const std::vector<std::size_t> sensors = [&] {
     std::vector<std::size_t> counts;
     for (const sim::RobotSpec& robot : spec.robots) {

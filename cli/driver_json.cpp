@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "driver_data.hpp"
 #include "rave/plugin/params_text.hpp"
 
 namespace rave::cli {
@@ -58,6 +59,15 @@ RawNode driver_json(const plugin::Driver& driver) {
   node.append("name", RawNode::text(info.name));
   node.append("version", RawNode::text(info.version));
   node.append("clock", RawNode::text(std::string(to_string(info.clock))));
+  for (const plugin::DriverFact& fact : data_facts(info)) {
+    if (fact.key == "gives") {
+      const auto kind = static_cast<ReadingKind>(info.data_kind);
+      node.append("gives", RawNode::text(std::string(to_string(kind))));
+      node.append("record_type", RawNode::text(std::string(record_type(kind))));
+    } else {
+      node.append(fact.key, RawNode::text(fact.value));
+    }
+  }
   if (*info.device != '\0') node.append("device", RawNode::text(info.device));
   node.append("summary", RawNode::text(info.summary));
   node.append("file", RawNode::text(driver.file.string()));

@@ -6,7 +6,7 @@
 
 namespace rave::cli {
 
-/// Everything that a driver says of itself, for other programs.
+/// The description of a driver, for other programs.
 [[nodiscard]] config::RawNode driver_json(const plugin::Driver& driver);
 
 }  // namespace rave::cli

@@ -12,8 +12,8 @@ namespace rave::cli {
 
 /// The exit codes of every subcommand.
 inline constexpr int kGood = 0;
-inline constexpr int kNotGood = 1;   ///< A run that was not whole, or whose checks do not hold.
-inline constexpr int kBadInput = 2;  ///< Usage, or files that are wrong.
+inline constexpr int kNotGood = 1;   ///< An incomplete run, or failed checks.
+inline constexpr int kBadInput = 2;  ///< Wrong usage or wrong files.
 
 /// An Error for people: each of its lines, and below those with a place the line of the file with
 /// a caret. Ends in a newline.
@@ -22,7 +22,7 @@ inline constexpr int kBadInput = 2;  ///< Usage, or files that are wrong.
 /// Prints an Error to stderr, after `rave: ` if it has no place, and returns kBadInput.
 int complain(const Error& error);
 
-/// Takes the place apart that stands before a message: `file:line:column: message`.
+/// Splits the place off a message: `file:line:column: message`.
 struct PlacedMessage {
   SourceLocation where;  ///< Without a file if the message has no place.
   std::string message;

@@ -13,7 +13,7 @@ class App;
 
 namespace rave::cli {
 
-/// What those about files, drivers and projects are given.
+/// Options of the commands about files, drivers and projects.
 struct FileCommands {
   CheckCommand check;
   DriversCommand drivers;

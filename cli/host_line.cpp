@@ -45,6 +45,7 @@ Result<LinePlace> parse_line_place(const std::string& text) {
   const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
   const std::size_t bracket = text.rfind(']');
   const std::size_t colon = text.rfind(':');
+  // Colons inside the brackets of an IPv6 address are part of it.
   const bool has_port =
       colon != std::string::npos && (bracket == std::string::npos || colon > bracket);
   std::string address = digits ? "" : text.substr(0, has_port ? colon : std::string::npos);
@@ -87,8 +88,11 @@ Result<HostLineEnds> open_line_here(const LineArguments& arguments,
                                     runtime::RunControl& control, gui_server::GuiServer& page,
                                     LogSink& log) {
   RAVE_TRY_ASSIGN(auto options, options_of(arguments, log));
+  // Page and line are in this process, so nobody else needs the key and it need not be a file.
   const direct_line::SigningKey key = direct_line::new_signing_key();
   options.signer = key.open;
+  // A run of one process has no number on a bus; tickets need one all the same, so that none fits
+  // another run.
   options.run = bus::RunId::random().text();
   options.host = kHere;
   HostLineEnds ends;
@@ -104,6 +108,7 @@ Status offer_bus_lines(const config::ExpandedScenario& scenario, const bus::BusC
   RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
   std::map<std::string, std::vector<std::string>> robots;
   for (const config::PlannedHost& host : hosts) robots[host.name] = names_of(scenario, host);
+  // In lock-step orders go to the manager, for all robots.
   auto& all = robots[direct_line::kManagerHost];
   for (const config::ExpandedRobot& robot : scenario.robots) all.push_back(robot.name);
   RAVE_TRY_ASSIGN(

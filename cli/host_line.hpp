@@ -15,7 +15,7 @@
 
 namespace rave::cli {
 
-/// The direct line of a host, as the command line says.
+/// Options of the direct line of a host.
 struct LineArguments {
   std::optional<std::string> web;  ///< `ADDRESS:PORT` or a part of it; unset: no line.
   std::string web_key;             ///< The file with the public key of the GUI Server.
@@ -31,28 +31,28 @@ struct LinePlace {
 };
 [[nodiscard]] Result<LinePlace> parse_line_place(const std::string& text);
 
-/// A line and what tells others of it. Ends before the control that it was given.
+/// A line and its announcement. Destroy it before the control that it was given.
 struct HostLineEnds {
   std::unique_ptr<direct_line::LineServer> server;
   std::unique_ptr<direct_line::LineBeacon> beacon;  ///< Null: the GUI Server is here.
 };
 
-/// The line of a host on a bus, or of its environment manager (direct_line::kManagerHost), which is
-/// told of if that process takes the orders of the run; both ends are null if none is requested.
-/// Errors: kInvalidArgument (an address, or no key), those of the key file, LineServer::start() and
-/// LineBeacon::start().
+/// Opens the line of a host on a bus, or of its environment manager (direct_line::kManagerHost). It
+/// is announced if the process accepts the orders of the run. Both members are null if no line is
+/// requested. Errors: kInvalidArgument (an address, or no key), those of the key file,
+/// LineServer::start() and LineBeacon::start().
 [[nodiscard]] Result<HostLineEnds> open_host_line(const LineArguments& arguments,
                                                   const std::string& host,
                                                   const bus::BusConfig& bus,
                                                   runtime::RunControl& control, LogSink& log);
 
-/// The line of a run of this process, which `page` gives tickets for. The same errors.
+/// Opens the line of a run in this process; `page` issues tickets for it. The same errors.
 [[nodiscard]] Result<HostLineEnds> open_line_here(const LineArguments& arguments,
                                                   const config::ExpandedScenario& scenario,
                                                   runtime::RunControl& control,
                                                   gui_server::GuiServer& page, LogSink& log);
 
-/// Lets a page of a run on a bus give tickets for the lines of its hosts. Errors: those of
+/// Lets a page of a run on a bus issue tickets for the lines of its hosts. Errors: those of
 /// direct_line::lines_on_bus().
 [[nodiscard]] Status offer_bus_lines(const config::ExpandedScenario& scenario,
                                      const bus::BusConfig& bus, const direct_line::SigningKey& key,

@@ -11,8 +11,7 @@
 
 namespace rave::cli {
 
-/// A process that this one has started. Ended with it: by SIGTERM, and SIGKILL if that is not
-/// enough.
+/// A child process. The destructor ends it: by SIGTERM, then SIGKILL.
 class HostProcess {
  public:
   /// `words`: the executable and its arguments. Errors: kIo.
@@ -21,9 +20,9 @@ class HostProcess {
   HostProcess& operator=(HostProcess&& other) noexcept;
   ~HostProcess();
 
-  /// How it ended: its exit code, or minus the signal that killed it; nothing while it runs.
+  /// Its exit code, or minus the signal that killed it; empty while it runs.
   [[nodiscard]] std::optional<int> ended();
-  /// Waits for its end for as long as told.
+  /// Waits for its end, at most for that long.
   [[nodiscard]] std::optional<int> wait(double longest_s);
   /// Asks it to end, as Ctrl-C does.
   void interrupt() const noexcept;

@@ -21,8 +21,8 @@ enum class FileKind { kRobot, kWorld, kScenario };
 struct InputFile {
   FileKind kind = FileKind::kScenario;
   std::filesystem::path path;
-  /// A robot file alone stands at the origin of an empty world; a world has a robot that nobody
-  /// meets, because a scenario without any is none.
+  /// A robot file becomes one robot at the origin of an empty world. A world file gets a robot far
+  /// away, because a scenario needs one.
   config::ExpandedScenario scenario;
 };
 

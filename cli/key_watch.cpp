@@ -28,6 +28,7 @@ namespace {
 KeyWatch::KeyWatch(bool keys)
     : keys_(keys && ::tcgetattr(STDIN_FILENO, &before_) == 0), quit_(::eventfd(0, EFD_CLOEXEC)) {
   const ::sigset_t set = ends();
+  // Blocked before the thread starts, which inherits it: a signal is then read and runs no handler.
   ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
   signals_ = ::signalfd(-1, &set, SFD_CLOEXEC);
   if (keys_) {
@@ -52,6 +53,7 @@ KeyWatch::~KeyWatch() {
 
 std::stop_token KeyWatch::next() {
   const std::lock_guard lock(mutex_);
+  // A token of its own for each wait, because one that was used stays so.
   if (!ended_) happened_ = std::stop_source();
   return happened_.get_token();
 }

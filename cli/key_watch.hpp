@@ -10,24 +10,24 @@
 
 namespace rave::cli {
 
-/// Waits for the end of a command that shows something until somebody has seen enough: SIGINT,
-/// SIGTERM, SIGQUIT, SIGHUP, or the key q; and for the key r. To be made before any other thread of
-/// the process, which then all leave the signals to it. One in a process.
+/// Watches for the end of a command with a display: SIGINT, SIGTERM, SIGQUIT, SIGHUP or the key q;
+/// and for the key r. Create it before any other thread of the process, so that all of them leave
+/// the signals to it. One per process.
 class KeyWatch {
  public:
   /// `keys`: the terminal behind the standard input gives each key at once, and shows none.
   explicit KeyWatch(bool keys);
   KeyWatch(const KeyWatch&) = delete;
   KeyWatch& operator=(const KeyWatch&) = delete;
-  /// Gives the terminal and the signals back.
+  /// Restores the terminal and the signals.
   ~KeyWatch();
 
   [[nodiscard]] bool ended() const noexcept { return ended_.load(); }
   /// Whether r was pressed since the last call.
   [[nodiscard]] bool take_toggle() noexcept { return toggled_.exchange(false); }
-  /// Stops when something happens from now on, or has ended already.
+  /// A token that stops at the next event from now on, or at once after the end.
   [[nodiscard]] std::stop_token next();
-  /// Stops when somebody has seen enough.
+  /// A token that stops at the end.
   [[nodiscard]] std::stop_token end() const { return over_.get_token(); }
 
  private:

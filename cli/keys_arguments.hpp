@@ -9,7 +9,7 @@ class App;
 
 namespace rave::cli {
 
-/// What the subcommands of `keys` are given.
+/// Options of the subcommands of `keys`.
 struct KeysCommands {
   KeysNewCommand make;
   KeysAddCommand add;

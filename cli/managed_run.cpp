@@ -100,6 +100,7 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, runtime::BuiltScenario bu
          run.scenario.robots.size(),
          progress.waiting.empty() ? std::string() : "waiting for " + progress.waiting});
   };
+  // What people say is part of the recording of the world, which the manager writes.
   const auto keep_said = [&run, &end] {
     for (const runtime::RunRequest& chat : run.control.take_said()) end.results->say(chat);
   };
@@ -206,6 +207,7 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, runtime::BuiltScenario bui
   how.hosts = std::move(hosts);
   for (const sim::RobotSpec& robot : built.spec.robots) {
     const sim::RobotType& type = built.spec.types[robot.type];
+    // A robot that is handed over during the run has the limits of its other drivers from then on.
     const sim::RobotType& other = built.spec.types[robot.twin.value_or(robot.type)];
     how.robots.push_back(
         {robot.name, type.staleness, type.simulated, robot.twin.has_value(), other.staleness});
@@ -238,6 +240,7 @@ Result<runtime::BuiltScenario> build_world(const config::ExpandedScenario& scena
   RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(plugins));
   runtime::BuildOptions how;
   how.log = &log;
+  // No robot is local: the manager opens no device and starts no program.
   how.local.emplace();
   how.others = catalogue.get();
   return runtime::build(scenario, *catalogue, how);
@@ -249,6 +252,8 @@ Result<std::unique_ptr<gui_server::GuiServer>> show_run(const RunCommand& option
                                                         runtime::RunControl* control,
                                                         LogSink& log) {
   RAVE_TRY_ASSIGN(const auto built, build_world(scenario, options.plugins, log));
+  // A catalogue of its own, because it belongs to one thread and the page describes drivers in
+  // another.
   RAVE_TRY_ASSIGN(auto described, open_catalogue(options.plugins));
   RAVE_TRY_ASSIGN(auto source,
                   gui_server::watch_run(scenario, built, bus, std::move(described), control));

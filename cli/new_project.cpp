@@ -39,9 +39,18 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
   }
 }
 
+/// `Fastest robots` of `fastest_robots`.
+std::string title_of(const std::string& name) {
+  std::string title = name;
+  std::replace(title.begin(), title.end(), '_', ' ');
+  if (is_lower(title.front())) title.front() = static_cast<char>(title.front() - 'a' + 'A');
+  return title;
+}
+
 std::string filled_in(std::string text, const std::string& name) {
   replace_all(text, "@NAME@", name);
   replace_all(text, "@CLASS@", class_name_of(name));
+  replace_all(text, "@TITLE@", title_of(name));
   return text;
 }
 

@@ -38,10 +38,10 @@ std::optional<fs::path> scenario_in(const fs::path& folder, const fs::path& name
   return std::nullopt;
 }
 
-std::vector<std::string> scenario_names() {
+std::vector<std::string> names_in(const std::vector<fs::path>& folders) {
   std::vector<std::string> names;
   std::error_code error;
-  for (const fs::path& folder : scenario_folders()) {
+  for (const fs::path& folder : folders) {
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {
       const fs::path& path = entry->path();
@@ -82,6 +82,8 @@ fs::path share_folder() {
   if (given != nullptr && *given != '\0') return given;
   return executable_folder().parent_path() / "share" / "rave";
 }
+
+std::vector<std::string> shipped_scenarios() { return names_in({share_folder() / "scenarios"}); }
 
 fs::path program_runner() { return executable_folder() / "rave-program-runner"; }
 
@@ -131,7 +133,7 @@ Result<fs::path> find_scenario(std::string_view word) {
   if (fs::is_directory(path, error)) {
     return fail(ErrorCode::kNotFound, "the folder `{}` has no {}", word, kScenarioFile);
   }
-  const std::vector<std::string> names = scenario_names();
+  const std::vector<std::string> names = names_in(scenario_folders());
   const std::vector<std::string_view> views(names.begin(), names.end());
   return fail(
       ErrorCode::kNotFound,

@@ -19,6 +19,9 @@ namespace rave::cli {
 /// Templates and shipped scenarios: RAVE_SHARE, else `../share/rave` beside the executable.
 [[nodiscard]] std::filesystem::path share_folder();
 
+/// The names of the scenarios of the share folder, sorted; empty if it has none.
+[[nodiscard]] std::vector<std::string> shipped_scenarios();
+
 /// The executable for programs with `isolate: true`.
 [[nodiscard]] std::filesystem::path program_runner();
 

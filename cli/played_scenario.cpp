@@ -14,6 +14,7 @@
 #include "rave/record/run_reader.hpp"
 #include "rave/robot/command.hpp"
 #include "rave/robot/reading.hpp"
+#include "seen_obstacles.hpp"
 
 namespace rave::cli {
 namespace {
@@ -53,6 +54,10 @@ class Playing {
       robots.push_back(std::move(entry));
     }
     RAVE_TRY(check_anew());
+    if (!arguments_.world) {
+      std::string note = seen_.put_on_layer(original_.world);
+      if (!note.empty()) played_.notes.push_back(std::move(note));
+    }
     RAVE_TRY_ASSIGN(const std::string scenario, scenario_text(std::move(robots)));
     played_.files.push_back({"scenario.yaml", scenario});
     if (!arguments_.world)
@@ -88,6 +93,7 @@ class Playing {
     RAVE_TRY(replace_sensors(recorded, robot));
     const auto pose = place(recorded, expanded, track, robot);
     replace_actuators(recorded, robot);
+    leave_out_devices(recorded, robot);
     replace_program(robot);
     robot.variables.clear();
     const fs::path file = fs::path("robots") / (recorded.name + ".yaml");
@@ -102,10 +108,20 @@ class Playing {
     return entry;
   }
 
+  /// A file as those in `below` of the folder name it.
+  [[nodiscard]] std::string path_from(const fs::path& below, const fs::path& file) const {
+    std::error_code error;
+    // Without symbolic links: `..` behind one would lead somewhere else.
+    const fs::path whole = fs::weakly_canonical(file, error);
+    if (error) return fs::absolute(file, error).lexically_normal();
+    if (arguments_.folder.empty()) return whole;
+    const fs::path base = fs::weakly_canonical(arguments_.folder / below, error);
+    return error ? whole : whole.lexically_relative(base);
+  }
+
   [[nodiscard]] RawNode player_params(const std::string& robot, const std::string& sensor) const {
     RawNode params = RawNode::mapping();
-    std::error_code error;
-    params.append("file", RawNode::text(fs::absolute(arguments_.record, error).lexically_normal()));
+    params.append("file", RawNode::text(path_from("robots", arguments_.record)));
     params.append("robot", RawNode::text(robot));
     if (!sensor.empty()) params.append("sensor", RawNode::text(sensor));
     if (arguments_.start_s != 0) params.append("start_s", RawNode::number(arguments_.start_s));
@@ -133,6 +149,7 @@ class Playing {
       }
       const auto kind = static_cast<ReadingKind>(found->kind);
       const bool was_virtual = is_virtual(sensor);
+      if (kind == ReadingKind::kRanges) seen_.note(recorded.name, sensor, was_virtual);
       sensor.driver = config::Located<std::string>(fmt::format("playback_{}", to_string(kind)));
       sensor.params = player_params(recorded.name, sensor.name.value);
       // Of a virtual camera the newest picture counts; a real one hands over sighting by sighting.
@@ -143,6 +160,10 @@ class Playing {
       sensor.noise = {};
       sensor.filters.clear();
       sensor.senses.reset();
+      // The result of a hybrid is played, not fused again.
+      sensor.real.reset();
+      sensor.imagined.reset();
+      sensor.device.reset();
     }
     return {};
   }
@@ -227,6 +248,7 @@ class Playing {
       if (velocity) {
         actuator.driver = config::Located<std::string>("replay_ignored");
         actuator.params = RawNode();
+        actuator.device.reset();
         return false;
       }
       std::erase_if(robot.controllers,
@@ -234,6 +256,20 @@ class Playing {
       played_.notes.push_back(fmt::format(
           "robot `{}`: actuator `{}` is left out, because no driver ignores its kind of command",
           recorded.name, actuator.name.value));
+      return true;
+    });
+  }
+
+  /// Hardware that was shared must not be opened, nor moved, by a run that plays its readings.
+  void leave_out_devices(const record::RecordedRobot& recorded, config::RobotFile& robot) {
+    robot.devices.clear();
+    std::erase_if(robot.transmitters, [&](const config::TransmitterFile& transmitter) {
+      if (!transmitter.device) return false;
+      std::erase_if(robot.communicators,
+                    [&](const auto& c) { return c.transmitter.value == transmitter.name.value; });
+      played_.notes.push_back(
+          fmt::format("robot `{}`: transmitter `{}` is left out, because it is a part of a device",
+                      recorded.name, transmitter.name.value));
       return true;
     });
   }
@@ -272,10 +308,8 @@ class Playing {
     root.append("name", RawNode::text(played_.name));
     root.append("description", RawNode::text(fmt::format("Robots of the run {} of {}, played",
                                                          run_.scenario, run_.started)));
-    std::error_code error;
     const std::string world =
-        arguments_.world ? fs::absolute(*arguments_.world, error).lexically_normal().string()
-                         : std::string("world.yaml");
+        arguments_.world ? path_from("", *arguments_.world) : std::string("world.yaml");
     root.append("world", RawNode::text(world));
     root.append("duration_s", RawNode::number(std::round(duration_s * 1e9) / 1e9));
     root.append("step_s", RawNode::number(step_s));
@@ -283,6 +317,7 @@ class Playing {
     root.append("robots", std::move(robots));
     if (!arguments_.world) {
       RAVE_TRY_ASSIGN(RawNode changes, played_obstacles(reader_, run_, arguments_.start_s));
+      seen_.put_on_layer(changes);
       if (changes.size() > 0) root.append("changes", std::move(changes));
     }
     RawNode picture = RawNode::mapping();
@@ -299,6 +334,7 @@ class Playing {
   config::ExpandedScenario original_;
   PlayedScenario played_;
   std::vector<std::string> used_anew_;
+  SeenObstacles seen_;
 };
 
 }  // namespace

@@ -19,6 +19,9 @@ struct PlayArguments {
   std::optional<std::filesystem::path> world;  ///< None: that of the record.
   std::optional<std::string> program;          ///< Driver name; none: no robot has a program.
   double start_s = 0;                          ///< Of the record; becomes run time 0.
+  /// Where the files will be written. The paths in them are relative to it, so that it can be moved
+  /// together with the recording. Empty: the paths are absolute.
+  std::filesystem::path folder{};
 };
 
 /// The files of a scenario in which robots of a record are recorded real robots.

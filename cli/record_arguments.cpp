@@ -46,7 +46,7 @@ void add_play(CLI::App& root, PlayCommand& c) {
   add_value(app, "--program", c.program,
             "Program that receives the readings; its commands are ignored [none]", "NAME");
   add_value(app, "--start", c.start_s, "Start time in the recording, in seconds [0]", "S")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(number_in(0.0, 1e9));
   add_value(app, "--write", c.write, "Write the scenario to this folder, and do not run it", "DIR");
   add_run_options(app, c.run);
   app.footer(
@@ -61,13 +61,14 @@ void add_export(CLI::App& root, ExportCommand& c) {
   CLI::App& app = *root.add_subcommand("export", "Write a part of a recording as CSV");
   add_record(app, c.file);
   add_word(app, "what", c.what, "poses, readings or events", "WHAT")
-      ->check(CLI::IsMember({"poses", "readings", "events"}).description(""));
+      ->check(one_of({"poses", "readings", "events"}));
   add_value(app, "--robot", c.robot, "Only this robot [all]; required for readings", "NAME");
   add_value(app, "--sensor", c.sensor, "Sensor, for readings", "NAME");
   add_value(app, "--output", c.output, "File to write [standard output]", "FILE");
   app.footer(
       "Times are seconds of the run, all other values SI units. A range without return is `inf`.\n"
-      "Columns: docs/how-to/read-a-recording.md. Exit code: 0, or 2 for bad input.\n\n"
+      "Columns: docs/how-to/read-a-recording.md of the documentation (share/doc/rave). Exit code: "
+      "0, or 2 for bad input.\n\n"
       "Examples:\n"
       "  rave export runs/20260101-120000-mixed-reality poses > poses.csv\n"
       "  rave export run.mcap readings --robot hunter --sensor laser --output laser.csv");
@@ -88,7 +89,7 @@ void add_report(CLI::App& root, GapCommand& c) {
   app.add_flag("--truth", c.truth, "Compare with the true pose instead of the reported pose");
   add_value(app, "--window", c.window_s,
             "Time after which the twin is set to the robot again, in seconds [10]", "S")
-      ->check(CLI::Range(1e-3, 1e6));
+      ->check(number_in(1e-3, 1e6));
   add_value(app, "--output", c.output,
             "Folder for the picture and the numbers [that of the recording]", "DIR");
   app.add_flag("--json", c.json, "Print the numbers as JSON");

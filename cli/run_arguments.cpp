@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run_arguments.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string>
+#include <vector>
+
 #include "bus_arguments.hpp"
+#include "places.hpp"
+#include "rave/base/text_width.hpp"
 #include "shared_arguments.hpp"
 
 namespace rave::cli {
@@ -20,6 +28,13 @@ void add_run(CLI::App& root, RunCommand& c) {
   app.get_option("--foxglove")->needs(gui);
   add_line_options(app, c.line);
   add_bus_options(app, c.bus);
+  app.footer([] {
+    const std::vector<std::string> names = shipped_scenarios();
+    // Without the component that has them, for example where only recordings are shown.
+    if (names.empty()) return std::string();
+    return indented(
+        fmt::format("Names of scenarios that come with RAVE: {}.", fmt::join(names, ", ")), 0, 90);
+  });
   app.footer(
       "Exit code: 0 if the run completed and all checks hold, 1 if not, 2 for bad input.\n"
       "Ctrl-C ends the run early and writes its results; a second Ctrl-C kills it.\n"
@@ -36,7 +51,7 @@ void add_robot(CLI::App& root, RobotCommand& c) {
   add_word(app, "--host", c.host, "Name of the host in the scenario", "NAME");
   add_value(app, "--wait-for-manager", c.manager_patience_s,
             "Seconds to wait for an environment manager [no limit]", "S")
-      ->check(CLI::Range(0.1, 1e9));
+      ->check(number_in(0.1, 1e9));
   add_run_options(app, c.run);
   add_processes(app, c.run.processes, "As for `rave env`", 2);
   add_line_options(app, c.run.line);
@@ -81,7 +96,7 @@ void add_run_options(CLI::App& app, RunCommand& c) {
   add_threads(app, c.threads);
   add_value(app, "--duration", c.duration_s, "Simulated time, in seconds (overrides the scenario)",
             "S")
-      ->check(CLI::Range(1e-4, 1e9));
+      ->check(number_in(1e-4, 1e9));
   add_value(app, "--pace", c.pace,
             "Speed: max, realtime, or a factor such as 10x (overrides the scenario)", "PACE");
   app.add_flag("--no-picture", c.no_picture, "Do not draw picture.svg and picture.png");

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run_scenario.hpp"
 
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "input_file.hpp"
 #include "places.hpp"
 
 namespace rave::cli {
@@ -28,11 +33,24 @@ Status override_settings(const RunCommand& options, config::ScenarioFile& scenar
   return {};
 }
 
+/// Of a robot or a world the missing keys of a scenario would say nothing.
+Error why_no_scenario(const std::filesystem::path& path, Error error) {
+  const auto kind = recognise(path);
+  if (!kind || *kind == FileKind::kScenario) return error;
+  return {ErrorCode::kInvalidArgument,
+          fmt::format("`{0}` is a {1} file; expected a scenario, which names it (`rave check {0}` "
+                      "checks it alone)",
+                      path.string(), to_string(*kind)),
+          {}};
+}
+
 }  // namespace
 
 Result<config::ExpandedScenario> read_scenario(const RunCommand& options) {
   RAVE_TRY_ASSIGN(const auto path, find_scenario(options.scenario));
-  RAVE_TRY_ASSIGN(auto scenario, config::expand_scenario(path));
+  auto expanded = config::expand_scenario(path);
+  if (!expanded) return tl::unexpected(why_no_scenario(path, std::move(expanded).error()));
+  config::ExpandedScenario scenario = *std::move(expanded);
   RAVE_TRY(override_settings(options, scenario.scenario));
   return scenario;
 }

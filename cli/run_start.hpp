@@ -36,8 +36,8 @@ class RunStart {
                                                               std::string_view name);
 
   /// Lets other terminals control this process under `run_name` for as long as this object lives.
-  /// A process that nobody can reach goes on, but whoever relies on `rave stop` should know: the
-  /// log then says that `what` cannot be controlled.
+  /// If that is not possible the process continues, and the log says that `what` cannot be
+  /// controlled: people who rely on `rave stop` must know.
   void serve(const std::string& run_name, std::string_view source, std::string_view what);
 
   /// What the command line says of a run in this process. Borrows the console and the control.

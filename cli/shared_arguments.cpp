@@ -2,33 +2,60 @@
 #include "shared_arguments.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
+#include <string_view>
+#include <utility>
 
 #include "bus_options.hpp"
+#include "rave/base/names.hpp"
 
 namespace rave::cli {
 
-void add_whole_number(CLI::App& app, const char* name, std::optional<std::uint64_t>& value,
-                      const char* what) {
-  const auto check = [](const std::string& word) -> std::string {
+WordCheck number_in(double least, double most) {
+  return [least, most](const std::string& word) -> std::string {
+    double number = 0;
+    const char* const end = word.data() + word.size();
+    const auto [parsed, problem] = std::from_chars(word.data(), end, number);
+    if (problem == std::errc() && parsed == end && number >= least && number <= most) return {};
+    return fmt::format("found `{}`, expected a number from {} to {}", word, least, most);
+  };
+}
+
+WordCheck whole_number_in(std::uint64_t least, std::uint64_t most) {
+  return [least, most](const std::string& word) -> std::string {
     std::uint64_t number = 0;
     const char* const end = word.data() + word.size();
     const auto [parsed, problem] = std::from_chars(word.data(), end, number);
-    if (problem == std::errc() && parsed == end) return {};
-    return fmt::format("found `{}`, expected a whole number from 0 to {}", word, UINT64_MAX);
+    if (problem == std::errc() && parsed == end && number >= least && number <= most) return {};
+    return fmt::format("found `{}`, expected a whole number from {} to {}", word, least, most);
   };
-  add_value(app, name, value, what, "N")->check(check);
+}
+
+WordCheck one_of(std::vector<std::string> words) {
+  return [words = std::move(words)](const std::string& word) -> std::string {
+    if (std::ranges::find(words, word) != words.end()) return {};
+    const std::vector<std::string_view> views(words.begin(), words.end());
+    return fmt::format("found `{}`, expected one of {}{}", word, fmt::join(words, ", "),
+                       nearest_name(word, views).empty() ? "" : suggestion(word, views));
+  };
+}
+
+void add_whole_number(CLI::App& app, const char* name, std::optional<std::uint64_t>& value,
+                      const char* what) {
+  add_value(app, name, value, what, "N")->check(whole_number_in(0, UINT64_MAX));
 }
 
 void add_processes(CLI::App& app, std::optional<int>& processes, const char* what, int least) {
   const auto check = [least](const std::string& word) -> std::string {
     const int most = static_cast<int>(kMostHosts);
-    if (CLI::Range(least, most)(word).empty()) return {};
+    if (whole_number_in(static_cast<std::uint64_t>(least), kMostHosts)(word).empty()) return {};
     return fmt::format(
-        "expected {} to {}, the number of hosts that fit into one DDS domain on a machine; give "
-        "each host more robots",
-        least, most);
+        "found `{}`, expected {} to {}, the number of hosts that fit into one DDS domain on a "
+        "machine; give each host more robots",
+        word, least, most);
   };
   add_value(app, "--processes", processes, what, "N")->check(check);
 }

@@ -4,6 +4,8 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +36,13 @@ inline CLI::Option* add_values(CLI::App& app, const char* name, std::vector<std:
   return add_value(app, name, values, what, type)->take_all()->allow_extra_args(false);
 }
 
+/// Checks a word of the command line: empty if it is good, else what is wrong with it, in the style
+/// of errors in files.
+using WordCheck = std::function<std::string(const std::string&)>;
+[[nodiscard]] WordCheck number_in(double least, double most);
+[[nodiscard]] WordCheck whole_number_in(std::uint64_t least, std::uint64_t most);
+[[nodiscard]] WordCheck one_of(std::vector<std::string> words);
+
 /// An option whose value is a whole number from 0. CLI11 would wrap negative numbers round.
 void add_whole_number(CLI::App& app, const char* name, std::optional<std::uint64_t>& value,
                       const char* what);
@@ -42,7 +51,7 @@ void add_whole_number(CLI::App& app, const char* name, std::optional<std::uint64
 template <class T>
 void add_threads(CLI::App& app, T& threads,
                  const char* what = "Number of threads; the result does not depend on it") {
-  add_value(app, "--threads", threads, what, "N")->check(CLI::Range(1, 1024));
+  add_value(app, "--threads", threads, what, "N")->check(whole_number_in(1, 1024));
 }
 
 /// Into how many processes the robots are shared: `least` to kMostHosts.

@@ -8,10 +8,11 @@
 
 namespace rave::cli {
 
-/// What is known of the terminal behind a stream; of a file or pipe nothing, so text stays plain.
+/// Properties of the terminal behind a stream; with the defaults for a file or pipe, where text
+/// stays plain.
 struct Terminal {
   bool is_terminal = false;
-  bool colour = false;      ///< Escape codes are welcome: a terminal, and NO_COLOR is not set.
+  bool colour = false;      ///< Escape codes may be used: a terminal, and NO_COLOR is not set.
   std::size_t width = 80;   ///< Columns.
   std::size_t height = 24;  ///< Lines.
 
@@ -25,7 +26,7 @@ struct Terminal {
   [[nodiscard]] std::string styled(std::string_view code, std::string_view text) const;
 };
 
-/// Asks the operating system, so that a window that changes its size is noticed.
+/// Queries the operating system each time, because windows change their size.
 [[nodiscard]] Terminal terminal_of(std::FILE* stream);
 
 /// Writes the whole text to a stream; what cannot be written is lost.

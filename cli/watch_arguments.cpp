@@ -16,7 +16,7 @@ void add_top(CLI::App& root, TopCommand& c) {
   app.add_flag("--json", c.json, "Print one line of JSON per interval");
   app.add_flag("--robots", c.robots, "Also show each robot");
   add_value(app, "--interval", c.interval_s, "Seconds between updates [1; with --once 2.5]", "S")
-      ->check(CLI::Range(0.1, 3600.0));
+      ->check(number_in(0.1, 3600.0));
   add_network_options(app, c.bus);
   app.footer(
       "It does not slow down the run. Keys on a terminal: q quits, r shows or hides the robots.\n"

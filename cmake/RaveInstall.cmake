@@ -2,8 +2,9 @@
 # What `cmake --install` puts where, and the package that find_package(rave) finds.
 #   component runtime     bin/, the plug-ins, share/rave (scenarios, robots, worlds, data, ...), man
 #                         pages, completion of bash
-#   component gui         share/rave/web: the page of the GUI Server; share/rave/foxglove: a layout;
+#   component gui         share/rave/web: the page of the GUI Server, with declarations for panels; share/rave/foxglove: a layout;
 #                         and bin/rave once more, so that it shows recordings without the runtime
+#   component doc         share/doc/rave: all pages, with the files that they link to
 #   component robot-dev   what a robot program is written with: no header of the simulator
 #   component driver-dev  on top of it: world and sim, for virtual drivers
 #   component config-dev  on top of it: the reader of configuration files
@@ -101,6 +102,21 @@ if(TARGET rave)
   install(TARGETS rave RUNTIME DESTINATION bin COMPONENT gui)
 endif()
 
+# The pages at their places in the repository, because they link to each other.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+set(RAVE_DOC_DIR "${CMAKE_BINARY_DIR}/share/doc/rave")
+file(GLOB RAVE_PAGES CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/*.md")
+file(GLOB_RECURSE RAVE_PAGES_BELOW CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/docs/*"
+  "${CMAKE_SOURCE_DIR}/drivers/*.md" "${CMAKE_SOURCE_DIR}/programs/*.md"
+  "${CMAKE_SOURCE_DIR}/scenarios/*.md" "${CMAKE_SOURCE_DIR}/examples/*.md")
+add_custom_command(OUTPUT "${CMAKE_BINARY_DIR}/pages.stamp"
+  COMMAND ${Python3_EXECUTABLE} "${CMAKE_SOURCE_DIR}/tools/docs/site.py" --pages "${RAVE_DOC_DIR}"
+  COMMAND ${CMAKE_COMMAND} -E touch "${CMAKE_BINARY_DIR}/pages.stamp"
+  DEPENDS "${CMAKE_SOURCE_DIR}/tools/docs/site.py" ${RAVE_PAGES} ${RAVE_PAGES_BELOW}
+  COMMENT "Pages of the documentation" VERBATIM)
+add_custom_target(rave_pages ALL DEPENDS "${CMAKE_BINARY_DIR}/pages.stamp")
+install(DIRECTORY "${RAVE_DOC_DIR}" DESTINATION share/doc COMPONENT doc)
+
 # All that ./run needs, and nothing that only tests need.
 add_custom_target(rave_runtime)
 if(RAVE_RUNTIME_TARGETS)
@@ -109,5 +125,5 @@ endif()
 
 # All that `cmake --install` needs.
 add_custom_target(rave_installable)
-add_dependencies(rave_installable rave_runtime ${RAVE_ROBOT_PART} ${RAVE_DRIVER_PART}
+add_dependencies(rave_installable rave_runtime rave_pages ${RAVE_ROBOT_PART} ${RAVE_DRIVER_PART}
   ${RAVE_CONFIG_PART})

@@ -17,4 +17,6 @@ if ! cmp -s package-lock.json node_modules/.rave-lock; then
 fi
 node_modules/.bin/tsc --noEmit
 node_modules/.bin/vite build --logLevel warn --emptyOutDir --outDir "$folder"
+# What authors of panels write against; after vite, which empties the folder.
+node_modules/.bin/tsc --project tsconfig.types.json --outDir "$folder/types"
 : >"$stamp"

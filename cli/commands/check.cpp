@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
+#include <vector>
 
 #include "build_errors.hpp"
 #include "drawing.hpp"
@@ -57,6 +59,29 @@ std::string summary_of(const InputFile& input, const runtime::BuiltScenario& bui
                      counted(robots, "robot"), simulated, robots - simulated,
                      counted(obstacles, "obstacle"), counted(drivers.size(), "driver"),
                      input.scenario.scenario.duration_s);
+}
+
+/// Whether a reading tells of what is around the robot; values may.
+bool tells_of_surroundings(ReadingKind kind) {
+  return kind != ReadingKind::kNone && kind != ReadingKind::kPose &&
+         kind != ReadingKind::kOdometry && kind != ReadingKind::kVelocity;
+}
+
+/// The first robot of each type whose program drives it without any such reading. That is no error:
+/// a program may follow a fixed path.
+std::vector<std::string> blind_robots(const sim::EngineSpec& spec) {
+  std::vector<std::string> names;
+  for (std::uint32_t t = 0; t < spec.types.size(); ++t) {
+    const sim::RobotType& type = spec.types[t];
+    if (!type.program || type.controllers.empty()) continue;
+    if (std::ranges::any_of(type.sensors,
+                            [](const auto& s) { return tells_of_surroundings(s.kind); })) {
+      continue;
+    }
+    const auto robot = std::ranges::find(spec.robots, t, &sim::RobotSpec::type);
+    if (robot != spec.robots.end()) names.push_back(robot->name);
+  }
+  return names;
 }
 
 class Checker {
@@ -125,6 +150,11 @@ class Checker {
                             summary_of(input, built)));
     for (const std::string& note : built.notes) {
       put(stream, fmt::format("{}: {} {}\n", terminal.bold(file), terminal.yellow("note:"), note));
+    }
+    for (const std::string& name : blind_robots(built.spec)) {
+      put(stream, fmt::format("{}: {} robot `{}` has no sensor of its surroundings, so its program "
+                              "drives blind\n",
+                              terminal.bold(file), terminal.yellow("note:"), name));
     }
     if (!built.live_reason.empty()) {
       put(stream, fmt::format("{}: {} runs are live and cannot be repeated: {}\n",

@@ -10,11 +10,11 @@ namespace rave::cli {
 struct CheckCommand {
   std::vector<std::string> files;
   bool expand = false;
-  std::string draw;  ///< Where to draw; empty: nowhere.
+  std::string draw;  ///< File for the drawing; empty: none.
   std::vector<std::string> plugins;
 };
 
-/// Says whether files are right, and if not, everything that is wrong. Returns 0 or 2.
+/// Checks files and prints all errors. Returns 0 or 2.
 [[nodiscard]] int check(const CheckCommand& options);
 
 }  // namespace rave::cli

@@ -7,13 +7,13 @@
 
 #include "bus_options.hpp"
 
-// What one terminal asks of a run that goes in another.
+// Requests from one terminal to a run in another.
 namespace rave::cli {
 
 /// `rave ps`.
 struct PsCommand {
   bool robots = false;   ///< Each robot in a line of its own.
-  bool network = false;  ///< Also the runs on the bus; so it is if `bus` says where to look.
+  bool network = false;  ///< Also the runs on the bus; implied if `bus` selects one.
   BusOptions bus;
 };
 
@@ -48,7 +48,7 @@ struct HoldCommand {
   BusOptions bus;
 };
 
-// `bus` says where to look for a run that is not on this machine. Each prints what was done.
+// `bus` selects where to search for a run that is not on this machine. Each prints what was done.
 // Returns 0; 1 if the run refuses; 2 if there is no such run, or it does not answer.
 [[nodiscard]] int list_runs(const PsCommand& options);
 [[nodiscard]] int stop_robots(const StopCommand& options);

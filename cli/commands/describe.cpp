@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "driver_data.hpp"
 #include "driver_json.hpp"
 #include "error_text.hpp"
 #include "places.hpp"
@@ -55,7 +56,8 @@ int describe(const DescribeCommand& options) {
   std::string text;
   for (const plugin::Driver* driver : found) {
     if (!text.empty()) text += "\n";
-    text += options.markdown ? plugin::markdown(*driver) : plugin::describe(*driver);
+    const auto facts = data_facts(driver->info);
+    text += options.markdown ? plugin::markdown(*driver, facts) : plugin::describe(*driver, facts);
     list.push_back(driver_json(*driver));
   }
   put(stdout, options.json ? config::to_json(list) : text);

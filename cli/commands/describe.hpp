@@ -14,7 +14,7 @@ struct DescribeCommand {
   std::vector<std::string> plugins;
 };
 
-/// Prints what drivers of one name say of themselves; several kinds may share it. Returns 0 or 2.
+/// Prints the descriptions of the drivers with a name; several kinds may share it. Returns 0 or 2.
 [[nodiscard]] int describe(const DescribeCommand& options);
 
 }  // namespace rave::cli

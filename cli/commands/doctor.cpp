@@ -81,6 +81,7 @@ int doctor(const DoctorCommand& options) {
   const std::string name = fmt::format("rave doctor {:.8}", bus::RunId::random().text());
   auto config = read_bus_options(options.bus, name, 0);
   if (!config) return complain(config.error());
+  // Room for every host: the doctor must find what a run would find.
   make_room(*config, kMostHosts);
   const doctor::About here = doctor::about_here(*config, runtime::interface_stamp());
   if (options.listen) return listen(*config, here);

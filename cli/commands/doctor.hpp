@@ -12,8 +12,8 @@ struct DoctorCommand {
   bool json = false;
 };
 
-/// Looks for what keeps machines apart. Returns 0 if nothing was found, 1 if something was, 2 on
-/// bad input.
+/// Searches for the reasons why machines do not find each other. Returns 0 if there are none, 1 if
+/// there are, 2 on bad input.
 [[nodiscard]] int doctor(const DoctorCommand& options);
 
 }  // namespace rave::cli

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "driver_data.hpp"
 #include "driver_json.hpp"
 #include "error_text.hpp"
 #include "places.hpp"
@@ -34,9 +35,13 @@ Result<DriverKind> kind_of(const std::string& name) {
 
 std::string table_of(const Drivers& drivers, const Terminal& terminal) {
   Table table;
-  table.columns = {{"kind", Align::kLeft, false},    {"name", Align::kLeft, false},
-                   {"version", Align::kLeft, false}, {"clock", Align::kLeft, false},
-                   {"summary", Align::kLeft, true},  {"file", Align::kLeft, false}};
+  // What a narrow terminal has no room for is in `rave describe`.
+  table.columns = {{.heading = "kind"},
+                   {.heading = "name"},
+                   {.heading = "version", .weight = 1},
+                   {.heading = "clock", .weight = 2},
+                   {.heading = "summary", .may_wrap = true},
+                   {.heading = "file", .weight = 3}};
   std::string_view last;
   for (const plugin::Driver* driver : drivers) {
     const DriverInfo& info = driver->info;
@@ -77,7 +82,7 @@ std::string reference_of(const Drivers& drivers) {
     const std::string_view kind = to_string(driver->info.kind);
     if (kind != last) text += fmt::format("\n# Kind: {}\n", kind);
     last = kind;
-    text += "\n" + plugin::markdown(*driver);
+    text += "\n" + plugin::markdown(*driver, data_facts(driver->info));
   }
   return text;
 }

@@ -14,7 +14,7 @@ struct DriversCommand {
   std::vector<std::string> plugins;
 };
 
-/// Lists the drivers there are, and below them the plug-ins that could not be used. Returns 0, or 2
+/// Lists the available drivers, and below them the plug-ins that could not be used. Returns 0, or 2
 /// for an unknown kind or a missing folder.
 [[nodiscard]] int drivers(const DriversCommand& options);
 

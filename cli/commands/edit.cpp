@@ -94,6 +94,7 @@ Result<control::Request> request_of(const EditCommand& options) {
     case What::kMove: {
       request.what = control::Request::What::kMove;
       RAVE_TRY_ASSIGN(const std::string place, place_yaml(options));
+      // YAML, so that the run checks it with the reader of world files.
       request.value = fmt::format("{{name: {}, {}}}", in_quotes(options.name), place);
       return request;
     }

@@ -8,7 +8,7 @@
 #include "bus_options.hpp"
 #include "rave/base/result.hpp"
 
-// What one terminal changes in the world of a run that goes in another.
+// Changes from one terminal to the world of a run in another.
 namespace rave::cli {
 
 /// `rave edit`.
@@ -16,7 +16,7 @@ struct EditCommand {
   enum class What : std::uint8_t { kAdd, kMove, kRemove, kList };
   What what = What::kList;
   std::string run;             ///< Empty: the only one.
-  std::string name;            ///< Of the obstacle.
+  std::string name;            ///< Name of the obstacle.
   std::string shape;           ///< kAdd: `box`, `disc` or `polygon`.
   std::string at;              ///< kAdd and kMove: X,Y or X,Y,DEG.
   std::string size;            ///< kAdd: LxW of a box, the radius of a disc.
@@ -32,7 +32,8 @@ struct EditCommand {
 /// bad input, or if there is no such run or it does not answer.
 [[nodiscard]] int edit_world(const EditCommand& options);
 
-/// What a run is told: the obstacle as a file has it, in one line. Errors: kInvalidArgument.
+/// The obstacle as it is sent to the run: an entry of a world file on one line. Errors:
+/// kInvalidArgument.
 [[nodiscard]] Result<std::string> obstacle_yaml(const EditCommand& options);
 
 }  // namespace rave::cli

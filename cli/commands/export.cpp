@@ -76,6 +76,8 @@ Status export_poses(const record::McapReader& reader, const record::RunInfo& run
         RAVE_TRY_ASSIGN(const auto step, record::decode_poses(message.bytes));
         for (const record::RobotPose& pose : step.items) {
           if (only && pose.robot != *only) continue;
+          // Nine digits keep the nanosecond grid of steps readable: 0.1 and not
+          // 0.10000000000000001.
           out.line(fmt::format("{:.9g},{},{},{},{},{},{}", seconds(step.time.ns),
                                name_of(run, pose.robot), pose_text(pose.reported_pose),
                                pose_text(pose.true_pose), pose.velocity_W.vx, pose.velocity_W.vy,
@@ -104,6 +106,7 @@ Status export_events(const record::McapReader& reader, const record::RunInfo& ru
 template <class T, class Row>
 void each(std::span<const std::byte> bytes, Row row) {
   for (std::size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T)) {
+    // Copied, because records in a message need not be aligned.
     T record;
     std::memcpy(&record, bytes.data() + at, sizeof record);
     row(record);
@@ -188,6 +191,7 @@ Status export_readings(const record::McapReader& reader, const record::RunInfo& 
   const auto kind = static_cast<ReadingKind>(sensor->kind);
   std::size_t most = 0;
   for (const auto& sample : samples.samples) {
+    // Sensors may give fewer readings at times; the header needs the most.
     most = std::max<std::size_t>(most, sample.header.count);
   }
   out.line("time_s,stamp_s," + columns_of(kind, most));
@@ -217,6 +221,7 @@ Status write_csv(const ExportCommand& options) {
     RAVE_TRY_ASSIGN(const auto* robot, record::find_robot(run, options.robot));
     only = robot->id;
   }
+  // Opened last, so that a wrong name does not empty an existing file.
   RAVE_TRY_ASSIGN(auto out, CsvFile::open(options.output));
   if (options.what == "poses") {
     RAVE_TRY(export_poses(reader, run, only, out));

@@ -12,16 +12,17 @@ namespace rave::cli {
 struct RobotCommand {
   RunCommand run;
   std::string host;
-  double manager_patience_s = 0;  ///< Without an environment manager; 0: without limit.
+  double manager_patience_s =
+      0;  ///< Time to wait without an environment manager; 0: without limit.
 };
 
 /// `rave env`: the environment manager of a scenario that hosts share.
 struct EnvCommand {
   RunCommand run;
-  bool resume = false;  ///< Go on with a run that has lost its manager.
+  bool resume = false;  ///< Continue a run that has lost its manager.
 };
 
-/// Return 0 if the run was whole for them, 1 if not, 2 on bad input.
+/// Return 0 if the run completed for them, 1 if not, 2 on bad input.
 [[nodiscard]] int robot(const RobotCommand& options);
 [[nodiscard]] int env(const EnvCommand& options);
 

@@ -99,6 +99,7 @@ nlohmann::ordered_json info_json(const std::filesystem::path& file,
                                  {"steps", nullptr},
                                  {"hash", nullptr}};
   if (!summary.ended || !summary.damages.empty() || !summary.missing.empty()) {
+    // Null, as above, for what was not checked: neither word would be true.
     json["whole"] = false;
   } else if (summary.checked && summary.unsummed.empty()) {
     json["whole"] = true;
@@ -156,6 +157,7 @@ int info(const InfoCommand& options) {
       *file, options.check ? record::RecordLook::kAll : record::RecordLook::kIndex);
   if (!summary) return complain(summary.error());
   put(stdout, options.json ? info_json(*file, *summary).dump(2) + "\n" : info_text(*summary));
+  // Scripts ask with the exit code whether a recording can be relied on.
   return is_good(*summary) ? kGood : kNotGood;
 }
 

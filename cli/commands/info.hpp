@@ -12,8 +12,8 @@ struct InfoCommand {
   bool json = false;
 };
 
-/// Prints what is in a record. Returns 0; 1 if something is wrong with it, or if it was to be
-/// checked and a piece of it cannot be; 2 if it is none.
+/// Prints the content of a recording. Returns 0; 1 if it is damaged, or was to be checked and a
+/// part cannot be; 2 if it is not a recording.
 [[nodiscard]] int info(const InfoCommand& options);
 
 }  // namespace rave::cli

@@ -97,6 +97,7 @@ int show_keys(const KeysShowCommand& options) {
   put(stdout, render_table(table, {.look = TableLook::kSpaces}));
   const Terminal terminal = terminal_of(stderr);
   bool usable = judge(set->authority, terminal);
+  // All are judged, also behind one that cannot be used.
   for (const keys::KeyInfo& member : set->members) usable = judge(member, terminal) && usable;
   return usable ? kGood : kNotGood;
 }

@@ -26,11 +26,30 @@ std::string quoted(const std::string& path) {
   return text + "'";
 }
 
+/// Folders of one's own are searched first, so a project with the name of something that comes with
+/// RAVE would replace it in every scenario that is run with them.
+Status hides_nothing(ProjectKind kind, const std::string& name) {
+  if (kind == ProjectKind::kPanel) return {};
+  RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue({}));
+  for (std::uint32_t k = 0; k < kDriverKindCount; ++k) {
+    const auto driver_kind = static_cast<DriverKind>(k);
+    if (!catalogue->find({&driver_kind, 1}, name)) continue;
+    return fail(ErrorCode::kInvalidArgument,
+                "`{}` is the name of a {} that comes with RAVE, which yours would hide; choose "
+                "another",
+                name, to_string(driver_kind));
+  }
+  return {};
+}
+
 }  // namespace
 
 int new_project(const NewCommand& options) {
   const auto kind = parse_project_kind(options.kind);
   if (!kind) return complain(kind.error());
+  if (const auto hidden = hides_nothing(*kind, options.name); !hidden) {
+    return complain(hidden.error());
+  }
   const std::string folder = options.directory.empty() ? options.name : options.directory;
   const auto created = create_project(*kind, options.name, share_folder() / "templates", folder);
   if (!created) return complain(created.error());

@@ -55,6 +55,7 @@ Result<Request> read_request(const OrderCommand& options) {
       RAVE_TRY_ASSIGN(auto points, points_of(options));
       Request request = request_of(points.size() == 1 ? Request::What::kGoal : Request::What::kPath,
                                    options.robot);
+      // Here as well as in the run, so that a mistake is told before a run is searched for.
       if (points.size() > 1) RAVE_TRY(runtime::check_path_size(points.size()));
       request.points = std::move(points);
       request.speed_mps = options.speed_mps;
@@ -94,6 +95,7 @@ Given ask(const std::vector<AskedRun>& runs, const Request& request) {
                          answer ? Error{ErrorCode::kState, answer->text, {}} : answer.error());
   }
   Given given{kNotGood, nullptr};
+  // Only if all refuse: of several hosts one has the robot, and the others say that they have not.
   for (const auto& [run, why] : refused) {
     complain({why.code, fmt::format("{}: {}", run->name(), why.message), {}});
   }
@@ -111,6 +113,8 @@ int drive_on(const AskedRun& run, const Request& drive, double for_s) {
     complain({ErrorCode::kState, fmt::format("{}: {}", run.name(), answer->text), {}});
     return kNotGood;
   }
+  // The last velocity holds until the end, and then the program takes over; without the cancel it
+  // would wait until the driver counts as gone.
   std::this_thread::sleep_until(end);
   return ask({run}, request_of(Request::What::kCancel, drive.robot)).code;
 }

@@ -16,16 +16,16 @@ struct OrderCommand {
   std::string robot;
   std::string run;              ///< Empty: the only one.
   std::vector<double> numbers;  ///< V W; X Y [X Y ...]; X Y [YAW in degrees].
-  double speed_mps = 0;         ///< kGoal: the largest; 0: as the robot likes.
-  bool cancel = false;          ///< kGoal: what was asked before counts no more.
+  double speed_mps = 0;         ///< kGoal: largest speed; 0: chosen by the program.
+  bool cancel = false;          ///< kGoal: cancels the earlier order.
   std::string text;             ///< kSay.
-  double for_s = 1;             ///< kDrive: so long.
-  bool force = false;           ///< Takes the robot from who drives it.
+  double for_s = 1;             ///< kDrive: duration.
+  bool force = false;           ///< Takes the robot from the person who drives it.
   BusOptions bus;
 };
 
-/// Prints what was done. Returns 0; 1 if the run refuses; 2 if there is no such run, or it does not
-/// answer, or the numbers are none.
+/// Prints what was done. Returns 0; 1 if the run refuses; 2 if there is no such run, it does not
+/// answer, or the numbers are invalid.
 [[nodiscard]] int give_order(const OrderCommand& options);
 
 }  // namespace rave::cli

@@ -46,6 +46,7 @@ Result<std::string> read_password() {
   std::string first;
   std::string second;
   const NoEcho quiet;
+  // A script gives it once: there is nobody who could mistype it.
   if (!quiet.terminal()) {
     std::getline(std::cin, first);
     return first;
@@ -74,6 +75,7 @@ std::string user_name() {
 Result<std::string> add(Accounts& accounts, const PeopleCommand& options) {
   RAVE_TRY_ASSIGN(const Role role, role_of(options.role));
   RAVE_TRY_ASSIGN(const Teams teams, gui_server::parse_teams(options.teams));
+  // Before the password is asked for, which nobody wants to type in vain.
   RAVE_TRY(gui_server::check_user_name(options.name));
   RAVE_TRY_ASSIGN(const std::string password, read_password());
   RAVE_TRY(accounts.add({options.name, role, teams}, password));
@@ -132,6 +134,7 @@ Result<std::string> do_it(const PeopleCommand& options) {
       return list(*accounts);
     case PeopleCommand::What::kRemove:
       RAVE_TRY(accounts->remove(options.name));
+      // A server reads the file of accounts twice a second.
       return fmt::format("removed {}; open sessions end within a second\n", options.name);
     case PeopleCommand::What::kUninvite: {
       RAVE_TRY_ASSIGN(const std::size_t count, accounts->revoke_invitations());

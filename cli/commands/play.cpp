@@ -11,6 +11,11 @@
 namespace rave::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
+/// In the folder of a run, the scenario that was made for it.
+constexpr const char* kScenarioFolder = "played";
+
 Result<PlayedScenario> make(const PlayCommand& options) {
   RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.run.plugins));
   PlayArguments arguments;
@@ -20,15 +25,22 @@ Result<PlayedScenario> make(const PlayCommand& options) {
   if (!options.world.empty()) arguments.world = options.world;
   if (!options.program.empty()) arguments.program = options.program;
   arguments.start_s = options.start_s;
+  if (!options.write.empty()) {
+    arguments.folder = options.write;
+  } else {
+    // The folder of a run is made later, but all that get a name of their own are side by side.
+    arguments.folder =
+        fs::path(options.run.output.empty() ? "runs/new" : options.run.output) / kScenarioFolder;
+  }
   return played_scenario(arguments, *catalogue);
 }
 
 /// The record that is played is still read while the run goes.
 Status keeps_its_record(const PlayCommand& options) {
   if (!options.run.replace || options.run.output.empty()) return {};
-  RAVE_TRY_ASSIGN(const std::filesystem::path record, record_file(options.file));
+  RAVE_TRY_ASSIGN(const fs::path record, record_file(options.file));
   std::error_code error;
-  if (!std::filesystem::equivalent(record.parent_path(), options.run.output, error)) return {};
+  if (!fs::equivalent(record.parent_path(), options.run.output, error)) return {};
   return fail(ErrorCode::kInvalidArgument,
               "--replace would remove the recording to be played, `{}`; choose another --output",
               record.string());
@@ -52,9 +64,9 @@ int play(const PlayCommand& options) {
   if (auto kept = keeps_its_record(options); !kept) return complain(kept.error());
   const auto folder = RunFolder::create({options.run.output, options.run.replace}, played->name);
   if (!folder) return complain(folder.error());
-  const std::filesystem::path scenario = folder->path() / "played";
+  const fs::path scenario = folder->path() / kScenarioFolder;
   std::error_code error;
-  if (options.run.replace) std::filesystem::remove_all(scenario, error);
+  if (options.run.replace) fs::remove_all(scenario, error);
   if (auto written = write_played(*played, scenario); !written) return complain(written.error());
   RunCommand run_options = options.run;
   run_options.scenario = scenario.string();

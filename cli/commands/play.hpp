@@ -21,7 +21,8 @@ struct PlayCommand {
   RunCommand run;     ///< How it is run; its scenario is set by play().
 };
 
-/// Makes recorded robots of a record's robots and runs them. Returns what `rave run` does.
+/// Turns the robots of a recording into recorded real robots and runs them. Returns the exit code
+/// of `rave run`.
 [[nodiscard]] int play(const PlayCommand& options);
 
 }  // namespace rave::cli

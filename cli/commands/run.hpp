@@ -16,7 +16,7 @@ namespace rave::cli {
 struct RunCommand {
   std::string scenario;  ///< A file, a folder or a name.
   std::string output;    ///< Empty: runs/<time>-<scenario>.
-  bool replace = false;  ///< What an earlier run left there is removed.
+  bool replace = false;  ///< Remove the results of an earlier run there.
   std::optional<std::uint64_t> seed;
   std::optional<int> threads;
   std::optional<double> duration_s;
@@ -26,14 +26,14 @@ struct RunCommand {
   bool arm = false;
   bool quiet = false;
   std::vector<std::string> plugins;
-  std::optional<int> processes;  ///< Share the robots among so many.
-  BusOptions bus;                ///< Of runs with several processes.
+  std::optional<int> processes;  ///< Divide the robots among so many processes.
+  BusOptions bus;                ///< For runs with several processes.
   bool gui = false;              ///< Show it in the browser, then its recording.
   PageOptions page;
   LineArguments line;  ///< Of the hosts that this process runs or starts.
 };
 
-/// Runs a scenario. Returns 0 if it was whole and its checks hold, 1 if not, 2 on bad input.
+/// Runs a scenario. Returns 0 if it completed and its checks hold, 1 if not, 2 on bad input.
 [[nodiscard]] int run(const RunCommand& options);
 
 }  // namespace rave::cli

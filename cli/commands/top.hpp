@@ -18,7 +18,7 @@ struct TopCommand {
   BusOptions bus;
 };
 
-/// Shows how a run fares until somebody ends it. Returns 0; 2 if there is no such run.
+/// Shows live statistics of a run until it is interrupted. Returns 0; 2 if there is no such run.
 [[nodiscard]] int top(const TopCommand& options);
 
 }  // namespace rave::cli

@@ -52,8 +52,9 @@ int tell(const VerifyCommand& options, const runtime::VerifyOutcome& outcome) {
   if (options.quiet) return kGood;
   const std::string hash =
       outcome.recorded_hash ? fmt::format(", run hash {:016x}", *outcome.recorded_hash) : "";
-  put(stdout, fmt::format("{} {} steps, {} messages{}\n", terminal_of(stdout).green("equal:"),
-                          outcome.steps, outcome.messages, hash));
+  put(stdout,
+      fmt::format("{} {} steps, {} messages compared{}\n", terminal_of(stdout).green("equal:"),
+                  outcome.steps, outcome.messages, hash));
   return kGood;
 }
 

@@ -15,8 +15,8 @@ struct VerifyCommand {
   std::vector<std::string> plugins;
 };
 
-/// Runs what a record holds again and compares. Returns 0 if it is the same to the bit, 1 if it
-/// differs, 2 if it cannot be run again (a live run, files that are missing, no record).
+/// Repeats the run of a recording and compares. Returns 0 if all bits are equal, 1 if something
+/// differs, 2 if it cannot be repeated (a live run, missing files, not a recording).
 [[nodiscard]] int verify(const VerifyCommand& options);
 
 }  // namespace rave::cli

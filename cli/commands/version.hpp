@@ -3,7 +3,7 @@
 
 namespace rave::cli {
 
-/// Prints what this build is and which plug-ins fit it. Returns 0.
+/// Prints the version and the interfaces that plug-ins must match. Returns 0.
 [[nodiscard]] int version();
 
 }  // namespace rave::cli

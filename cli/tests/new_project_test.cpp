@@ -49,6 +49,7 @@ TEST_F(NewProject, FillsInNamesOfFilesAndText) {
     ASSERT_TRUE(content);
     EXPECT_EQ(content->find("@NAME@"), std::string::npos) << entry.path();
     EXPECT_EQ(content->find("@CLASS@"), std::string::npos) << entry.path();
+    EXPECT_EQ(content->find("@TITLE@"), std::string::npos) << entry.path();
   }
   EXPECT_EQ(files, 5U);
 }
@@ -68,6 +69,10 @@ TEST_F(NewProject, APanelHasItsTest) {
   const Result<std::string> panel = read_file(folder_ / "speeds" / "speeds.mjs");
   ASSERT_TRUE(panel);
   EXPECT_NE(panel->find("class Speeds extends"), std::string::npos);
+  ASSERT_TRUE(create_project(ProjectKind::kPanel, "who_is_near", kTemplates, folder_ / "who"));
+  const Result<std::string> who = read_file(folder_ / "who" / "who_is_near.mjs");
+  ASSERT_TRUE(who);
+  EXPECT_NE(who->find("title: 'Who is near', element: WhoIsNear"), std::string::npos);
   EXPECT_EQ(panel->find("@NAME@"), std::string::npos);
 }
 

@@ -67,6 +67,33 @@ TEST(Check, GoodFilesOfEachKind) {
       "drivers, 2 s\n");
 }
 
+TEST(Check, ARobotThatSensesNothingAroundItIsNoted) {
+  const TemporaryFolder folder;
+  const std::string scenario = folder.path() / "scenario.yaml";
+  std::ofstream(scenario)
+      << "name: a\nrobots:\n  - name: r\n    pose: {}\n    robot:\n"
+         "      body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}\n"
+         "      sensors: [{name: odometry, driver: virtual_odometry}]\n"
+         "      actuators: [{name: wheels, driver: differential_drive}]\n"
+         "      controllers: [{name: drive, driver: velocity, actuator: wheels}]\n"
+         "      program: {driver: wander, period_s: 0.1}\n";
+  const Ended ended = run_rave({"check", scenario});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("note: robot `r` has no sensor of its surroundings"), std::string::npos)
+      << ended.out;
+}
+
+TEST(Check, NamesOfDriversWithTheWordAreNamed) {
+  const TemporaryFolder folder;
+  const std::string robot = folder.path() / "robot.yaml";
+  std::ofstream(robot) << "body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}\n"
+                          "sensors: [{name: eyes, driver: laser, params: {}}]\n";
+  const Ended ended = run_rave({"check", robot});
+  EXPECT_NE(ended.err.find("names with it: "), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("scip_laser"), std::string::npos) << ended.err;
+  EXPECT_EQ(ended.err.find("virtual_sonar"), std::string::npos) << ended.err;
+}
+
 TEST(Check, AllUnknownDriversAndParametersAtOnce) {
   const std::string text = complaint("unknown_driver.yaml", kRobot);
   const std::string own =

@@ -50,6 +50,12 @@ TEST(Describe, PageAndUnknownName) {
   const Ended page = run_rave({"describe", "virtual_laser"});
   EXPECT_EQ(page.exit_code, 0);
   EXPECT_NE(page.out.find("range_max_m"), std::string::npos);
+  EXPECT_NE(page.out.find("  gives    ranges (C++ type float)\n"), std::string::npos) << page.out;
+  EXPECT_NE(run_rave({"describe", "velocity"}).out.find("  accepts  velocity\n"),
+            std::string::npos);
+  const std::string json = run_rave({"describe", "virtual_contact", "--json"}).out;
+  EXPECT_NE(json.find("\"gives\": \"contact\""), std::string::npos) << json;
+  EXPECT_NE(json.find("\"record_type\": \"ContactReading\""), std::string::npos) << json;
   const Ended none = run_rave({"describe", "virtul_laser"});
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_EQ(none.err.substr(0, none.err.find(" (`rave drivers` lists all)")),

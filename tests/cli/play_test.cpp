@@ -129,6 +129,60 @@ TEST(Play, WhatIsWrittenTakesSimulatedRobotsByHand) {
   EXPECT_NE(twice.err.find("already contains a scenario"), std::string::npos) << twice.err;
 }
 
+/// What a played laser had sensed is a wall of the real floor for a hybrid sensor beside it.
+TEST(Play, WrittenObstaclesAreThoseThatThePlayedSensorsSaw) {
+  const TemporaryFolder folder;
+  const std::string original = folder.path() / "original";
+  record_run("played.yaml", original, {"--duration", "0.5"});
+  ASSERT_NE(content_of(original + "/scenario.yaml").find("virtual_obstacles"), std::string::npos);
+  const std::string written = folder.path() / "mine";
+  const Ended ended = run_rave({"play", original, "--write", written});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.err.find("note: obstacles have the layer `mapped_real`"), std::string::npos)
+      << ended.err;
+  const std::string world = content_of(written + "/world.yaml");
+  EXPECT_EQ(world.find("virtual_obstacles"), std::string::npos) << world;
+  EXPECT_NE(world.find("mapped_real"), std::string::npos) << world;
+}
+
+TEST(Play, WhatIsWrittenMovesTogetherWithItsRecording) {
+  const TemporaryFolder folder;
+  const std::string before = folder.path() / "before";
+  const std::string after = folder.path() / "after";
+  record_run("played.yaml", before + "/original", {"--duration", "0.5"});
+  ASSERT_EQ(run_rave({"play", before + "/original", "--write", before + "/mine"}).exit_code, 0);
+  EXPECT_EQ(content_of(before + "/mine/robots/anna.yaml").find(folder.path()), std::string::npos)
+      << "an absolute path";
+  std::filesystem::rename(before, after);
+  const Ended ended =
+      run_rave({"run", after + "/mine", "--output", after + "/run", "--no-picture", "--quiet"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  // A run that makes the scenario in its own folder can be moved as well.
+  ASSERT_EQ(run_rave({"play", after + "/original", "--output", after + "/again", "--no-picture",
+                      "--quiet"})
+                .exit_code,
+            0);
+  EXPECT_EQ(content_of(after + "/again/played/robots/anna.yaml").find(folder.path()),
+            std::string::npos);
+}
+
+/// The halves of a hybrid and the devices of hardware are gone: only results are played.
+TEST(Play, HybridsArePlayedAsOneSensor) {
+  const TemporaryFolder folder;
+  const std::string original = folder.path() / "original";
+  record_run("../../../scenarios/hybrid-laser", original, {"--duration", "2"});
+  const std::string again = folder.path() / "again";
+  const Ended ended = run_rave(
+      {"play", original, "--robot", "freiburg", "--output", again, "--no-picture", "--quiet"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  Readings recorded = readings_of(original + "/run.mcap");
+  std::erase_if(recorded, [](const auto& e) { return !e.first.starts_with("freiburg/"); });
+  EXPECT_FALSE(recorded["freiburg/laser"].empty());
+  expect_same_readings(recorded, readings_of(again + "/run.mcap"));
+  const std::string robot = content_of(again + "/played/robots/freiburg.yaml");
+  EXPECT_EQ(robot.find("hybrid_ranges"), std::string::npos) << robot;
+}
+
 TEST(Play, WhatIsNotThereIsNamedWithWhatIsNear) {
   const TemporaryFolder folder;
   const std::string original = folder.path() / "original";

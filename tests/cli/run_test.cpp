@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -24,6 +25,8 @@ TEST(Run, LeavesEverythingInOneFolder) {
     EXPECT_TRUE(fs::exists(output + "/" + file)) << file;
     EXPECT_NE(ended.out.find(file), std::string::npos) << file;
   }
+  EXPECT_NE(content_of(output + "/picture.svg").find("anna (simulated robot)"), std::string::npos)
+      << "few simulated robots are told apart by name and colour";
 }
 
 TEST(Run, QuietWithoutPicture) {
@@ -47,6 +50,17 @@ TEST(Run, OverridesComeBeforeTheFile) {
   EXPECT_NE(used.find("\nduration_s: 0.5"), std::string::npos);
   EXPECT_NE(used.find("\nthreads: 2"), std::string::npos);
   EXPECT_NE(used.find("\npace: \"500x\""), std::string::npos);
+}
+
+TEST(Run, ARobotFileIsNoScenario) {
+  for (const auto& [file, kind] :
+       {std::pair{"good_robot.yaml", "robot"}, std::pair{"good_world.yaml", "world"}}) {
+    const Ended ended = run_rave({"run", file});
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_EQ(ended.err, fmt::format("rave: `{0}` is a {1} file; expected a scenario, which names "
+                                     "it (`rave check {0}` checks it alone)\n",
+                                     file, kind));
+  }
 }
 
 TEST(Run, UnknownScenarioNamesTheNearest) {

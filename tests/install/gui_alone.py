@@ -66,6 +66,9 @@ def main():
                        stdout=subprocess.DEVNULL)
         expect(names(prefix) == HERE and names(prefix / "share/rave") == SHARED,
                f"the component gui installs {names(prefix)} and {names(prefix / 'share/rave')}")
+        declared = prefix / "share/rave/web/types/panel_api/index.d.ts"
+        expect(declared.exists() and "interface PanelContext" in declared.read_text(encoding="utf-8"),
+               f"the declarations for panels are missing: {declared}")
         subprocess.run([build / "bin/rave", "run", SOURCE / "scenarios/flock", "--duration", "1", "--pace", "max",
                         "--quiet", "--no-picture", "--output", run], check=True)
         # Nothing of the build tree is found by way of the environment or of this folder.

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Builds the documentation as a web site with search: pages by MkDocs, headers by Doxygen.
 
-    tools/docs/site.py [FOLDER]       (default: build/docs/site; open FOLDER/index.html)
+    tools/docs/site.py [FOLDER]         (default: build/docs/site; open FOLDER/index.html)
+    tools/docs/site.py --pages FOLDER   only the Markdown pages, as they are installed
 
 All Markdown pages of the repository are part of it, at their places, so that relative links hold.
 Files that a page links to are copied. A link that leads nowhere is an error. Needs the Debian
@@ -117,7 +118,27 @@ def build_api(site):
             sys.exit(done.returncode)
 
 
+def stage_all(files, pages, stage):
+    for name in pages:
+        stage_page(name, files, stage)
+    for name in files:
+        if name.startswith("docs/images/"):
+            copy(name, stage)
+
+
+def write_pages(folder):
+    """The pages with what they link to, so that no link leads out of the folder."""
+    files = tracked()
+    pages = sorted(name for name in files if name.endswith(".md"))
+    shutil.rmtree(folder, ignore_errors=True)
+    stage_all(files, pages, folder)
+    print(f"{len(pages)} pages: {folder}")
+    return 0
+
+
 def main():
+    if len(sys.argv) == 3 and sys.argv[1] == "--pages":
+        return write_pages(pathlib.Path(sys.argv[2]).resolve())
     site = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/docs/site").resolve()
     if not shutil.which("mkdocs"):
         print("mkdocs is missing: apt-get install mkdocs-material")
@@ -126,11 +147,7 @@ def main():
     pages = sorted(name for name in files if name.endswith(".md"))
     with tempfile.TemporaryDirectory() as folder:
         stage = pathlib.Path(folder, "pages")
-        for name in pages:
-            stage_page(name, files, stage)
-        for name in files:
-            if name.startswith("docs/images/"):
-                copy(name, stage)
+        stage_all(files, pages, stage)
         has_api = shutil.which("doxygen") is not None
         if has_api:
             # A place for the menu; Doxygen's page takes it afterwards.

@@ -90,11 +90,14 @@ export class RaveApp extends LitElement {
     const update = () => this.requestUpdate();
     for (const signal of [model.runChanged, model.timeChanged, model.hostsChanged, this.link.changed]) signal.on(update);
     model.rosterChanged.on(() => {
+      // In this order: an address names robots, and the selection must know them.
       this.palette.assign(model.robots);
       this.selection.adopt(model.robots.map((robot) => robot.name));
       this.arrive();
       this.retitle();
     });
+    // A direct line bypasses the rights that the server applies, so not while looking as somebody
+    // else.
     model.runChanged.on(() => this.link.direct?.want(model.live && model.may('stop') && model.hello?.seen_by === undefined));
     model.runChanged.on(() => void this.bringComponents());
     model.answered.on((answer) => {
@@ -108,6 +111,7 @@ export class RaveApp extends LitElement {
     model.linesChanged.on(update);
     this.pen.addEventListener('change', update);
     this.phone.addEventListener('change', () => {
+      // A phone has one panel and no dock; the dock is made anew where there is room again.
       this.dock?.close();
       this.dock = null;
       update();
@@ -118,9 +122,11 @@ export class RaveApp extends LitElement {
   private async bringComponents(): Promise<void> {
     if (this.model.hello === null) return;
     const named = (this.model.hello.components ?? []).filter(({url}) => !this.brought.has(url));
+    // Before the first await: a second call meanwhile must not load them again.
     for (const {url} of named) this.brought.add(url);
     this.bringing += named.length;
     if (named.length > 0) {
+      // A chunk of its own, which most runs never need.
       const {loadComponents} = await import('./component_loader');
       for (const component of await loadComponents(named, this.context)) {
         for (const kind of component.kinds()) {

@@ -5,8 +5,51 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace rave {
+namespace {
+
+std::vector<std::string_view> words_of(std::string_view name) {
+  std::vector<std::string_view> words;
+  while (true) {
+    const std::size_t end = std::min(name.find('_'), name.size());
+    words.push_back(name.substr(0, end));
+    if (end == name.size()) return words;
+    name.remove_prefix(end + 1);
+  }
+}
+
+bool is_unit(std::string_view word) {
+  constexpr std::array<std::string_view, 13> kUnits = {
+      "m", "mm", "cm", "s", "ms", "deg", "rad", "mps", "dps", "radps", "mps2", "hz", "kg"};
+  return std::ranges::find(kUnits, word) != kUnits.end();
+}
+
+/// What people who know the thing and not its name write: the words in another order
+/// (`max_range_m`), the last ones alone (`radius_m` for `disc_radius_m`), no unit, or another one.
+bool is_variant(std::string_view name, std::string_view candidate) {
+  std::vector<std::string_view> words = words_of(name);
+  std::vector<std::string_view> others = words_of(candidate);
+  if (words.size() > 1 && others.size() > words.size() &&
+      std::equal(words.rbegin(), words.rend(), others.rbegin())) {
+    return true;
+  }
+  if (words.size() < others.size() && is_unit(others.back()) && !is_unit(words.back())) {
+    // The unit may have several words: `deg_per_s`.
+    if (std::equal(words.begin(), words.end(), others.begin())) return true;
+  }
+  if (words.size() != others.size() || words.size() < 2) return false;
+  if (is_unit(words.back()) && is_unit(others.back()) &&
+      std::equal(words.begin(), words.end() - 1, others.begin())) {
+    return true;
+  }
+  std::ranges::sort(words);
+  std::ranges::sort(others);
+  return words == others;
+}
+
+}  // namespace
 
 // Insertions, deletions, changes and swaps of neighbours count one each (optimal string alignment).
 int edit_distance(std::string_view a, std::string_view b) {
@@ -36,12 +79,8 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
   int best_score = static_cast<int>(std::max<std::size_t>(2, name.size() / 3)) + 1;
   for (const std::string_view candidate : candidates) {
     int score = edit_distance(name, candidate);
-    // A name without its unit, `range` for `range_m`, counts as one edit, whatever the unit's
-    // length.
-    if (!name.empty() && candidate.size() > name.size() && candidate.starts_with(name) &&
-        candidate[name.size()] == '_') {
-      score = std::min(score, 1);
-    }
+    // Counts as one edit, however many letters it takes.
+    if (!name.empty() && is_variant(name, candidate)) score = std::min(score, 1);
     if (score < best_score) {
       best_score = score;
       best = candidate;

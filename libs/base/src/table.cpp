@@ -91,7 +91,21 @@ std::string aligned(const std::string& text, std::size_t width, Align align) {
   return std::string(before, ' ') + text + std::string(room - before, ' ');
 }
 
-/// A table with rules: too wide, its columns get narrower.
+/// Removes the column with the least weight; false if all that are left have to stay.
+bool leave_out_least(const Table& table, Columns& columns) {
+  const auto weight = [&](const Shown& column) {
+    const int own = table.columns[column.index].weight;
+    return own == 0 ? std::numeric_limits<int>::max() : own;
+  };
+  if (columns.size() < 2) return false;
+  const auto least = std::ranges::min_element(columns, {}, weight);
+  if (table.columns[least->index].weight == 0) return false;
+  columns.erase(least);
+  return true;
+}
+
+/// A table with rules: too wide, it leaves out columns with a weight, and then the others get
+/// narrower.
 class RuledTable {
  public:
   RuledTable(const Table& table, const TableOptions& options)
@@ -99,8 +113,15 @@ class RuledTable {
     for (Shown& column : columns_) column.width = std::max<std::size_t>(column.width, 1);
     if (!options.width) return;
     constexpr std::size_t kReadable = 12;
-    shrink(*options.width, kReadable,
-           [this](const Shown& column) { return table_.columns[column.index].may_wrap; });
+    const auto may_wrap = [this](const Shown& column) {
+      return table_.columns[column.index].may_wrap;
+    };
+    Columns natural = columns_;
+    do {
+      columns_ = natural;
+      shrink(*options.width, kComfortable, may_wrap);
+    } while (total() > *options.width && leave_out_least(table_, natural));
+    shrink(*options.width, kReadable, may_wrap);
     shrink(*options.width, 1, [](const Shown&) { return true; });
   }
 
@@ -228,14 +249,7 @@ class SpacedTable {
       if (!below_) columns_.back().width = left;
       return;
     }
-    const auto weight = [this](const Shown& column) {
-      const int own = table_.columns[column.index].weight;
-      return own == 0 ? std::numeric_limits<int>::max() : own;
-    };
-    while (columns_.size() > 1 && total() > limit) {
-      const auto least = std::ranges::min_element(columns_, {}, weight);
-      if (table_.columns[least->index].weight == 0) return;
-      columns_.erase(least);
+    while (total() > limit && leave_out_least(table_, columns_)) {
     }
     if (columns_.size() == 1) columns_.front().width = std::min(columns_.front().width, limit);
   }

@@ -29,6 +29,15 @@ TEST(NearestName, AForgottenUnitIsASlip) {
   EXPECT_EQ(nearest_name("max_range", kNames), "max_range_deg_per_s");
 }
 
+TEST(NearestName, OtherOrderLessWordsAndAnotherUnitAreSlips) {
+  constexpr std::array<std::string_view, 5> kNames = {"range_min_m", "range_max_m", "disc_radius_m",
+                                                      "yaw_deg", "z_m"};
+  EXPECT_EQ(nearest_name("max_range_m", kNames), "range_max_m");
+  EXPECT_EQ(nearest_name("radius_m", kNames), "disc_radius_m");
+  EXPECT_EQ(nearest_name("yaw_rad", kNames), "yaw_deg");
+  EXPECT_EQ(nearest_name("height_m", kNames), "");
+}
+
 TEST(Suggestion, NamesTheNearestOrAll) {
   constexpr std::array<std::string_view, 3> kNames = {"laser", "sonar", "bumper"};
   EXPECT_EQ(suggestion("lasser", kNames), "; did you mean `laser`?");

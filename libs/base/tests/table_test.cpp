@@ -68,6 +68,26 @@ TEST(Table, NeverWiderThanTheTerminal) {
   }
 }
 
+TEST(Table, LeavesOutColumnsBeforeASentenceGetsTooNarrow) {
+  Table table;
+  table.columns = {{.heading = "name"},
+                   {.heading = "version", .weight = 1},
+                   {.heading = "summary", .may_wrap = true},
+                   {.heading = "file", .weight = 2}};
+  const std::string summary = "Ranges to the nearest bodies along the rays of a scanning laser.";
+  table.rows = {{"virtual_laser", "1.0", summary, "virtual_laser.so"}};
+  const auto heading_at = [&](std::size_t width) {
+    const auto lines = split_lines(render_table(table, {.width = width}));
+    for (const std::string& line : lines) EXPECT_LE(columns_of(line), width);
+    return lines[1];
+  };
+  EXPECT_NE(heading_at(100).find("version"), std::string::npos);
+  EXPECT_EQ(heading_at(83).find("version"), std::string::npos);
+  EXPECT_NE(heading_at(83).find("file"), std::string::npos);
+  EXPECT_EQ(heading_at(70).find("file"), std::string::npos);
+  EXPECT_NE(heading_at(30).find("summary"), std::string::npos);
+}
+
 TEST(Table, EscapeCodesOnlyWhenAsked) {
   EXPECT_EQ(render_table(drivers()).find('\033'), std::string::npos);
   EXPECT_NE(render_table(drivers(), {.width = {}, .ansi = true}).find("\033[1m"),

@@ -190,7 +190,15 @@ Error Catalogue::Impl::unknown(std::span<const DriverKind> kinds, std::string_vi
   const std::string_view nearest = nearest_name(name, names);
   if (!nearest.empty()) message += fmt::format("; did you mean `{}`?", nearest);
   message += other_kinds;
-  if (nearest.empty()) message += fmt::format("; there are {}", join_names(names));
+  if (nearest.empty()) {
+    // Of dozens of names only those with the word in them, if there are any.
+    std::vector<std::string_view> alike;
+    std::ranges::copy_if(names, std::back_inserter(alike), [&](std::string_view each) {
+      return !name.empty() && each.find(name) != std::string_view::npos;
+    });
+    message += alike.empty() ? fmt::format("; there are {}", join_names(names))
+                             : fmt::format("; names with it: {}", join_names(alike));
+  }
   message += "; the folder of your own plug-ins is given with --plugins or RAVE_PLUGIN_PATH";
   for (const RejectedPlugin& plugin : rejected) message += "; " + plugin.error.message;
   return Error{ErrorCode::kNotFound, std::move(message), {}};

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <string_view>
 
@@ -126,13 +127,14 @@ std::string default_text(const ParamSpec& spec) {
   return {};
 }
 
-std::string describe(const Driver& driver) {
+std::string describe(const Driver& driver, std::span<const DriverFact> facts) {
   const DriverInfo& info = driver.info;
   std::string page = fmt::format("{}\n", info.name);
   page += indented(info.summary, 2, kPageWidth);
-  page += fmt::format("\n  kind     {}\n  version  {}\n  clock    {}\n  file     {}\n",
-                      rave::to_string(info.kind), info.version, rave::to_string(info.clock),
-                      driver.file.string());
+  page += fmt::format("\n  kind     {}\n  version  {}\n  clock    {}\n", rave::to_string(info.kind),
+                      info.version, rave::to_string(info.clock));
+  for (const DriverFact& fact : facts) page += fmt::format("  {:<7}  {}\n", fact.key, fact.value);
+  page += fmt::format("  file     {}\n", driver.file.string());
   if (*info.device != '\0') page += fmt::format("  device   part of a `{}`\n", info.device);
   page += "\n";
   if (info.param_count == 0) return page + "It has no parameters.\n";
@@ -141,12 +143,18 @@ std::string describe(const Driver& driver) {
   return page + render_table(params_table(info), options);
 }
 
-std::string markdown(const Driver& driver) {
+std::string markdown(const Driver& driver, std::span<const DriverFact> facts) {
   const DriverInfo& info = driver.info;
+  std::string more;
+  for (const DriverFact& fact : facts) {
+    std::string key = fact.key;
+    if (!key.empty()) key[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(key[0])));
+    more += fmt::format(" {}: {}.", key, escaped(fact.value));
+  }
   std::string section = fmt::format(
-      "### `{}`\n\n{}\n\nKind: {}. Version: {}. Clock: {}. Plug-in: `{}`.{}\n\n", info.name,
+      "### `{}`\n\n{}\n\nKind: {}. Version: {}. Clock: {}.{} Plug-in: `{}`.{}\n\n", info.name,
       escaped(info.summary), rave::to_string(info.kind), info.version, rave::to_string(info.clock),
-      driver.file.filename().string(),
+      more, driver.file.filename().string(),
       *info.device == '\0' ? std::string() : fmt::format(" Part of a device `{}`.", info.device));
   if (info.param_count == 0) return section + "It has no parameters.\n";
   section += "| name | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n";

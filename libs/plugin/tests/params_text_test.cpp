@@ -104,6 +104,18 @@ TEST(Describe, SaysOfWhichDeviceItIsAPart) {
       << markdown(driver);
 }
 
+TEST(Describe, ShowsWhatItsCallerKnows) {
+  const DriverFact facts[] = {{"gives", "ranges (C++ type float)"}};
+  EXPECT_NE(describe(sample({}), facts)
+                .find("  clock    stepped\n  gives    ranges (C++ type float)\n  file     "),
+            std::string::npos)
+      << describe(sample({}), facts);
+  EXPECT_NE(markdown(sample({}), facts)
+                .find("Clock: stepped. Gives: ranges (C++ type float). Plug-in: `laser.so`."),
+            std::string::npos)
+      << markdown(sample({}), facts);
+}
+
 TEST(Markdown, IsASectionWithoutTheFolder) {
   const std::array params{number_param("range_m", "m", 8, 0.1, 30, "Longest | range."),
                           required(text_param("port", "", "Where it is."))};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace rave::report {
 namespace {
@@ -16,7 +17,13 @@ constexpr std::array<Vec2, 8> kDirections = {
     Vec2{0, -1}, Vec2{-kDiagonal, -kDiagonal}, Vec2{0, 1},  Vec2{-kDiagonal, kDiagonal}};
 /// The cost of a place nearer to another labelled object.
 constexpr double kMisleading = 20;
+/// The cost of each point before one: the label of a wall is best at its middle.
+constexpr double kPerPoint = 0.1;
 constexpr std::array<double, 4> kFarther = {0, 4, 9, 15};
+
+Vec2 nearest_in(const PageBox& box, Vec2 p) {
+  return {std::clamp(p.x, box.x0, box.x1), std::clamp(p.y, box.y0, box.y1)};
+}
 
 std::size_t cell_of(double from_edge, std::size_t count) {
   const double cell = std::clamp(from_edge / kCell, 0.0, static_cast<double>(count - 1));
@@ -66,32 +73,41 @@ double LabelPlacer::weight_under(const PageBox& box) const {
   return weight;
 }
 
-bool LabelPlacer::is_nearer_to_another(const PageBox& box, Vec2 own) const {
-  const auto squared_distance = [&](Vec2 p) {
-    return squared_norm(p - Vec2{std::clamp(p.x, box.x0, box.x1), std::clamp(p.y, box.y0, box.y1)});
+bool LabelPlacer::is_nearer_to_another(const PageBox& box, std::span<const Vec2> own) const {
+  const auto squared_distance = [&](std::span<const Vec2> points) {
+    double least = std::numeric_limits<double>::max();
+    for (const Vec2 p : points) least = std::min(least, squared_norm(p - nearest_in(box, p)));
+    return least;
   };
   const double own_distance = squared_distance(own);
-  return std::any_of(anchors_.begin(), anchors_.end(), [&](Vec2 other) {
-    return !(other == own) && squared_distance(other) < own_distance;
+  return std::any_of(objects_.begin(), objects_.end(), [&](const std::vector<Vec2>& other) {
+    return !std::ranges::equal(other, own) && squared_distance(other) < own_distance;
   });
 }
 
-std::optional<PageBox> LabelPlacer::place(Vec2 anchor, double width, double height,
+std::optional<PageBox> LabelPlacer::place(std::span<const Vec2> points, double width, double height,
                                           double clearance) {
   std::optional<PageBox> best;
   double best_cost = 0;
-  // Greedy: each label takes the cheapest of 32 places and blocks it for those after it. A place
-  // costs what it covers, its distance, and an unusual direction.
-  for (const double farther : kFarther) {
-    for (std::size_t i = 0; i < kDirections.size(); ++i) {
-      const PageBox box = box_beside(anchor, kDirections[i], clearance + farther, width, height);
-      double cost = weight_under(box) + 0.4 * farther + 0.15 * static_cast<double>(i);
-      // The cheap tests first: most places lose by their cost alone.
-      if ((best && cost >= best_cost) || !is_free(box)) continue;
-      if (is_nearer_to_another(box, anchor)) cost += kMisleading;
-      if (best && cost >= best_cost) continue;
-      best = box;
-      best_cost = cost;
+  // Greedy: each label takes the cheapest of 32 places beside each point and blocks it for those
+  // after it. A place costs what it covers, its distance, an unusual direction, and how far its
+  // point is from the first one.
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    // A part that is not shown needs no name.
+    if (!area_.contains(points[k])) continue;
+    for (const double farther : kFarther) {
+      for (std::size_t i = 0; i < kDirections.size(); ++i) {
+        const PageBox box =
+            box_beside(points[k], kDirections[i], clearance + farther, width, height);
+        double cost = weight_under(box) + 0.4 * farther + 0.15 * static_cast<double>(i) +
+                      kPerPoint * static_cast<double>(k);
+        // The cheap tests first: most places lose by their cost alone.
+        if ((best && cost >= best_cost) || !is_free(box)) continue;
+        if (is_nearer_to_another(box, points)) cost += kMisleading;
+        if (best && cost >= best_cost) continue;
+        best = box;
+        best_cost = cost;
+      }
     }
   }
   if (best) block(*best);

@@ -32,7 +32,8 @@ LegendEntry line_entry(const PictureTrack& like, bool in_gap, std::string text) 
           std::move(text)};
 }
 
-/// Prominent tracks by name if they are few; otherwise one line per kind.
+/// Tracks by name if they are few and each is prominent or has a colour; otherwise one line per
+/// kind.
 void add_lines(const Picture& picture, std::vector<LegendEntry>& entries) {
   for (const Kind kind : {Kind::kRecordedRobot, Kind::kHunter, Kind::kSimulatedRobot, Kind::kOther,
                           Kind::kLandmark, Kind::kMappedWall, Kind::kVirtualObstacle}) {
@@ -43,7 +44,10 @@ void add_lines(const Picture& picture, std::vector<LegendEntry>& entries) {
       }
     }
     if (tracks.empty()) continue;
-    if (!look_of(*tracks.front()).is_strong || tracks.size() > kMostNamedTracks) {
+    const bool is_told_apart = std::ranges::all_of(tracks, [](const PictureTrack* track) {
+      return look_of(*track).is_strong || !track->colour.empty();
+    });
+    if (!is_told_apart || tracks.size() > kMostNamedTracks) {
       entries.push_back(line_entry(*tracks.front(), false, counted(tracks.size(), kind)));
       continue;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -48,9 +49,11 @@ void label_instant(Stage& stage);
 [[nodiscard]] PageBox bounds_of(const std::vector<Vec2>& points);
 [[nodiscard]] Vec2 middle_of(const PageBox& box) noexcept;
 
-/// Draws a label beside the anchor, with a thin leader if it is farther away; nothing if there is
-/// no room.
-void label_beside(Stage& stage, Vec2 anchor, double clearance, std::string_view text,
+/// Draws a label beside one of the points of an object, the best first, with a thin leader if it is
+/// farther away; nothing if there is no room or no point is on the panel.
+void label_beside(Stage& stage, std::span<const Vec2> points, double clearance,
+                  std::string_view text, const TextStyle& style);
+void label_beside(Stage& stage, Vec2 point, double clearance, std::string_view text,
                   const TextStyle& style);
 
 /// Small marks, shared with the legend.

@@ -220,6 +220,16 @@ void label_times(Stage& stage, const PictureTrack& track) {
   }
 }
 
+/// Names of few simulated robots, at the starts of their tracks.
+void label_faint(Stage& stage, const std::vector<const PictureTrack*>& tracks) {
+  if (tracks.size() > kMostNamedTracks) return;
+  for (const PictureTrack* track : tracks) {
+    const Rgb colour = track->colour.empty() ? kSoftInk : rgb_of(track->colour);
+    label_beside(stage, stage.panel.to_page(track->points.front().X_WB.position()), 3, track->label,
+                 {.size = 8, .colour = colour, .halo = true});
+  }
+}
+
 }  // namespace
 
 TrackLook look_of(const PictureTrack& track) noexcept {
@@ -270,9 +280,12 @@ void draw_tracks(Stage& stage) {
 
 void label_tracks(Stage& stage) {
   auto tracks = in_drawing_order(stage.picture);
-  tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
-                              [](const PictureTrack* track) { return !look_of(*track).is_strong; }),
-               tracks.end());
+  std::vector<const PictureTrack*> faint;
+  std::erase_if(tracks, [&](const PictureTrack* track) {
+    const bool is_strong = look_of(*track).is_strong;
+    if (!is_strong && !track->odometry_only) faint.push_back(track);
+    return !is_strong;
+  });
   if (tracks.size() > kMostLabels) return;
   for (const PictureTrack* track : tracks) {
     const TextStyle style{
@@ -283,7 +296,8 @@ void label_tracks(Stage& stage) {
     label_beside(stage, page_at(*track, stage.panel, *track->pose_lost_t_s), 6,
                  fmt::format("pose lost at {:.1f} s", *track->pose_lost_t_s), style);
   }
-  // Names before times: they take the better places.
+  // Names before times, and those of real robots first: they take the better places.
+  label_faint(stage, faint);
   for (const PictureTrack* track : tracks) label_times(stage, *track);
 }
 

@@ -44,11 +44,33 @@ TEST(LabelPlacer, AvoidsLinesAndOtherThings) {
   EXPECT_FALSE(off_line->overlaps({52, 49.9, 80, 50.1}));
 
   LabelPlacer crowded(kArea);
-  crowded.add_anchor({50, 50});
-  crowded.add_anchor({58, 50});
+  crowded.add_object({{50, 50}});
+  crowded.add_object({{58, 50}});
   const auto box = crowded.place({50, 50}, 20, 8, 3);
   ASSERT_TRUE(box);
   EXPECT_LT(box->x0, 50);
+}
+
+// A wall from (10, 50) to (90, 50), 2 high: its label is beside its middle, not half its length
+// away.
+TEST(LabelPlacer, ALongObjectIsLabelledBesideIt) {
+  const std::vector<Vec2> wall = {{50, 50}, {40, 50}, {60, 50}, {30, 50},
+                                  {70, 50}, {20, 50}, {80, 50}};
+  LabelPlacer placer(kArea);
+  placer.block({10, 49, 90, 51});
+  placer.add_object(wall);
+  const auto box = placer.place(wall, 20, 8, 1);
+  ASSERT_TRUE(box);
+  EXPECT_NEAR(box->x0, 40, 1e-9);
+  EXPECT_NEAR(box->y1, 49, 1e-9);
+  // Where the middle is taken, it moves along the wall and stays beside it.
+  LabelPlacer crowded(kArea);
+  crowded.block({10, 49, 90, 51});
+  crowded.block({35, 20, 65, 80});
+  const auto moved = crowded.place(wall, 20, 8, 1);
+  ASSERT_TRUE(moved);
+  EXPECT_NEAR(moved->y1, 49, 1e-9);
+  EXPECT_TRUE(moved->x1 <= 35 || moved->x0 >= 65);
 }
 
 }  // namespace

@@ -120,6 +120,58 @@ TEST_F(PictureTest, TheLegendNamesOnlyWhatOccurs) {
   }
 }
 
+TEST_F(PictureTest, FewSimulatedRobotsAreNamed) {
+  Picture picture = sample_picture();
+  picture.tracks.erase(picture.tracks.begin(), picture.tracks.begin() + 3);
+  picture.tracks[1].kind = Kind::kSimulatedRobot;
+  EXPECT_NE(svg_of(picture).find("2 simulated robots"), std::string::npos);
+  Picture nameless = picture;
+  for (PictureTrack& track : nameless.tracks) track.label.clear();
+  EXPECT_NE(png_of(picture), png_of(nameless));
+
+  picture.tracks[0].colour = "#0072b2";
+  picture.tracks[1].colour = "#d55e00";
+  const std::string svg = svg_of(picture);
+  EXPECT_NE(svg.find("s1 (simulated robot)"), std::string::npos);
+  EXPECT_NE(svg.find("chaser (simulated robot)"), std::string::npos);
+
+  while (picture.tracks.size() < 9) picture.tracks.push_back(picture.tracks[0]);
+  nameless = picture;
+  for (PictureTrack& track : nameless.tracks) track.label.clear();
+  EXPECT_EQ(png_of(picture), png_of(nameless)) << "nine names would hide the tracks";
+}
+
+// The label of a wall as long as the page is beside the wall: the middle of the room stays white.
+TEST_F(PictureTest, LongWallsAreLabelledWhereTheyStand) {
+  Picture picture;
+  const auto box_W = [](Vec2 c, double half_x, double half_y) {
+    return std::vector<Vec2>{c + Vec2{-half_x, -half_y}, c + Vec2{half_x, -half_y},
+                             c + Vec2{half_x, half_y}, c + Vec2{-half_x, half_y}};
+  };
+  picture.bodies = {{box_W({0, -2.05}, 3.1, 0.05), Kind::kVirtualObstacle, "south", ""},
+                    {box_W({0, 2.05}, 3.1, 0.05), Kind::kVirtualObstacle, "north", ""},
+                    {box_W({-3.05, 0}, 0.05, 2.1), Kind::kVirtualObstacle, "west", ""},
+                    {box_W({3.05, 0}, 0.05, 2.1), Kind::kVirtualObstacle, "east", ""}};
+  const Panel panel = lay_out(picture).value().panels[0];
+  Picture nameless = picture;
+  for (PictureBody& body : nameless.bodies) body.label.clear();
+  png_of(nameless, 1);
+  const Pixels without(folder_ / "a.png");
+  png_of(picture, 1);
+  const Pixels with(folder_ / "a.png");
+  ASSERT_TRUE(with.is_good() && without.is_good());
+  std::size_t near = 0;
+  for (double x = -2.9; x < 2.9; x += 0.01) {
+    for (double y = -1.9; y < 1.9; y += 0.01) {
+      const Vec2 at = panel.to_page({x, y});
+      if (with.at(at) == without.at(at)) continue;
+      EXPECT_TRUE(std::abs(x) > 2.4 || std::abs(y) > 1.7) << x << ", " << y;
+      ++near;
+    }
+  }
+  EXPECT_GT(near, 0U);
+}
+
 TEST_F(PictureTest, PngHasTheSizeOfTheLayout) {
   const Layout layout = lay_out(sample_picture()).value();
   for (const double scale : {0.5, 1.0, 2.0}) {

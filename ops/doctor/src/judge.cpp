@@ -10,7 +10,7 @@
 namespace rave::doctor {
 namespace {
 
-/// Certificates and logs need no more; the time of a run is found out by itself.
+/// Certificates and logs need no better agreement of clocks; a run measures the offset itself.
 constexpr double kSameTime_s = 2;
 
 // The checks follow the way of a packet: is there a route and a listener, is it the same build, do

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kLook_ms = 100;
 constexpr int kMostParticipants = 120;
-/// More machines than this are answered and not told of.
+/// Further machines are answered but not reported.
 constexpr std::size_t kMostMachines = 1000;
 
 }  // namespace
@@ -49,7 +49,7 @@ About about_here(const bus::BusConfig& config, std::uint64_t stamp) {
 
 struct Listener::Impl {
   Options options;
-  std::vector<Socket> sockets{};  ///< That of the doctor first.
+  std::vector<Socket> sockets{};  ///< The socket at the port of the doctor is the first.
   std::optional<Socket> group{};
   std::set<std::string> known{};
   std::vector<char> bytes = std::vector<char>(kLargestProbe + 1);

@@ -13,11 +13,11 @@ namespace rave::doctor {
 namespace {
 
 constexpr std::uint64_t kFewFiles = 256;
-/// A world of 10 000 robots has 600 kB.
+/// A world message of 10 000 robots has 600 kB.
 constexpr std::uint64_t kWorld_bytes = 1U << 20U;
-/// What rave::bus asks for.
+/// The size that rave::bus requests.
 constexpr std::uint64_t kWanted_bytes = 8U << 20U;
-/// 2020-01-01: RAVE is younger.
+/// 2020-01-01: an earlier clock is certainly wrong.
 constexpr std::int64_t kYoung_s = 1'577'836'800;
 
 bool elsewhere(std::string_view peer) { return !peer.starts_with("127.") && peer != "localhost"; }
@@ -150,7 +150,7 @@ Finding check_cyclone_uri(const Machine& machine) {
     finding.what = "CYCLONEDDS_URI is not set";
     return finding;
   }
-  // A list of pieces of XML and of files.
+  // The variable is a list of XML fragments and file names.
   constexpr std::string_view kFile = "file://";
   std::string_view rest = machine.cyclone_uri;
   while (!rest.empty()) {

@@ -176,7 +176,7 @@ Finding check_multicast(const Machine& machine, const bus::BusConfig& config) {
                         tried.error().message),
             fmt::format("sudo ip route add 224.0.0.0/4 dev {}", interface->name)};
   }
-  // Others may talk in the group.
+  // Other programs may send to the group, too.
   std::array<char, 2048> bytes{};
   for (int looks = 0; looks < 50; ++looks) {
     const auto received = socket->receive(bytes, 100);

@@ -18,9 +18,9 @@ using Json = nlohmann::json;
 constexpr std::array<std::string_view, 4> kKinds = {"ask", "answer", "call", "shout"};
 constexpr std::size_t kLongestText = 256;
 
-/// Reads fields of an object; remembers if one was not as it must be.
-/// Probes come from any machine that reaches the port. Each field must be there and of the right
-/// type, or the whole probe is refused.
+/// Reads fields of an object and remembers whether one was missing or wrong. Probes come from any
+/// machine that reaches the port. Each field must be there and of the right type, or the whole
+/// probe is refused.
 class Fields {
  public:
   explicit Fields(const Json& json) : json_(json), good_(json.is_object()) {}
@@ -46,7 +46,7 @@ class Fields {
     good_ = good_ && value != nullptr && value->is_boolean();
     if (good_) truth = value->get<bool>();
   }
-  /// Text ends up on terminals.
+  /// Refuses control characters, because the text is shown on terminals.
   void read(const char* key, std::string& text) {
     const Json* const value = find(key);
     good_ = good_ && value != nullptr && value->is_string();
@@ -119,7 +119,7 @@ Result<Probe> parse_probe(std::string_view bytes) {
   const auto refused = [](std::string_view why) {
     return fail(ErrorCode::kParse, "this is not a message of a doctor: {}", why);
   };
-  // Nothing of ours is nested deeper, and a parser that recurses must not be led down.
+  // Probes are not nested deeper, and deep nesting would exhaust the stack of the recursive parser.
   if (std::ranges::count(bytes, '{') > 2 || bytes.find('[') != std::string_view::npos) {
     return refused("it is nested");
   }

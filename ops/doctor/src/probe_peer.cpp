@@ -15,14 +15,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kTries = 3;
-/// A question must be longer than its answer, with all that this says of itself.
+/// Size of a question: it must be longer than its answer, which describes a whole machine.
 constexpr std::size_t kQuestion = 1200;
-/// From far below to far above what a frame of Ethernet holds.
+/// From far below to far above the size of an Ethernet frame.
 constexpr std::array<std::size_t, 7> kSizes = {1400, 1472, 4'000, 9'000, 16'000, 32'000, 64'000};
 
 struct Asked {
   std::optional<Probe> answer;
-  std::size_t size = 0;  ///< Of the answer.
+  std::size_t size = 0;  ///< Size of the answer.
   std::optional<Error> error;
 };
 
@@ -53,7 +53,7 @@ class Prober {
   std::uint64_t number_ = 0;
 };
 
-/// From a port that a firewall lets answers in to, if it is free.
+/// Asks from a port that firewalls usually permit, if it is free.
 Result<Socket> Prober::socket_to(std::uint16_t port) const {
   auto usual = Socket::bind({options_.address, asking_port(options_.domain)}, true);
   auto socket = usual ? std::move(usual) : Socket::bind({options_.address, 0});
@@ -62,7 +62,7 @@ Result<Socket> Prober::socket_to(std::uint16_t port) const {
   return socket;
 }
 
-/// The probe of that kind with our number; others are passed over.
+/// Waits for the probe of that kind with the number of the question; others are ignored.
 std::optional<Probe> Prober::await(const Socket& socket, Probe::Kind kind, std::size_t& size) {
   const auto end = Clock::now() + std::chrono::milliseconds(options_.patience_ms);
   for (;;) {
@@ -149,7 +149,7 @@ void Prober::try_multicast(const Socket& socket, ProbeResult& result) {
   const std::uint16_t port = multicast_port(options_.domain);
   auto group = Socket::bind({"0.0.0.0", port}, true);
   if (!group || !group->join(kMulticastGroup, options_.address)) return;
-  // The answer comes from the port of the doctor, to where the question came from.
+  // The answer is sent from the port of the doctor, to the origin of the question.
   auto asking = Socket::bind({options_.address, 0});
   if (!asking || !asking->join(kMulticastGroup, options_.address)) return;
   std::size_t size = 0;
@@ -159,7 +159,7 @@ void Prober::try_multicast(const Socket& socket, ProbeResult& result) {
     Probe probe;
     probe.number = ++number_;
     static_cast<void>(asking->send(write_probe(probe, kQuestion), {kMulticastGroup, port}));
-    // Others of the group may answer as well.
+    // Other members of the group may answer as well.
     const auto answer = await(*asking, Probe::Kind::kAnswer, size);
     result.multicast_there = answer && answer->by_multicast;
   }

@@ -27,21 +27,21 @@ struct Place {
 /// A UDP socket. Owner: one thread.
 class Socket {
  public:
-  /// Bound to a port of an address; port 0: any. `shared`: others that share as well may have the
-  /// port, too. Errors: kIo with what the system says, kState if the port is taken.
+  /// Binds a socket to a port of an address; port 0: any. `shared`: other shared sockets may have
+  /// the same port. Errors: kIo with the message of the system, kState if the port is taken.
   [[nodiscard]] static Result<Socket> bind(const Place& place, bool shared = false);
   Socket(Socket&& other) noexcept;
   Socket& operator=(Socket&&) = delete;
   ~Socket();
 
-  /// From here on only this place is heard, and what it refuses is an error of receive(). Error
-  /// kIo.
+  /// Restricts the socket to one remote address. Messages that it refuses become errors of
+  /// receive(). Error kIo.
   [[nodiscard]] Status connect(const Place& place);
-  /// Takes part in a multicast group through the interface of that address, and sends to groups
-  /// through it, to itself as well. Error kIo.
+  /// Joins a multicast group through the interface with that address. Messages to groups leave
+  /// through it and return to this machine as well. Error kIo.
   [[nodiscard]] Status join(const char* group, const std::string& interface_address);
 
-  /// Error kIo: what the system says, such as `Network is unreachable`.
+  /// Error kIo with the message of the system, such as `Network is unreachable`.
   [[nodiscard]] Status send(std::string_view bytes, const Place& to) const;
   [[nodiscard]] Status send(std::string_view bytes) const;  ///< After connect().
 
@@ -49,8 +49,8 @@ class Socket {
     std::size_t size = 0;
     Place from;
   };
-  /// Waits for a datagram for that long; nothing if none comes. Errors, after connect(): kNotFound
-  /// (nobody listens at the port), kIo (such as `No route to host`).
+  /// Waits for a datagram; empty if none arrives in time. Errors, after connect(): kNotFound (no
+  /// process listens at the port), kIo (such as `No route to host`).
   [[nodiscard]] Result<std::optional<Received>> receive(std::span<char> into, int wait_ms) const;
 
   [[nodiscard]] int descriptor() const noexcept { return descriptor_; }

@@ -37,19 +37,19 @@ using Signed = std::unique_ptr<PKCS7, Freer<PKCS7_free>>;
 using Store = std::unique_ptr<X509_STORE, Freer<X509_STORE_free>>;
 using Check = std::unique_ptr<X509_STORE_CTX, Freer<X509_STORE_CTX_free>>;
 
-/// What a certificate says beside the usual.
+/// The parts of a certificate that differ between kinds.
 struct Extra {
   int kind = 0;
   std::string value;
 };
 
 struct StackFree {
-  /// The certificates in it belong to others.
+  /// Frees the container only; others own the certificates in it.
   void operator()(STACK_OF(X509) * stack) const noexcept { sk_X509_free(stack); }
 };
 using Certificates = std::unique_ptr<STACK_OF(X509), StackFree>;
 
-/// `what` and the reasons that libcrypto has left.
+/// An error with `what` and the reasons in the error queue of libcrypto.
 tl::unexpected<Error> failed(ErrorCode code, std::string_view what) {
   std::string reasons;
   while (const unsigned long number = ERR_get_error()) {
@@ -60,7 +60,7 @@ tl::unexpected<Error> failed(ErrorCode code, std::string_view what) {
   return fail(code, "{}{}", what, reasons);
 }
 
-/// A stream to read a text from, which must outlive it.
+/// A stream that reads a text, which must outlive it.
 Stream reading(const std::string& text) {
   return Stream(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
 }
@@ -77,7 +77,7 @@ std::string content_of(BIO* stream) {
   return content;
 }
 
-/// Without this libcrypto would ask at the terminal.
+/// Refuses encrypted keys. Without it libcrypto would ask for a password at the terminal.
 int no_passphrase(char* /*buffer*/, int /*size*/, int /*writing*/, void* /*user*/) { return -1; }
 
 Result<Certificate> parse_certificate(const std::string& text) {
@@ -109,7 +109,7 @@ Name make_name(const std::string& common, const std::string& lab) {
   return name;
 }
 
-/// Nobody can guess it, and no two are the same.
+/// A random serial number: unpredictable and unique.
 bool set_serial(X509* certificate) {
   const Number serial(BN_new());
   // A serial number has at most 20 octets and is positive (RFC 5280, 4.1.2.2), which leaves 159
@@ -183,7 +183,7 @@ Result<Credential> make_credential(const Name& name, const Validity& validity, X
   return Credential{content_of(stream.get()), std::move(key_text)};
 }
 
-/// An entry of a name, with nothing in it that could steer a terminal.
+/// An entry of a name, without characters that could control a terminal.
 std::string entry_of(const X509_NAME* name, int field) {
   const int place = X509_NAME_get_index_by_NID(name, field, -1);
   if (place < 0) return "?";
@@ -219,7 +219,7 @@ std::string fingerprint_of(const X509* certificate) {
 
 Result<Credential> make_authority(const std::string& lab, const Validity& validity) {
   ERR_clear_error();
-  // No member can have that name: there is a blank in it.
+  // Names of members have no blanks, so no member can have this name.
   return make_credential(make_name("RAVE authority", lab), validity, nullptr, nullptr);
 }
 
@@ -254,7 +254,7 @@ Result<Credential> make_web_server(const Credential& authority,
   RAVE_TRY_ASSIGN(const Key issuer_key, parse_key(authority.key));
   const std::vector<Extra> extras = {{NID_subject_alt_name, alternatives_for(names)},
                                      {NID_ext_key_usage, "serverAuth"}};
-  // With a blank in it nobody takes the name for that of a host, of which only the list counts.
+  // With a blank the name cannot be taken for a host name; browsers use the list of names only.
   const Name name = make_name("Page of " + names.front().substr(0, 50), kWebLab);
   return make_credential(name, validity, issuer.get(), issuer_key.get(), extras);
 }
@@ -269,7 +269,7 @@ Status check_web_server(const std::string& authority, const std::string& certifi
       X509_STORE_CTX_init(check.get(), store.get(), shown.get(), nullptr) != 1) {
     return failed(ErrorCode::kIo, "cannot check a certificate");
   }
-  // As a browser would judge it, so a mistake is found here and not at the first visit.
+  // Verified as by a browser, so a mistake is found here and not at the first visit.
   X509_STORE_CTX_set_purpose(check.get(), X509_PURPOSE_SSL_SERVER);
   X509_STORE_CTX_set_time(check.get(), 0, now_s);
   if (X509_verify_cert(check.get()) != 1) {
@@ -327,7 +327,8 @@ Result<std::string> signed_text(const std::string& certificate, const std::strin
   if (!signers || sk_X509_push(signers.get(), signer.get()) == 0) {
     return failed(ErrorCode::kIo, "cannot check a signature");
   }
-  // As DDS Security does it: the signer is this very certificate, whatever the document brings.
+  // As in DDS Security: the signer must be exactly this certificate, whatever certificates the
+  // document contains.
   if (PKCS7_verify(parsed.get(), signers.get(), nullptr, content.get(), out.get(),
                    PKCS7_TEXT | PKCS7_NOVERIFY | PKCS7_NOINTERN) != 1) {
     return failed(ErrorCode::kState, "it was not signed by the authority");

@@ -31,30 +31,30 @@ struct CertificateFacts {
   bool authority = false;
 };
 
-/// A new key on the curve P-256 and a certificate that it signs itself. Errors: kIo.
+/// Creates a key on the curve P-256 and a self-signed certificate. Errors: kIo.
 [[nodiscard]] Result<Credential> make_authority(const std::string& lab, const Validity& validity);
 
-/// A new key and a certificate with which one can neither make members nor sign permissions.
-/// Errors: kIo.
+/// Creates a key and a certificate that can neither create members nor sign permissions. Errors:
+/// kIo.
 [[nodiscard]] Result<Credential> make_member(const Credential& authority, const std::string& name,
                                              const std::string& lab, const Validity& validity);
 
-/// An authority for browsers, which can speak for these names and addresses alone, and a server
-/// that shows itself as them. `names`: checked, see check_web_name(). Errors: kIo.
+/// Creates an authority for browsers, constrained to these names and addresses, and a server
+/// certificate for them. `names`: checked, see check_web_name(). Errors: kIo.
 [[nodiscard]] Result<Credential> make_web_authority(const std::vector<std::string>& names,
                                                     const Validity& validity);
 [[nodiscard]] Result<Credential> make_web_server(const Credential& authority,
                                                  const std::vector<std::string>& names,
                                                  const Validity& validity);
-/// Whether a browser that trusts the authority takes the certificate for a server's. Errors:
+/// Checks that a browser that trusts the authority accepts the certificate of the server. Errors:
 /// kParse, and kState if not.
 [[nodiscard]] Status check_web_server(const std::string& authority, const std::string& certificate,
                                       std::int64_t now_s);
 
-/// The text with a signature, as S/MIME. Errors: kIo.
+/// Signs a text; the result is S/MIME. Errors: kIo.
 [[nodiscard]] Result<std::string> sign(const Credential& signer, const std::string& text);
 
-/// The text of such a document. Errors: kParse, kState (another one has signed it, or it was
+/// Verifies such a document and returns its text. Errors: kParse, kState (signed by another key, or
 /// changed).
 [[nodiscard]] Result<std::string> signed_text(const std::string& certificate,
                                               const std::string& document);
@@ -62,11 +62,11 @@ struct CertificateFacts {
 /// Errors: kParse.
 [[nodiscard]] Result<CertificateFacts> read_certificate(const std::string& certificate);
 
-/// Whether the key of `issuer` has signed `certificate`; one may be the other. Errors: kParse, and
-/// kState if not.
+/// Checks that the key of `issuer` has signed `certificate`; both may be the same. Errors: kParse,
+/// and kState if not.
 [[nodiscard]] Status check_issued(const std::string& issuer, const std::string& certificate);
 
-/// Whether the two belong together. Errors: kParse, and kState if not.
+/// Checks that key and certificate belong together. Errors: kParse, and kState if not.
 [[nodiscard]] Status check_pair(const Credential& credential);
 
 }  // namespace rave::keys

@@ -7,7 +7,7 @@ namespace rave::keys {
 namespace {
 
 constexpr std::string_view kHead = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-/// Cyclone DDS refuses a range that ends behind 230.
+/// Cyclone DDS refuses a range that ends above 230.
 constexpr std::string_view kDomains =
     "<domains><id_range><min>0</min><max>230</max></id_range></domains>";
 
@@ -15,7 +15,7 @@ std::string element(std::string_view name, std::string_view content) {
   return fmt::format("<{0}>{1}</{0}>\n", name, content);
 }
 
-/// Without a zone it means UTC, and all vendors can read it.
+/// Without a time zone it means UTC, and all vendors can read it.
 std::string xml_moment(std::int64_t moment_s) {
   const std::time_t moment = moment_s;
   std::tm fields{};
@@ -25,7 +25,8 @@ std::string xml_moment(std::int64_t moment_s) {
   return text;
 }
 
-/// The same for reading and writing. A rule each, because a vendor may take one element of a kind.
+/// The same topics for reading and writing. Each has a rule of its own, because some vendors accept
+/// one element of a kind only.
 std::string allow(const std::string& topics, std::string_view partition) {
   const std::string what =
       element("topics", topics) + element("partitions", element("partition", partition));
@@ -36,7 +37,7 @@ std::string allow(const std::string& topics, std::string_view partition) {
 }  // namespace
 
 std::string governance_xml() {
-  // The packets are encrypted as a whole, so parts of them need not be a second time.
+  // Packets are encrypted as a whole, so their parts need no second encryption.
   const std::string topic =
       element("topic_expression", "*") + element("enable_discovery_protection", "true") +
       element("enable_liveliness_protection", "true") +

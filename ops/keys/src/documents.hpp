@@ -9,11 +9,12 @@
 // nothing needs to be escaped.
 namespace rave::keys {
 
-/// For all topics in domains 0 to 230: who is not authenticated is not there, and every packet is
-/// encrypted as a whole, discovery and liveliness too.
+/// The governance document for all topics in domains 0 to 230: participants must be authenticated,
+/// and every packet is encrypted as a whole, also discovery and liveliness.
 [[nodiscard]] std::string governance_xml();
 
-/// Lets `subject` read and write the topics of RAVE in the partitions of runs, and those of ROS 2.
+/// The permissions document: `subject` may read and write the topics of RAVE in the partitions of
+/// runs, and those of ROS 2.
 [[nodiscard]] std::string permissions_xml(const std::string& name, const std::string& subject,
                                           const Validity& validity);
 

@@ -34,11 +34,11 @@ Status check_days(int days, int least) {
   return fail(kBad, "{} days: expected {} to {}", days, least, kMostDays);
 }
 
-/// The authority of a set and what is known of it.
+/// The authority of a set with its key and documents.
 struct Authority {
   Credential credential;
   CertificateFacts facts;
-  std::string governance;  ///< Signed; the same for all.
+  std::string governance;  ///< Signed; the same for all members.
 };
 
 Result<Authority> new_authority(const std::string& lab, const Validity& validity) {
@@ -68,7 +68,7 @@ Status make_member_folder(const fs::path& folder, const Authority& authority,
   return write_private_file(folder / kPermissions, permissions);
 }
 
-/// The error that a set cannot be made because something has its name.
+/// The error for a set whose name is taken.
 tl::unexpected<Error> taken(const fs::path& folder) {
   const auto there = read_key_set(folder);
   if (!there || !check_set(folder)) {
@@ -85,7 +85,7 @@ tl::unexpected<Error> taken(const fs::path& folder) {
               folder.string(), names.empty() ? "nobody" : names);
 }
 
-/// The authority of a set, if members can be made with it.
+/// Reads the authority of a set and checks that it can create members.
 Result<Authority> read_authority(const fs::path& folder, std::int64_t now_s) {
   RAVE_TRY(check_set(folder));
   const fs::path ca = folder / kCaFolder;
@@ -117,7 +117,7 @@ Result<Authority> read_authority(const fs::path& folder, std::int64_t now_s) {
   return authority;
 }
 
-/// Takes members back that were moved before one that could not be.
+/// Removes the members that were moved already when a later one fails.
 void remove_folders(const fs::path& folder, std::span<const std::string> names) {
   std::error_code ignored;
   for (const std::string& name : names) fs::remove_all(folder / name, ignored);

@@ -24,14 +24,15 @@ inline constexpr const char* kPermissions = "permissions.p7s";
 
 inline constexpr std::int64_t kDay_s = 86'400;
 
-/// No file of a set is larger.
+/// Largest accepted size of a file of a set.
 inline constexpr std::size_t kLargestFile = std::size_t{1} << 20;
 
 /// `lab-keys/` and `lab-keys` are the same folder, whose parent is `.`.
 [[nodiscard]] std::filesystem::path without_slash(const std::filesystem::path& folder);
 [[nodiscard]] std::filesystem::path parent_of(const std::filesystem::path& folder);
 
-/// Whether there is an authority's certificate in it. Error kNotFound, with the nearest name.
+/// Checks that the folder has the certificate of an authority. Error kNotFound, with the nearest
+/// name.
 [[nodiscard]] Status check_set(const std::filesystem::path& folder);
 
 }  // namespace rave::keys

@@ -71,7 +71,8 @@ Status write_private_file(const fs::path& path, std::string_view content) {
 
 Status move_to_free_name(const fs::path& from, const fs::path& to) {
   int result = ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE);
-  // Not every file system knows how; a plain rename replaces at most an empty folder.
+  // Not every file system supports renaming without replacement; a plain rename replaces at most an
+  // empty folder.
   if (result != 0 && errno == EINVAL && !is_taken(to)) result = ::rename(from.c_str(), to.c_str());
   if (result == 0) return {};
   if (errno == EEXIST || errno == ENOTEMPTY || is_taken(to)) {

@@ -6,10 +6,11 @@
 
 #include "rave/base/result.hpp"
 
-// Files and folders that nobody but the user can read, and that replace nothing.
+// Files and folders that only the user can read, and that never replace others.
 namespace rave::keys {
 
-/// A folder to prepare others in, so that these appear whole. What is left in it goes with it.
+/// A temporary folder in which others are prepared, so that they appear complete. Its remaining
+/// content is removed with it.
 class ScratchFolder {
  public:
   /// Inside `parent`, because moving to another file system would be copying. Errors: kNotFound
@@ -30,16 +31,16 @@ class ScratchFolder {
 /// Makes a folder with mode 0700. Errors: kIo.
 [[nodiscard]] Status make_private_folder(const std::filesystem::path& folder);
 
-/// Writes a file that was not there, with mode 0600, to the disk. Errors: kIo.
+/// Creates a new file with mode 0600 and flushes it to the disk. Errors: kIo.
 [[nodiscard]] Status write_private_file(const std::filesystem::path& file,
                                         std::string_view content);
 
-/// Gives a folder its final name, unless something has that already. Errors: kInvalidArgument (it
-/// is there), kIo.
+/// Moves a folder to its final name, if that is free. Errors: kInvalidArgument (the name is taken),
+/// kIo.
 [[nodiscard]] Status move_to_free_name(const std::filesystem::path& from,
                                        const std::filesystem::path& to);
 
-/// Whether something, even a dead link, has that name.
+/// Whether the name is taken, even by a dangling link.
 [[nodiscard]] bool is_taken(const std::filesystem::path& path);
 
 }  // namespace rave::keys

@@ -26,7 +26,7 @@ KeyInfo info_of(const CertificateFacts& facts) {
   return info;
 }
 
-/// Whoever reads a private key can act as its owner.
+/// Checks that only the owner can read a private key: others could act in its name.
 void check_mode(const fs::path& key, KeyInfo& info) {
   struct stat status {};
   if (::stat(key.c_str(), &status) != 0 || (status.st_mode & 077U) == 0) return;
@@ -35,9 +35,8 @@ void check_mode(const fs::path& key, KeyInfo& info) {
                   key.filename().string(), status.st_mode & 07777U));
 }
 
-/// Adds what is wrong to the problems of a member, with the file that it is about.
-/// All problems of a member are collected instead of stopping at the first: a set is repaired by
-/// copying it again, and one needs to know how much of it is wrong.
+/// Adds problems of a file to those of a member. All are collected instead of stopping at the
+/// first: a set is repaired by copying it again, and one needs to know how much of it is wrong.
 class Findings {
  public:
   Findings(fs::path folder, KeyInfo& info) : folder_(std::move(folder)), info_(&info) {}
@@ -73,7 +72,8 @@ bool are_all_there(const fs::path& folder, KeyInfo& info) {
   return info.problems.empty();
 }
 
-/// Whether the documents are those of the authority, and the permissions those of this member.
+/// Checks that the documents are signed by the authority, and that the permissions are those of
+/// this member.
 void check_documents(const std::string& authority, const CertificateFacts& facts,
                      Findings& findings) {
   const auto governance = signed_text(authority, findings.read(kGovernance));
@@ -87,7 +87,7 @@ void check_documents(const std::string& authority, const CertificateFacts& facts
   }
 }
 
-/// Other folders may lie beside those of members.
+/// Whether a folder is one of a member; others may lie beside them.
 bool has_some(const fs::path& folder) {
   return std::ranges::any_of(kMemberFiles, [&](const char* file) {
     std::error_code error;

@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 
 constexpr ErrorCode kBadWeb = ErrorCode::kInvalidArgument;
 constexpr std::size_t kMostNames = 50;
-/// The authority lasts ten years, so that browsers are told once.
+/// The authority is valid for ten years, so that browsers must be told only once.
 constexpr std::int64_t kAuthorityDays = 3650;
-/// For machines whose clock is a little late; counts as part of the days.
+/// Validity before the creation, for machines whose clock is slow; counts as part of the days.
 constexpr std::int64_t kEarly_s = 3600;
 
 constexpr const char* kServer = "server.pem";
@@ -88,8 +88,8 @@ Validity server_validity(const NewWebKeys& wanted) {
 Status renew(const NewWebKeys& wanted, const fs::path& folder, const Credential& authority) {
   RAVE_TRY_ASSIGN(const Credential server,
                   make_web_server(authority, wanted.names, server_validity(wanted)));
-  // The authority may be an older one with other names. Then browsers would refuse the new
-  // certificate, which is better known now.
+  // An older authority may be constrained to other names. Browsers would refuse the new
+  // certificate, so it is an error here.
   const Status good = check_web_server(authority.certificate, server.certificate, wanted.now_s);
   if (!good) {
     return fail(ErrorCode::kState,

@@ -8,8 +8,8 @@
 // been checked by check_web_name(), so that nothing of them can pass for another field. Any thread.
 namespace rave::keys {
 
-/// What an authority may speak for. Of a kind that is not named at all everything would be allowed:
-/// then a name or an address that nobody has takes its place.
+/// The name constraints of an authority. A kind of name that is not mentioned would be
+/// unconstrained, so it gets a name or an address that no machine has.
 [[nodiscard]] std::string constraints_for(const std::vector<std::string>& names);
 
 /// The names of a server.

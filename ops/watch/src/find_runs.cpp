@@ -13,9 +13,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// When nobody new has come for this long, all that are near have answered.
+/// After this time without a new process, all near ones have answered.
 constexpr std::chrono::milliseconds kMoment{400};
-/// Fewer digits of a number could as well be a name.
+/// A word with fewer digits could as well be a name.
 constexpr std::size_t kFewestDigits = 4;
 
 std::vector<FoundRun> runs_of(const std::vector<bus::BusProcess>& processes) {
@@ -66,8 +66,8 @@ Result<std::vector<FoundRun>> find_runs(bus::BusConfig config, Duration patience
     if (processes > known) {
       known = processes;
       const auto found = runs_of(bus->processes());
-      // Discovery has no end, so one waits: until what is looked for is there, or until nobody new
-      // has come for a moment.
+      // Discovery has no end. So wait until the wanted run is found, or until no new process has
+      // appeared for a moment.
       if (enough && enough(found)) break;
       if (!enough && !found.empty()) end = std::min(latest, Clock::now() + kMoment);
     }

@@ -79,7 +79,7 @@ void LoneRun::tell_process(HostView& host) {
 Result<RunView> LoneRun::look(bool with_robots) {
   const auto answer = control::ask(name_, {});
   if (!answer) {
-    // No socket any more: the run has ended, and its last state stays on the page.
+    // Without its socket the run has ended; its last state stays on the page.
     if (answer.error().code != ErrorCode::kNotFound) return tl::unexpected(answer.error());
     if (!seen_)
       return fail(ErrorCode::kState, "the run `{}` ended before it could be queried", name_);

@@ -5,7 +5,7 @@
 
 namespace rave::watch {
 
-/// Between two moments, in seconds.
+/// The difference of two times in seconds.
 [[nodiscard]] constexpr double seconds_of(std::int64_t ns) noexcept {
   return static_cast<double>(ns) * 1e-9;
 }

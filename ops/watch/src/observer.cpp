@@ -12,14 +12,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Asks no writer to send again what got lost; room for what comes between two looks.
+/// Best effort: no writer is asked to send lost samples again. The queue has room for the samples
+/// between two looks.
 constexpr bus::QosProfile kWatched{.reliable = false, .depth = 64};
 
 std::int64_t ns_of(Clock::time_point when) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(when.time_since_epoch()).count();
 }
 
-/// How long a sample was on its way, as the clocks of day of both ends say.
+/// Delay of a sample by the system clocks of both machines.
 std::int64_t delay_of(const dds_sample_info_t& info) {
   const auto today = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(today).count() -
@@ -57,7 +58,7 @@ void Observer::Impl::take() {
   processes.take([&](const bus::ProcessState& state, const dds_sample_info_t& info) {
     model.hear(state, now_ns, delay_of(info));
   });
-  // Last, since who is gone may have said something before.
+  // Last, because a process that has left may have sent something before.
   for (const bus::BusEvent& event : bus->take_events()) {
     if (event.kind == bus::EventKind::kParticipantLost) model.lose(event.writer);
   }

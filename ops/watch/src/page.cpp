@@ -15,10 +15,9 @@ namespace rave::watch {
 namespace {
 
 constexpr std::size_t kLongestName = 24;
-/// Below this share of what is asked for, somebody should look.
+/// Below this share of the requested rate a value needs attention.
 constexpr double kGoodShare = 0.9;
-/// ... and above this share of missed deadlines: by it a run is not whole, unless it says
-/// otherwise.
+/// Above this share of missed deadlines, too: by default such a run is not complete.
 constexpr double kMostMissed_pct = 1;
 
 Tone tone_of(Standing standing) {
@@ -121,7 +120,7 @@ Table hosts_table(const RunView& view) {
   return table;
 }
 
-/// Nothing of one whose place nobody says, as in lock-step.
+/// Empty for a robot without a reported pose, as in lock-step.
 TableCell state_cell(const RobotView& robot) {
   if (!robot.age_s && !robot.stale) return {};
   return {robot.stale ? "stale" : "heard", robot.stale ? Tone::kBad : Tone::kGood};

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kLongest = 4096;
 
-/// The word of that number, from 0, as a number.
+/// The n-th word of a line, from 0, as a number.
 std::optional<double> number_in(std::string_view text, std::size_t index) {
   for (; index > 0; --index) {
     const std::size_t space = text.find(' ');

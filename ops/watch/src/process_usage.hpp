@@ -7,16 +7,17 @@
 
 namespace rave::watch {
 
-/// What a process of this machine costs.
+/// Resources that a process of this machine uses.
 struct ProcessUsage {
-  double cpu_s = 0;  ///< Time of cores that it has used in all.
+  double cpu_s = 0;  ///< Processor time in total.
   double memory_mb = 0;
 };
 
-/// Nothing if there is no such process.
+/// Reads them from /proc; empty if there is no such process.
 [[nodiscard]] std::optional<ProcessUsage> usage_of(std::uint32_t process);
 
-/// Reads the lines of /proc/PID/stat and /proc/PID/statm (proc(5)); nothing if they are none.
+/// Parses the lines of /proc/PID/stat and /proc/PID/statm (proc(5)); empty if they have another
+/// format.
 [[nodiscard]] std::optional<ProcessUsage> parse_usage(std::string_view stat, std::string_view statm,
                                                       double ticks_per_s, double page_bytes);
 

@@ -10,10 +10,10 @@
 namespace rave::watch {
 namespace {
 
-/// Somebody who makes up processes or robots gets no further.
+/// Bounds the memory if processes or robots are forged.
 constexpr std::size_t kMostProcesses = 2 * rave_wire_kMaxHosts;
 constexpr std::size_t kMostRobots = rave_wire_kMaxRobots;
-/// What a process uses is counted over no less.
+/// Shortest time over which processor use is measured.
 constexpr std::int64_t kCoresApart_ns = 200'000'000;
 
 }  // namespace
@@ -40,7 +40,7 @@ std::optional<double> Rate::at(std::int64_t now_ns) const {
   const Reading& first = readings_.front();
   const Reading& last = readings_.back();
   const std::int64_t span_ns = last.at_ns - first.at_ns;
-  // What has not come for longer than usual has become rarer.
+  // A longer silence than usual lowers the rate.
   const std::int64_t usual_ns = span_ns / static_cast<std::int64_t>(readings_.size() - 1);
   const std::int64_t until_ns = std::max(last.at_ns, now_ns - 2 * usual_ns);
   if (until_ns <= first.at_ns) return std::nullopt;
@@ -73,7 +73,7 @@ void RunModel::hear(const bus::HostInfo& info) {
 
 void RunModel::hear(const bus::RunState& state, std::int64_t now_ns) {
   const auto writer = processes_.find(state.writer);
-  // The first one may be of some time ago.
+  // The first sample may be of some time ago, so no rate begins with it.
   const bool fresh = state_ && state_->writer == state.writer;
   const bool of_the_dead = writer != processes_.end() && writer->second.gone;
   if (state_ && state_->writer != state.writer && of_the_dead) return;
@@ -105,8 +105,8 @@ RunModel::State RunModel::read(const bus::RunState& state) {
   return now;
 }
 
-/// Two messages that follow one another closely, as after a hand-over, were not the same time on
-/// their way, which then is most of what lies between them.
+/// Two messages may follow one another closely, as after a hand-over. Their delays differ, and the
+/// difference is then most of their distance.
 void RunModel::count_cores(Process& process, const bus::ProcessState& state, std::int64_t now_ns) {
   const std::int64_t span_ns = now_ns - process.cores_from_ns;
   if (process.state && state.cpu_ns >= process.cores_from) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a model says of its run.
+// The view of a run that a model derives.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,14 +12,15 @@
 namespace rave::watch {
 namespace {
 
-/// Processes say something each second.
+/// Processes send their state every second.
 constexpr std::int64_t kPatience_ns = 2'500'000'000;
-/// Who has not been in a new step for this long is not only between two messages.
+/// A host without a new step for this long is late, and not only between two messages.
 constexpr std::int64_t kStands_ns = 2'000'000'000;
 
 }  // namespace
 
-/// Who serves a host: of those that are there the one that is heard of, else the last that was.
+/// The process that serves a host: the present one that was heard last, else the last that was
+/// present.
 const RunModel::Process* RunModel::speaker_of(std::uint32_t host) const {
   const Process* best = nullptr;
   for (const auto& [writer, process] : processes_) {
@@ -41,7 +42,7 @@ bool RunModel::manager_here() const {
 
 Standing RunModel::standing_of(const Process* process, const Sight* sight,
                                std::int64_t now_ns) const {
-  // Who is dead cannot say who else is.
+  // A manager that has left knows nothing of the others any more.
   const bool told = sight != nullptr && manager_here();
   if (sight != nullptr && sight->phase == rave_wire_HOST_DROPPED) return Standing::kDropped;
   if (process == nullptr) {
@@ -51,7 +52,7 @@ Standing RunModel::standing_of(const Process* process, const Sight* sight,
   if (process->gone) return Standing::kGone;
   const bool silent = process->heard_ns && now_ns - *process->heard_ns > kPatience_ns;
   if (silent || (told && sight->phase == rave_wire_HOST_LATE)) return Standing::kLate;
-  // One that is there again and not yet back in the run.
+  // The process has returned, but the run has not admitted it yet.
   const bool out = told && sight->phase != rave_wire_HOST_RUNS;
   return out ? Standing::kWaiting : Standing::kHere;
 }
@@ -104,7 +105,7 @@ void RunModel::tell_process(const Process& process, HostView& view, std::int64_t
   if (state.round_trip_ns >= 0) view.round_trip_s = seconds_of(state.round_trip_ns);
 }
 
-/// What a host in real time says of its robots.
+/// Fills in the values that a host in real time reports for its robots.
 void RunModel::tell_reports(std::uint32_t host, const Process& process, HostView& view,
                             std::int64_t now_ns) const {
   double asked_hz = 0;
@@ -130,7 +131,7 @@ void RunModel::tell_reports(std::uint32_t host, const Process& process, HostView
   }
 }
 
-/// Somebody who does not hear the manager knows of it what its hosts say.
+/// Without messages from the manager, the values that its hosts report about it are used.
 std::optional<HostView> RunModel::manager_by_words() const {
   std::optional<HostView> view;
   for (const auto& [writer, process] : processes_) {
@@ -202,7 +203,7 @@ HostView RunModel::host_view(std::uint32_t host, std::int64_t now_ns) const {
     // In real time the rate of steps is that of the wall clock and says nothing; the rate of
     // reports does.
     if (process->real_time) view.rate_hz.reset();
-    // In lock-step they are for those who look on, and say nothing of how the host fares.
+    // In lock-step reports are sent for observers and say nothing about the host.
     const bool counts = process->real_time || !process->introduced;
     if (counts && process->reported > 0) tell_reports(host, *process, view, now_ns);
   }
@@ -308,8 +309,8 @@ void RunModel::tell_run(RunView& view, std::int64_t now_ns) const {
   }
 }
 
-/// What the hosts say together: one that waits counts for all, and the farthest says where the run
-/// is.
+/// The state of the run according to its hosts: one that waits counts for all, and the most
+/// advanced one gives the step.
 RunModel::Words RunModel::words() const {
   Words words;
   for (const auto& [writer, process] : processes_) {
@@ -319,7 +320,7 @@ RunModel::Words RunModel::words() const {
     const bool failed = word.phase == rave_wire_RUN_FAILED;
     if (ended && (words.over == nullptr || failed)) words.over = &word;
     const bool here = !process.gone && !ended;
-    // Somebody who goes on counts more than those of an earlier run of this name.
+    // A host that continues counts more than those of an earlier run with this name.
     if (words.here && !here) continue;
     if (here && !words.here) words.farthest = nullptr;
     if (here && !words.here) words.newest_ns.reset();
@@ -349,7 +350,7 @@ void RunModel::tell_words(RunView& view) const {
                                 : static_cast<double>(farthest.step) * farthest.step_s;
   view.speed = words.here ? farthest.speed : 0;
   if (!words.here) {
-    // Who was killed has had no last word.
+    // A killed process did not report its end.
     const bool done = words.over != nullptr || farthest.step + 1 >= farthest.steps;
     const bool failed = words.over != nullptr && words.over->phase == rave_wire_RUN_FAILED;
     view.phase = failed ? Phase::kFailed : (done ? Phase::kEnded : Phase::kWaits);
@@ -375,7 +376,7 @@ RunView RunModel::view(std::int64_t now_ns, bool with_robots) const {
     for (const auto& [number, sight] : state_->hosts) hosts.insert(number);
   }
   for (const auto& [writer, process] : processes_) {
-    // Who describes robots and says nothing else is no host yet.
+    // A process that has only described robots is not counted as a host yet.
     const bool speaks = process.introduced || process.state || process.reported > 0;
     if (speaks && process.host != rave_wire_kNone) hosts.insert(process.host);
   }

@@ -18,7 +18,7 @@ struct Unit {
 };
 constexpr std::array<Unit, 3> kUnits = {{{1, "s"}, {1e-3, "ms"}, {1e-6, "us"}}};
 
-/// The largest in which the time is not below 1.
+/// The largest unit in which the time is at least 1.
 Unit unit_of(double seconds) {
   for (const Unit& unit : kUnits) {
     if (std::fabs(seconds) >= unit.seconds) return unit;

@@ -68,7 +68,7 @@ Status BusEndpoint::wake_for_processes(bus::WaitSet& waits) {
 // Called last, when all readers exist: hosts begin to send as soon as they have read it.
 Status BusEndpoint::introduce() { return own_info_.write(introduced_); }
 
-/// A process says who it is.
+/// Admits a process that introduces itself.
 void BusEndpoint::meet(const bus::HostInfo& info, bool begun) {
   if (info.host == rave_wire_kNone) {
     // A run has one manager. Of two that start at once the later one goes; one that serves a run

@@ -24,26 +24,28 @@
 
 namespace rave::manager {
 
-/// The end of a manager of which the run is on the bus. Belongs to one thread.
+/// The endpoint of a manager whose run is on the bus. Belongs to one thread.
 class BusEndpoint final : public ManagerEndpoint {
  public:
-  /// `begin_request` and `on_command` may be empty: nobody on the bus can ask anything, or drive.
-  /// `log` is not owned and may be null. Errors: those of bus::Bus::open().
+  /// `begin_request` and `on_command` may be empty; then nobody on the bus can make requests or
+  /// drive robots. `log` is not owned and may be null. Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<BusEndpoint>> open(const bus::BusConfig& config,
                                                                  lock_step::Identity identity,
                                                                  LogSink* log,
                                                                  bus::BeginRequest begin_request,
                                                                  bus::OnCommand on_command);
 
-  /// For the topics that only one kind of run has.
+  /// The bus, for the topics that only one kind of run has.
   [[nodiscard]] bus::Bus& bus() noexcept { return *bus_; }
   /// Wakes `waits` when results or requests come.
   Status wake(bus::WaitSet& waits);
-  /// ... and when processes come or go; then look_at_processes() is due after each wait.
+  /// Wakes `waits` also when processes appear or leave; then look_at_processes() is due after each
+  /// wait.
   Status wake_for_processes(bus::WaitSet& waits);
-  /// Tells the others that this manager is here: when it can hear what they answer.
+  /// Announces this manager to the other processes. Call it when all readers for their answers
+  /// exist.
   Status introduce();
-  /// Sleeps until something has come, the time is over or `stop` is set. `step`: of the run.
+  /// Sleeps until a message arrives, the time has passed or `stop` is set. `step`: of the run.
   void wait(bus::WaitSet& waits, std::uint64_t step, Duration timeout,
             const std::stop_token& stop) {
     pulse_.beat({step});
@@ -96,8 +98,8 @@ class BusEndpoint final : public ManagerEndpoint {
   std::unique_ptr<bus::CommandBox> commands_;  ///< May be null.
   lock_step::Pulse pulse_;
   lock_step::HostResultsCollector host_results_;
-  bus::HostInfo introduced_;                        ///< What the others are told of this process.
-  std::map<std::uint64_t, std::uint32_t> host_of_;  ///< Of processes that fit.
+  bus::HostInfo introduced_;  ///< What this process tells the others about itself.
+  std::map<std::uint64_t, std::uint32_t> host_of_;  ///< By process, for those that fit this run.
   std::uint64_t standstills_ = 0;
   bool second_ = false;
 };

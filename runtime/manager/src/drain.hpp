@@ -12,17 +12,17 @@
 
 namespace rave::manager {
 
-/// How long a manager waits at the end for hosts that are still there, and for one that owes its
-/// host_results.
+/// How long a manager waits at the end for hosts that are still present, and for a host that has
+/// not sent its host_results yet.
 struct DrainLimits {
   std::chrono::steady_clock::duration usual = kFarewell;
   std::chrono::steady_clock::duration owing = kLongFarewell;
 };
 
-/// The end of a run: hosts hear of it before the manager goes, and what they know of the run
-/// reaches it. Until all are gone, or the limits are over. `slots`: by host, each with `name` and
-/// `writer`. `owes_host_results`: whether a process has yet to send what it knows, and is waited
-/// for. `turn` waits a little and takes in what has come; false: the bus is of no use any more.
+/// Ends a run: hosts are told before the manager leaves, and send what they know of the run. Waits
+/// until all hosts are gone or the limits have passed. `slots`: by host, each with `name` and
+/// `writer`. `owes_host_results`: whether a process has yet to send its results. `turn` waits a
+/// little and receives what has arrived; false: the bus is no longer usable.
 template <class Slots, class Owes, class Turn>
 void drain(const Slots& slots, LogSink* log, Owes&& owes_host_results, Turn&& turn,
            const DrainLimits& limits = {}) {

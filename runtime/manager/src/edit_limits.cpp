@@ -48,7 +48,7 @@ Status EditLimits::take(const sim::ObstacleChange& change, Clock::time_point now
 }
 
 void EditLimits::made(const sim::ObstacleChange& change) {
-  // The removal of one that came was counted with it.
+  // The removal of an added obstacle was counted when it was added.
   if (!changed_.insert(change.id.value()).second) return;
   // An added obstacle counts twice: for the addition, and for its possible removal later.
   entries_ += change.kind == sim::ObstacleChange::Kind::kAdd ? 2 : 1;

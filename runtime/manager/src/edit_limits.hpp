@@ -11,27 +11,28 @@
 
 namespace rave::manager {
 
-/// How fast and how much obstacles may change by hand, so that nobody drowns a run, and whoever
-/// comes late can be told of all in one message. One owner thread.
+/// Limits how fast and how much obstacles may be changed by hand, so that no one can overload a
+/// run, and all changes fit into one message for a process that joins late. One owner thread.
 class EditLimits {
  public:
   using Clock = std::chrono::steady_clock;
-  static constexpr double kPerSecond = 200;  ///< And as many at once after a quiet second.
+  static constexpr double kPerSecond =
+      200;  ///< Also the largest number at once, after a second without edits.
   static constexpr double kBytesPerSecond = 4e6;
-  static constexpr std::size_t kMostOpen = 4096;  ///< That wait for the next step.
-  /// Two for an obstacle that came, one for others that changed.
+  static constexpr std::size_t kMostOpen = 4096;  ///< Edits that wait for the next step.
+  /// An added obstacle counts as two entries, a changed one as one.
   static constexpr std::size_t kMostEntries = 60'000;
 
-  /// Whether one more may be asked for now; then it is counted. Errors: kState (too fast; too many
-  /// or too much in all), kInvalidArgument (what lock_step::check_fits() says).
+  /// Accepts and counts one more edit. Errors: kState (too fast; too many or too much in total),
+  /// kInvalidArgument (from lock_step::check_fits()).
   Status take(const sim::ObstacleChange& change, Clock::time_point now);
-  /// Those that were taken have been made, or refused.
+  /// Call it when the accepted edits have been made or refused.
   void step_done() noexcept { open_ = 0; }
-  /// It was made: by hand, by the scenario, or before this manager was there.
+  /// Counts a change that was made: by hand, by the scenario, or under an earlier manager.
   void made(const sim::ObstacleChange& change);
 
  private:
-  double edits_ = kPerSecond;  ///< That may come at once.
+  double edits_ = kPerSecond;  ///< Edits that are permitted at once now.
   double bytes_ = kBytesPerSecond;
   Clock::time_point filled_{};
   std::size_t open_ = 0;
@@ -40,8 +41,8 @@ class EditLimits {
   std::set<std::uint32_t> changed_;
 };
 
-/// Whether what a scenario says of obstacles fits into these limits and onto the bus. Errors:
-/// kInvalidArgument.
+/// Checks that the obstacle changes of a scenario stay within these limits and fit onto the bus.
+/// Errors: kInvalidArgument.
 [[nodiscard]] Status check_scheduled(const sim::EngineSpec& spec);
 
 }  // namespace rave::manager

@@ -11,31 +11,32 @@
 
 namespace rave::manager {
 
-/// How it stands with a host.
+/// The state of a host.
 enum class SlotState : std::uint8_t {
-  kMissing,  ///< Not heard of yet.
+  kMissing,  ///< No message received yet.
   kRuns,
-  kLate,     ///< It has not answered in time, but is not gone.
-  kLost,     ///< Gone, or given up; it may come back.
-  kDropped,  ///< The same, for good.
+  kLate,     ///< It has not answered in time, but has not left.
+  kLost,     ///< It has left, or the manager has given it up; it may return.
+  kDropped,  ///< Like kLost, but permanently.
 };
 
-/// The place of one host of the scenario, whoever sits in it.
+/// The slot of one host of the scenario, whichever process serves it.
 struct HostSlot {
   std::string name;
   std::uint32_t robots = 0;
   SlotState state = SlotState::kMissing;
-  std::uint64_t writer = 0;        ///< The process; 0: nobody.
-  std::uint64_t last_writer = 0;   ///< Of a lost one.
-  std::vector<std::uint64_t> sat;  ///< All that have sat here, in the order of their first times.
-  std::string loss;                ///< How it was lost; empty if nothing came of it.
-  std::string command;             ///< That starts it again; empty: nobody has to.
-  std::uint64_t last_step = 0;     ///< Of its last report.
-  bool reported = false;           ///< `report` is what comes next.
-  std::uint64_t hash = 0;          ///< Of its part of the steps that are done.
+  std::uint64_t writer = 0;       ///< The process that serves it; 0: none.
+  std::uint64_t last_writer = 0;  ///< The last process that was lost.
+  std::vector<std::uint64_t>
+      sat;              ///< All processes that have served it, in the order of their first time.
+  std::string loss;     ///< How it was lost; empty if that had no consequence.
+  std::string command;  ///< Command that restarts it; empty: none is needed.
+  std::uint64_t last_step = 0;  ///< Step of its last report.
+  bool reported = false;        ///< `report` is that of the next step.
+  std::uint64_t hash = 0;       ///< Hash of its part of the completed steps.
   sim::HostReport report;
 
-  /// The run does not go on without it.
+  /// The run waits for it.
   [[nodiscard]] bool needed(bool all) const noexcept {
     return state == SlotState::kMissing || state == SlotState::kRuns || state == SlotState::kLate ||
            (all && state == SlotState::kLost);
@@ -44,7 +45,7 @@ struct HostSlot {
 
 [[nodiscard]] std::vector<HostSlot> make_slots(const std::vector<config::PlannedHost>& hosts);
 
-/// "`a`, `b` and `c`", of those for which `holds`.
+/// The names of the slots for which `holds` is true: "`a`, `b` and `c`".
 template <class Holds>
 [[nodiscard]] std::vector<std::string_view> names_of(const std::vector<HostSlot>& slots,
                                                      Holds holds) {

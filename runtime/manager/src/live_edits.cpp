@@ -19,7 +19,7 @@ namespace {
 using ObstacleKind = sim::ObstacleChange::Kind;
 using RequestKind = runtime::RunRequest::Kind;
 
-/// Hosts that have not said by then that they have an edit are named in its answer.
+/// Hosts that have not confirmed an edit by then are named in its answer.
 constexpr Duration kConfirmation = from_seconds(2);
 /// A manager that takes over waits this long for hosts, and for what they have to hand over.
 constexpr std::chrono::seconds kComing{1};
@@ -29,7 +29,7 @@ bool is_edit(RequestKind kind) noexcept {
   return kind == RequestKind::kAdd || kind == RequestKind::kMove || kind == RequestKind::kRemove;
 }
 
-/// In the order of their numbers, what leads from the obstacles of the start to those that stand.
+/// The changes, by id, from the obstacles of the start to the present ones.
 std::vector<sim::ObstacleChange> changes_of(
     const std::map<std::uint32_t, real_time::ObstacleSight>& obstacles) {
   std::vector<sim::ObstacleChange> changes;
@@ -93,7 +93,7 @@ bool LiveEdits::all_may_be_there() const {
   return all || std::chrono::steady_clock::now() - began_ >= kComing;
 }
 
-/// Hears what hosts have to hand over, once they are there.
+/// Receives the obstacles that hosts hand over, once they are present.
 Status LiveEdits::gather_handed() {
   if (!all_may_be_there()) return {};
   RAVE_TRY(board_.ask_for_handed());
@@ -103,7 +103,7 @@ Status LiveEdits::gather_handed() {
   return {};
 }
 
-/// Whether nothing is to be waited for any more.
+/// Whether the hand-over is complete.
 bool LiveEdits::handed_over() const {
   if (!all_may_be_there()) return false;
   const auto since = std::chrono::steady_clock::now() - began_;
@@ -112,7 +112,7 @@ bool LiveEdits::handed_over() const {
   return newest_of(board_.handed_obstacles()) >= board_.shown_revision() || since >= kHandingOver;
 }
 
-/// Those that came are numbered in a row, and no host can show one whose forerunner is missing.
+/// Added obstacles have consecutive ids, and no host can show one whose predecessor is missing.
 void LiveEdits::drop_orphans() {
   std::uint32_t next = authority_->world().body_count();
   auto it = obstacles_.lower_bound(next);
@@ -128,7 +128,7 @@ void LiveEdits::drop_orphans() {
                       orphans, next);
 }
 
-/// What the manager before had told the hosts; theirs are all that is left of it.
+/// Restores what the previous manager had published; only the copies of the hosts are left.
 Status LiveEdits::take_over(SimTime now) {
   obstacles_ = board_.handed_obstacles();
   board_.end_handing();
@@ -142,7 +142,7 @@ Status LiveEdits::take_over(SimTime now) {
   drop_orphans();
   const std::vector<sim::ObstacleChange> changes = changes_of(obstacles_);
   if (auto put = authority_->put_obstacles(changes, now); !put) {
-    // The run goes on: hosts have their obstacles, and this manager those of the start.
+    // The run continues: hosts keep their obstacles, and this manager has only those of the start.
     obstacles_.clear();
     takes_over_ = false;
     if (options_.log != nullptr) {

@@ -16,8 +16,8 @@
 namespace rave::manager {
 
 /// The obstacles of a run in real time: makes the changes of the scenario when they are due and
-/// those that people ask for at once, tells all hosts, and measures when all of them have them
-/// around their robots. Belongs to one thread.
+/// those by hand at once, sends them to all hosts, and measures when the robots of all hosts sense
+/// them. Belongs to one thread.
 class LiveEdits {
  public:
   /// Neither `options` nor `board` is owned. Errors: kInvalidArgument (the scenario).
@@ -28,30 +28,30 @@ class LiveEdits {
   LiveEdits& operator=(const LiveEdits&) = delete;
   ~LiveEdits() { end(); }
 
-  /// The run has a time; requests are taken from here on. `takes_over`: it has gone on for a while,
-  /// and what hosts hand over of the manager before counts.
+  /// Begins: the run has a time, and requests are accepted from here on. `takes_over`: the run
+  /// began under an earlier manager, and what hosts hand over counts.
   void begin(bool takes_over);
-  /// Does what is due, and answers what is done.
+  /// Makes the changes that are due, and answers requests that are complete.
   Status look(SimTime now);
   void end();
-  /// With the obstacles that came.
+  /// The world, including added obstacles.
   [[nodiscard]] const world::WorldModel& world() const { return authority_->world(); }
 
-  /// The last change that hosts are told of, and have to hear of before they begin; while this
-  /// manager takes over, the last that any of them has.
+  /// The last revision that hosts must have received before they begin; while this manager takes
+  /// over, the newest that any host has.
   [[nodiscard]] std::uint64_t revision() const noexcept {
     return takes_over_ ? board_.shown_revision() : published_;
   }
   /// Changes of the scenario that could not be made.
   [[nodiscard]] const std::vector<sim::Event>& refused() const noexcept { return refused_; }
-  /// Of changes by hand.
+  /// Statistics of changes by hand.
   [[nodiscard]] const LiveManagerOutcome::Edits& edits() const noexcept { return edits_; }
 
  private:
   struct Waiting {
     runtime::RunControl::Asked asked;
     std::uint64_t revision = 0;
-    SimTime since;  ///< When it was asked for.
+    SimTime since;  ///< Time of the request.
     std::string text;
   };
 
@@ -79,12 +79,13 @@ class LiveEdits {
   std::unique_ptr<sim::WorldAuthority> authority_;
   bool begun_ = false;
   bool serves_ = false;
-  bool takes_over_ = false;  ///< Hosts still hand over what they know.
+  bool takes_over_ = false;  ///< The hand-over is not complete yet.
   std::chrono::steady_clock::time_point began_{};
-  std::uint64_t revision_ = 0;   ///< Of the last change that was made, here or before.
-  std::uint64_t published_ = 0;  ///< Of the last that this manager has sent.
+  std::uint64_t revision_ = 0;  ///< Revision of the last change, by this manager or an earlier one.
+  std::uint64_t published_ = 0;  ///< Revision of the last change that this manager has sent.
   std::size_t next_scheduled_ = 0;
-  std::map<std::uint32_t, real_time::ObstacleSight> obstacles_;  ///< That are not as at the start.
+  std::map<std::uint32_t, real_time::ObstacleSight>
+      obstacles_;  ///< Obstacles that differ from the start.
   EditLimits limits_;
   std::vector<Waiting> waiting_;
   LiveManagerOutcome::Edits edits_;

@@ -19,7 +19,7 @@ struct LiveParts {
   bus::Writer<bus::Obstacle> obstacles;
   bus::Reader<bus::ClockPing> pings;
   bus::Reader<bus::HostState> states;
-  std::optional<bus::Reader<bus::LastObstacle>> handed{};  ///< While something is handed over.
+  std::optional<bus::Reader<bus::LastObstacle>> handed{};  ///< Exists during a hand-over only.
   bus::WaitSet waits;                                      ///< Behind all that it waits for.
 };
 
@@ -62,7 +62,7 @@ class LiveOnBus final : public LiveEndpoint {
 
  private:
   LiveParts parts_;
-  std::uint64_t world_ = 0;  ///< That was sent last.
+  std::uint64_t world_ = 0;  ///< Number of the last one sent.
 };
 
 }  // namespace

@@ -15,8 +15,8 @@
 
 namespace rave::manager {
 
-/// What the manager of a run in real time does with the bus. Tests play others than open() gives.
-/// Belongs to one thread.
+/// The endpoint of a manager in real time. open() gives the real one; tests use others. Belongs to
+/// one thread.
 class LiveEndpoint {
  public:
   /// Errors: those of bus::Bus::open().
@@ -24,25 +24,25 @@ class LiveEndpoint {
       const LiveManagerOptions& options);
   virtual ~LiveEndpoint() = default;
 
-  /// Sleeps until something has come, the time is over or `stop` is set.
+  /// Sleeps until a message arrives, the time has passed or `stop` is set.
   virtual void wait(Duration timeout, const std::stop_token& stop) = 0;
-  /// What it has in common with the managers of other runs.
+  /// The part that both kinds of run share.
   [[nodiscard]] virtual ManagerEndpoint& common() noexcept = 0;
 
-  /// Hosts ask for the time,
+  /// Requests of hosts for the time, and the answers.
   virtual void take_pings(const std::function<void(const bus::ClockPing&)>& visit) = 0;
   virtual void answer(bus::ClockPong& pong) = 0;
-  /// say where their robots are,
+  /// Reports of hosts: poses of their robots.
   virtual void take_states(const std::function<void(const bus::HostState&)>& visit) = 0;
   virtual void refuse(const bus::HostState& state, std::string_view why) = 0;
-  /// and are told where all are.
+  /// Sends the poses of all robots.
   virtual void send(bus::World& world) = 0;
   /// Errors: kIo.
   virtual Status send(bus::Obstacle& obstacle) = 0;
 
-  /// Asks for all obstacles that hosts keep of the manager before. Errors: kState, kIo.
+  /// Asks hosts for all obstacles that the previous manager had published. Errors: kState, kIo.
   virtual Status ask_for_handed() = 0;
-  /// Calls `visit` for some of those that have come; returns for how many. 0 before that was asked.
+  /// Calls `visit` for some of the answers; returns their number, 0 before the question.
   virtual std::size_t take_handed(const std::function<void(const bus::LastObstacle&)>& visit) = 0;
   virtual void end_handing() = 0;
 };

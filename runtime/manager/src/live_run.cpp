@@ -47,7 +47,7 @@ void LiveRun::begin_in(std::chrono::nanoseconds lead) {
   next_tell_ = {};
 }
 
-/// Hosts know the time of a run that began with another manager.
+/// Continues a run that began under another manager; its hosts know the time.
 void LiveRun::take_over(std::int64_t run_ns) {
   begin_in(-std::chrono::nanoseconds(run_ns));
   edits_->begin(true);
@@ -79,7 +79,7 @@ void LiveRun::begin_if_ready() {
   }
 }
 
-/// Hosts that are in the middle of a run and have lost its manager are not part of a new one.
+/// Hosts that have lost their manager during a run do not belong to a new one.
 void LiveRun::leave_alone(std::int64_t run_ns) {
   left_alone_ = Error{
       ErrorCode::kState,
@@ -126,7 +126,7 @@ Status LiveRun::listen() {
   // The rest is not urgent, and in a large run it costs more than a world.
   if (Clock::now() < next_look_) return {};
   next_look_ = Clock::now() + kLook;
-  // Towards the end each host goes when it is done.
+  // Near the end hosts leave one by one as they finish; that is no loss.
   const bool over = ended_ || (begun_ && options_.duration - Duration{now().ns} < kDeparture);
   RAVE_TRY(board_->look_at_processes(begun_ && !over));
   board_->take_roster(begun_ && !ended_ ? options_.control : nullptr);
@@ -171,7 +171,7 @@ void LiveRun::send_world() {
 
 void LiveRun::tell_state(rave_wire_RunPhase phase, const std::string& text) {
   const std::int64_t now_ns = begun_ ? std::max<std::int64_t>(0, now().ns) : 0;
-  // The time of the run goes on by the clock; what its robots live through need not.
+  // The time of the run follows the clock; the steps of its robots may fall behind.
   board_->publish({options_.scenario, phase, static_cast<std::uint64_t>(now_ns / options_.step.ns),
                    static_cast<std::uint64_t>(options_.duration.ns / options_.step.ns),
                    options_.step.seconds(), begun_ ? board_->slowest_speed() : 0, text});
@@ -183,7 +183,7 @@ void LiveRun::tell_progress() {
   options_.on_progress(begun_ ? now() : SimTime{}, board_->slowest_speed(), missing());
 }
 
-/// Hosts hear of the end before this process goes.
+/// Tells hosts that the run has ended, before this process leaves.
 void LiveRun::drain_hosts() {
   const auto owes = [this](std::uint64_t writer) {
     return begun_ && board_->endpoint().owes_host_results(writer);
@@ -192,7 +192,7 @@ void LiveRun::drain_hosts() {
     board_->wait(Duration{std::chrono::nanoseconds(kLook).count()});
     return listen().has_value();
   });
-  // What a process sent before it went is here.
+  // Messages that a process sent before it left have arrived by now.
   board_->take_host_results();
 }
 
@@ -262,7 +262,7 @@ LiveManagerOutcome LiveRun::outcome() {
   const bool over = begun_ && now().ns >= options_.duration.ns;
   outcome.problems = problems_;
   outcome.whole = over && problems_.empty() && outcome.refused.empty();
-  // Who only stops managing leaves the hosts to their run.
+  // A manager that only stops managing leaves the hosts running.
   const bool ends =
       options_.ends_hosts || (options_.control != nullptr && options_.control->ends_everybody());
   if (!over && !ends) {

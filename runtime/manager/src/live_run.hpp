@@ -54,9 +54,10 @@ class LiveRun {
 
   const LiveManagerOptions& options_;
   std::unique_ptr<LiveBoard> board_;
-  std::unique_ptr<LiveEdits> edits_;  ///< Behind the board, which it uses.
+  std::unique_ptr<LiveEdits> edits_;  ///< Declared after the board, which it uses.
   bool begun_ = false;
-  std::int64_t zero_ns_ = 0;  ///< Of the run, by the clock here; holds once it has begun.
+  std::int64_t zero_ns_ =
+      0;  ///< Time 0 of the run by the clock of this machine; valid once the run has begun.
   std::chrono::steady_clock::time_point first_host_{};
   std::chrono::steady_clock::time_point next_world_{};
   std::chrono::steady_clock::time_point next_tell_{};
@@ -65,7 +66,8 @@ class LiveRun {
   std::vector<std::uint8_t> stale_;  ///< By robot.
   bool ended_ = false;
   std::vector<std::string> problems_;
-  std::optional<Error> left_alone_;  ///< Hosts are in a run that this one does not go on with.
+  std::optional<Error>
+      left_alone_;  ///< Hosts are in another run, which this manager does not continue.
 };
 
 }  // namespace rave::manager

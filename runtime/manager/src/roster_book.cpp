@@ -11,11 +11,11 @@
 namespace rave::manager {
 namespace {
 
-/// Whoever makes up processes gets no further; besides those that serve, some may start anew.
+/// Bounds the memory if processes are forged; besides the serving ones, some may be restarting.
 constexpr std::size_t kMoreBooks = 64;
 constexpr std::size_t kMostRefused = 1000;
 
-/// A name as it comes through a message.
+/// A name as the wire carries it.
 std::string on_the_wire(const std::string& name) {
   bus::RosterEntry entry{};
   bus::put_text(entry.name, name);

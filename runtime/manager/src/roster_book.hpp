@@ -17,11 +17,11 @@
 
 namespace rave::manager {
 
-/// The roster of a run: what the processes of its hosts say of their robots (topic rave/roster), as
-/// far as it agrees with the scenario. One owner thread.
+/// The roster of a run: what the processes of its hosts publish about their robots (topic
+/// rave/roster), as far as it agrees with the scenario. One owner thread.
 class RosterBook {
  public:
-  /// A robot as the scenario has it at the start.
+  /// A robot at the start of the scenario.
   struct Robot {
     std::string name;
     bool simulated = true;
@@ -29,26 +29,26 @@ class RosterBook {
   /// `robots`: all of them, by id.
   RosterBook(std::vector<Robot> robots, const std::vector<config::PlannedHost>& hosts);
 
-  /// Takes in what a process says of a robot; the sample has passed bus::validate(). `serving`: the
-  /// process that serves the host which it names; 0: nobody yet. What does not agree with the
-  /// scenario is dropped; what comes from another process than that which serves counts when that
-  /// one is gone and this one serves. Returns why it is refused, for each process once; nothing
-  /// otherwise.
+  /// Processes an entry; the sample has passed bus::validate(). `serving`: the process that serves
+  /// the host named in it; 0: none yet. An entry that disagrees with the scenario is dropped. An
+  /// entry of another process than the serving one counts once that one has left and this one
+  /// serves. Returns why an entry is refused, once per process; empty otherwise.
   [[nodiscard]] std::optional<std::string> hear(const bus::RosterEntry& entry,
                                                 std::uint64_t serving);
-  /// A process is gone, with all that it said.
+  /// Forgets a process that has left, with all its entries.
   void lose(std::uint64_t writer);
 
-  /// The number of a host; kNone: there is none.
+  /// The number of a host; kNone: unknown name.
   [[nodiscard]] std::uint32_t host_of(std::size_t robot) const { return host_of_[robot]; }
-  /// Whether a robot is simulated, as the process `serving` its host says; else as at the start.
+  /// Whether a robot is simulated, according to the process `serving` its host; before that,
+  /// according to the scenario.
   [[nodiscard]] bool simulated(std::size_t robot, std::uint64_t serving) const;
-  /// Which orders of people it takes, as that process says; none before it does.
+  /// The orders that it accepts, according to that process; none before its entry.
   [[nodiscard]] OrderSet takes(std::size_t robot, std::uint64_t serving) const;
   [[nodiscard]] std::size_t robots() const noexcept { return robots_.size(); }
-  /// Whether anything was taken in, or lost, since the last call.
+  /// Whether an entry was added or lost since the last call.
   [[nodiscard]] bool take_news() noexcept { return std::exchange(news_, false); }
-  /// Another process serves a host now, or none does: that is news, too.
+  /// Call it when another process serves a host, or none does: the roster then differs.
   void stir() noexcept { news_ = true; }
 
  private:
@@ -56,7 +56,7 @@ class RosterBook {
     bool simulated = true;
     OrderSet takes = 0;
   };
-  /// What one process said, by robot.
+  /// The entries of one process, by robot.
   using Book = std::map<std::uint32_t, Said>;
   [[nodiscard]] const Said* said(std::size_t robot, std::uint64_t serving) const;
   [[nodiscard]] std::string wrong(const bus::RosterEntry& entry) const;
@@ -66,18 +66,18 @@ class RosterBook {
   std::vector<std::string> host_names_;
   std::vector<std::uint32_t> host_of_;  ///< By robot.
   std::map<std::uint64_t, Book> books_;
-  std::set<std::uint64_t> told_;  ///< Processes that were refused something.
+  std::set<std::uint64_t> told_;  ///< Processes with a refused entry; each is logged once.
   bool news_ = false;
 };
 
 /// The process that serves a host of the scenario; 0: none.
 using Serving = std::function<std::uint64_t(std::uint32_t host)>;
 
-/// Takes in all that has come; what is refused is told by the bus.
+/// Processes all entries that have arrived; refused ones are logged.
 void read_roster(bus::Reader<bus::RosterEntry>& reader, RosterBook& book, const Serving& serving);
 
-/// Tells whoever asks for the status of the run which robots are real now, if there is news.
-/// `control` has begun and shows all robots by id; may be null.
+/// Updates the status of the run with the present reality of robots, if that has changed. `control`
+/// has begun and shows all robots by id; may be null.
 void show_kinds(RosterBook& book, const Serving& serving, runtime::RunControl* control);
 
 }  // namespace rave::manager

@@ -9,7 +9,7 @@
 
 namespace rave::manager {
 
-/// Notes that a process sits in a slot now.
+/// Notes that a process serves a slot now.
 inline void note_sitting(std::vector<std::uint64_t>& sat, std::uint64_t writer) {
   if (std::ranges::find(sat, writer) == sat.end()) sat.push_back(writer);
 }
@@ -20,8 +20,8 @@ bool has_sat(const Slots& slots, std::uint64_t writer, std::uint32_t host) {
   return host < slots.size() && std::ranges::find(slots[host].sat, writer) != slots[host].sat.end();
 }
 
-/// HostResults of one host in the order in which its processes served it, since the last one knows
-/// best. All of them are of processes that have sat.
+/// HostResults of one host in the order in which its processes served it, because the last one
+/// knows most. All of them are of processes that have served it.
 template <class Slots>
 void order_by_sitting(const Slots& slots, std::vector<lock_step::HostResults>& host_results) {
   std::ranges::stable_sort(host_results, {}, [&slots](const lock_step::HostResults& one) {

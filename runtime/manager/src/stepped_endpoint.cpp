@@ -14,7 +14,7 @@ struct SteppedParts {
   bus::Writer<bus::WorldStep> worlds;
   bus::Reader<bus::HostReport> reports;
   bus::Reader<bus::LastWorld> last_worlds;
-  bus::WaitSet waits;  ///< Behind all that it waits for.
+  bus::WaitSet waits;  ///< Declared last: it refers to the readers.
 };
 
 class SteppedOnBus final : public SteppedEndpoint {
@@ -42,10 +42,10 @@ class SteppedOnBus final : public SteppedEndpoint {
 
   SteppedParts parts_;
   lock_step::WorldMessage message_;
-  bus::LastWorld* sent_ = nullptr;  ///< In `message_`.
+  bus::LastWorld* sent_ = nullptr;  ///< Points into `message_`.
   std::vector<std::uint64_t> writers_;
   std::uint64_t epoch_ = bus::random_writer_id();
-  std::uint64_t step_ = 0;  ///< That was sent last.
+  std::uint64_t step_ = 0;  ///< The last step that was sent.
 };
 
 bool SteppedOnBus::take_last_world(sim::WorldStep& world, sim::AuthorityState& authority,

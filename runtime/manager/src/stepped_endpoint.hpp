@@ -22,30 +22,30 @@
 
 namespace rave::manager {
 
-/// What the manager of a run in lock-step does with the bus. Tests play others than open() gives.
-/// Belongs to one thread.
+/// The endpoint of a manager in lock-step. open() gives the real one; tests use others. Belongs to
+/// one thread.
 class SteppedEndpoint {
  public:
   using Visit = std::function<void(const bus::HostReport&)>;
 
-  /// `begin_request` and `on_command` may be empty: nobody on the bus can ask anything. Errors:
-  /// those of bus::Bus::open().
+  /// `begin_request` and `on_command` may be empty; then nobody on the bus can make requests.
+  /// Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<SteppedEndpoint>> open(
       const bus::BusConfig& config, lock_step::Identity identity, LogSink* log,
       bus::BeginRequest begin_request, bus::OnCommand on_command);
   virtual ~SteppedEndpoint() = default;
 
-  /// Sleeps until something has come, the time is over or `stop` is set.
+  /// Sleeps until a message arrives, the time has passed or `stop` is set.
   virtual void wait(Duration timeout, const std::stop_token& stop) = 0;
-  /// What it has in common with the managers of other runs.
+  /// The part that both kinds of run share.
   [[nodiscard]] virtual ManagerEndpoint& endpoint() noexcept = 0;
-  /// Whether a process said who it is, and fits.
+  /// Whether a process has introduced itself and fits this run.
   [[nodiscard]] bool knows(std::uint64_t writer) { return endpoint().host_of(writer).has_value(); }
 
-  /// Calls `visit` for all reports that have come.
+  /// Calls `visit` for all reports that have arrived.
   virtual void take_reports(const Visit& visit) = 0;
-  /// Reads what a host hands over of the manager before into `world` and `authority` if it is newer
-  /// than what is there; returns whether it was.
+  /// Reads the state of the previous manager, as a host hands it over, into `world` and `authority`
+  /// if it is newer than their content; returns whether it was.
   virtual bool take_last_world(sim::WorldStep& world, sim::AuthorityState& authority,
                                bool has_one) = 0;
   virtual void refuse(const bus::HostReport& report, std::string_view why) = 0;
@@ -54,7 +54,7 @@ class SteppedEndpoint {
   /// than the bus carries).
   virtual Status send(const sim::WorldStep& world, const sim::AuthorityState& authority,
                       const std::vector<HostSlot>& slots) = 0;
-  /// Sends the last one again, for a host that has not got it.
+  /// Sends the last step again to hosts that have not received it.
   virtual void resend(const std::vector<HostSlot>& slots) = 0;
 };
 

@@ -12,7 +12,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using config::LostHost;
 
-/// Wall time of a step at this pace; 0: there is none.
+/// Wall time of a step at this pace; 0: not limited.
 Clock::duration period_of(const sim::EngineSpec& spec, double pace) {
   if (pace <= 0) return {};
   return std::chrono::duration_cast<Clock::duration>(
@@ -47,7 +47,7 @@ SteppedRun::SteppedRun(const ManagerOptions& options,
 
 bool SteppedRun::complete() const {
   const bool all = options_.on_lost_host == config::LostHost::kWait;
-  // Hosts that were in a run before hand over where it stood.
+  // Hosts that come from a lost manager hand over its state.
   if (!begun_ && newest_report_ > 0 && (!handed_over_ || world_.step + 1 < newest_report_)) {
     return false;
   }
@@ -65,7 +65,7 @@ Result<SteppedRun::Gathered> SteppedRun::gather() {
     if (complete()) break;
     RAVE_TRY(look());
     const auto now = Clock::now();
-    // Most steps are done before anybody could ask.
+    // Most steps take less time than anybody could notice.
     if (now - since < kLook) continue;
     look_at_clock(since);
     note_waiting(waited_for());
@@ -81,8 +81,7 @@ Result<SteppedRun::Gathered> SteppedRun::gather() {
   return Gathered::kAll;
 }
 
-/// All hosts are there. Where they come from a manager that was here before, its world is taken
-/// over.
+/// Begins when all hosts are present. If they come from a lost manager, its world is taken over.
 Status SteppedRun::take_over() {
   step_ = newest_report_;
   if (step_ == 0) return {};
@@ -92,7 +91,7 @@ Status SteppedRun::take_over() {
                 "step: they belong to another run",
                 step_);
   }
-  // One host may have had a world that the others have not got, and have gone since.
+  // One host may have received a world that the others have not, and have left since.
   if (world_.step > step_) {
     return fail(ErrorCode::kState,
                 "the world of step {} arrived, but no host is beyond step {}: its sender does not "
@@ -103,7 +102,7 @@ Status SteppedRun::take_over() {
   RAVE_TRY(authority_->resume(world_, state_));
   log(LogLevel::kWarning, "takes over from a lost manager at step {}", step_);
   for (HostSlot& slot : slots_) {
-    // A new process begins anew where the one before it was in the run.
+    // A new process starts from the beginning, although the one before it was in the run.
     if (slot.last_step + 1 < step_) {
       slot.loss = fmt::format("host `{}` was not there from step {} to step {}", slot.name,
                               slot.last_step, step_ - 1);
@@ -121,7 +120,7 @@ Status SteppedRun::make_step() {
   for (std::size_t h = 0; h < slots_.size(); ++h) {
     HostSlot& slot = slots_[h];
     if (!slot.reported) {
-      // The robots of a host that is gone stand: its report is computed here.
+      // The robots of a lost host stand still: its report is computed here.
       authority_->speak_for(static_cast<std::uint32_t>(h), slot.report);
       miss_steps(slot);
     }
@@ -174,7 +173,7 @@ void SteppedRun::wait_for_turn() {
   lateness_.woke(due, Clock::now());
 }
 
-/// Somebody has paused the run.
+/// Holds the run while it is paused.
 void SteppedRun::hold() {
   constexpr std::chrono::milliseconds kHeld{20};
   const auto since = Clock::now();
@@ -199,7 +198,7 @@ void SteppedRun::hold() {
   began_ += Clock::now() - since;
 }
 
-/// The last world again, for whoever has not got it.
+/// Sends the last world again to hosts that have not received it.
 Status SteppedRun::resend() {
   if (!std::exchange(newcomer_, false)) {
     board_->resend(slots_);
@@ -262,7 +261,7 @@ Result<ManagerOutcome> SteppedRun::go() {
 
 void SteppedRun::give_up(const Error& error) {
   over_ = true;
-  // The hosts are in good hands, or wait for them.
+  // The hosts belong to another manager, or wait for theirs.
   if (board_->endpoint().is_second() || left_alone_) return;
   tell_state(rave_wire_RUN_FAILED, error.message);
   drain_hosts(false);

@@ -30,7 +30,7 @@ class SteppedRun {
              std::unique_ptr<SteppedEndpoint> board);
 
   [[nodiscard]] Result<ManagerOutcome> go();
-  /// The run cannot go on: tells everybody why, unless another manager has it.
+  /// Ends a run that cannot continue: tells all processes why, unless another manager has it.
   void give_up(const Error& error);
 
  private:
@@ -58,7 +58,7 @@ class SteppedRun {
   void hold();
   Status resend();
   [[nodiscard]] runtime::RunStatus first_status() const;
-  /// Wakes from a wait when somebody asks something.
+  /// Wakes from a wait when a request arrives.
   [[nodiscard]] std::stop_token asked() const {
     return options_.control != nullptr ? options_.control->asked() : std::stop_token();
   }
@@ -80,34 +80,35 @@ class SteppedRun {
   std::unique_ptr<sim::WorldAuthority> authority_;
   std::unique_ptr<SteppedEndpoint> board_;
   std::vector<HostSlot> slots_;
-  sim::HostReport heard_;  ///< Before it is known whether it can be used.
+  sim::HostReport heard_;  ///< The report being read, before it is accepted.
   WorldRequests requests_;
   bus::HostClaims claims_;
   RosterBook roster_;
-  std::uint64_t step_ = 0;  ///< For which reports are gathered.
-  bool begun_ = false;      ///< All hosts have been there at once.
+  std::uint64_t step_ = 0;  ///< The step whose reports are gathered.
+  bool begun_ = false;      ///< All hosts have been present at the same time.
   bool lost_any_ = false;
   bool ending_ = false;
-  bool over_ = false;        ///< Nothing comes any more.
-  bool left_alone_ = false;  ///< The hosts are in a run that this one does not go on with.
+  bool over_ = false;  ///< The run has ended or was given up; later messages do not matter.
+  bool left_alone_ =
+      false;  ///< The hosts are in another run, which this manager does not continue.
   sim::WorldStep world_;
   sim::AuthorityState state_;
-  bool handed_over_ = false;  ///< `world_` and `state_` are of a manager that was here before.
+  bool handed_over_ = false;  ///< `world_` and `state_` are those of the previous manager.
   std::uint64_t newest_report_ = 0;
-  std::string waits_for_;  ///< As those were told who ask.
+  std::string waits_for_;  ///< What status requests were told that the run waits for.
   std::uint64_t contacts_ = 0;
   std::vector<std::string> problems_;
   std::chrono::steady_clock::time_point began_;
   std::chrono::steady_clock::time_point ended_;
   std::uint64_t first_step_ = 0;
   runtime::Lateness lateness_;
-  sim::PhaseTimes resolved_{};  ///< Of the authority; of its phases it has one.
+  sim::PhaseTimes resolved_{};  ///< Times of the authority, which has one of the phases.
   std::chrono::steady_clock::time_point next_tell_;
   std::chrono::steady_clock::time_point next_progress_;
   std::chrono::steady_clock::time_point next_roster_;
   std::chrono::steady_clock::time_point resend_at_;
   bool asked_again_ = false;
-  bool newcomer_ = false;  ///< Somebody has to be told of all obstacles.
+  bool newcomer_ = false;  ///< A host has joined that needs all obstacles.
   std::optional<Error> failure_;
 };
 

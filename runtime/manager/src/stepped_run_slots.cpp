@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who sits in the slots of the hosts, and what they say.
+// The processes that serve the hosts, and their reports.
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using config::LostHost;
 
-/// A host that has not got a step is sent it again, but not more often than this.
+/// A step is sent again to a host that has not received it, but not more often than this.
 constexpr std::chrono::milliseconds kAgain{20};
 
 }  // namespace
@@ -37,13 +37,13 @@ void SteppedRun::lose(HostSlot& slot, std::string_view why) {
   next_tell_ = {};
 }
 
-/// The run is not what it would have been with this host all the time.
+/// Notes the loss of a host: the run differs from one in which it took part all the time.
 void SteppedRun::miss_steps(HostSlot& slot) {
   lost_any_ = true;
   if (!slot.loss.empty()) problems_.push_back(std::exchange(slot.loss, {}));
 }
 
-/// A report of one who sits in this slot, or wants to.
+/// Handles a report of the process that serves this slot, or of one that wants to.
 Status SteppedRun::claim_slot(HostSlot& slot, const bus::HostReport& message) {
   if (slot.writer == message.writer && slot.state != SlotState::kLost) {
     if (slot.state == SlotState::kLate) {
@@ -57,7 +57,7 @@ Status SteppedRun::claim_slot(HostSlot& slot, const bus::HostReport& message) {
     return fail(ErrorCode::kState, "host `{}` was dropped from this run", slot.name);
   }
   RAVE_TRY(claims_.claim(message.host, message.writer));
-  // A process that was cut off and is in its step still has missed nothing.
+  // A process that was cut off and is still in its step has missed nothing.
   const bool same = slot.last_writer == message.writer && message.step + 1 >= step_;
   if (begun_ && !same) miss_steps(slot);
   newcomer_ = newcomer_ || (begun_ && !same);
@@ -73,25 +73,25 @@ Status SteppedRun::claim_slot(HostSlot& slot, const bus::HostReport& message) {
   return {};
 }
 
-/// A report of a step that no host can be in. It must not count as the last one of its host, or all
-/// that this one says would seem to be overtaken by it.
+/// Refuses a report of a step that no host can be in. It must not count as the last one of its
+/// host, or all later reports of this process would seem outdated.
 Status SteppedRun::refuse_ahead(const HostSlot& slot, const bus::HostReport& message) {
   std::string why = fmt::format("it is of step {}, but step {} comes next", message.step, step_);
   if (!over_ && options_.on_lost_host == LostHost::kWait) {
-    // Nobody would answer it, and so all would wait for ever.
+    // It would never be answered, and all would wait for ever.
     return fail(ErrorCode::kState,
                 "invalid report of host `{}`: {}; either the host received a world that this "
                 "manager did not send, or another process sent the report",
                 slot.name, why);
   }
-  // The others go on without it when it has been silent for long enough.
+  // The others continue without it after it has been silent for long enough.
   board_->refuse(message, why);
   return {};
 }
 
-/// A host that is in the middle of a run and has lost its manager is not part of a new one.
+/// A host that has lost its manager during a run does not belong to a new one.
 Status SteppedRun::leave_alone(const bus::HostReport& message) {
-  // Who has a manager, or has not missed it yet, is none of them.
+  // A process with a manager, or one that has not noticed its loss yet, is not such a host.
   if (begun_ || options_.resume || message.step == 0 || message.epoch != 0) return {};
   left_alone_ = true;
   return fail(

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "rave/results/instant.hpp"
 #include "rave/results/outcome.hpp"
 #include "rave/results/sighting_check.hpp"
@@ -23,6 +25,28 @@ report::PictureInstant shown(const InstantFacts& facts) {
     instant.sightings.push_back(sighting.shown);
   }
   return instant;
+}
+
+/// Few simulated robots get the colours of real ones where there are none: grey lines that cross
+/// cannot be told apart.
+void colour_few(report::Picture& picture) {
+  constexpr std::size_t kColours = 5;
+  if (picture.tracks.empty() || picture.tracks.size() > kColours) return;
+  const bool all_grey = std::ranges::all_of(picture.tracks, [](const report::PictureTrack& track) {
+    return track.kind == report::Kind::kSimulatedRobot && track.colour.empty();
+  });
+  if (!all_grey || picture.tracks.size() < 2) return;
+  for (std::size_t i = 0; i < picture.tracks.size(); ++i) {
+    report::PictureTrack& track = picture.tracks[i];
+    track.colour = report::robot_colour(i);
+    if (!picture.instant) continue;
+    bool is_its_own = false;
+    for (report::PictureRobot& body : picture.instant->robots) {
+      // Only the first body of a robot has its name.
+      if (!body.label.empty()) is_its_own = body.label == track.label;
+      if (is_its_own) body.colour = track.colour;
+    }
+  }
 }
 
 }  // namespace
@@ -70,6 +94,7 @@ report::Picture make_picture(const RunResults& results, const RunOutcome& outcom
   }
   picture.tracks = tracks_of(results.facts);
   if (results.facts.instant) picture.instant = shown(*results.facts.instant);
+  colour_few(picture);
   return picture;
 }
 

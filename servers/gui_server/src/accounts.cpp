@@ -55,6 +55,7 @@ std::int64_t wall_s() {
   return std::chrono::duration_cast<std::chrono::seconds>(now).count();
 }
 
+/// `Anna` and `anna` would be mistaken for each other in lists and in the audit log.
 bool same_but_for_capitals(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, [](char x, char y) {
     return std::tolower(static_cast<unsigned char>(x)) ==
@@ -98,6 +99,7 @@ std::string begin_session(AccountsFile& file, const std::string& user, std::int6
     file.sessions.erase(std::ranges::find_if(file.sessions, is_theirs));
   }
   std::string secret = new_secret();
+  // Of secrets the file has hashes alone: who reads it can use none of them.
   file.sessions.push_back({hash_of(secret), user, until_s});
   return secret;
 }
@@ -124,6 +126,7 @@ Result<std::unique_ptr<Accounts>> Accounts::open(const fs::path& folder, Clock c
   std::error_code error;
   if (!fs::exists(folder, error)) {
     fs::create_directories(folder.parent_path(), error);
+    // Not by create_directories(): others could read the folder until its permissions are set.
     if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) {
       return fail(ErrorCode::kIo, "cannot make the folder `{}`: {}", folder.string(),
                   std::strerror(errno));
@@ -149,6 +152,8 @@ Status Accounts::read_if_changed() {
   AccountsFile known;
   std::string stamp;
   if (::stat(file.c_str(), &info) == 0) {
+    // With the inode, because an atomic write replaces the file: a change is noticed even if size
+    // and time are equal.
     stamp = fmt::format("{} {} {} {}", info.st_ino, info.st_size, info.st_mtim.tv_sec,
                         info.st_mtim.tv_nsec);
     if (stamp == stamp_) return {};
@@ -174,6 +179,7 @@ Status Accounts::refresh() {
 Status Accounts::change(const std::function<Status(AccountsFile&)>& how) {
   const std::lock_guard lock(file_mutex_);
   RAVE_TRY_ASSIGN(const FileLock file_lock, FileLock::take(folder_ / "lock"));
+  // Under the lock, since another process may have changed the file.
   RAVE_TRY(read_if_changed());
   AccountsFile changed = state();
   RAVE_TRY(how(changed));
@@ -192,6 +198,7 @@ Status Accounts::write(const AccountsFile& changed) {
 AccountsFile Accounts::state() const {
   const std::lock_guard lock(mutex_);
   AccountsFile state = state_;
+  // The copy alone: what has expired must not count, but reading does not write.
   tidy(state, clock_());
   return state;
 }
@@ -269,6 +276,7 @@ Result<std::string> Accounts::sign_in(std::string_view name, std::string_view pa
     if (found != state_.accounts.end()) hash = found->password;
   }
   const auto wrong = fail(ErrorCode::kState, "the name or the password is wrong");
+  // Outside of the locks: Argon2id is slow on purpose, and other people sign in meanwhile.
   if (!password_fits(password, hash)) return wrong;
   std::string session;
   RAVE_TRY(change([&](AccountsFile& file) -> Status {

@@ -51,6 +51,7 @@ class Reader {
     return wrong("expected `{}`; not a file of accounts, or one of a later version", kFirstLine);
   }
   [[nodiscard]] AccountsFile finish() {
+    // Lines may stand in any order, so only now it is known which sessions have no account.
     std::erase_if(file_.sessions, [this](const SessionEntry& session) {
       return std::ranges::none_of(file_.accounts, [&](const Account& account) {
         return account.person.name == session.user;
@@ -193,6 +194,7 @@ Status check_user_name(std::string_view name) {
   const auto is_letter = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
   };
+  // No blanks and no control characters: names stand in columns, logs and links.
   const bool good = !name.empty() && name.size() <= 32 && is_letter(name.front()) &&
                     std::ranges::all_of(name, [&](char c) {
                       return is_letter(c) || c == '-' || c == '_' || c == '.' || c == '@';

@@ -13,6 +13,7 @@
 namespace rave::gui_server {
 namespace {
 
+/// Between two states: as fast as pages draw, or seldom while nobody looks.
 constexpr Duration kWatched = from_seconds(0.033);
 constexpr Duration kUnwatched = from_seconds(0.25);
 constexpr auto kHostsInterval = std::chrono::seconds(1);
@@ -188,6 +189,7 @@ void BusFeed::tell_obstacle(const onlook::HeardObstacle& heard, LiveNews& news) 
   using Kind = sim::ObstacleChange::Kind;
   world::Obstacle obstacle;
   if (heard.stands.kind == Kind::kMove) {
+    // A move has the pose alone; shape and name are those of the scenario.
     const auto start = world_.obstacles.find(heard.id);
     if (start == world_.obstacles.end()) return;
     obstacle = start->second;
@@ -217,6 +219,7 @@ void BusFeed::tell_processes(const watch::RunView& view, LiveNews& news) {
 
 void BusFeed::draw(const watch::RunView& view) {
   LivePicture& picture = box_->pictures.draft();
+  // A serial of 0 would mean a moment of one page alone.
   if (++serial_ == 0) ++serial_;
   picture.poses.serial = serial_;
   picture.poses.time_s = view.time_s.value_or(0);

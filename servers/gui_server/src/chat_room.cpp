@@ -69,11 +69,14 @@ void ChatRoom::begin(std::span<const ChatText> recorded, const Cast& cast) {
   const std::size_t of_record = all.size();
   for (Line& line : lines_) {
     const auto end = all.begin() + static_cast<std::ptrdiff_t>(of_record);
+    // What was said while it was recorded is in both; the line of the recording wins, since it has
+    // the time of the run.
     const bool known = std::any_of(all.begin(), end,
                                    [&line](const Line& other) { return same_words(line, other); });
     if (!known) all.push_back(std::move(line));
   }
   while (all.size() > kMostLines) all.pop_front();
+  // Numbers go on, so that no page takes a new line for one that it has.
   for (Line& line : all) line.number = ++numbered_;
   lines_ = std::move(all);
 }

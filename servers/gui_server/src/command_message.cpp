@@ -184,6 +184,7 @@ Result<std::string> place_yaml(Members& members) {
       std::abs((*pose)[2].get<double>()) > 2 * std::numbers::pi) {
     return fail(ErrorCode::kParse, "`pose`: expected x, y in metres and yaw in radians");
   }
+  // Obstacles become the YAML that `rave edit` sends, so that one reader checks both.
   const PageJson xy = PageJson::array({(*pose)[0], (*pose)[1]});
   RAVE_TRY_ASSIGN(const Vec2 p, point_of(xy, "pose"));
   return fmt::format("x_m: {}, y_m: {}, yaw_deg: {}", p.x, p.y,

@@ -47,6 +47,7 @@ void FoxgloveSession::show(std::shared_ptr<Source> source) {
   playhead_ = source_->open_playhead();
   cursor_ = source_->open_cursor();
   if (!source_->about().live) playhead_->take({TransportMessage::Do::kPlay, 0}, Clock::now());
+  // Numbers of channels are not used again: a client may still name one of the run before.
   topics_.emplace(*source_, next_channel_);
   next_channel_ += static_cast<std::uint32_t>(topics_->topics().size());
   bodies_.clear();
@@ -94,6 +95,7 @@ void FoxgloveSession::subscribe(const FoxgloveSubscription& subscription) {
                               subscription.id));
   }
   channels_[subscription.id] = subscription.channel;
+  // The newest scan is sent even if an earlier subscription had it.
   if (topic->kind == Kind::kScan) told_scans_.erase(topic->sensor);
   begin(topic->kind);
   changed_ = true;
@@ -228,6 +230,7 @@ void FoxgloveSession::send_robots() {
     const std::uint16_t flags = poses.robots[slot].flags;
     std::optional<std::uint16_t> shown;
     if ((flags & kKnown) != 0) shown = static_cast<std::uint16_t>(flags & kShownFlags);
+    // Clients keep entities and move them with the transforms; only colour and presence are told.
     if (shown == told_robots_[slot]) continue;
     told_robots_[slot] = shown;
     if (shown) {
@@ -241,6 +244,7 @@ void FoxgloveSession::send_robots() {
 }
 
 void FoxgloveSession::change_bodies(const std::string& change) {
+  // No change is an empty text, which is no JSON.
   const auto json = nlohmann::ordered_json::parse(change, nullptr, false);
   if (!json.is_object()) return;
   for (const auto& body : json.at("set")) {

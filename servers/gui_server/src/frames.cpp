@@ -33,6 +33,7 @@ double quantum_for(std::span<const RobotState> robots, double origin_x, double o
     farthest = std::max({farthest, std::abs(robot.x_m - origin_x), std::abs(robot.y_m - origin_y)});
   }
   double quantum = kFinest_m;
+  // Half of the range, so that rounding cannot leave it.
   constexpr double kMost = std::numeric_limits<std::int32_t>::max() / 2.0;
   while (farthest / quantum > kMost) quantum *= 2;
   return quantum;
@@ -44,6 +45,7 @@ std::int32_t quantised(double value, double quantum) {
 
 std::uint16_t turn_of(double yaw_rad) {
   const double turns = yaw_rad / (2 * std::numbers::pi);
+  // Just below a whole turn rounds to 65536, which is 0 again.
   return static_cast<std::uint16_t>(std::lround((turns - std::floor(turns)) * 65536) & 0xffff);
 }
 
@@ -83,6 +85,7 @@ std::string encode_poses(const PosesAt& poses, const PoseFrameHead& head) {
   for (std::size_t i = 0; i < n; ++i) {
     const RobotState& robot = robots[i];
     const bool known = (robot.flags & kKnown) != 0;
+    // Column by column: the page reads each as one typed array of its buffer.
     const std::size_t x = kPoseHeader + 4 * i;
     const std::size_t yaw = kPoseHeader + 8 * n + 2 * i;
     put(frame, x, known ? quantised(robot.x_m - origin_x, quantum) : 0);

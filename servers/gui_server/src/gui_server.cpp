@@ -140,16 +140,19 @@ class GuiServer::Impl final : public web::Handler {
   }
 
   web::Response serve(const web::Request& request) override {
+    // Both are asked for by monitoring, which does not sign in; the second has a token of its own.
     if (request.path == "/healthz") return web::text_response(200, "ok\n");
     if (request.path == "/metrics") return metrics(request);
     if (auto answer = door_.serve(request)) return *std::move(answer);
     if (request.path == "/ticket") return ticket(request);
+    // Forms were answered by the door.
     if (request.method == "POST") return web::text_response(405, "method not allowed\n");
     if (request.path == "/recording") return recording(request);
     if (request.path == "/foxglove" && foxglove_) return foxglove_page(request);
     if (request.path.starts_with("/components/")) return component(request);
     web::Response file = files_.serve(request);
     if (request.path == "/" || request.path == "/index.html") {
+      // Direct lines are the only other servers that the page may connect to.
       file.headers.emplace_back("Content-Security-Policy", web::content_policy(tickets_.ends()));
     }
     return file;
@@ -164,6 +167,7 @@ class GuiServer::Impl final : public web::Handler {
     const auto person =
         is_guest(request) ? door_.whose(foxglove_door_.session_of(request)) : door_.who(request);
     if (person) return {};
+    // A close code rather than a refused upgrade, of which a script in a browser learns no reason.
     return {kNotSignedIn, "You are not signed in"};
   }
 
@@ -238,6 +242,8 @@ class GuiServer::Impl final : public web::Handler {
   std::optional<std::string> rights_of(const std::string& session) {
     const auto person = door_.whose(session);
     const auto view = person ? visitors_.view_of(*person) : nullptr;
+    // A direct line bypasses this server, so nothing would hold it to the rights of the person
+    // whose eyes are used.
     if (!view || visitors_.sees_as_other(session)) return std::nullopt;
     return TicketDesk::rights_of(*person, *view);
   }

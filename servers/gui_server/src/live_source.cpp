@@ -132,6 +132,7 @@ std::unique_ptr<Playhead> LiveSource::open_playhead() {
 }
 
 void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience) {
+  // Nothing else is published with it, so it needs no order.
   box_->watched.store(audience.any, std::memory_order_relaxed);
   if (audience.looked_at != wants_.sensors || audience.parts != wants_.parts ||
       audience.truth != wants_.truth || audience.maps != wants_.maps ||
@@ -150,6 +151,7 @@ void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience)
     state_.reason = end_reason_;
     state_.speed = 0;
   } else if (const auto& standing = picture().standing) {
+    // A pause that was asked for is shown at once, before the run says that it stands.
     const bool held = port_->paused() && standing->kind != PlayState::Kind::kEnded;
     state_.kind = held ? PlayState::Kind::kPaused : standing->kind;
     state_.reason = held ? "" : standing->reason;
@@ -184,6 +186,7 @@ void LiveSource::take_picture(Playhead::Clock::time_point now) {
     state_.picture = poses.serial;
     if (past_.empty() || poses.time_s >= past_.back().time_s + kPastSpacing_s) {
       past_.push_back(poses);
+      // Trails are of reported poses; the true ones would double the memory.
       past_.back().truth = {};
     }
     const std::size_t most = kMostPast / std::max<std::size_t>(1, poses.robots.size());

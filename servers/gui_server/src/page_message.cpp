@@ -13,6 +13,7 @@
 namespace rave::gui_server {
 namespace {
 
+// Bounds on what a page may ask for, so that no message keeps the server busy.
 constexpr std::size_t kMostSensors = 256;
 constexpr std::size_t kMostSlots = 100'000;
 constexpr std::size_t kLongestName = 64;
@@ -238,6 +239,7 @@ Result<PageMessage> parse_page_message(std::string_view text) {
     message = PageMessage(**std::move(people));
   }
   if (!message) return message;
+  // A misspelt member would otherwise be ignored, and its default taken.
   RAVE_TRY(members.finish());
   return message;
 }

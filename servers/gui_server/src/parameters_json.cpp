@@ -10,6 +10,7 @@ namespace rave::gui_server {
 namespace {
 
 using ParameterJson = nlohmann::ordered_json;
+/// Each robot has the list in the roster, which would be megabytes for a swarm.
 constexpr std::size_t kMostDescribed = 256;
 
 /// The value of a file as JSON has it; null: the file gives none.
@@ -119,6 +120,7 @@ std::string with_parameters(const std::string& robots_json, const sim::EngineSpe
   std::map<std::size_t, ParameterJson> known;
   for (std::size_t r = 0; r < std::min(robots.size(), spec.robots.size()); ++r) {
     const std::size_t type = spec.robots[r].type;
+    // Robots of a type have the same parameters.
     const auto [found, is_new] = known.try_emplace(type);
     if (is_new) found->second = parameters_of(spec.types[type]);
     robots[r]["parameters"] = found->second;

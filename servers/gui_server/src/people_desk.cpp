@@ -39,6 +39,7 @@ PeopleDesk::Outcome done(const PeopleMessage& message, std::string text) {
 Result<std::string> do_account(Accounts& accounts, const AccountMessage& asked) {
   using Do = AccountMessage::Do;
   if (asked.what == Do::kChange) {
+    // For the audit log: nobody could find it out later.
     std::string before;
     for (const Account& account : accounts.state().accounts) {
       if (account.person.name != asked.name) continue;
@@ -146,6 +147,8 @@ void PeopleDesk::take(const PeopleMessage& message, const std::string& by, const
 
 void PeopleDesk::later(const PeopleMessage& message, std::function<Outcome()> act,
                        const Tell& tell) {
+  // Files and password hashes are slow, so another thread does the work, and the one of the server
+  // gets the outcome.
   const bool posted = options_.work([act = std::move(act), tell, post = options_.post] {
     post([tell, outcome = act()] { tell(outcome); });
   });

@@ -158,6 +158,7 @@ Status Recording::read_events(const record::RunInfo& run) {
   RAVE_TRY(record::for_each_message(reader_, record::topic::kEvents, take));
   events_ = fold.events();
   for (auto& changes : flags_) {
+    // The end of a touch was noted with its begin, so the changes are out of order.
     std::stable_sort(changes.begin(), changes.end(),
                      [](const FlagChange& a, const FlagChange& b) { return a.t_s < b.t_s; });
   }
@@ -173,6 +174,7 @@ void Recording::note_flag(const record::RunEvent& event, double t_s) {
   if (event.kind == "released") changes.push_back({t_s, kStopped, false});
   if (event.kind == "contact") {
     changes.push_back({t_s, kTouching, true});
+    // The recording has the begin of a contact and not its end.
     changes.push_back({t_s + kTouch_s, kTouching, false});
   }
 }

@@ -26,6 +26,7 @@ class RestrictedCursor final : public Cursor {
   [[nodiscard]] const PosesAt& poses() const noexcept override { return poses_; }
   [[nodiscard]] std::vector<ReadingAt> readings(std::span<const LookedAt> sensors,
                                                 bool parts) override {
+    // Slots of this page count the robots that it sees; those of the source count all.
     std::vector<LookedAt> wanted;
     for (const LookedAt& sensor : sensors) {
       const auto robot = view_.robot_of(sensor.slot);
@@ -84,6 +85,8 @@ bool allowed(const View& view, bool live, const std::string& power) {
     return view.may_any(found->second);
   }
   if (power == "recording") return view.may_all(InfoClass::kRecording);
+  // The powers that are left move time. In a replay each page has its own; that of a run is
+  // everybody's.
   return !live || power == "seek" || view.may_all(InfoClass::kRunControl);
 }
 
@@ -159,6 +162,7 @@ void RestrictedSource::take_events() const {
   const std::uint64_t revision = all_->events_revision();
   if (has_events_ && revision == events_revision_) return;
   const std::size_t first = has_events_ ? all_->events_changed_since(events_revision_) : 0;
+  // A repetition changes an event that is there already, so all from `first` on are taken anew.
   while (!event_places_.empty() && event_places_.back() >= first) {
     event_places_.pop_back();
     events_.pop_back();
@@ -190,6 +194,7 @@ std::size_t RestrictedSource::events_changed_since(std::uint64_t revision) const
 
 PosesAt RestrictedSource::cut(const PosesAt& all) {
   if (all.serial == 0) return view_->poses(all);
+  // All pages of these rights share this object; each moment is cut once.
   if (shared_.serial != all.serial || shared_.time_s != all.time_s) {
     shared_ = view_->poses(all);
   }
@@ -207,6 +212,7 @@ std::unique_ptr<Playhead> RestrictedSource::open_playhead() {
 }
 
 std::uint64_t RestrictedSource::hosts_revision() const noexcept {
+  // The list of hosts counts their robots, also those that are withheld.
   return view_->may_all(InfoClass::kPose) ? all_->hosts_revision() : 0;
 }
 
@@ -257,6 +263,7 @@ void RestrictedSource::halt(const HaltMessage& halt, const Author& author, Reply
   mine.stop = halt.stop;
   for (const std::uint32_t slot : halt.slots) {
     const auto robot = view_->robot_of(slot);
+    // All or none: a stop of half of what was marked would look like one that worked.
     if (!robot || !view_->may(what, *robot)) return reply(false, kNotYours);
     mine.slots.push_back(*robot);
   }
@@ -316,6 +323,7 @@ void RestrictedSource::command(const CommandMessage& command, const Author& auth
       reply(slot, false, kNotYours);
       continue;
     }
+    // Robot by robot, because some may be refused, and points belong to places in the list.
     all_->command(part_of(command, i, *robot), author,
                   [reply, read, slot](std::uint32_t, bool good, const std::string& text) {
                     reply(slot, good, read(good, text));

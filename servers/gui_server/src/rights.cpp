@@ -19,6 +19,8 @@ struct Line {
   std::string_view meaning;
 };
 
+/// In the order of InfoClass, because line_of() uses it as index. Stopping reaches further than
+/// releasing: a stop is always safe.
 constexpr std::array<Line, kInfoClasses> kLines = {{
     {InfoClass::kPose, "pose", Kind::kAll, Kind::kAll,
      "existence, name, shape and reported pose of a robot"},
@@ -130,6 +132,7 @@ const Reach& Rights::of(Role role, InfoClass what) const {
 
 const Reach& Rights::of(const Person& person, InfoClass what) const {
   if (person.role == Role::kSuperUser) return everything();
+  // A line of the user's own goes before that of the role.
   if (const auto user = users_.find(person.name); user != users_.end()) {
     if (const auto own = user->second.find(what); own != user->second.end()) return own->second;
   }

@@ -37,6 +37,7 @@ Result<RightsDesk> RightsDesk::open(std::filesystem::path folder) {
 
 void RightsDesk::begin(const std::string& run, const Rights& scenario,
                        std::shared_ptr<const Cast> cast) {
+  // It is a column of the file of rights.
   run_ = without_control_characters(run, "?");
   scenario_ = scenario;
   cast_ = std::move(cast);
@@ -73,6 +74,7 @@ Status RightsDesk::change(const RightChange& change) {
   });
   // Of a user without a reach the line stays: the scenario may have given one, which is taken back.
   if (change.reach || !change.role) kept_.push_back({run_, change});
+  // The oldest goes: probably of a run that nobody shows any more.
   if (kept_.size() > kMostKept) kept_.erase(kept_.begin());
   renew();
   if (folder_.empty()) return {};
@@ -81,6 +83,7 @@ Status RightsDesk::change(const RightChange& change) {
 
 std::shared_ptr<const View> RightsDesk::view_of(const Person& person) {
   auto view = std::make_shared<const View>(rights_, person, cast_);
+  // By what it permits and not by person, so that pages of equal rights share their frames.
   auto& shared = views_[view->key()];
   if (auto known = shared.lock()) return known;
   shared = view;

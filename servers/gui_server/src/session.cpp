@@ -10,6 +10,8 @@
 namespace rave::gui_server {
 namespace {
 
+/// Frames that the page has not acknowledged. With more, a slow line would show an older state
+/// instead of fewer ones.
 constexpr std::size_t kMostOnTheirWay = 2;
 /// A page that acknowledges a frame within this time can take more of the past.
 constexpr auto kQuick = std::chrono::milliseconds(100);
@@ -19,6 +21,7 @@ constexpr auto kPastTime = std::chrono::milliseconds(4);
 constexpr auto kNewsInterval = std::chrono::milliseconds(100);
 /// Who sends so much nonsense is not our page.
 constexpr unsigned kMostRefusals = 20;
+/// From 4000 on close codes belong to the application (RFC 6455, 7.4.2).
 constexpr std::uint16_t kBadMessages = 4400;
 /// In a frame of a reading the probe of this place in the page's list has the number of a sensor.
 constexpr std::uint32_t kFirstProbe = 0xf000;
@@ -76,6 +79,7 @@ void Session::set_author(Author author) {
 
 void Session::keep_place(const PlayState& before) {
   using Do = TransportMessage::Do;
+  // The time of a run in progress is the same for all pages.
   if (source_->about().live) return;
   const auto now = Clock::now();
   playhead_->take({Do::kPace, before.pace}, now);
@@ -96,6 +100,7 @@ void Session::received(std::string_view text) {
 void Session::forget_foreign_sensors() {
   if (!source_) return;
   std::erase_if(look_.readings, [this](const LookedAt& looked) {
+    // Probes are looked at with a message of their own, which checks the right to them.
     return looked.slot >= source_->robot_count() || probe::is_probe(looked.sensor);
   });
 }
@@ -144,6 +149,8 @@ void Session::take(const AckMessage& ack) {
   // A frame that was drawn says that those before it were drawn or left out.
   while (!on_their_way_.empty() &&
          static_cast<std::int32_t>(on_their_way_.front().first - ack.sequence) <= 0) {
+    // The past grows while the line keeps up and shrinks at once when it does not: the frame of the
+    // moment must never queue behind it.
     const bool quick = Clock::now() - on_their_way_.front().second < kQuick;
     past_bytes_ = quick ? std::min(2 * past_bytes_, kMostPast) : kLeastPast;
     on_their_way_.pop_front();
@@ -170,6 +177,7 @@ void Session::take(const HaltMessage& halt) {
   source_->halt(
       halt, commands_.author(),
       [this, to, halt, alive = std::weak_ptr(alive_)](bool good, const std::string& text) {
+        // The answer of the run may come after the page has gone.
         if (alive.expired()) return;
         answer(to, good, text);
         calls_.halted(halt, good);
@@ -253,6 +261,7 @@ void Session::send_past() {
     past_->next_s += kPastSpacing_s;
     if (!past_->cursor->go_to(t)) break;
     const PosesAt& poses = past_->cursor->poses();
+    // A time before the first that is kept gives a later moment, which has a turn of its own.
     if (poses.robots.empty() || poses.time_s > t + kPastSpacing_s) continue;
     PoseFrameHead head;
     head.sequence = ++sequence_;
@@ -267,6 +276,7 @@ void Session::send_past() {
 
 void Session::send_frame(SharedFrames& frames) {
   const PosesAt& poses = cursor_->poses();
+  // Without a serial the moment belongs to this page alone, as in a replay.
   const std::uint32_t sequence = poses.serial == 0 ? sequence_ + 1 : poses.serial;
   sequence_ = sequence;
   if (look_.true_poses && !poses.truth.empty()) send_poses(frames, sequence, true);

@@ -81,6 +81,8 @@ void Visitors::opened(std::uint64_t id, web::Socket& socket, const std::string& 
   visitor.socket = &socket;
   visitor.session = session;
   visitor.number = direct_line::page_number(new_secret());
+  // A session may end between the request and now. Then the page is an observer of no team, until
+  // check() closes it.
   visitor.person = door_.whose(session).value_or(Person{"", Role::kObserver, {false, {}}});
   visitor.page = std::make_unique<Session>(socket, calls_of(id));
   Visitor& kept = visitors_.emplace(id, std::move(visitor)).first->second;
@@ -117,6 +119,8 @@ void Visitors::received(std::uint64_t id, std::string_view text) {
 
 std::shared_ptr<Source> Visitors::source_for(const std::shared_ptr<const View>& view) {
   if (view->whole()) return source_;
+  // Pages of equal rights share one, so that each moment is cut and encoded once. Weak: it goes
+  // with the last of its pages.
   auto& shared = restricted_[view.get()];
   if (auto known = shared.lock()) return known;
   auto restricted = std::make_shared<RestrictedSource>(source_, view);
@@ -125,6 +129,7 @@ std::shared_ptr<Source> Visitors::source_for(const std::shared_ptr<const View>& 
 }
 
 Author Visitors::author_of(const Visitor& visitor) {
+  // Who looks with the eyes of another has given up the powers of a super-user meanwhile.
   return {known_as(visitor.person).name, visitor.person.role == Role::kSuperUser && !visitor.eyes,
           visitor.number};
 }
@@ -190,6 +195,7 @@ void Visitors::tick(Audience audience) {
       }
     }
   }
+  // In a fixed order, because sources compare it with what was asked for before.
   std::sort(audience.probes.begin(), audience.probes.end());
   std::sort(audience.maps.begin(), audience.maps.end());
   audience.maps.erase(std::unique(audience.maps.begin(), audience.maps.end()), audience.maps.end());
@@ -215,6 +221,7 @@ void Visitors::tell_chat() {
 
 /// Who is there: to those who may talk.
 void Visitors::tell_people() {
+  // Emptied by whatever changes who is there.
   if (!told_people_.empty()) return;
   std::map<std::string, std::string_view> there;
   for (const auto& [id, visitor] : visitors_) {
@@ -232,8 +239,10 @@ void Visitors::tell_people() {
 }
 
 void Visitors::check() {
+  // `rave people` may change the accounts at any time.
   const Status read = door_.refresh();
   const std::string trouble = read ? "" : read.error().text();
+  // Noted once, not twice a second for as long as it lasts.
   if (!trouble.empty() && trouble != trouble_) audit_->note("accounts", {{"why", trouble}});
   trouble_ = trouble;
   bool changed = false;
@@ -323,6 +332,8 @@ Result<std::string> Visitors::set_right(std::uint64_t id, const RightChange& cha
   }
   if (!source_) return fail(ErrorCode::kState, "No run is in progress.");
   const Status changed = desk_.change(change);
+  // A change that could not be written holds all the same, until the server ends: it is noted and
+  // shown before the error is told.
   if (!changed && changed.error().code != ErrorCode::kIo) return tl::unexpected(changed.error());
   audit_->note("right", {{"user", visitor.person.name}, {"detail", right_text(change)}});
   show_again_if_other();

@@ -43,5 +43,5 @@ export const component = {
   api: 1,
   name: '@NAME@',
   version: '0.1',
-  panels: [{id: '@NAME@', title: '@CLASS@', element: @CLASS@}],
+  panels: [{id: '@NAME@', title: '@TITLE@', element: @CLASS@}],
 };

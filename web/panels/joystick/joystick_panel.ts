@@ -90,6 +90,7 @@ export class JoystickPanel extends LitElement {
   }
 
   private readPad(): void {
+    // Pedals read the pad themselves.
     if (this.pedals) {
       this.car.tick(performance.now());
       this.pad = this.car.pad;
@@ -103,12 +104,14 @@ export class JoystickPanel extends LitElement {
 
   private point(event: PointerEvent): void {
     const box = (event.currentTarget as HTMLElement).getBoundingClientRect();
+    // The dial is drawn in a view box of 208 units.
     const unit = (kReach / 208) * box.width;
     this.loop.hold('touch', (event.clientX - box.left - box.width / 2) / unit, -(event.clientY - box.top - box.height / 2) / unit);
   }
 
   private press(event: PointerEvent): void {
     const stick = event.currentTarget as HTMLElement;
+    // A finger that leaves the dial still drives, and lifting it anywhere releases.
     stick.setPointerCapture(event.pointerId);
     stick.focus();
     this.loop.renew('touch');
@@ -117,6 +120,7 @@ export class JoystickPanel extends LitElement {
   }
 
   private key(event: KeyboardEvent, down: boolean): void {
+    // Shortcuts of page and browser, such as Ctrl W.
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const gear = {e: 1, q: -1}[event.key.toLowerCase()];
     if (this.pedals && gear !== undefined) {

@@ -35,6 +35,7 @@ export class RobotsPanel extends LitElement {
     const {model, selection, palette} = this.context;
     const update = () => this.requestUpdate();
     this.ends.push(model.rosterChanged.on(update), selection.changed.on(update), palette.changed.on(update));
+    // Speeds change with each frame; a list that changed 60 times a second could not be read.
     this.timer = window.setInterval(update, kRefresh_ms);
   }
 
@@ -97,6 +98,7 @@ export class RobotsPanel extends LitElement {
   private renderTeam(team: string, slots: number[], many: boolean): TemplateResult {
     const open = many ? this.opened.has(team) : !this.closed.has(team);
     const toggle = () => {
+      // Two sets, because teams are open by default if robots are few and closed if they are many.
       const set = many ? this.opened : this.closed;
       if (!set.delete(team)) set.add(team);
       this.requestUpdate();
@@ -197,6 +199,7 @@ export class RobotsPanel extends LitElement {
     if (newest === null || past.length < 2) return html`<svg width="48" height="16"></svg>`;
     const top = 0.4;
     const points = past
+      // Frames of before a change of the run may have fewer robots.
       .filter((frame) => frame.speed.length > slot)
       .map((frame) => {
         const x = 48 * (1 - (newest.time_s - frame.time_s) / kHistory_s);

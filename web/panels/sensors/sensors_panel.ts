@@ -66,6 +66,7 @@ export class SensorsPanel extends LookingPanel {
     }
     const index = this.sensorIndex(slot, robot);
     const twin = twinOf(robot, index);
+    // Halves are asked for where they are shown: they triple the readings.
     link.parts = robot.sensors[index].origin === 'hybrid';
     link.look(this, twin === null ? [[slot, index]] : [[slot, index], [slot, twin]]);
     link.queueLook();
@@ -172,6 +173,7 @@ export class SensorsPanel extends LookingPanel {
     const sensor = robot.sensors[index];
     const reading = model.readings.of(slot, index);
     model.poses.interpolate(performance.now(), this.placed);
+    // What a ray met depends on where robots are now.
     if (this.surface !== null) this.surface.placed = this.placed;
     const hue = palette.hue(slot);
     const halves = sensor.origin === 'hybrid' ? model.readings.of(slot, index, 1) : null;

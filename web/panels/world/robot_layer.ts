@@ -69,6 +69,7 @@ export class RobotLayer {
     ctx.rotate(-placed.yaw[slot]);
     ctx.save();
     ctx.scale(scale, -scale);
+    // In metres: the context is scaled.
     ctx.lineWidth = 1.5 / scale;
     if (stale) ctx.setLineDash([3 / scale, 3 / scale]);
     if (robot.kind === 'real' && !stale) {

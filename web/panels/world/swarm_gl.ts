@@ -36,6 +36,7 @@ export class SwarmGl implements Swarm {
     gl.useProgram(program);
     this.map = gl.getUniformLocation(program, 'map');
     gl.enable(gl.BLEND);
+    // Colours are multiplied by their alpha in the vertex shader, as the canvas expects them.
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
@@ -44,6 +45,7 @@ export class SwarmGl implements Swarm {
   }
 
   dispose(): void {
+    // Browsers allow a few contexts only and free one late, so it is given back at once.
     this.gl?.getExtension('WEBGL_lose_context')?.loseContext();
   }
 
@@ -52,6 +54,7 @@ export class SwarmGl implements Swarm {
     this.count = 0;
     this.tails = 0;
     if (most <= this.capacity) return;
+    // Some more than needed: a new robot then needs no new buffers.
     this.capacity = Math.ceil(most * 1.25);
     const vertices = this.capacity * (kVertices + kTail);
     this.places = new Float32Array(2 * vertices);
@@ -63,8 +66,11 @@ export class SwarmGl implements Swarm {
     for (let i = 0; i + 1 < count && i < kTailParts; ++i) {
       const [ax, ay, bx, by] = [points[2 * i], points[2 * i + 1], points[2 * i + 2], points[2 * i + 3]];
       const length = Math.hypot(bx - ax, by - ay);
+      // Shorter is not seen, and longer is a jump: a robot was placed, or a replay moved on.
       if (length < 0.5 || length > 400) continue;
       const [nx, ny] = [(-0.6 * (by - ay)) / length, (0.6 * (bx - ax)) / length];
+      // Tails come behind all heads in the buffer, because they are drawn first and without
+      // indices.
       const v = this.capacity * kVertices + this.tails;
       const [from, to] = [30 + (100 * i) / count, 30 + (100 * (i + 1)) / count];
       this.put(v, ax + nx, ay + ny, tone, from);

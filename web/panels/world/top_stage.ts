@@ -73,6 +73,7 @@ export class TopStage implements Stage {
     const {placed, selection} = context;
     const primary = selection.primary;
     if (selection.following && primary !== null && primary < placed.count) {
+      // Each frame anew, and without easing: a robot that is followed stands still in the picture.
       camera.x = placed.x[primary];
       camera.y = placed.y[primary];
     }
@@ -103,6 +104,7 @@ export class TopStage implements Stage {
     try {
       layer(ctx, (x, y) => this.screenAt(x, y));
     } catch (error) {
+      // It would throw in every frame.
       this.context.worldLayers.delete(layer);
       reportError(error);
     }
@@ -124,6 +126,7 @@ export class TopStage implements Stage {
       context.model.maps.overlay === null ? '' : context.model.maps.revision].join(' ');
     if (key === this.baseKey) return;
     this.baseKey = key;
+    // Opaque: the browser need not blend the canvas with what is behind it.
     const ctx = this.base.getContext('2d', {alpha: false});
     if (ctx === null) return;
     ctx.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
@@ -195,6 +198,7 @@ export class TopStage implements Stage {
 
   slotAt(px: number, py: number): number | null {
     const {placed} = this.context;
+    // A finger covers more than the robot that it means.
     const touch = matchMedia('(pointer: coarse)').matches ? kFinger_px : kMouse_px;
     let best: number | null = null;
     let least = Infinity;
@@ -278,6 +282,8 @@ export class TopStage implements Stage {
     const picture = document.createElement('canvas');
     [picture.width, picture.height] = [this.over.width, this.over.height];
     const ctx = picture.getContext('2d');
+    // WebGL keeps its picture until the end of this task only, so it is drawn anew and copied at
+    // once.
     this.paint(performance.now());
     ctx?.drawImage(this.base, 0, 0);
     if (!this.swarm.empty) ctx?.drawImage(this.swarm.canvas, 0, 0);

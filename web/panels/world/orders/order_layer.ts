@@ -13,6 +13,7 @@ import {arrowsAlong} from './arrows';
 import type {Draft, OrderDesk} from './order_desk';
 import {outlineOf} from './outline';
 
+/** Distance between the arrows on a path, and around its ends without one. */
 const kArrows_px = 64;
 const kArrowFree_px = 14;
 
@@ -28,6 +29,7 @@ export class OrderLayer {
     [this.ctx, this.camera, this.placed] = [ctx, camera, placed];
     ctx.save();
     ctx.lineJoin = ctx.lineCap = 'round';
+    // An order of this page comes back as one of the run; it is drawn once, as the page knows it.
     const drawn = new Set<number>();
     for (const order of this.context.commands.pending) this.drawPending(order, drawn);
     for (const [slot, drive] of this.context.model.drives) {
@@ -105,6 +107,7 @@ export class OrderLayer {
       if (slot >= this.placed.count || (this.placed.flags[slot] & RobotFlag.known) === 0) return;
       drawn.add(slot);
       const refused = order.state === 'refused' || order.refused.includes(slot);
+      // One point may serve several robots; otherwise each has its own.
       const points = order.kind === 'path' ? order.points : [order.points[order.points.length > 1 ? i : 0]];
       const colour = refused ? this.token('danger') : order.state === 'sent' ? withAlpha(intent, 0.45) : intent;
       this.line([this.robot(slot), ...points], colour, 2, refused || order.state === 'taken' ? [7, 5] : []);
@@ -191,6 +194,7 @@ export class OrderLayer {
     if (draft.kind === 'path') {
       this.line(draft.points, intent, 2.5);
       this.arrows(draft.points, intent);
+      // A drawn path has hundreds of points; a few knots say enough.
       const every = Math.max(1, Math.ceil(draft.points.length / 6));
       draft.points.forEach((point, i) => {
         if (i > 0 && i % every === 0 && i < draft.points.length - 1) this.knot(point);

@@ -17,7 +17,7 @@ namespace rave::swarm {
 /// When a measured run ends; one of the two is set.
 struct RunEnd {
   std::optional<std::uint64_t> steps;
-  std::optional<double> seconds;  ///< Wall time of what is measured.
+  std::optional<double> seconds;  ///< Wall time of the measurement.
 };
 
 /// What a run of a workload took and came to. Rates are of wall time.

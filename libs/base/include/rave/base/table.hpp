@@ -11,6 +11,9 @@
 
 namespace rave {
 
+/// The width below which a wrapped sentence is hard to read.
+inline constexpr std::size_t kComfortable = 40;
+
 /// Where the text of a cell stands in its column.
 enum class Align : std::uint8_t { kLeft, kRight, kCentre };
 
@@ -35,7 +38,8 @@ struct TableColumn {
   /// If the table is too wide, the cells of this column are wrapped at spaces.
   bool may_wrap = false;
   /// Not 0: if the table is too wide, whole columns with a weight are left out, the least weight
-  /// first; they are left out, too, if they have no text.
+  /// first; they are left out, too, if they have no text. A table with rules leaves them out before
+  /// it wraps a column that may be to less than `kComfortable` characters.
   int weight = 0;
   /// Longer cells continue in the next line, also without a limit of the table; 0: no limit.
   std::size_t widest = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,12 +19,19 @@ namespace rave::plugin {
 /// The default in the notation of a file, or `required` if there is none.
 [[nodiscard]] std::string default_text(const ParamSpec& spec);
 
-/// The output of `rave describe NAME`: plain text in columns. Lines have at most 100 characters,
-/// except for the path of the file, which is not wrapped so that it can be copied.
-[[nodiscard]] std::string describe(const Driver& driver);
+/// What a caller knows of a driver beyond this library, which has no names for kinds of data.
+struct DriverFact {
+  std::string key;  ///< One word in lower case, such as `gives`.
+  std::string value;
+};
+
+/// The output of `rave describe NAME`: plain text in columns, with `facts` after the clock. Lines
+/// have at most 100 characters, except for the path of the file, which is not wrapped so that it
+/// can be copied.
+[[nodiscard]] std::string describe(const Driver& driver, std::span<const DriverFact> facts = {});
 
 /// The driver as a section of the generated reference. It omits the folder of the file, so the
 /// reference is equal on every machine.
-[[nodiscard]] std::string markdown(const Driver& driver);
+[[nodiscard]] std::string markdown(const Driver& driver, std::span<const DriverFact> facts = {});
 
 }  // namespace rave::plugin

@@ -31,7 +31,7 @@ struct LineOptions {
 /// Counters of a line server.
 struct LineCounts {
   std::uint64_t welcomed = 0;
-  std::uint64_t refused_lines = 0;   ///< Without a ticket that is valid here.
+  std::uint64_t refused_lines = 0;   ///< Connections without a valid ticket.
   std::uint64_t refused_orders = 0;  ///< Not covered by the ticket, or not an order.
   std::uint64_t orders = 0;          ///< Passed to the run.
   std::uint64_t withdrawn = 0;       ///< Lines ended by a withdrawal.

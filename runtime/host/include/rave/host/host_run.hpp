@@ -18,46 +18,45 @@
 
 namespace rave::runtime {
 
-/// How a process runs the robots of one host of a scenario.
+/// Configuration of a process that runs the robots of one host of a scenario.
 struct HostOptions {
-  RunOptions run;  ///< `picture`: leave what it needs.
+  RunOptions run;  ///< `picture`: write the data that it needs.
   bus::BusConfig bus;
   std::string host;  ///< Its name in the scenario.
-  /// How long it waits for an environment manager that is not there, before the run and, in
-  /// lock-step, when that is gone; then its robots are stopped and the record is closed. 0: without
-  /// limit.
+  /// How long it waits for a missing environment manager: before the run and, in lock-step, after
+  /// its loss. Then the robots are stopped and the recording is closed. 0: without limit.
   Duration manager_patience{};
   /// Where the drivers of the other hosts' robots are looked up while the scenario is built;
   /// unloaded afterwards. Null: in the catalogue of the run.
   std::unique_ptr<plugin::Catalogue> others;
-  /// What is done with what others ask of this host on the bus, in the calling thread; may be
-  /// empty: they cannot.
+  /// Begins a request to this host that arrived on the bus, in the calling thread; empty: such
+  /// requests are refused.
   bus::BeginRequest begin_request;
-  bus::OnCommand on_command;  ///< The same of commands, in real time; in lock-step the manager's.
+  bus::OnCommand
+      on_command;  ///< The same for commands in real time; in lock-step the manager gets them.
 };
 
-/// How it ended for this host. It leaves result.json, events.log, scenario.yaml, results.cdr
-/// (of which the results of the whole run are made, SharedResults) and run.mcap, whose percepts and
-/// commands are of its robots, and whose poses are of all.
+/// The outcome for this host. It writes result.json, events.log, scenario.yaml, results.cdr (from
+/// which SharedResults makes the results of the whole run) and run.mcap, with the percepts and
+/// commands of its robots and the poses of all.
 struct HostOutcome {
   bool whole = false;       ///< It took part from the first step to the last, and lost no driver.
   std::string live_reason;  ///< Why the run was in real time; empty in lock-step.
   std::uint64_t steps = 0;
-  std::string ending;                 ///< What the environment manager says of the run.
+  std::string ending;                 ///< The end of the run according to the environment manager.
   std::vector<std::string> problems;  ///< One sentence each.
 };
 
 /// Runs the robots of one host in the calling thread.
 ///
-/// In lock-step with the other hosts of the run, until its environment manager says that it is
-/// over. It waits for the manager, and if that is lost for one that takes its place; in a run that
-/// went on without it its robots go on where they stand.
+/// In lock-step with the other hosts of the run, until its environment manager ends it. The host
+/// waits for the manager, and after a loss for the next one. If the run has continued without this
+/// host, its robots continue from where they stand.
 ///
-/// In real time, if a driver of any robot is live or the scenario says so, until the time of the
-/// run is over. It waits for the manager before it starts and for nobody afterwards. A host that
-/// comes late begins in the middle of the run; its simulated robots stand where the world shows
-/// them. A run in which nobody looks at others has no manager; then each host has a time of its
-/// own.
+/// In real time, if a driver of any robot is live or the scenario says so, until the duration of
+/// the run has passed. The host waits for the manager before the start only. A host that joins late
+/// begins in the middle of the run, with its simulated robots where the world shows them. A run
+/// whose robots do not sense each other has no manager; then each host has its own time.
 ///
 /// Errors: kNotFound (no such host in the scenario), what keeps a run from starting, what HostPort
 /// and HostLink say, and what ends a run.

@@ -13,34 +13,46 @@
 #include "rave/base/names.hpp"
 
 namespace rave::cli {
+namespace {
 
-WordCheck number_in(double least, double most) {
-  return [least, most](const std::string& word) -> std::string {
-    double number = 0;
-    const char* const end = word.data() + word.size();
-    const auto [parsed, problem] = std::from_chars(word.data(), end, number);
-    if (problem == std::errc() && parsed == end && number >= least && number <= most) return {};
+/// Nothing if the whole word is not a number. CLI11 would wrap negative whole numbers round.
+template <class Number>
+std::optional<Number> read_number(const std::string& word) {
+  Number number = 0;
+  const char* const end = word.data() + word.size();
+  const auto [parsed, problem] = std::from_chars(word.data(), end, number);
+  if (problem != std::errc() || parsed != end) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+CLI::Validator number_in(double least, double most) {
+  const auto check = [least, most](const std::string& word) -> std::string {
+    const auto number = read_number<double>(word);
+    if (number && *number >= least && *number <= most) return {};
     return fmt::format("found `{}`, expected a number from {} to {}", word, least, most);
   };
+  return {check, fmt::format("FLOAT in [{} - {}]", least, most)};
 }
 
-WordCheck whole_number_in(std::uint64_t least, std::uint64_t most) {
-  return [least, most](const std::string& word) -> std::string {
-    std::uint64_t number = 0;
-    const char* const end = word.data() + word.size();
-    const auto [parsed, problem] = std::from_chars(word.data(), end, number);
-    if (problem == std::errc() && parsed == end && number >= least && number <= most) return {};
+CLI::Validator whole_number_in(std::uint64_t least, std::uint64_t most) {
+  const auto check = [least, most](const std::string& word) -> std::string {
+    const auto number = read_number<std::uint64_t>(word);
+    if (number && *number >= least && *number <= most) return {};
     return fmt::format("found `{}`, expected a whole number from {} to {}", word, least, most);
   };
+  return {check, most == UINT64_MAX ? "" : fmt::format("INT in [{} - {}]", least, most)};
 }
 
-WordCheck one_of(std::vector<std::string> words) {
-  return [words = std::move(words)](const std::string& word) -> std::string {
+CLI::Validator one_of(std::vector<std::string> words) {
+  const auto check = [words = std::move(words)](const std::string& word) -> std::string {
     if (std::ranges::find(words, word) != words.end()) return {};
     const std::vector<std::string_view> views(words.begin(), words.end());
     return fmt::format("found `{}`, expected one of {}{}", word, fmt::join(words, ", "),
                        nearest_name(word, views).empty() ? "" : suggestion(word, views));
   };
+  return {check, ""};
 }
 
 void add_whole_number(CLI::App& app, const char* name, std::optional<std::uint64_t>& value,

@@ -5,7 +5,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,12 +35,11 @@ inline CLI::Option* add_values(CLI::App& app, const char* name, std::vector<std:
   return add_value(app, name, values, what, type)->take_all()->allow_extra_args(false);
 }
 
-/// Checks a word of the command line: empty if it is good, else what is wrong with it, in the style
-/// of errors in files.
-using WordCheck = std::function<std::string(const std::string&)>;
-[[nodiscard]] WordCheck number_in(double least, double most);
-[[nodiscard]] WordCheck whole_number_in(std::uint64_t least, std::uint64_t most);
-[[nodiscard]] WordCheck one_of(std::vector<std::string> words);
+/// Check a word of the command line. Errors have the style of those in files: what was found, and
+/// what was expected. Help shows the range of a number, unless that is the range of its type.
+[[nodiscard]] CLI::Validator number_in(double least, double most);
+[[nodiscard]] CLI::Validator whole_number_in(std::uint64_t least, std::uint64_t most);
+[[nodiscard]] CLI::Validator one_of(std::vector<std::string> words);
 
 /// An option whose value is a whole number from 0. CLI11 would wrap negative numbers round.
 void add_whole_number(CLI::App& app, const char* name, std::optional<std::uint64_t>& value,

@@ -127,7 +127,7 @@ export class TopBar extends LitElement {
       @media (max-width: 1100px) { .about, .rate em, .wide { display: none; } }
       @media (max-width: 800px) { .people, .rule { display: none; } .person span { display: none; } }
       @media (max-width: 900px) { .find { flex-basis: 190px; } .find kbd { display: none; } }
-      @media (max-width: 900px) { h1 { flex: 0 1 auto; } }
+      @media (max-width: 700px) { h1 { flex: 0 1 auto; } }
       @media (max-width: 599px) {
         :host { padding: 0 10px; height: 52px; } .brand b, .find span, .find kbd, .rate { display: none; }
         .find { flex: none; width: 40px; height: 40px; justify-content: center; background: none; border-color: transparent; }

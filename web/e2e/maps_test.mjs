@@ -182,6 +182,51 @@ try {
     assert.equal(await floor(page), bare);
   });
 
+  await check('it lies over the world in 3-D, where its tiles are', async () => {
+    const world = 'document.querySelector("rave-world")';
+    const plane = `${world}.perspective.maps.group.children`;
+    await page.evaluate(`${world}.setMode('3d')`);
+    await until(page, `${world}.perspective != null`);
+    await choose(page, 'local: anna');
+    await until(page, `${maps}.of(0)?.tiles.size > 0`);
+    assert.equal(await page.evaluate(`${plane}.length`), 0);
+    await page.getByRole('switch', {name: 'over the world'}).check();
+    await until(page, `${plane}.length > 0 && ${plane}.length === ${maps}.of(0).tiles.size`);
+    await page.getByLabel('Opacity over the world').fill('100');
+    await until(page, `${plane}.every((mesh) => mesh.material.opacity === 1)`);
+    assert.ok(await page.evaluate(`(() => {
+      const {frame, tiles} = ${maps}.of(0);
+      const middle = (from, tile, cells) => from + (64 * tile + cells / 2) * frame.resolution_m;
+      return [...tiles.values()].every(({column, row, width, height}) => ${plane}.some(({position}) =>
+        Math.abs(position.x - middle(frame.x0, column, width)) < 1e-6 && Math.abs(position.y - middle(frame.y0, row, height)) < 1e-6));
+    })()`), 'each tile has its rectangle');
+    await page.waitForTimeout(1500);
+    await page.screenshot({path: join(folder, 'map-3d-dark.png')});
+    await page.evaluate(`${app}.palette.set('light')`);
+    await page.waitForTimeout(1500);
+    await page.screenshot({path: join(folder, 'map-3d-light.png')});
+    await page.evaluate(`${app}.palette.set('dark')`);
+    await page.getByRole('switch', {name: 'over the world'}).uncheck();
+    await until(page, `${plane}.length === 0`);
+    await page.evaluate(`${world}.setMode('top')`);
+  });
+
+  await check('the menu of layers lays a map over the world, whatever the panel shows', async () => {
+    const over = page.getByRole('switch', {name: 'over the world'});
+    await page.getByRole('button', {name: /^Layers/}).first().click();
+    await page.getByLabel('Map over the world').selectOption({label: 'ben'});
+    await until(page, `${maps}.overlay?.key === 1 && ${maps}.of(1)?.tiles.size > 0`);
+    await page.getByLabel('Opacity of the map').fill('80');
+    await until(page, `${maps}.overlay.opacity === 0.8`);
+    await page.screenshot({path: join(folder, 'map-menu.png')});
+    assert.equal(await over.isChecked(), false, 'the panel shows anna');
+    await choose(page, 'local: ben');
+    await until(page, `document.querySelector('rave-map').renderRoot.querySelector('.over input').checked`);
+    await page.getByLabel('Map over the world').selectOption({label: 'none'});
+    await until(page, `${maps}.overlay === null`);
+    await page.getByRole('button', {name: /^Layers/}).first().click();
+  });
+
   await check('on a phone', async () => {
     const phone = await browser.newContext({viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true, storageState: await context.storageState()});
     const hand = await phone.newPage();

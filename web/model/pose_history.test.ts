@@ -26,6 +26,38 @@ describe('interpolation', () => {
     expect(placed.x[0]).toBe(30);
   });
 
+  it('moves evenly where states of the run come at another beat than frames', () => {
+    const history = new PoseHistory();
+    const placed = new Placed();
+    // A state each 20 ms, of which 30 a second are sent.
+    const times = [];
+    for (let ms = 0; ms < 3000; ms += 100) times.push(ms, ms + 40, ms + 60);
+    let last = Number.NaN;
+    for (let now = 0, next = 0; now < 3000; now += 4) {
+      for (; next < times.length && times[next] <= now; ++next) history.add(frame(times[next] / 1000, times[next]), now);
+      history.interpolate(now, placed);
+      if (now > 1000) {
+        expect(placed.x[0] - last).toBeGreaterThanOrEqual(0);
+        expect(placed.x[0] - last).toBeLessThan(9);
+        expect(now - placed.x[0]).toBeLessThan(45);
+      }
+      last = placed.x[0];
+    }
+  });
+
+  it('is not late for long after a page that stood still', () => {
+    const history = new PoseHistory();
+    const placed = new Placed();
+    let now = 0;
+    for (; now < 1000; now += 33) history.add(frame(now / 1000, now), now);
+    now += 400;
+    for (const end = now + 330; now < end; now += 33) {
+      history.add(frame(now / 1000, now), now);
+      history.interpolate(now, placed);
+      expect(now - placed.x[0]).toBeLessThan(50);
+    }
+  });
+
   it('turns the shorter way', () => {
     expect(turn(0.1, 6.2)).toBeCloseTo(-0.183, 2);
     expect(turn(6.2, 0.1)).toBeCloseTo(0.183, 2);

@@ -7,12 +7,22 @@ const kSpacing_s = 0.2;
 /** A frame that comes so much later than the one before is a jump, not a motion. */
 const kJump_s = 1.5;
 
-/** The newest two frames, for interpolation, and a thinned past, for trails. */
+/** So many frames are kept for interpolation, and so many gaps between them for its delay. */
+const kRecent = 4;
+const kGaps = 8;
+const kFirstGap_ms = 33;
+
+/** The newest frames, for interpolation, and a thinned past, for trails. */
 export class PoseHistory {
   newest: PoseFrame | null = null;
-  private before: PoseFrame | null = null;
+  /** Without a jump between them, the newest last. */
+  private readonly recent: PoseFrame[] = [];
   private arrived_ms = 0;
-  private interval_ms = 33;
+  /** The last gaps between frames: of the wall and of the run. */
+  private readonly gaps: {wall_ms: number; run_s: number}[] = [];
+  private delay_ms = kFirstGap_ms;
+  /** Seconds of the run in a millisecond. */
+  private rate = 0.001;
   /** Oldest first. */
   readonly past: PoseFrame[] = [];
   /** When the pose of each robot was last no stale one, seconds of the run. */
@@ -30,38 +40,56 @@ export class PoseHistory {
     }
     this.keep(frame);
     if (this.newest !== null && frame.time_s - this.newest.time_s < kJump_s) {
-      const gap = Math.min(Math.max(now_ms - this.arrived_ms, 8), 500);
-      this.interval_ms += 0.2 * (gap - this.interval_ms);
-      this.before = this.newest;
+      this.measure(now_ms - this.arrived_ms, frame.time_s - this.newest.time_s);
+      if (this.recent.length === kRecent) this.recent.shift();
     } else {
-      this.before = null;
+      this.recent.length = 0;
     }
+    this.recent.push(frame);
     this.newest = frame;
     this.arrived_ms = now_ms;
   }
 
+  /** Pictures are as far behind the newest frame as frames are apart, so that the next one comes when its motion ends.
+   * The longest gap does not count: a page that stood still for a moment would show old states long after. */
+  private measure(wall_ms: number, run_s: number): void {
+    if (this.gaps.length === kGaps) this.gaps.shift();
+    this.gaps.push({wall_ms: Math.min(Math.max(wall_ms, 8), 500), run_s});
+    const wall = this.gaps.reduce((sum, gap) => sum + gap.wall_ms, 0);
+    this.rate = this.gaps.reduce((sum, gap) => sum + gap.run_s, 0) / wall;
+    const longest = Math.max(...this.gaps.map((gap) => gap.wall_ms));
+    this.delay_ms = this.gaps.length < 3 ? wall / this.gaps.length : (wall - longest) / (this.gaps.length - 1);
+  }
+
   clear(): void {
     this.newest = null;
-    this.before = null;
+    this.recent.length = 0;
+    this.gaps.length = 0;
+    this.delay_ms = kFirstGap_ms;
     this.past.length = 0;
     this.fresh = new Float64Array(0);
   }
 
-  /** Writes where everybody is at `now_ms` to `out`: between the newest two frames, never beyond. */
+  /** Writes where everybody is at `now_ms` to `out`: between frames that have come, never beyond. */
   interpolate(now_ms: number, out: Placed): void {
     // After a jump the past comes first: its end is shown until the moment itself is there.
-    const to = this.newest ?? this.past[this.past.length - 1] ?? null;
-    if (to === null) {
+    const newest = this.newest ?? this.past[this.past.length - 1] ?? null;
+    if (newest === null) {
       out.resize(0);
       return;
     }
-    const n = to.x.length;
+    const shown_s = newest.time_s - this.rate * Math.max(this.delay_ms - (now_ms - this.arrived_ms), 0);
+    let at = this.recent.length - 1;
+    while (at > 1 && this.recent[at - 1].time_s > shown_s) --at;
+    const to = this.recent[at] ?? newest;
+    const from = at > 0 ? this.recent[at - 1] : null;
+    const n = newest.x.length;
     out.resize(n);
-    out.flags = to.flags;
+    out.flags = newest.flags;
     out.fresh = this.fresh;
-    const from = this.before;
-    const share = from === null ? 1 : Math.min((now_ms - this.arrived_ms) / this.interval_ms, 1);
-    out.time_s = from === null ? to.time_s : from.time_s + share * (to.time_s - from.time_s);
+    const span_s = from === null ? 0 : to.time_s - from.time_s;
+    const share = from === null || span_s <= 0 ? 1 : Math.min(Math.max((shown_s - from.time_s) / span_s, 0), 1);
+    out.time_s = from === null ? to.time_s : from.time_s + share * span_s;
     if (from === null || share >= 1) {
       out.x.set(to.x);
       out.y.set(to.y);
@@ -79,7 +107,7 @@ export class PoseHistory {
 
   /** Whether a picture between two frames is still to be drawn. */
   moving(now_ms: number): boolean {
-    return this.before !== null && now_ms - this.arrived_ms < this.interval_ms;
+    return this.recent.length > 1 && now_ms - this.arrived_ms < this.delay_ms;
   }
 
   private note(frame: PoseFrame): void {

@@ -36,7 +36,8 @@ Session::Session(web::Socket& socket, SessionCalls calls)
                   calls_.commanded(command, said);
                 }) {}
 
-void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, bool same_run) {
+void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, bool same_run,
+                   SharedTexts& texts) {
   const PlayState before = told_state_;
   // They refer to the source that goes.
   past_.reset();
@@ -48,11 +49,9 @@ void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, boo
   cursor_ = source_->open_cursor();
   if (same_run) keep_place(before);
   socket_.send_text(payload(hello_text(*source_, greeting)));
-  socket_.send_text(payload(R"({"type":"scene","hidden":)" + source_->hidden_kinds_json() +
-                            R"(,"bodies":)" + source_->bodies_json() + "}"));
-  socket_.send_text(
-      payload(R"({"type":"roster","revision":1,"robots":)" + source_->robots_json() + "}"));
-  socket_.send_text(payload(events_text(source_->events(), 0)));
+  socket_.send_text(texts.scene(source_));
+  socket_.send_text(texts.roster(source_));
+  socket_.send_text(texts.events(source_));
   told_events_ = source_->events_revision();
   told_bodies_ = source_->bodies_revision();
   told_hosts_ = 0;
@@ -107,6 +106,7 @@ void Session::forget_foreign_sensors() {
 
 void Session::take(const LookMessage& look) {
   look_ = look;
+  pace_.set_rate(look.max_hz);
   forget_foreign_sensors();
   told_.clear();
   told_variances_.clear();
@@ -218,12 +218,9 @@ void Session::tick(Clock::time_point now, SharedFrames& frames) {
   if (!look_.poses || broken_ || on_their_way_.size() >= kMostOnTheirWay) return;
   // Tiles are confirmed by the picture behind them.
   if (map_stream_.due(*source_)) changed_ = true;
-  if (state.picture == picture_ && !changed_ && !past_) return;
-  const auto period =
-      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / look_.max_hz));
-  if (now < due_ && !changed_) return;
-  // In step with the rate that was asked for, whenever states come.
-  due_ = now >= due_ && now - due_ < period ? due_ + period : now + period;
+  const bool due = pace_.due(now, state.picture) && (state.picture != picture_ || past_);
+  if (!due && !changed_) return;
+  pace_.went(now);
   if (const auto gone = cursor_->go_to(state.now_s); !gone) {
     answer("replay", false, gone.error().text());
     broken_ = true;

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "frame_pace.hpp"
 #include "frames.hpp"
 #include "map_stream.hpp"
 #include "page_commands.hpp"
@@ -22,6 +23,7 @@
 #include "rave/gui_server/source.hpp"
 #include "rave/web/rate_limit.hpp"
 #include "rave/web/server.hpp"
+#include "shared_texts.hpp"
 
 namespace rave::gui_server {
 
@@ -76,8 +78,9 @@ class Session {
   Session(web::Socket& socket, SessionCalls calls);
 
   /// From now on the page sees this source: hello, and all that does not change. `same_run`: it is
-  /// the same run with other rights, so the page stays where it is in time.
-  void show(std::shared_ptr<Source> source, const Greeting& greeting, bool same_run);
+  /// the same run with other rights, so the page stays where it is in time. `texts`: of all pages.
+  void show(std::shared_ptr<Source> source, const Greeting& greeting, bool same_run,
+            SharedTexts& texts);
   void send(web::Payload text) { socket_.send_text(std::move(text)); }
   /// The same person has other rights.
   void set_author(Author author);
@@ -136,8 +139,8 @@ class Session {
   std::unique_ptr<Playhead> playhead_;
   std::unique_ptr<Cursor> cursor_;
   LookMessage look_;
-  PlayState told_state_;     ///< As the page knows it.
-  Clock::time_point due_{};  ///< Of the next frame.
+  PlayState told_state_;  ///< As the page knows it.
+  FramePace pace_;
   Clock::time_point last_time_{};
   Clock::time_point last_news_{};
   std::uint32_t sequence_ = 0;

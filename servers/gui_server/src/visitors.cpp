@@ -139,7 +139,7 @@ void Visitors::show_to(Visitor& visitor, bool same_run) {
   if (visitor.eyes) greeting.seen_by = visitor.person;
   greeting.author = author_of(visitor);
   greeting.foxglove = foxglove_;
-  visitor.page->show(source_for(visitor.view), greeting, same_run);
+  visitor.page->show(source_for(visitor.view), greeting, same_run, texts_);
   visitor.page->send(payload(
       room_.text_for({known_as(visitor.eyes.value_or(visitor.person)), *visitor.view}, 0, true)));
   visitor.told_chat = room_.newest();

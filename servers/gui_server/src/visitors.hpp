@@ -93,6 +93,7 @@ class Visitors {
   bool foxglove_ = false;
   std::shared_ptr<Source> source_;  ///< Null: none yet.
   std::map<const View*, std::weak_ptr<RestrictedSource>> restricted_;
+  SharedTexts texts_;
   std::map<std::uint64_t, Visitor> visitors_;
   ChatRoom room_;
   PeopleDesk people_desk_;

@@ -29,7 +29,8 @@ export function cellColour(
   return percent < 50 ? [...free, Math.round(255 * kFree * sure)] : [...wall, Math.round(255 * sure)];
 }
 
-function pictureOf(tile: MapTile, palette: Palette): HTMLCanvasElement | null {
+/** The cells of a tile in the colours of the theme, a pixel each; null: there is no canvas. */
+export function pictureOf(tile: MapTile, palette: Palette): HTMLCanvasElement | null {
   const known = pictures.get(tile);
   if (known?.theme === palette.theme) return known.canvas;
   const canvas = document.createElement('canvas');

@@ -64,13 +64,19 @@ export class MapPanel extends LookingPanel {
     this.context.link.lookAtMap(this, this.key);
   }
 
+  private get isOver(): boolean {
+    const {overlay} = this.context.model.maps;
+    return overlay !== null && overlay.key === this.key;
+  }
+
   private choose(index: number): void {
     const {maps} = this.context.model;
+    const over = this.isOver;
     this.chosen = maps.names[index] ?? null;
     this.moved = false;
     this.fittedTiles = 0;
     this.lookAround();
-    if (maps.overlay !== null && this.key !== null) maps.show({key: this.key, opacity: this.opacity});
+    if (over && this.key !== null) maps.show({key: this.key, opacity: this.opacity});
     this.requestUpdate();
     this.draw();
   }
@@ -83,7 +89,7 @@ export class MapPanel extends LookingPanel {
   private setOpacity(percent: number): void {
     this.opacity = percent / 100;
     const {maps} = this.context.model;
-    if (maps.overlay !== null) maps.show({...maps.overlay, opacity: this.opacity});
+    if (maps.overlay !== null && this.isOver) maps.show({...maps.overlay, opacity: this.opacity});
     this.requestUpdate();
   }
 
@@ -92,7 +98,9 @@ export class MapPanel extends LookingPanel {
     const {source} = this;
     if (!model.may('maps')) return html`<p class="none">${icon('lock', 15)} ${model.whyNot('maps')}</p>`;
     if (source === null) return html`<p class="none">${this.whyNone()}</p>`;
-    const over = model.maps.overlay !== null;
+    const over = this.isOver;
+    // It may have been set in the World View.
+    if (over) this.opacity = model.maps.overlay?.opacity ?? this.opacity;
     return html`
       <div class="head">
         ${this.renderSources(source)}
@@ -143,12 +151,13 @@ export class MapPanel extends LookingPanel {
 
   private whyNone(): string {
     const {model} = this.context;
-    if (!model.live) return 'Local maps are not recorded, and the world of this run has nothing to map.';
+    if (!model.live) return 'No program of this run has published a map, and its world has nothing to map.';
     return 'There is no map that you may see: no robot has a range sensor, and there is no global map.';
   }
 
   private waits(source: MapName): string {
     if (source.slot === undefined) return `Nothing of ${source.name} is known yet.`;
+    if (!this.context.model.live) return `${source.name} had published no map yet at this time.`;
     return `${source.name} begins its map now: it shows what its sensors see from here on.`;
   }
 

@@ -6,6 +6,9 @@ import {kFont} from '../world/labels';
 import {bearingsOf, drawMark, withAlpha} from '../world/scan_layer';
 import type {Met} from '../world/surface';
 
+/** As wide as a number with its unit. */
+const kRing_px = 22;
+
 /** Half of the opening that the plot shows, radians: as wide as the sensor sees. */
 function halfOpening(bearings: readonly number[], cone: number): number {
   const widest = bearings.reduce((most, bearing) => Math.max(most, Math.abs(bearing)), 0) + cone / 2;
@@ -96,11 +99,18 @@ function drawHalf(
   ctx.stroke();
 }
 
+/** Metres between two rings whose numbers have room. */
+export function ringStep(max: number, radius: number): number {
+  const least = max > 12 ? 5 : max > 5 ? 2 : max > 1.5 ? 1 : 0.25;
+  const fits = (step: number) => (step / max) * radius >= kRing_px;
+  return [0.25, 0.5, 1, 2, 5, 10, 20, 50].find((step) => step >= least && fits(step)) ?? max;
+}
+
 function drawRings(
   ctx: CanvasRenderingContext2D, ox: number, oy: number, radius: number, half: number, max: number,
   palette: Palette,
 ): void {
-  const step = max > 12 ? 5 : max > 5 ? 2 : max > 1.5 ? 1 : 0.25;
+  const step = ringStep(max, radius);
   const full = half > Math.PI - 0.01;
   ctx.font = `400 10px ${kFont}`;
   ctx.textBaseline = 'middle';

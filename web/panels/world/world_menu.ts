@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
+import {keyOf} from '../../model/maps';
 import type {RunModel} from '../../model/run_model';
 import type {PanelContext} from '../../panel_api';
 import {kColourBy, type ColourBy, type Flag, type Kind, type Layers} from './layers';
@@ -14,6 +15,8 @@ const kKinds: readonly [Kind, string][] = [
   ['wall', 'walls'],
 ];
 const kRampSteps = 8;
+/** How strong a map lies over the world at first. */
+const kMapOpacity = 0.6;
 
 /** The layers after a click on a kind: hidden or shown, or with Alt shown alone. */
 export function withKind(layers: Layers, kind: Kind, alone: boolean): Layers {
@@ -74,7 +77,26 @@ export function renderMenu(model: RunModel, layers: Layers, scale: [string, stri
     <hr>
     ${flag('names', 'Names')}
     ${flag('grid', 'Grid')}
+    ${renderMaps(model)}
   </div>`;
+}
+
+/** Which map lies over the world, and how strong. */
+function renderMaps(model: RunModel): TemplateResult | typeof nothing {
+  const {maps} = model;
+  if (!model.may('maps') || maps.names.length === 0) return nothing;
+  const {overlay} = maps;
+  const show = (index: number) => {
+    const name = maps.names[index];
+    maps.show(name === undefined ? null : {key: keyOf(name), opacity: overlay?.opacity ?? kMapOpacity});
+  };
+  return html`<hr>
+    <label><span>Map</span><select aria-label="Map over the world" @change=${(event: Event) => show(Number((event.target as HTMLSelectElement).value))}>
+      <option value="-1" ?selected=${overlay === null}>none</option>
+      ${maps.names.map((name, i) => html`<option value=${i} ?selected=${overlay?.key === keyOf(name)}>${name.name}</option>`)}</select></label>
+    ${overlay === null ? nothing : html`<label><span>Opacity</span><em>${Math.round(100 * overlay.opacity)} %</em>
+      <input type="range" min="10" max="100" step="5" aria-label="Opacity of the map" .value=${String(Math.round(100 * overlay.opacity))}
+        @input=${(event: Event) => maps.show({...overlay, opacity: Number((event.target as HTMLInputElement).value) / 100})}></label>`}`;
 }
 
 function renderScale([low, high]: [string, string], theme: 'dark' | 'light'): TemplateResult {
@@ -97,10 +119,11 @@ export const worldMenuStyles = css`
   .menu label span { flex: 1; }
   .menu hr { border: 0; border-top: 1px solid var(--line-1); margin: 5px -14px; }
   .menu em, .ramp em { font-style: normal; font-weight: 400; color: var(--text-3); font-size: var(--fs-11); }
-  .menu input { appearance: none; width: 26px; height: 15px; border-radius: 99px; border: 1px solid var(--line-3); position: relative; margin: 0; cursor: pointer; }
-  .menu input::after { content: ''; position: absolute; left: 2px; top: 2px; width: 9px; height: 9px; border-radius: 50%; background: var(--line-3); }
-  .menu input:checked { background: var(--intent-fill); border-color: var(--intent-fill); }
-  .menu input:checked::after { left: 13px; background: #fff; }
+  .menu input[type='range'] { width: 96px; accent-color: var(--intent-fill); }
+  .menu input[type='checkbox'] { appearance: none; width: 26px; height: 15px; border-radius: 99px; border: 1px solid var(--line-3); position: relative; margin: 0; cursor: pointer; }
+  .menu input[type='checkbox']::after { content: ''; position: absolute; left: 2px; top: 2px; width: 9px; height: 9px; border-radius: 50%; background: var(--line-3); }
+  .menu input[type='checkbox']:checked { background: var(--intent-fill); border-color: var(--intent-fill); }
+  .menu input[type='checkbox']:checked::after { left: 13px; background: #fff; }
   .menu select { font: inherit; color: var(--text-1); background: var(--bg-3); border: 1px solid var(--line-2); border-radius: var(--r-2); height: 22px; }
   .ramp { display: flex; align-items: center; justify-content: flex-end; gap: 1px; padding: 2px 0 6px; }
   .ramp i { width: 16px; height: 8px; }

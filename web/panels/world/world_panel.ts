@@ -85,7 +85,11 @@ export class WorldPanel extends LitElement {
       model.sceneChanged.on(refresh),
       palette.changed.on(refresh),
       model.pictureChanged.on(() => this.draw()),
-      model.maps.overlayChanged.on(() => this.draw()),
+      model.maps.namesChanged.on(() => this.requestUpdate()),
+      model.maps.overlayChanged.on(() => {
+        this.requestUpdate();
+        this.draw();
+      }),
       selection.changed.on(() => {
         this.lookAround();
         this.requestUpdate();

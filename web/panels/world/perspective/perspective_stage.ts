@@ -14,6 +14,7 @@ import {FlatLayer} from './flat_layer';
 import {Floor} from './floor';
 import {writeRings, writeScans, writeTrails} from './floor_marks';
 import {GlassRobots} from './glass_robots';
+import {MapPlane} from './map_plane';
 import {Orbit} from './orbit';
 import {OrbitGestures} from './orbit_gestures';
 import {Overlay} from './overlay';
@@ -43,6 +44,7 @@ export class PerspectiveStage implements Stage {
   private readonly orbit = new Orbit();
   private readonly sun = new DirectionalLight('#ffffff', 2.2);
   private readonly floor = new Floor();
+  private readonly maps = new MapPlane();
   private readonly bodies = new StandingBodies();
   private readonly solid = new SolidRobots();
   private readonly glass = new GlassRobots();
@@ -67,7 +69,7 @@ export class PerspectiveStage implements Stage {
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(kShadow_px, kShadow_px);
     this.sun.shadow.bias = -0.001;
-    this.scene.add(new AmbientLight('#ffffff', 1.5), this.sun, this.sun.target, this.floor.group, this.bodies.group, this.solid.group,
+    this.scene.add(new AmbientLight('#ffffff', 1.5), this.sun, this.sun.target, this.floor.group, this.maps.group, this.bodies.group, this.solid.group,
       this.glass.group, this.scans.mesh, this.trails.mesh, this.rings.mesh);
     this.overlay = new Overlay(context, this.orbit);
     new OrbitGestures(this.element, context, this.orbit, (px, py) => this.slotAt(px, py));
@@ -123,6 +125,7 @@ export class PerspectiveStage implements Stage {
     const shown = (slot: number) => !layers.hidden.includes(model.robots[slot].kind);
     this.setFloor();
     this.floor.show(layers.grid);
+    this.maps.update(model.maps, this.context.palette);
     this.bodies.show(layers);
     this.solid.update(placed, shown);
     this.glass.update(placed, shown);
@@ -261,6 +264,7 @@ export class PerspectiveStage implements Stage {
   dispose(): void {
     clearTimeout(this.sharpen);
     this.element.remove();
+    this.maps.clear();
     this.renderer.dispose();
   }
 }

@@ -37,10 +37,8 @@ struct HostLineEnds {
   std::unique_ptr<direct_line::LineBeacon> beacon;  ///< Null: the GUI Server is here.
 };
 
-/// The line of a host on a bus, or of its environment manager (direct_line::kManagerHost), which is
-/// told of if that process takes the orders of the run; both ends are null if none is requested.
-/// Errors: kInvalidArgument (an address, or no key), those of the key file, LineServer::start() and
-/// LineBeacon::start().
+/// The line of a host on a bus; both ends are null if none is requested. Errors: kInvalidArgument
+/// (an address, or no key), those of the key file, LineServer::start() and LineBeacon::start().
 [[nodiscard]] Result<HostLineEnds> open_host_line(const LineArguments& arguments,
                                                   const std::string& host,
                                                   const bus::BusConfig& bus,

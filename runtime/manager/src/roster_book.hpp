@@ -45,6 +45,9 @@ class RosterBook {
   [[nodiscard]] bool simulated(std::size_t robot, std::uint64_t serving) const;
   /// Which orders of people it takes, as that process says; none before it does.
   [[nodiscard]] OrderSet takes(std::size_t robot, std::uint64_t serving) const;
+  /// Who has its command lease, as that process says, and the page; empty: nobody.
+  [[nodiscard]] std::pair<std::string, std::uint64_t> driver(std::size_t robot,
+                                                             std::uint64_t serving) const;
   [[nodiscard]] std::size_t robots() const noexcept { return robots_.size(); }
   /// Whether anything was taken in, or lost, since the last call.
   [[nodiscard]] bool take_news() noexcept { return std::exchange(news_, false); }
@@ -55,6 +58,8 @@ class RosterBook {
   struct Said {
     bool simulated = true;
     OrderSet takes = 0;
+    std::string driver{};
+    std::uint64_t driver_page = 0;
   };
   /// What one process said, by robot.
   using Book = std::map<std::uint32_t, Said>;
@@ -76,7 +81,8 @@ using Serving = std::function<std::uint64_t(std::uint32_t host)>;
 /// Takes in all that has come; what is refused is told by the bus.
 void read_roster(bus::Reader<bus::RosterEntry>& reader, RosterBook& book, const Serving& serving);
 
-/// Tells whoever asks for the status of the run which robots are real now, if there is news.
+/// Tells whoever asks for the status of the run which robots are real now and who drives them, if
+/// there is news.
 /// `control` has begun and shows all robots by id; may be null.
 void show_kinds(RosterBook& book, const Serving& serving, runtime::RunControl* control);
 

@@ -33,7 +33,7 @@ struct HostOptions {
   /// What is done with what others ask of this host on the bus, in the calling thread; may be
   /// empty: they cannot.
   bus::BeginRequest begin_request;
-  bus::OnCommand on_command;  ///< The same of commands, in real time; in lock-step the manager's.
+  bus::OnCommand on_command;  ///< The same of commands.
 };
 
 /// How it ended for this host. It leaves result.json, events.log, scenario.yaml, results.cdr

@@ -9,7 +9,6 @@
 
 #include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
-#include "rave/bus/command_box.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/bus/request_book.hpp"
 #include "rave/config/expanded_scenario.hpp"
@@ -45,7 +44,6 @@ struct ManagerOptions {
   /// What is done with what others ask on the bus, in the calling thread; may be empty: they
   /// cannot.
   bus::BeginRequest begin_request;
-  bus::OnCommand on_command;  ///< The same of commands (topic rave/command), which nobody answers.
   /// Told about ten times a second, in the calling thread; may be empty.
   struct Progress {
     std::uint64_t step = 0;

@@ -282,34 +282,63 @@ Result<std::vector<Reply>> AskedRun::ask_each_on_bus(const std::string& word,
   return all;
 }
 
-Result<std::vector<AskedRun>> AskedRun::controllers(bool sure) const {
-  const std::vector<AskedRun> itself = {*this};
-  const bool host = bus_ ? !peer_.manager : name_.find(kOfHost) != std::string::npos;
-  if (host) return itself;
+bool AskedRun::is_host() const {
+  return bus_ ? !peer_.manager : name_.find(kOfHost) != std::string::npos;
+}
+
+std::vector<AskedRun> AskedRun::hosts() const {
   std::vector<AskedRun> hosts;
   if (bus_) {
-    if (!peer_.live) return itself;
     for (const BusPeer& peer : bus_->all(kLookPatience)) {
       if (peer.manager) continue;
       hosts.emplace_back(AskedRun(fmt::format("{}{}{}", name_, kOfHost, peer.name), bus_, peer));
     }
-    return hosts.empty() ? itself : hosts;
+    return hosts;
   }
-  const std::string scenario = name_.substr(0, name_.rfind('-'));
-  const std::vector<std::string> here = here_of(scenario, true);
-  if (here.empty()) return itself;
-  // In lock-step the manager has the say, and who does not answer is asked all the same.
+  for (const std::string& name : here_of(name_.substr(0, name_.rfind('-')), true)) {
+    hosts.emplace_back(name);
+  }
+  return hosts;
+}
+
+Result<std::vector<AskedRun>> AskedRun::controllers(bool sure) const {
+  const std::vector<AskedRun> itself = {*this};
+  if (is_host()) return itself;
+  // In lock-step the manager stops and arms the robots of all.
+  if (bus_ && !peer_.live) return itself;
+  std::vector<AskedRun> hosts = this->hosts();
+  if (bus_) return hosts.empty() ? itself : hosts;
+  if (hosts.empty()) return itself;
+  // Who does not answer is asked all the same.
   const auto said = status();
   if (!said || !said->live) return itself;
+  const std::string scenario = name_.substr(0, name_.rfind('-'));
   if (const auto runs = here_of(scenario, false); sure && runs.size() > 1) {
+    std::vector<std::string_view> here;
+    for (const AskedRun& host : hosts) here.emplace_back(host.name());
     return fail(
         ErrorCode::kNotFound,
         "{} runs of `{}` are on this machine, and their hosts cannot be told apart; name one of "
         "these: {}",
-        runs.size(), scenario, join_names(std::vector<std::string_view>(here.begin(), here.end())));
+        runs.size(), scenario, join_names(here));
   }
-  for (const std::string& name : here) hosts.emplace_back(name);
   return hosts;
+}
+
+std::vector<AskedRun> AskedRun::takers_of_orders(const std::string& robot) const {
+  const auto own = is_host() ? Result<runtime::RunStatus>() : status(kLookPatience);
+  // A run of one process has no hosts, whoever runs the same scenario beside it.
+  if (!own || own->run.empty()) return {*this};
+  std::vector<AskedRun> all;
+  for (const AskedRun& host : hosts()) {
+    const auto said = host.status(kLookPatience);
+    if (!said || said->run != own->run) continue;
+    const bool has =
+        std::ranges::any_of(said->robots, [&robot](const auto& one) { return one.name == robot; });
+    if (has) return {host};
+    all.push_back(host);
+  }
+  return all.empty() ? std::vector<AskedRun>{*this} : all;
 }
 
 Result<std::vector<SeenRun>> AskedRun::all_on_bus(const BusOptions& options) {

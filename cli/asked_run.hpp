@@ -61,6 +61,10 @@ class AskedRun {
   /// otherwise the hosts of all.
   [[nodiscard]] Result<std::vector<AskedRun>> controllers(bool sure) const;
 
+  /// The processes that take orders of people: itself, or the hosts of a run of several processes,
+  /// in lock-step too. Only the one that has `robot`, if one says so.
+  [[nodiscard]] std::vector<AskedRun> takers_of_orders(const std::string& robot) const;
+
   /// The processes to be asked to end a run: the only one, its environment manager, or its hosts if
   /// the manager has left. A run on this machine as of control::find_run(); else on the bus; else
   /// hosts on this machine of the scenario with that name. Errors: those of find().
@@ -88,6 +92,10 @@ class AskedRun {
       Duration patience = control::BusRun::kPatience) const;
 
  private:
+  /// Whether it is one host of several.
+  [[nodiscard]] bool is_host() const;
+  /// The hosts of its run, as far as they are heard; those of this machine if it was found here.
+  [[nodiscard]] std::vector<AskedRun> hosts() const;
   AskedRun(std::string name, std::shared_ptr<control::BusRun> bus, control::BusPeer peer)
       : name_(std::move(name)), bus_(std::move(bus)), peer_(std::move(peer)) {}
 

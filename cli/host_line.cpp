@@ -108,9 +108,6 @@ Status offer_bus_lines(const config::ExpandedScenario& scenario, const bus::BusC
   RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
   std::map<std::string, std::vector<std::string>> robots;
   for (const config::PlannedHost& host : hosts) robots[host.name] = names_of(scenario, host);
-  // In lock-step orders go to the manager, for all robots.
-  auto& all = robots[direct_line::kManagerHost];
-  for (const config::ExpandedRobot& robot : scenario.robots) all.push_back(robot.name);
   RAVE_TRY_ASSIGN(
       auto lines,
       direct_line::lines_on_bus(bus, [robots = std::move(robots)](const std::string& host) {

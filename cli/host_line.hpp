@@ -37,10 +37,9 @@ struct HostLineEnds {
   std::unique_ptr<direct_line::LineBeacon> beacon;  ///< Null: the GUI Server is here.
 };
 
-/// Opens the line of a host on a bus, or of its environment manager (direct_line::kManagerHost). It
-/// is announced if the process accepts the orders of the run. Both members are null if no line is
-/// requested. Errors: kInvalidArgument (an address, or no key), those of the key file,
-/// LineServer::start() and LineBeacon::start().
+/// Opens the line of a host on a bus. Both members are null if no line is requested. Errors:
+/// kInvalidArgument (an address, or no key), those of the key file, LineServer::start() and
+/// LineBeacon::start().
 [[nodiscard]] Result<HostLineEnds> open_host_line(const LineArguments& arguments,
                                                   const std::string& host,
                                                   const bus::BusConfig& bus,

@@ -13,7 +13,6 @@
 #include "rave/assemble/build.hpp"
 #include "rave/base/file.hpp"
 #include "rave/control/bus_requests.hpp"
-#include "rave/control/commands.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/direct_line/key_files.hpp"
 #include "rave/gui_server/bus_run.hpp"
@@ -92,7 +91,6 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, runtime::BuiltScenario bu
   how.stopping = run.stopping;
   how.control = &run.control;
   how.begin_request = control::bus_requests_of(run.control);
-  how.on_command = control::commands_of(run.control, run.scenario);
   how.on_progress = [&run, &file](const manager::ManagerOptions::Progress& progress) {
     const double sim_s = static_cast<double>(progress.step) * file.step_s.value;
     run.console.show(

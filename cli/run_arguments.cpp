@@ -75,7 +75,6 @@ void add_env(CLI::App& root, EnvCommand& c) {
                "Continue a run that lost its manager (default with on_lost_host: restart)");
   add_run_options(app, c.run);
   add_processes(app, c.run.processes, "Divide the robots evenly among hosts host-1 to host-N", 2);
-  add_line_options(app, c.run.line);
   add_bus_options(app, c.run.bus);
   app.footer(
       "Start the hosts with `rave robot`, before or after. If the manager dies, start another one\n"

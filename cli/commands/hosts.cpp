@@ -86,11 +86,6 @@ int env(const EnvCommand& options) {
   Console& console = start.console();
   runtime::RunControl& control = start.control();
   start.serve(control::own_run_name(name), "run", "this run");
-  const auto line = open_host_line(run.line, direct_line::kManagerHost, *bus, control, console);
-  if (!line) {
-    start.discard();
-    return complain(line.error());
-  }
   bool started = false;
   auto managed = manage_run({*scenario,
                              run,

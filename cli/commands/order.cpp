@@ -126,14 +126,13 @@ int give_order(const OrderCommand& options) {
   if (!request) return complain(request.error());
   const auto run = AskedRun::find(options.run, options.bus);
   if (!run) return complain(run.error());
-  const auto runs = run->controllers(false);
-  if (!runs) return complain(runs.error());
+  const std::vector<AskedRun> runs = run->takers_of_orders(options.robot);
   if (options.force) {
     Request take = request_of(Request::What::kTake, options.robot);
     take.value = "force";
-    if (const int code = ask(*runs, take).code; code != kGood) return code;
+    if (const int code = ask(runs, take).code; code != kGood) return code;
   }
-  const Given given = ask(*runs, *request);
+  const Given given = ask(runs, *request);
   if (given.by == nullptr || options.what != OrderCommand::What::kDrive) return given.code;
   return drive_on(*given.by, *request, options.for_s);
 }

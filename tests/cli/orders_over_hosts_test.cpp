@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The same orders at the same steps, to robots in one process and in several.
+#include <algorithm>
 #include <cstdlib>
 
 #include "held_run.hpp"
@@ -43,6 +44,26 @@ class OrdersOverHosts : public HeldRun {
     give({"arm", "--robot", "bert", "--release"});
     return end();
   }
+  /// The process that has a robot: its host, or the run of one process.
+  [[nodiscard]] std::string host_of(const std::string& robot) const {
+    EXPECT_EQ(::setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1), 0);
+    std::string alone;
+    for (const std::string& run : control::running_runs().value()) {
+      const auto answer = control::ask(run, control::Request{});
+      const bool has = answer && std::ranges::any_of(answer->status.robots, [&](const auto& one) {
+                         return one.name == robot;
+                       });
+      if (has && run.find('@') != std::string::npos) return run;
+      if (has) alone = run;
+    }
+    return alone;
+  }
+  /// `good: ` or `refused: `, and what a process says.
+  static std::string said_by(const std::string& process, const control::Request& request) {
+    const auto answer = control::ask(process, request);
+    if (!answer) return "error: " + answer.error().text();
+    return (answer->good ? "good: " : "refused: ") + answer->text;
+  }
   /// Somebody drives and is silent from then on: the drive, its end and that of the lease are three
   /// inputs, all of the step for which the run waits.
   void drive_and_let_go() {
@@ -52,12 +73,7 @@ class OrdersOverHosts : public HeldRun {
     drive.robot = "bert";
     drive.v_mps = 0.3;
     drive.w_radps = 0.1;
-    ASSERT_EQ(::setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1), 0);
-    const auto run = control::find_run("orders");
-    ASSERT_TRUE(run) << run.error().text();
-    const auto answer = control::ask(*run, drive);
-    ASSERT_TRUE(answer) << answer.error().text();
-    EXPECT_TRUE(answer->good) << answer->text;
+    EXPECT_EQ(said_by(host_of("bert"), drive).substr(0, 5), "good:");
     const auto robots = [this] { return rave({"ps", "--robots"}).out; };
     EXPECT_NE(robots().find(drives), std::string::npos) << robots();
     wait_until([&] { return robots().find(drives) == std::string::npos; });
@@ -118,6 +134,57 @@ TEST_F(OrdersOverHosts, WhatAHostRefusesIsSaid) {
   EXPECT_NE(post.err.find("it would overlap `post`"), std::string::npos) << post.err;
   const Ended listed = rave({"ps", "--robots"});
   EXPECT_NE(listed.out.find("anna"), std::string::npos) << listed.out;
+  EXPECT_EQ(deaf.err.find("another process"), std::string::npos) << "only its host is asked";
+}
+
+/// What a person asks, as a page would.
+control::Request of_person(control::Request::What what, const std::string& robot,
+                           const std::string& by) {
+  control::Request request;
+  request.what = what;
+  request.robot = robot;
+  request.by = by;
+  return request;
+}
+
+TEST_F(OrdersOverHosts, TheHostOfTheRobotKeepsItsLeaseAndTheManagerIsNotAsked) {
+  using What = control::Request::What;
+  start("split", [this] {
+    Words words = split();
+    words.emplace_back("--no-record");
+    return words;
+  }());
+  go_to(100);
+  const std::string host = host_of("bert");
+  ASSERT_NE(host.find('@'), std::string::npos) << host;
+  const auto manager = control::find_run("orders");
+  ASSERT_TRUE(manager) << manager.error().text();
+  EXPECT_EQ(said_by(host, of_person(What::kTake, "bert", "anna")), "good: bert is yours");
+  control::Request drive = of_person(What::kDrive, "bert", "mona");
+  drive.v_mps = 0.1;
+  EXPECT_EQ(said_by(host, drive), "refused: `anna` drives bert");
+  EXPECT_EQ(said_by(host, of_person(What::kRelease, "bert", "mona")),
+            "refused: `anna` drives bert");
+  EXPECT_EQ(said_by(host, of_person(What::kTake, "bert", "mona")), "refused: `anna` drives bert");
+  EXPECT_EQ(said_by(host, of_person(What::kTake, "carl", "mona")),
+            "refused: robot `carl` runs in another process of this run");
+  EXPECT_NE(said_by(*manager, of_person(What::kTake, "bert", "anna")).find("which keeps its lease"),
+            std::string::npos);
+  // All who ask how the run stands hear of it, also from the manager.
+  const auto told = [&](const std::string& process) {
+    const auto answer = control::ask(process, control::Request{});
+    if (!answer) return std::string();
+    for (const auto& robot : answer->status.robots) {
+      if (robot.name == "bert") return robot.lease;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(told(host), "anna");
+  wait_until([&] { return told(*manager) == "anna"; });
+  // A stop needs no lease.
+  EXPECT_EQ(said_by(host, of_person(What::kStop, "bert", "mona")).substr(0, 5), "good:");
+  EXPECT_EQ(said_by(host, of_person(What::kGive, "bert", "anna")), "good: nobody drives bert now");
+  wait_until([&] { return told(*manager).empty(); });
 }
 
 }  // namespace

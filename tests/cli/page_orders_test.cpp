@@ -2,6 +2,7 @@
 // Orders from a page, over the server of the run: the same orders at the same steps to robots in
 // one process and in several; two pages of one person; and what they say to one another.
 #include <fstream>
+#include <sstream>
 
 #include "held_run.hpp"
 #include "rave/record/mcap_reader.hpp"
@@ -85,10 +86,13 @@ class PageOrders : public HeldRun {
   }
   /// Who has the lease of a robot; empty: nobody.
   [[nodiscard]] std::string driven_by(const std::string& robot) const {
-    const std::string out = rave({"ps", "--robots"}).out;
-    const std::size_t line = out.find(robot);
-    const std::string its = out.substr(line, out.find('\n', line) - line);
-    return its.find(" drives it") == std::string::npos ? "" : its;
+    std::istringstream lines(rave({"ps", "--robots"}).out);
+    // Of several processes the host and the manager tell of it.
+    for (std::string line; std::getline(lines, line);) {
+      const bool its = line.find("  " + robot + ' ') != std::string::npos;
+      if (its && line.find(" drives it") != std::string::npos) return line;
+    }
+    return {};
   }
   /// What the record of the run says of the chat.
   [[nodiscard]] std::vector<record::RunChat> chat() const {

@@ -146,6 +146,7 @@ Status validate(const RosterEntry& sample) {
   RAVE_TRY(check_id("host", sample.host));
   RAVE_TRY(check_label("name", sample.name, true));
   RAVE_TRY(check_label("team", sample.team, false));
+  RAVE_TRY(check_label("driver", sample.driver, false));
   if (sample.kind > rave_wire_ROBOT_SHADOW) return invalid("kind is unknown");
   RAVE_TRY(check_body(sample.body, true));
   for (const auto& sensor : elements(sample.sensors)) {

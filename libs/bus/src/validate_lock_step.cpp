@@ -115,8 +115,9 @@ Status check_order(const rave_wire_WorldInput& input) {
   return check_number("inputs.speed_mps", input.speed_mps, kMaxSpeed_mps);
 }
 
-Status check_inputs(const WorldStep& world) {
-  for (const auto& input : elements(world.inputs)) {
+template <class Sequence>
+Status check_inputs(const Sequence& inputs) {
+  for (const auto& input : elements(inputs)) {
     RAVE_TRY(check_order(input));
     for (const auto& change : elements(input.changes)) {
       RAVE_TRY(check_label("inputs.changes.name", change.name, true));
@@ -135,6 +136,7 @@ Status validate(const HostReport& sample) {
   RAVE_TRY(check_twists("proposals", sample.proposals));
   RAVE_TRY(check_sent(sample.sent));
   RAVE_TRY(check_poses(sample.poses));
+  RAVE_TRY(check_inputs(sample.inputs));
   return check_samples(sample.samples);
 }
 
@@ -157,7 +159,7 @@ Status validate(const WorldStep& sample) {
   RAVE_TRY(check_samples(sample.samples));
   RAVE_TRY(check_obstacle_changes("obstacles", sample.obstacles));
   RAVE_TRY(check_obstacle_changes("authority.obstacles", sample.authority.obstacles));
-  return check_inputs(sample);
+  return check_inputs(sample.inputs);
 }
 
 Status validate(const RunState& sample) {

@@ -14,8 +14,13 @@ namespace rave::sim {
 void WorldAuthority::Impl::make_changes(WorldStep& world) {
   // The order of one engine: what was asked since the last step, then obstacles of the scenario,
   // then its other changes. Whether there is room for one can depend on the one before it.
-  for (WorldInput& input : asked) do_input(input, world);
+  for (WorldInput& input : asked) {
+    const std::uint64_t sequence = input.sequence;
+    const Status status = do_input(input, world);
+    if (!status) refusals.push_back({sequence, status.error().text()});
+  }
   asked.clear();
+  take_inputs(world);
   take_over_obstacles(world);
   make_obstacle_changes(world);
   for (; next_change < spec.changes.size() && spec.changes[next_change].step <= step;
@@ -76,26 +81,32 @@ void WorldAuthority::Impl::close_obstacles() {
   last_obstacles.clear();
 }
 
-void WorldAuthority::Impl::do_input(WorldInput& input, WorldStep& world) {
+/// What people asked of hosts. By host, so that the order does not depend on which report came
+/// first.
+void WorldAuthority::Impl::take_inputs(WorldStep& world) {
+  for (const HostReport* const report : by_host) {
+    for (const WorldInput& given : report->inputs) {
+      WorldInput input = given;
+      input.sequence = ++inputs;
+      world.answers.push_back({report->host, given.sequence, inputs});
+      Status status = is_order(input.kind) ? check_order(spec, input) : Status();
+      if (status) status = do_input(input, world);
+      if (!status) world.refusals.push_back({inputs, status.error().text()});
+    }
+  }
+}
+
+Status WorldAuthority::Impl::do_input(WorldInput& input, WorldStep& world) {
   if (input.kind == WorldInput::Kind::kObstacle) {
-    const Status status = change_obstacle(*input.obstacle, input.author, world);
-    if (!status) refusals.push_back({input.sequence, status.error().text()});
-    return;
+    return change_obstacle(*input.obstacle, input.author, world);
   }
-  if (input.kind == WorldInput::Kind::kPlace) {
-    const Status status = place(input);
-    if (!status) refusals.push_back({input.sequence, status.error().text()});
-    // Its host keeps in its record what was asked.
-    if (status) world.inputs.push_back(std::move(input));
-    return;
+  // Of a robot that was placed its host keeps in its record what was asked.
+  if (input.kind == WorldInput::Kind::kPlace) RAVE_TRY(place(input));
+  if (input.kind == WorldInput::Kind::kChange && is_of_body(input.changes.front())) {
+    return change_body(input.robot, input.changes, input.author, world);
   }
-  const bool here = input.kind == WorldInput::Kind::kChange && is_of_body(input.changes.front());
-  if (!here) {
-    world.inputs.push_back(std::move(input));
-    return;
-  }
-  const Status status = change_body(input.robot, input.changes, input.author, world);
-  if (!status) refusals.push_back({input.sequence, status.error().text()});
+  world.inputs.push_back(std::move(input));
+  return {};
 }
 
 Status WorldAuthority::Impl::change_body(RobotId robot, std::span<const ParameterChange> changes,

@@ -228,6 +228,7 @@ struct Engine::Impl final : private HandOvers::Site {
   void drivers_changed(RobotId robot, const Arrival& place) override;
   void drivers_restored(RobotId robot) override;
   Status order(const WorldInput& input);
+  [[nodiscard]] Status may_order(const WorldInput& input) const;
   Status place(const WorldInput& input);
   /// One of several hosts: what may be changed without the authority.
   [[nodiscard]] Status check_own(RobotId robot, std::span<const ParameterChange> changes) const;

@@ -86,6 +86,16 @@ Status Engine::Impl::order(const WorldInput& input) {
                      hand_overs.is_under_way(input.robot));
 }
 
+Status Engine::Impl::may_order(const WorldInput& input) const {
+  if (input.kind == WorldInput::Kind::kCancel) return {};
+  if (!roster.is_local(input.robot)) {
+    return refused_order(spec, input, ErrorCode::kState, "it runs on another host");
+  }
+  if (input.kind == WorldInput::Kind::kPlace) return {};
+  return orders.check(input, robot_guards[input.robot.value()].holds(),
+                      hand_overs.is_under_way(input.robot));
+}
+
 Status Engine::Impl::place(const WorldInput& input) {
   if (host) {
     return refused_order(spec, input, ErrorCode::kState,
@@ -159,8 +169,13 @@ void Engine::set_world_age(Duration age) noexcept { impl_->world_age = age; }
 void Engine::halt() noexcept { impl_->halt(); }
 
 Status Engine::order(const WorldInput& input) {
-  RAVE_TRY(check_order(impl_->spec, input));
+  RAVE_TRY(sim::check_order(impl_->spec, input));
   return impl_->order(input);
+}
+
+Status Engine::check_order(const WorldInput& input) const {
+  RAVE_TRY(sim::check_order(impl_->spec, input));
+  return impl_->may_order(input);
 }
 
 OrderSet Engine::takes(RobotId robot) const noexcept {

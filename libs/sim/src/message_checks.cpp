@@ -186,6 +186,18 @@ Status check_columns(const EngineSpec& spec, const WorldStep& world) {
   return {};
 }
 
+/// What people asked of robots of a host.
+template <class IsTheirs>
+Status check_asked(const EngineSpec& spec, const HostReport& report, IsTheirs is_theirs) {
+  for (const WorldInput& input : report.inputs) {
+    const bool may = input.kind < WorldInput::Kind::kChange || is_order_formed(input);
+    const std::uint32_t robot = input.robot.value();
+    if (may && robot < spec.robots.size() && is_theirs(robot)) continue;
+    return wrong(spec, robot, "an input that its host may not forward");
+  }
+  return {};
+}
+
 Status check_inputs(const EngineSpec& spec, const WorldStep& world) {
   for (const WorldInput& input : world.inputs) {
     using Kind = WorldInput::Kind;
@@ -283,6 +295,7 @@ Status check_report(const EngineSpec& spec, const HostRobots& own,
   for (const PoseReport& pose : report.poses) RAVE_TRY(check_pose(spec, report.step, pose));
   const auto is_theirs = [&](std::uint32_t robot) { return host_of[robot] == report.host; };
   RAVE_TRY(check_samples(spec, report.step, report.samples, is_theirs));
+  RAVE_TRY(check_asked(spec, report, is_theirs));
   return check_sent(spec, report.step, report.sent, is_theirs);
 }
 

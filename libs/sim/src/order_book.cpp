@@ -73,10 +73,9 @@ OrderSet OrderBook::takes(RobotId robot) const {
   return set;
 }
 
-Status OrderBook::take(std::uint64_t step, const WorldInput& input, const GuardHolds& holds,
-                       bool handed_over) {
+Status OrderBook::check(const WorldInput& input, const GuardHolds& holds, bool handed_over) const {
   // A text moves nothing, so a robot that stands may get one.
-  if (input.kind == InputKind::kText) return take_text(step, input);
+  if (input.kind == InputKind::kText) return check_text(input);
   // Refused and not kept: a robot must not begin to drive by an old order when it is released.
   if (holds.stopped) {
     return refused_order(spec_, input, ErrorCode::kState,
@@ -88,40 +87,50 @@ Status OrderBook::take(std::uint64_t step, const WorldInput& input, const GuardH
   if (handed_over) {
     return refused_order(spec_, input, ErrorCode::kState, "it is being handed over");
   }
-  return take_motion(step, input);
-}
-
-Status OrderBook::take_text(std::uint64_t step, const WorldInput& input) {
-  const RobotGroup& group = roster_.group_of(input.robot);
-  if (!takes_by_program(group, roster_.member_of(input.robot), OrderKind::kText)) {
-    return refused_order(spec_, input, ErrorCode::kInvalidArgument, "its program takes no texts");
-  }
-  robots_[input.robot.value()].wait_for_program(input);
-  log_.note_order(step, input, EventKind::kOrdered);
+  RAVE_TRY(taker(input));
   return {};
 }
 
-Status OrderBook::take_motion(std::uint64_t step, const WorldInput& input) {
+Status OrderBook::take(std::uint64_t step, const WorldInput& input, const GuardHolds& holds,
+                       bool handed_over) {
+  RAVE_TRY(check(input, holds, handed_over));
+  if (input.kind == InputKind::kText) {
+    robots_[input.robot.value()].wait_for_program(input);
+    log_.note_order(step, input, EventKind::kOrdered);
+    return {};
+  }
+  RAVE_TRY_ASSIGN(const auto controller, taker(input));
+  if (controller) {
+    give_to_controller(step, input, *controller);
+  } else {
+    give_to_program(step, input);
+  }
+  return {};
+}
+
+Status OrderBook::check_text(const WorldInput& input) const {
+  const RobotGroup& group = roster_.group_of(input.robot);
+  if (takes_by_program(group, roster_.member_of(input.robot), OrderKind::kText)) return {};
+  return refused_order(spec_, input, ErrorCode::kInvalidArgument, "its program takes no texts");
+}
+
+Result<std::optional<std::uint32_t>> OrderBook::taker(const WorldInput& input) const {
   const RobotGroup& group = roster_.group_of(input.robot);
   const std::size_t m = roster_.member_of(input.robot);
   const bool drive = input.kind == InputKind::kDrive;
   // The program first: it knows about its task what a controller does not.
   if (!drive && takes_by_program(group, m, order_kind(input.kind))) {
-    give_to_program(step, input);
-    return {};
+    return std::optional<std::uint32_t>();
   }
   if (input.kind == InputKind::kPath) {
     return refused_order(spec_, input, ErrorCode::kInvalidArgument, "its program takes no paths");
   }
   const auto controller =
       controller_for(group, m, drive ? CommandKind::kVelocity : CommandKind::kGoal);
-  if (!controller) {
-    return refused_order(spec_, input, ErrorCode::kInvalidArgument,
-                         drive ? "none of its controllers takes a velocity that an actuator obeys"
-                               : "neither its program nor one of its controllers takes goals");
-  }
-  give_to_controller(step, input, *controller);
-  return {};
+  if (controller) return controller;
+  return refused_order(spec_, input, ErrorCode::kInvalidArgument,
+                       drive ? "none of its controllers takes a velocity that an actuator obeys"
+                             : "neither its program nor one of its controllers takes goals");
 }
 
 void OrderBook::give_to_program(std::uint64_t step, const WorldInput& input) {

@@ -73,6 +73,9 @@ class OrderBook {
   /// not move), kInvalidArgument (the robot does not take it).
   Status take(std::uint64_t step, const WorldInput& input, const GuardHolds& holds,
               bool handed_over);
+  /// Whether take() would; errors as there.
+  [[nodiscard]] Status check(const WorldInput& input, const GuardHolds& holds,
+                             bool handed_over) const;
   /// Ends what was asked of the robot of `input`, or of all if it has none.
   void cancel(std::uint64_t step, const WorldInput& input);
   /// Ends what was asked of one, without a note. False: there was nothing.
@@ -89,8 +92,9 @@ class OrderBook {
   void steer(const OrderMoment& moment);
 
  private:
-  Status take_text(std::uint64_t step, const WorldInput& input);
-  Status take_motion(std::uint64_t step, const WorldInput& input);
+  [[nodiscard]] Status check_text(const WorldInput& input) const;
+  /// The controller that carries out an order to move; none: the program does.
+  [[nodiscard]] Result<std::optional<std::uint32_t>> taker(const WorldInput& input) const;
   void give_to_program(std::uint64_t step, const WorldInput& input);
   void give_to_controller(std::uint64_t step, const WorldInput& input, std::uint32_t controller);
   void tell_cancelled(const WorldInput& input, OrderedRobot& robot);

@@ -23,7 +23,8 @@ struct WorldAuthority::Impl {
   void take_over(const WorldStep& world);
   void put_refusal_texts(std::uint64_t in_step);
   void make_changes(WorldStep& world);
-  void do_input(WorldInput& input, WorldStep& world);
+  void take_inputs(WorldStep& world);
+  Status do_input(WorldInput& input, WorldStep& world);
   Status change_body(RobotId robot, std::span<const ParameterChange> changes, const Author& author,
                      WorldStep& world);
   Status change_obstacle(const ObstacleChange& change, const Author& author, WorldStep& world);

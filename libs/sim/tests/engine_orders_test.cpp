@@ -1,28 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <limits>
 
-#include "order_programs.hpp"
-#include "split_run.hpp"
+#include "orders_world.hpp"
 
 namespace rave::sim::testing {
 namespace {
 
 using Kind = WorldInput::Kind;
-
-EngineSpec small_world() {
-  EngineSpec spec;
-  spec.world.obstacles.push_back(box({4, 0, 0}, 0.2, 4, 1, "wall"));
-  add_robot(spec, listener_type(), {0, 0, 0});
-  add_robot(spec, driver_type(), {0, 2, 0});
-  add_robot(spec, goal_type(), {0, -2, 0});
-  return spec;
-}
-
-constexpr RobotId kListener(0);
-constexpr RobotId kDriver(1);
-constexpr RobotId kGoalGetter(2);
-
-std::string why(const Status& status) { return status ? "" : status.error().message; }
 
 TEST(EngineOrders, ADriveTakesThePlaceOfTheProgram) {
   const auto engine = make_engine(small_world());
@@ -198,6 +182,9 @@ TEST(EngineOrders, ARefusedOrderLeavesEverythingAsItWas) {
   const auto refused = [&](const std::string& text, const WorldInput& input) {
     EXPECT_EQ(untouched([&](Engine& engine) {
                 const Status status = engine.order(input);
+                if (input.kind != Kind::kPlace) {
+                  EXPECT_EQ(why(engine.check_order(input)), why(status));
+                }
                 ASSERT_FALSE(status) << text;
                 EXPECT_NE(status.error().message.find(text), std::string::npos)
                     << status.error().message;
@@ -261,76 +248,6 @@ TEST(EngineOrders, AResetForgetsThem) {
   EXPECT_EQ(engine->order_of(kDriver), "");
   run(*engine, 50);
   EXPECT_EQ(engine->hash(), plain);
-}
-
-/// What people ask in the run below, by step.
-std::vector<std::pair<int, WorldInput>> orders_of_a_day() {
-  WorldInput path = order(Kind::kPath, kListener);
-  path.order.points_W = {{1, 0}, {1, 1}};
-  WorldInput again = drive(kDriver, 0.2, -0.5);
-  again.author.name = "bert";
-  return {{5, drive(kDriver, 0.5, 0.3)},
-          {9, drive(kDriver, 0.4, 0.3)},
-          {12, goal(kGoalGetter, {1, -1.5})},
-          {12, path},
-          {15, place(kListener, {2, 1}, 0.5)},
-          {15, words(kListener, "hello")},
-          {20, again},
-          {25, order(Kind::kCancel, kDriver)},
-          {30, order(Kind::kCancel, RobotId())}};
-}
-
-TEST(EngineOrders, HostsGiveTheSameRunAsOneProcess) {
-  constexpr int kLast = 60;
-  const auto day = orders_of_a_day();
-  const auto alone = make_engine(small_world());
-  std::vector<RunHash> hashes;
-  for (int k = 0; k < kLast; ++k) {
-    for (const auto& [step, input] : day) {
-      if (step != k) continue;
-      const Status given = alone->order(input);
-      ASSERT_TRUE(given) << given.error().text();
-    }
-    run(*alone, 1);
-    hashes.push_back(alone->hash());
-  }
-  for (const std::vector<std::uint32_t>& hosts :
-       {std::vector<std::uint32_t>{0, 0, 0}, {0, 1, 0}, {2, 1, 0}}) {
-    SplitRun split(small_world, hosts);
-    for (int k = 0; k < kLast; ++k) {
-      // The world of step k + 1 is made at the end of step k.
-      for (const auto& [step, input] : day) {
-        if (step != k + 1) continue;
-        const auto asked = split.authority->ask(input);
-        ASSERT_TRUE(asked) << asked.error().text();
-      }
-      ASSERT_TRUE(split.advance());
-      ASSERT_EQ(split.hash(), hashes[static_cast<std::size_t>(k)]) << "step " << k;
-      EXPECT_TRUE(split.authority->refusals().empty());
-    }
-  }
-}
-
-TEST(EngineOrders, WhatAHostRefusesChangesNothing) {
-  SplitRun plain(small_world, {0, 1, 1});
-  SplitRun asked(small_world, {0, 1, 1});
-  const auto wall = asked.authority->ask(place(kListener, {4, 0}));
-  ASSERT_TRUE(wall) << "only the step that does it looks for room";
-  const auto deaf = asked.authority->ask(words(kDriver, "hello"));
-  ASSERT_TRUE(deaf) << "only its host knows its program";
-  EXPECT_FALSE(asked.authority->ask(goal(kListener, {1e9, 0})));
-  std::vector<std::string> refusals;
-  for (int k = 0; k < 10; ++k) {
-    ASSERT_TRUE(plain.advance());
-    ASSERT_TRUE(asked.advance());
-    for (const InputRefusal& refusal : asked.authority->refusals()) {
-      refusals.push_back(refusal.text);
-    }
-  }
-  EXPECT_EQ(asked.hash(), plain.hash());
-  ASSERT_EQ(refusals.size(), 2U);
-  EXPECT_NE(refusals[0].find("it would overlap `wall`"), std::string::npos) << refusals[0];
-  EXPECT_NE(refusals[1].find("its program takes no texts"), std::string::npos) << refusals[1];
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
 
 #include "engine_fixture.hpp"
@@ -55,6 +56,7 @@ class SplitRun {
       if (!status) ADD_FAILURE() << status.error().text();
       order.push_back(&reports[h]);
     }
+    if (asks) asks(reports);
     // In another order each time.
     std::rotate(order.begin(), order.begin() + static_cast<long>(shift++ % order.size()),
                 order.end());
@@ -93,6 +95,8 @@ class SplitRun {
   std::vector<std::unique_ptr<Engine>> hosts;
   std::vector<HostReport> reports;
   WorldStep world;
+  /// Adds to the reports what people have asked of the hosts; may be empty.
+  std::function<void(std::vector<HostReport>&)> asks;
   std::vector<const HostReport*> order;
   std::size_t shift = 0;
 };

@@ -133,6 +133,7 @@ std::vector<TableCell> row_of(const RobotView& robot) {
   return {{fitted(name, kLongestName)},
           {fitted(robot.team, kLongestName)},
           {fitted(robot.host, kLongestName)},
+          {fitted(robot.driver, kLongestName)},
           {kind},
           state_cell(robot),
           cell(robot.age_s, time_text),
@@ -143,11 +144,11 @@ std::vector<TableCell> row_of(const RobotView& robot) {
 
 Table robots_table(const RunView& view) {
   Table table;
-  table.columns = {column("ROBOT", Align::kLeft, 100),   column("TEAM", Align::kLeft, 35),
-                   column("ON HOST", Align::kLeft, 60),  column("KIND", Align::kLeft, 50),
-                   column("STATE", Align::kLeft, 90),    column("AGE", Align::kRight, 80),
-                   column("RATE /s", Align::kRight, 70), column("X m", Align::kRight, 45),
-                   column("Y m", Align::kRight, 40)};
+  table.columns = {column("ROBOT", Align::kLeft, 100),  column("TEAM", Align::kLeft, 35),
+                   column("ON HOST", Align::kLeft, 60), column("DRIVER", Align::kLeft, 55),
+                   column("KIND", Align::kLeft, 50),    column("STATE", Align::kLeft, 90),
+                   column("AGE", Align::kRight, 80),    column("RATE /s", Align::kRight, 70),
+                   column("X m", Align::kRight, 45),    column("Y m", Align::kRight, 40)};
   for (const RobotView& robot : view.robots) table.rows.push_back(row_of(robot));
   return table;
 }

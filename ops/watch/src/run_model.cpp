@@ -231,7 +231,8 @@ void RunModel::hear(const bus::RosterEntry& entry) {
     if (described_ >= kMostRobots) return;
     ++described_;
   }
-  process.roster[entry.robot] = {entry.name, entry.team, entry.kind != rave_wire_ROBOT_REAL};
+  process.roster[entry.robot] = {entry.name, entry.team, entry.kind != rave_wire_ROBOT_REAL,
+                                 entry.driver};
 }
 
 void RunModel::forget_rosters_of_the_gone(std::uint64_t but) {

@@ -261,6 +261,7 @@ void RunModel::tell_robots(const std::set<std::uint32_t>& hosts, RunView& view,
       host = told->second.host;
       robot.name = told->second.robot->name;
       robot.team = told->second.robot->team;
+      robot.driver = told->second.robot->driver;
       robot.simulated = told->second.robot->simulated;
     }
     if (host) robot.host = name(*host);

@@ -51,6 +51,7 @@ Json json_of(const RobotView& robot) {
   json["name"] = known(robot.name);
   json["team"] = known(robot.team);
   json["host"] = known(robot.host);
+  json["driver"] = known(robot.driver);
   json["simulated"] = known(robot.simulated);
   json["stale"] = robot.stale;
   json["age_s"] = known(robot.age_s);

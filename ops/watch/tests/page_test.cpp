@@ -142,6 +142,10 @@ TEST(Page, RobotsHaveATableOfTheirOwn) {
   EXPECT_NE(text.find("ROBOT  TEAM  ON HOST  STATE    AGE\n#7     blue  left     stale  2.5 s\n"),
             std::string::npos)
       << text;
+  view.robots[0].driver = "anna";
+  const std::string driven = text_of(render_page(view, {80, 0, false, ""}));
+  EXPECT_NE(driven.find("ON HOST  DRIVER  STATE"), std::string::npos) << driven;
+  EXPECT_NE(driven.find("left     anna    stale"), std::string::npos) << driven;
 }
 
 }  // namespace

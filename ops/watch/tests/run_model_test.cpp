@@ -261,6 +261,16 @@ TEST_F(RunModelTest, RobotsHaveTheNamesThatTheirHostsSay) {
   EXPECT_EQ(json["robots"][1]["age_s"], nullptr);
 }
 
+TEST_F(RunModelTest, WhoDrivesIsSeen) {
+  bus::RosterEntry entry = entry_of(2, 0, 0, "anna");
+  bus::put_text(entry.driver, "lisa");
+  model_.hear(entry);
+  EXPECT_EQ(model_.view(0, true).robots.at(0).driver, "lisa");
+  EXPECT_EQ(nlohmann::json::parse(to_json(model_.view(0, true)))["robots"][0]["driver"], "lisa");
+  model_.hear(entry_of(2, 0, 0, "anna"));
+  EXPECT_EQ(nlohmann::json::parse(to_json(model_.view(0, true)))["robots"][0]["driver"], nullptr);
+}
+
 TEST_F(RunModelTest, AHandOverIsSeen) {
   model_.hear(process_of(2, 1, 100), 0, 0);
   for (const std::uint32_t robot : {0U, 1U, 2U}) model_.hear(entry_of(2, robot, 0, "anna"));

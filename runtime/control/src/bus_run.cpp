@@ -46,6 +46,7 @@ Result<Answer> read_answer(std::string_view line) {
   RAVE_TRY_ASSIGN(Answer answer, parse_answer(line));
   answer.text = plain(answer.text);
   answer.status.scenario = plain(answer.status.scenario);
+  answer.status.run = plain(answer.status.run);
   answer.status.waits_for = plain(answer.status.waits_for);
   for (runtime::RunStatus::Robot& robot : answer.status.robots) {
     robot.name = plain(robot.name);

@@ -107,6 +107,11 @@ Result<std::string> hand_over(sim::Engine& engine, RobotId robot, const RunReque
 
 }  // namespace
 
+Status check_order_now(const sim::Engine& engine, const sim::WorldInput& input) {
+  RAVE_TRY(engine.check_order(input));
+  return check_pose(engine, input);
+}
+
 Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request) {
   RobotId robot;
   if (!request.robot.empty()) {

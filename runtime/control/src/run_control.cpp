@@ -144,13 +144,20 @@ void RunControl::begin(RunStatus status) {
 }
 
 void RunControl::serve(const Serve& serve, const std::function<void(RunStatus&)>& refresh) {
+  serve_or_keep([&serve](const Asked& one) { return serve(one.request()); }, refresh);
+}
+
+void RunControl::serve_or_keep(const ServeOrKeep& serve,
+                               const std::function<void(RunStatus&)>& refresh) {
   std::vector<Asked> asked = take();
   if (asked.empty()) return;
   // The answers are sent after the status has been updated, so that both agree.
-  std::vector<Result<std::string>> answers;
-  for (const Asked& one : asked) answers.push_back(serve(one.request()));
+  std::vector<std::optional<Result<std::string>>> answers;
+  for (Asked& one : asked) answers.push_back(serve(one));
   this->refresh(refresh);
-  for (std::size_t i = 0; i < asked.size(); ++i) asked[i].answer(std::move(answers[i]));
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (answers[i]) asked[i].answer(*std::move(answers[i]));
+  }
 }
 
 std::vector<RunControl::Asked> RunControl::take() {

@@ -134,6 +134,7 @@ Json status_json(const runtime::RunStatus& status) {
       {"pace", status.pace},         {"live", status.live},   {"paused", status.paused},
       {"robots", Json::array()}};
   if (status.lateness) json["lateness"] = lateness_json(*status.lateness);
+  if (!status.run.empty()) json["run"] = status.run;
   if (!status.waits_for.empty()) json["waits_for"] = status.waits_for;
   for (const runtime::RunStatus::Robot& robot : status.robots) {
     json["robots"].push_back({{"name", robot.name},
@@ -158,6 +159,7 @@ bool read_status(const Json& json, runtime::RunStatus& status) {
               read_number(json, "pace", status.pace) && read_bool(json, "live", status.live) &&
               read_bool(json, "paused", status.paused) && json.contains("robots") &&
               json.at("robots").is_array();
+  if (good && json.contains("run")) good = read_text(json, "run", status.run);
   if (good && json.contains("waits_for")) good = read_text(json, "waits_for", status.waits_for);
   if (!good) return false;
   if (json.contains("lateness")) {

@@ -12,7 +12,7 @@ namespace {
 class BusRequestsTest : public ::testing::Test {
  protected:
   void begin(bool live) {
-    runtime::RunStatus status{"tests", 0, 10, 1, live, false, false, {}, {}};
+    runtime::RunStatus status{"tests", "", 0, 10, 1, live, false, false, {}, {}};
     status.robots.push_back({"anna", true, true, false});
     control_.begin(std::move(status));
   }

@@ -247,6 +247,7 @@ TEST(Protocol, AnswersComeBackAsTheyWere) {
   answer.status.sim_s = 1.25;
   answer.status.lateness = {1000, 60, 2.5, 1.25, "decide"};
   answer.status.waits_for = "left and right";
+  answer.status.run = "0123456789abcdef";
   answer.status.robots = {{"a", true, true, false}, {"b", false, false, true}};
   const auto read = parse_answer(write_answer(answer));
   ASSERT_TRUE(read);
@@ -255,6 +256,7 @@ TEST(Protocol, AnswersComeBackAsTheyWere) {
   EXPECT_EQ(read->status.sim_s, 1.25);
   EXPECT_EQ(read->status.lateness, answer.status.lateness);
   EXPECT_EQ(read->status.waits_for, "left and right");
+  EXPECT_EQ(read->status.run, "0123456789abcdef");
   ASSERT_EQ(read->status.robots.size(), 2U);
   EXPECT_EQ(read->status.robots[1].name, "b");
   EXPECT_TRUE(read->status.robots[1].stopped);

@@ -31,7 +31,7 @@ class ServerTest : public ::testing::Test {
 
   /// Something that goes on and serves requests as a run does.
   void run(runtime::RunControl& control) {
-    control.begin({"tests", 0, 10, 1, false, false, false, {}, {{"anna", true, true, false}}});
+    control.begin({"tests", "", 0, 10, 1, false, false, false, {}, {{"anna", true, true, false}}});
     begun_ = true;
     while (control.wait_for_turn([&] { serve(control); }) && !done_) {
       serve(control);
@@ -128,7 +128,7 @@ TEST_F(ServerTest, AHostAloneIsWhatIsMeant) {
 
 TEST(RunControlLater, ARunMayAnswerWhenItHasComeToIt) {
   runtime::RunControl control;
-  control.begin({"tests", 0, 10, 1, false, false, false, {}, {}});
+  control.begin({"tests", "", 0, 10, 1, false, false, false, {}, {}});
   const std::stop_token woken = control.asked();
   EXPECT_FALSE(woken.stop_requested());
   std::string answer;
@@ -146,7 +146,7 @@ TEST(RunControlLater, ARunMayAnswerWhenItHasComeToIt) {
 
 TEST(RunControlLater, WhoIsNeverAnsweredIsTold) {
   runtime::RunControl control;
-  control.begin({"tests", 0, 10, 1, false, false, false, {}, {}});
+  control.begin({"tests", "", 0, 10, 1, false, false, false, {}, {}});
   const std::stop_token woken = control.asked();
   std::string answer;
   std::thread asker([&] { answer = control.ask({}).error().message; });

@@ -13,11 +13,6 @@ namespace {
 
 constexpr auto kLookForRun = std::chrono::milliseconds(50);
 
-/// In lock-step the manager accepts orders, in real time each host does so for its robots.
-bool has_the_say(const runtime::RunStatus& status, const std::string& host) {
-  return host == kManagerHost ? !status.live : !status.follows;
-}
-
 /// Used only by the thread of the beacon.
 struct BeaconEnds {
   std::unique_ptr<bus::Bus> bus;
@@ -49,12 +44,6 @@ struct LineBeacon::Impl {
 
   void work(const std::stop_token& stop) {
     if (!wait_for_run(stop)) return;
-    // A process that must not announce its line needs no bus connection for it.
-    if (!has_the_say(control.status(), host)) {
-      log.info("line", "`{}` offers no direct line: another process takes the orders of this run",
-               host);
-      return;
-    }
     auto ends = open_ends(config);
     const Status told = ends ? tell(*ends) : Status(tl::unexpected(ends.error()));
     if (!told) {

@@ -162,7 +162,6 @@ void LineBook::welcome(std::uint64_t id, Line& line, Ticket ticket) {
     close(other, kReplaced, "the page opened another line");
   }
   line.ticket = std::move(ticket);
-  follows_ = control_.status().follows;
   ++counts_.welcomed;
   if (options_.log != nullptr) {
     options_.log->info("line", "{} has connected as {}", line.who(), line.ticket->role);
@@ -216,10 +215,6 @@ Result<std::vector<runtime::RunRequest>> LineBook::covered(const Ticket& ticket,
 }
 
 void LineBook::take(std::uint64_t id, Line& line, const OrderMessage& order) {
-  if (follows_) {
-    return answer(id, order.id, false,
-                  "this host runs in lock-step: send orders to the environment manager");
-  }
   auto requests = covered(*line.ticket, order.request);
   if (!requests) {
     ++counts_.refused_orders;
@@ -309,7 +304,6 @@ void LineBook::tell_state() {
       lines_, [](const auto& entry) { return entry.second.ticket.has_value(); });
   if (!anybody) return;
   const runtime::RunStatus status = control_.status();
-  follows_ = status.follows;
   for (auto& [id, line] : lines_) {
     if (line.closing || !line.ticket) continue;
     LineJson leases = LineJson::object();

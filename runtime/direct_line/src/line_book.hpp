@@ -66,7 +66,6 @@ class LineBook {
   std::map<std::uint64_t, Line> lines_;
   std::map<std::string, std::uint64_t, std::less<>> epochs_;  ///< By person.
   web::RateLimit refusals_;
-  bool follows_ = false;      ///< The run of this process accepts no orders; its manager does.
   std::uint64_t untold_ = 0;  ///< Refusals omitted from the log because there were too many.
   LineCounts counts_;
 };

@@ -154,7 +154,7 @@ TEST_F(LinesOnBus, AHostThatEndsIsTakenBackAndANewOneIsFound) {
   EXPECT_EQ(lines->hosts()[0].url, server->url());
 }
 
-TEST_F(LinesOnBus, InLockStepTheManagerHasTheLineAndAHostRefusesOrders) {
+TEST_F(LinesOnBus, AHostInLockStepHasALineAsAnyOther) {
   runtime::RunStatus follows;
   follows.scenario = "test";
   follows.follows = true;
@@ -162,24 +162,23 @@ TEST_F(LinesOnBus, InLockStepTheManagerHasTheLineAndAHostRefusesOrders) {
   control_.begin(follows);
   const auto server = line("left");
   const auto told = beacon("left", *server);
-  runtime::RunControl of_manager;
-  runtime::RunStatus steps;
-  steps.scenario = "test";
-  of_manager.begin(steps);
-  const auto manager = line(kManagerHost);
-  const auto told_of_manager = LineBeacon::start(bus_, kManagerHost, *manager, of_manager, log_);
-  auto lines =
-      lines_on_bus(bus_, [](const std::string&) { return std::vector<std::string>{"r1"}; });
-  ASSERT_TRUE(lines) << lines.error().text();
-  ASSERT_TRUE(comes_true([&] { return !(*lines)->hosts().empty(); }));
-  ASSERT_EQ((*lines)->hosts().size(), 1U);
-  EXPECT_EQ((*lines)->hosts()[0].host, kManagerHost);
+  const auto lines = gui();
+  ASSERT_TRUE(comes_true([&] { return lines->hosts().size() == 1; }));
   RawSocket anna = page_at(*server, 5);
   ASSERT_NE(anna.text_with("\"welcome\""), "");
-  anna.send(R"({"type":"order","id":1,"kind":"stop","robot":"r1"})");
-  EXPECT_NE(anna.text_with("\"answer\"").find("send orders to the environment manager"),
-            std::string::npos);
-  of_manager.end();
+  anna.send(R"({"type":"order","id":1,"kind":"cancel","robot":"r1"})");
+  std::string asked;
+  ASSERT_TRUE(comes_true([&] {
+    control_.serve(
+        [&asked](const runtime::RunRequest& request) -> Result<std::string> {
+          asked = request.robot;
+          return std::string("done here");
+        },
+        [](runtime::RunStatus&) {});
+    return !asked.empty();
+  }));
+  EXPECT_EQ(asked, "r1");
+  EXPECT_NE(anna.text_with("\"answer\"").find("done here"), std::string::npos);
 }
 
 }  // namespace

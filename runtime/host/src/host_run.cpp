@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host_session.hpp"
+#include "input_post.hpp"
 #include "rave/base/file.hpp"
 #include "rave/control/world_request.hpp"
 #include "rave/protocol/host_port.hpp"
@@ -17,14 +18,35 @@ using lock_step::HostPort;
 
 /// For another manager of a run that lost its own while this process stood still.
 constexpr Duration kAfterStandstill = from_seconds(10);
+/// How often it is looked whether who drives is still heard, while a step is waited for.
+constexpr std::chrono::milliseconds kDriveLook{10};
+
+/// Above all that an earlier process of this host has used.
+std::uint64_t unique_number() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(
+      std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+}
 
 /// The environment manager has the world: a report goes there, and the world of the next step comes
 /// back.
 class SteppedExchange final : public HostExchange {
  public:
   SteppedExchange(RunSession& run, HostPort& port, const HostSetup& host)
-      : run_(run), port_(port), host_(host), account_(host.scenario, run.engine.spec()) {
+      : run_(run),
+        port_(port),
+        host_(host),
+        account_(host.scenario, run.engine.spec()),
+        post_(run.engine, host.slot.number, unique_number(), &run.console) {
     report_.host = host.slot.number;
+    run.forwarder = &post_;
+    run.observers.forward_to(&post_);
+  }
+  SteppedExchange(const SteppedExchange&) = delete;
+  SteppedExchange& operator=(const SteppedExchange&) = delete;
+  ~SteppedExchange() override {
+    run_.observers.forward_to(nullptr);
+    run_.forwarder = nullptr;
   }
 
   Result<bool> begin() override {
@@ -38,7 +60,7 @@ class SteppedExchange final : public HostExchange {
   }
   void step_done() override {
     look_back(run_, obstacle_events(world_));
-    keep_roster(port_.roster(), run_.engine, world_.resized, run_.console);
+    keep_roster(port_.roster(), run_.engine, run_.observers, world_.resized, run_.console);
     account_.after_step(run_.engine);
     port_.show(run_.engine, host_.slot.robots);
   }
@@ -56,12 +78,14 @@ class SteppedExchange final : public HostExchange {
  private:
   Status propose();
   Result<HostPort::Answer> exchange();
+  void serve();
   void note_gap();
 
   RunSession& run_;
   HostPort& port_;
   const HostSetup& host_;
   WorldAccount account_;
+  InputPost post_;
   sim::HostReport report_;
   sim::WorldStep world_;
   bool came_to_end_ = false;
@@ -72,15 +96,33 @@ Status SteppedExchange::propose() {
   Status status = run_.engine.propose(report_);
   // The others shall know why.
   if (!status) port_.farewell(report_, run_.engine.hash().value());
+  // What this host refuses of the step that is done it says in this report.
+  if (post_.settle(report_.refusals)) port_.serve();
+  post_.put(report_);
   return status;
 }
 
+/// Somebody may have asked for something, or fallen silent.
+void SteppedExchange::serve() {
+  serve_requests(run_);
+  post_.put(report_);
+}
+
 Result<HostPort::Answer> SteppedExchange::exchange() {
-  return port_.exchange(report_, run_.engine.hash().value(), world_, [this] {
-    serve_requests(run_);
+  const auto meanwhile = [this] {
     look_on_while_held(run_);
+    serve();
+    post_.put_off(port_.waits_for(), report_.step, InputPost::Clock::now());
+    tell_roster(port_.roster(), run_.engine, run_.observers, run_.console);
     return run_.stopping();
-  });
+  };
+  const auto look = [this] {
+    HostPort::Look next;
+    if (run_.observers.drives()) next.within = kDriveLook;
+    if (run_.options.control != nullptr) next.asked = run_.options.control->asked();
+    return next;
+  };
+  return port_.exchange(report_, run_.engine.hash().value(), world_, meanwhile, look);
 }
 
 /// The run went on without this host.
@@ -88,12 +130,14 @@ void SteppedExchange::note_gap() {
   std::string text =
       fmt::format("was not there from step {} to step {}", report_.step, world_.step);
   run_.console.warn("host", "{}; its robots continue where they stand", text);
+  // Orders of people are for the moment in which they are given.
+  post_.drop("the run went on without the host of the robot");
   run_.problems.push_back(std::move(text));
   joined_at_ = world_.step;
 }
 
 Result<bool> SteppedExchange::await_turn() {
-  serve_requests(run_);
+  serve();
   run_.stopped = run_.stopping();
   if (run_.stopped) return false;
   RAVE_TRY_ASSIGN(const HostPort::Answer answer, exchange());
@@ -101,6 +145,7 @@ Result<bool> SteppedExchange::await_turn() {
   run_.ended = answer == HostPort::Answer::kEnded;
   if (answer != HostPort::Answer::kWorld) return false;
   account_.take(world_, port_.authority());
+  post_.take(world_);
   if (world_.step > report_.step) note_gap();
   came_to_end_ = world_.last;
   if (came_to_end_) return false;
@@ -114,6 +159,7 @@ Result<bool> SteppedExchange::await_turn() {
 
 /// Changes what the engine shows of robots.
 void SteppedExchange::complete(RunFacts& facts) {
+  post_.drop("the run has ended");
   facts.first_step = joined_at_;
   // A manager that took over does not know what was before.
   if (port_.changed_hands()) {
@@ -143,8 +189,9 @@ Result<HostOutcome> run_stepped_host(const HostSetup& host, BuiltScenario& built
   HostPort::Patience patience{options.manager_patience, {}};
   // Under the others a run may have gone on, and ended, while this process stood still.
   if (file.on_lost_host != config::LostHost::kWait) patience.after_standstill = kAfterStandstill;
-  RAVE_TRY_ASSIGN(const auto port, HostPort::open(options.bus, std::move(self), &host.console,
-                                                  patience, options.begin_request));
+  RAVE_TRY_ASSIGN(const auto port,
+                  HostPort::open(options.bus, std::move(self), &host.console, patience,
+                                 options.begin_request, options.on_command));
   port->word().describe(file.name.value, steps_of(file), file.step_s.value);
   introduce_robots(port->roster(), engine->spec(), host.slot.robots, host.console);
   const auto make = [&](RunSession& run, const BusFace& /*face*/) {

@@ -123,7 +123,7 @@ void introduce_robots(lock_step::Roster& roster, const sim::EngineSpec& spec,
   }));
 }
 
-void keep_roster(lock_step::Roster& roster, const sim::Engine& engine,
+void keep_roster(lock_step::Roster& roster, const sim::Engine& engine, ObserverList& observers,
                  std::span<const sim::ResizedRobot> resized, LogSink& log) {
   const auto note = [&](RobotId robot) {
     if (robot.valid() && engine.is_local(robot)) roster.note(robot);
@@ -134,15 +134,27 @@ void keep_roster(lock_step::Roster& roster, const sim::Engine& engine,
     }
   }
   for (const sim::ResizedRobot& robot : resized) note(robot.robot);
+  tell_roster(roster, engine, observers, log);
+}
+
+void tell_roster(lock_step::Roster& roster, const sim::Engine& engine, ObserverList& observers,
+                 LogSink& log) {
+  for (const RobotId robot : observers.take_leased()) roster.note(robot);
   if (!roster.due()) return;
+  const auto driver = [&](RobotId robot) -> lock_step::Roster::Driver {
+    const auto [name, page] = observers.holder(engine.spec().robots[robot.value()].name);
+    return {name, page};
+  };
   warn(log,
-       roster.tell(engine.spec(), [&](RobotId robot) { return present_values(engine, robot); }));
+       roster.tell(
+           engine.spec(), [&](RobotId robot) { return present_values(engine, robot); }, driver));
 }
 
 Result<HostOutcome> run_session(const HostSetup& host, sim::Engine& engine, bus::Bus& bus,
                                 const MakeExchange& make, std::function<void()>& on_step_done) {
   const bool live = !host.built.live_reason.empty();
   RunOptions options = host.options.run;
+  options.run_id = host.options.bus.run.text();
   // In real time a manager tells of obstacles itself.
   RAVE_TRY_ASSIGN(
       const auto face,

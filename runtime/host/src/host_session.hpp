@@ -64,8 +64,11 @@ void introduce_robots(lock_step::Roster& roster, const sim::EngineSpec& spec,
 
 /// Whoever looks on is told what robots have become in the last step. `resized`: who has another
 /// size in it, robots of other hosts too.
-void keep_roster(lock_step::Roster& roster, const sim::Engine& engine,
+void keep_roster(lock_step::Roster& roster, const sim::Engine& engine, ObserverList& observers,
                  std::span<const sim::ResizedRobot> resized, LogSink& log);
+/// The same of who drives them, at any time.
+void tell_roster(lock_step::Roster& roster, const sim::Engine& engine, ObserverList& observers,
+                 LogSink& log);
 
 /// run_host() when all is there: observers, the loop, and what it leaves. `bus` and `engine`
 /// outlive the call; the engine calls `on_step_done`, which is set here.

@@ -33,7 +33,6 @@ ObserverList::~ObserverList() { console_.attach(nullptr); }
 
 Result<std::unique_ptr<ObserverList>> ObserverList::open(const Parts& parts) {
   std::unique_ptr<ObserverList> list(new ObserverList(parts));
-  list->follows_ = !parts.host.empty() && !parts.live;
   RAVE_TRY(list->open_all(parts));
   return list;
 }
@@ -107,7 +106,15 @@ Result<std::string> ObserverList::place(const sim::Engine& engine, const RunRequ
   return order_answer(request);
 }
 
-Result<std::string> ObserverList::make_input(sim::Engine& engine, const RunRequest& request) {
+Result<std::string> ObserverList::make_input(sim::Engine& engine, const RunRequest& request,
+                                             bool awaited) {
+  // It is an input when the authority says so, and is noted then.
+  if (forwarder_ != nullptr && InputForwarder::is_for(request.kind)) {
+    auto answer = forwarder_->give(request);
+    const auto given = forwarder_->take_given();
+    if (awaited) given_ = given;
+    return answer;
+  }
   const bool places = request.kind == RunRequest::Kind::kPlace && place_;
   auto answer = places ? place(engine, request) : serve_request(engine, request);
   const bool asks = request.kind == RunRequest::Kind::kList;
@@ -123,16 +130,26 @@ Result<std::string> ObserverList::serve(sim::Engine& engine, const RunRequest& r
     if (record_) record_->say(request, engine.steps_done());
     return std::string(record_ ? "added to the recording" : "there is no recording");
   }
-  if (!OrderDesk::is_for(request.kind)) return make_input(engine, request);
-  if (follows_ && request.kind != RunRequest::Kind::kRelease) {
+  given_.reset();
+  return OrderDesk::is_for(request.kind) ? serve_order(engine, request)
+                                         : make_input(engine, request, true);
+}
+
+Result<std::string> ObserverList::serve_order(sim::Engine& engine, const RunRequest& request) {
+  if (forwarder_ != nullptr && request.kind == RunRequest::Kind::kHandOver) {
     return fail(ErrorCode::kState,
-                "hosts in lock-step get orders from their environment manager: send orders there");
+                "hosts in lock-step cannot hand a robot over; run it in one process or in real "
+                "time");
   }
   if (!request.robot.empty()) RAVE_TRY(check_here(engine, request.robot));
   had_orders_ = true;
   auto answer = desk_.serve(
-      request, [&](const RunRequest& asked) { return make_input(engine, asked); },
-      [&engine](const std::string& robot) { return is_driven(engine, robot); },
+      request,
+      // The desk also ends orders of others, which nobody asked for with this.
+      [&](const RunRequest& asked) { return make_input(engine, asked, &asked == &request); },
+      [&](const std::string& robot) {
+        return forwarder_ != nullptr ? forwarder_->is_driven(robot) : is_driven(engine, robot);
+      },
       OrderDesk::Time::clock::now());
   note_leases(engine);
   return answer;
@@ -140,7 +157,7 @@ Result<std::string> ObserverList::serve(sim::Engine& engine, const RunRequest& r
 
 void ObserverList::tick(sim::Engine& engine) {
   if (!desk_.waits()) return;
-  desk_.tick([&](const RunRequest& asked) { return make_input(engine, asked); },
+  desk_.tick([&](const RunRequest& asked) { return make_input(engine, asked, false); },
              OrderDesk::Time::clock::now());
   note_leases(engine);
 }
@@ -151,6 +168,7 @@ void ObserverList::note_leases(const sim::Engine& engine) {
     if (!robot) continue;
     new_leases_.push_back(
         {engine.steps_done(), *robot, sim::EventKind::kLease, BodyId(), lease_text(change)});
+    leased_.insert(*robot);
   }
 }
 

@@ -113,6 +113,7 @@ RunSession::RunSession(sim::Engine& of, ObserverList& all, WallPace& clock,
   if (how.control == nullptr) return;
   RunStatus status;
   status.scenario = run.name.value;
+  status.run = how.run_id;
   status.duration_s = run.duration_s;
   status.pace = live ? 1 : run.pace.factor;
   status.live = live;
@@ -146,9 +147,14 @@ Status go_through(RunSession& run, WorldExchange& exchange) {
 void serve_requests(RunSession& run) {
   if (run.options.control == nullptr) return;
   run.observers.tick(run.engine);
-  run.options.control->serve(
-      [&run](const RunRequest& request) { return run.observers.serve(run.engine, request); },
-      [&run](RunStatus& status) { refresh(run, status); });
+  const auto serve = [&run](RunControl::Asked& asked) -> std::optional<Result<std::string>> {
+    auto answer = run.observers.serve(run.engine, asked.request());
+    const auto given = run.observers.take_given();
+    if (!answer || !given || run.forwarder == nullptr) return answer;
+    run.forwarder->await(*given, std::move(asked), *std::move(answer));
+    return std::nullopt;
+  };
+  run.options.control->serve_or_keep(serve, [&run](RunStatus& status) { refresh(run, status); });
 }
 
 void look_on_while_held(RunSession& run) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "rave/host/input_forwarder.hpp"
 #include "rave/host/observer_list.hpp"
 #include "rave/pace/late_watch.hpp"
 #include "rave/pace/stall_watch.hpp"
@@ -44,7 +45,9 @@ struct RunSession {
   ConsoleTee& console;
   const bool live;
   const std::uint64_t steps;  ///< Of the run.
-  const bool has_twins;       ///< Its status changes though nobody asks for anything.
+  /// Where another process numbers the inputs: set by the exchange, which owns it; else null.
+  InputForwarder* forwarder = nullptr;
+  const bool has_twins;  ///< Its status changes though nobody asks for anything.
   LateWatch late;
   StallWatch watch;
   std::uint64_t first = 0;  ///< The step with which this process began.

@@ -12,7 +12,6 @@ struct BusEndpoint::Parts {
   bus::Reader<bus::HostInfo> infos;
   bus::Reader<bus::RosterEntry> roster;
   std::unique_ptr<bus::RequestBox> requests;
-  std::unique_ptr<bus::CommandBox> commands;
   lock_step::Pulse pulse;
   lock_step::HostResultsCollector host_results;
 };
@@ -26,15 +25,13 @@ BusEndpoint::BusEndpoint(Parts parts)
       infos_(std::move(parts.infos)),
       roster_(std::move(parts.roster)),
       requests_(std::move(parts.requests)),
-      commands_(std::move(parts.commands)),
       pulse_(std::move(parts.pulse)),
       host_results_(std::move(parts.host_results)),
       introduced_(lock_step::introduction(identity_)) {}
 
 Result<std::unique_ptr<BusEndpoint>> BusEndpoint::open(const bus::BusConfig& config,
                                                        lock_step::Identity identity, LogSink* log,
-                                                       bus::BeginRequest begin_request,
-                                                       bus::OnCommand on_command) {
+                                                       bus::BeginRequest begin_request) {
   bus::BusConfig own = config;
   // The manager has a partition and reserved ports of its own, so hosts of a large run need to look
   // for it alone.
@@ -45,18 +42,16 @@ Result<std::unique_ptr<BusEndpoint>> BusEndpoint::open(const bus::BusConfig& con
   RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
   RAVE_TRY_ASSIGN(auto roster, bus::Reader<bus::RosterEntry>::create(*bus));
   RAVE_TRY_ASSIGN(auto requests, bus::RequestBox::create(*bus, std::move(begin_request), log));
-  RAVE_TRY_ASSIGN(auto commands, bus::CommandBox::create(*bus, std::move(on_command)));
   RAVE_TRY_ASSIGN(auto pulse, lock_step::Pulse::create(*bus, identity));
   RAVE_TRY_ASSIGN(auto host_results, lock_step::HostResultsCollector::create(*bus));
-  return std::unique_ptr<BusEndpoint>(new BusEndpoint(
-      {std::move(identity), log, std::move(bus), std::move(states), std::move(own_info),
-       std::move(infos), std::move(roster), std::move(requests), std::move(commands),
-       std::move(pulse), std::move(host_results)}));
+  return std::unique_ptr<BusEndpoint>(
+      new BusEndpoint({std::move(identity), log, std::move(bus), std::move(states),
+                       std::move(own_info), std::move(infos), std::move(roster),
+                       std::move(requests), std::move(pulse), std::move(host_results)}));
 }
 
 Status BusEndpoint::wake(bus::WaitSet& waits) {
   RAVE_TRY(host_results_.wake(waits));
-  if (commands_) RAVE_TRY(commands_->wake(waits));
   return requests_ ? requests_->wake(waits) : Status();
 }
 

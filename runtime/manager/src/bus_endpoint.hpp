@@ -12,7 +12,6 @@
 #include "manager_habits.hpp"
 #include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
-#include "rave/bus/command_box.hpp"
 #include "rave/bus/event_log.hpp"
 #include "rave/bus/request_box.hpp"
 #include "rave/bus/standstill.hpp"
@@ -27,13 +26,12 @@ namespace rave::manager {
 /// The endpoint of a manager whose run is on the bus. Belongs to one thread.
 class BusEndpoint final : public ManagerEndpoint {
  public:
-  /// `begin_request` and `on_command` may be empty; then nobody on the bus can make requests or
-  /// drive robots. `log` is not owned and may be null. Errors: those of bus::Bus::open().
+  /// `begin_request` may be empty; then nobody on the bus can make requests. `log` is not owned and
+  /// may be null. Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<BusEndpoint>> open(const bus::BusConfig& config,
                                                                  lock_step::Identity identity,
                                                                  LogSink* log,
-                                                                 bus::BeginRequest begin_request,
-                                                                 bus::OnCommand on_command);
+                                                                 bus::BeginRequest begin_request);
 
   /// The bus, for the topics that only one kind of run has.
   [[nodiscard]] bus::Bus& bus() noexcept { return *bus_; }
@@ -54,7 +52,6 @@ class BusEndpoint final : public ManagerEndpoint {
 
   void serve_requests() override {
     if (requests_) requests_->serve();
-    if (commands_) commands_->serve();
   }
   Result<std::vector<std::uint64_t>> look_at_processes(bool begun) override;
   bool is_second() const override { return second_; }
@@ -95,7 +92,6 @@ class BusEndpoint final : public ManagerEndpoint {
   bus::Reader<bus::HostInfo> infos_;
   bus::Reader<bus::RosterEntry> roster_;
   std::unique_ptr<bus::RequestBox> requests_;  ///< May be null.
-  std::unique_ptr<bus::CommandBox> commands_;  ///< May be null.
   lock_step::Pulse pulse_;
   lock_step::HostResultsCollector host_results_;
   bus::HostInfo introduced_;  ///< What this process tells the others about itself.

@@ -72,6 +72,7 @@ void LiveEdits::begin(bool takes_over) {
   if (options_.control == nullptr) return;
   runtime::RunStatus status;
   status.scenario = options_.scenario;
+  status.run = options_.bus.run.text();
   status.duration_s = options_.duration.seconds();
   status.live = true;
   for (const auto& robot : options_.robots) {

@@ -69,7 +69,7 @@ class LiveOnBus final : public LiveEndpoint {
 
 Result<std::unique_ptr<LiveEndpoint>> LiveEndpoint::open(const LiveManagerOptions& options) {
   RAVE_TRY_ASSIGN(auto endpoint, BusEndpoint::open(options.bus, options.identity, options.log,
-                                                   options.begin_request, {}));
+                                                   options.begin_request));
   bus::Bus& bus = endpoint->bus();
   RAVE_TRY_ASSIGN(auto worlds, bus::Writer<bus::World>::create(bus));
   RAVE_TRY_ASSIGN(auto pongs, bus::Writer<bus::ClockPong>::create(bus));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "rave/bus/sequence.hpp"
 #include "rave/control/order_words.hpp"
@@ -63,7 +64,8 @@ std::optional<std::string> RosterBook::hear(const bus::RosterEntry& entry, std::
   const bool room =
       books_.size() < host_names_.size() + kMoreBooks || books_.contains(entry.writer);
   if (room || entry.writer == serving) {
-    books_[entry.writer][entry.robot] = {entry.kind == rave_wire_ROBOT_SIMULATED, entry.takes};
+    books_[entry.writer][entry.robot] = {entry.kind == rave_wire_ROBOT_SIMULATED, entry.takes,
+                                         entry.driver, entry.driver_page};
     news_ = true;
   }
   // A free slot: the process that sent this may take it next.
@@ -96,6 +98,13 @@ OrderSet RosterBook::takes(std::size_t robot, std::uint64_t serving) const {
   return its != nullptr ? its->takes : 0;
 }
 
+std::pair<std::string, std::uint64_t> RosterBook::driver(std::size_t robot,
+                                                         std::uint64_t serving) const {
+  const Said* const its = said(robot, serving);
+  return its != nullptr ? std::pair(its->driver, its->driver_page)
+                        : std::pair(std::string(), std::uint64_t{0});
+}
+
 void read_roster(bus::Reader<bus::RosterEntry>& reader, RosterBook& book, const Serving& serving) {
   reader.take([&](const bus::RosterEntry& entry) {
     if (const auto why = book.hear(entry, serving(entry.host))) reader.refuse(entry, *why);
@@ -110,6 +119,7 @@ void show_kinds(RosterBook& book, const Serving& serving, runtime::RunControl* c
       const std::uint64_t by = serving(book.host_of(r));
       status.robots[r].simulated = book.simulated(r, by);
       runtime::write_takes(book.takes(r, by), status.robots[r].takes);
+      std::tie(status.robots[r].lease, status.robots[r].lease_page) = book.driver(r, by);
     }
   });
 }

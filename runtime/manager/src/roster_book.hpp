@@ -45,6 +45,9 @@ class RosterBook {
   [[nodiscard]] bool simulated(std::size_t robot, std::uint64_t serving) const;
   /// The orders that it accepts, according to that process; none before its entry.
   [[nodiscard]] OrderSet takes(std::size_t robot, std::uint64_t serving) const;
+  /// Who has its command lease, as that process says, and the page; empty: nobody.
+  [[nodiscard]] std::pair<std::string, std::uint64_t> driver(std::size_t robot,
+                                                             std::uint64_t serving) const;
   [[nodiscard]] std::size_t robots() const noexcept { return robots_.size(); }
   /// Whether an entry was added or lost since the last call.
   [[nodiscard]] bool take_news() noexcept { return std::exchange(news_, false); }
@@ -55,6 +58,8 @@ class RosterBook {
   struct Said {
     bool simulated = true;
     OrderSet takes = 0;
+    std::string driver{};
+    std::uint64_t driver_page = 0;
   };
   /// The entries of one process, by robot.
   using Book = std::map<std::uint32_t, Said>;
@@ -76,8 +81,8 @@ using Serving = std::function<std::uint64_t(std::uint32_t host)>;
 /// Processes all entries that have arrived; refused ones are logged.
 void read_roster(bus::Reader<bus::RosterEntry>& reader, RosterBook& book, const Serving& serving);
 
-/// Updates the status of the run with the present reality of robots, if that has changed. `control`
-/// has begun and shows all robots by id; may be null.
+/// Updates the status of the run with the present reality and drivers of robots, if they have
+/// changed. `control` has begun and shows all robots by id; may be null.
 void show_kinds(RosterBook& book, const Serving& serving, runtime::RunControl* control);
 
 }  // namespace rave::manager

@@ -91,11 +91,9 @@ Status SteppedOnBus::write(const std::vector<HostSlot>& slots) {
 Result<std::unique_ptr<SteppedEndpoint>> SteppedEndpoint::open(const bus::BusConfig& config,
                                                                lock_step::Identity identity,
                                                                LogSink* log,
-                                                               bus::BeginRequest begin_request,
-                                                               bus::OnCommand on_command) {
+                                                               bus::BeginRequest begin_request) {
   RAVE_TRY_ASSIGN(auto endpoint,
-                  BusEndpoint::open(config, std::move(identity), log, std::move(begin_request),
-                                    std::move(on_command)));
+                  BusEndpoint::open(config, std::move(identity), log, std::move(begin_request)));
   bus::Bus& bus = endpoint->bus();
   RAVE_TRY_ASSIGN(auto worlds, bus::Writer<bus::WorldStep>::create(bus));
   RAVE_TRY_ASSIGN(auto reports, bus::Reader<bus::HostReport>::create(bus));

@@ -13,7 +13,6 @@
 #include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
 #include "rave/base/time.hpp"
-#include "rave/bus/command_box.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/bus/request_book.hpp"
 #include "rave/protocol/introduction.hpp"
@@ -28,11 +27,11 @@ class SteppedEndpoint {
  public:
   using Visit = std::function<void(const bus::HostReport&)>;
 
-  /// `begin_request` and `on_command` may be empty; then nobody on the bus can make requests.
-  /// Errors: those of bus::Bus::open().
+  /// `begin_request` may be empty; then nobody on the bus can make requests. Errors: those of
+  /// bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<SteppedEndpoint>> open(
       const bus::BusConfig& config, lock_step::Identity identity, LogSink* log,
-      bus::BeginRequest begin_request, bus::OnCommand on_command);
+      bus::BeginRequest begin_request);
   virtual ~SteppedEndpoint() = default;
 
   /// Sleeps until a message arrives, the time has passed or `stop` is set.

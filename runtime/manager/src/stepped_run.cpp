@@ -36,7 +36,7 @@ SteppedRun::SteppedRun(const ManagerOptions& options,
       authority_(std::move(authority)),
       board_(std::move(board)),
       slots_(make_slots(options.hosts)),
-      requests_(options.control, options.log),
+      requests_(options.control, options.log, options.hosts),
       claims_(static_cast<std::uint32_t>(options.hosts.size())),
       roster_(planned_robots(authority_->spec()), options.hosts),
       lateness_(period_of(authority_->spec(), options.pace)) {
@@ -210,6 +210,7 @@ Status SteppedRun::resend() {
 runtime::RunStatus SteppedRun::first_status() const {
   runtime::RunStatus status;
   status.scenario = options_.scenario;
+  status.run = options_.bus.run.text();
   status.duration_s = static_cast<double>(options_.steps) * authority_->spec().step.seconds();
   status.pace = options_.pace;
   return status;

@@ -130,13 +130,22 @@ Status SteppedRun::hear(const bus::HostReport& message) {
     }
     return {};
   }
-  if (slot.reported && begun_) return {};  // it was sent twice
-  lock_step::read(message, heard_);
+  // It was sent twice, or once more with what somebody has asked of the host since.
+  const bool again = slot.reported && begun_;
+  if (again && message.inputs._length <= slot.report.inputs.size()) return {};
+  if (const Status was_read = lock_step::read(message, heard_); !was_read) {
+    board_->refuse(message, was_read.error().message);
+    return {};
+  }
   // What the authority cannot use is no reason to end the run of the others. Before the run begins
   // it does not know yet which step comes next.
   if (const Status usable = begun_ || message.step == 0 ? authority_->check(heard_) : Status{};
       !usable) {
     board_->refuse(message, usable.error().text());
+    return {};
+  }
+  if (again) {
+    std::swap(slot.report.inputs, heard_.inputs);
     return {};
   }
   std::swap(slot.report, heard_);

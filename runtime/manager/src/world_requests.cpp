@@ -10,7 +10,6 @@
 #include "rave/control/order_words.hpp"
 #include "rave/control/world_request.hpp"
 #include "rave/protocol/step_messages.hpp"
-#include "rave/sim/orders.hpp"
 
 namespace rave::manager {
 namespace {
@@ -19,8 +18,6 @@ using runtime::RunRequest;
 
 /// Who asks is told that it will take a while after this.
 constexpr std::chrono::seconds kRequestPatience{1};
-/// The order of a robot that somebody drives, as engines call it.
-constexpr std::string_view kDriven = "drive";
 
 std::string from_step(const sim::WorldAuthority& authority, std::uint64_t step) {
   const double at_s = static_cast<double>(step) * authority.spec().step.seconds();
@@ -37,7 +34,6 @@ std::string done_text(const RunRequest& request) {
     case RunRequest::Kind::kArm:
       return "armed " + whom;
     default:
-      if (runtime::is_order(request.kind)) return runtime::order_answer(request);
       return fmt::format("{}: {}: {}", whom, request.key, request.value);
   }
 }
@@ -59,8 +55,6 @@ void WorldRequests::begin(const sim::WorldAuthority& authority, runtime::RunStat
   const sim::EngineSpec& spec = authority.spec();
   stopped_.assign(spec.robots.size(), 0);
   will_be_stopped_ = stopped_;
-  orders_.assign(spec.robots.size(), {});
-  order_numbers_.assign(spec.robots.size(), 0);
   if (control_ == nullptr) return;
   for (const sim::RobotSpec& robot : spec.robots) {
     status.robots.push_back({robot.name, spec.types[robot.type].simulated, true, false});
@@ -118,16 +112,6 @@ bool WorldRequests::note_stop(const sim::WorldInput& input, std::vector<std::uin
 
 void WorldRequests::listen(sim::WorldAuthority& authority) {
   if (!begun_) return;
-  // Leases expire with time, also if no request arrives.
-  if (desk_.waits()) {
-    desk_.tick(
-        [&](const RunRequest& request) -> Result<std::string> {
-          RAVE_TRY(pass_on(request, authority));
-          return std::string();
-        },
-        runtime::OrderDesk::Time::clock::now());
-    tell_leases();
-  }
   for (runtime::RunControl::Asked& asked : control_->take()) take(std::move(asked), authority);
 }
 
@@ -140,66 +124,35 @@ void WorldRequests::take(runtime::RunControl::Asked asked, sim::WorldAuthority& 
     control_->keep_said(asked.request());
     return asked.answer(std::string("added to the recording"));
   }
-  if (runtime::OrderDesk::is_for(asked.request().kind)) {
-    return take_order(std::move(asked), authority);
+  if (const Status here = check_for_hosts(asked.request(), authority); !here) {
+    return asked.answer(fail(here.error().code, "{}", here.error().message));
   }
   const auto number = pass_on(asked.request(), authority);
   if (!number) return asked.answer(fail(number.error().code, "{}", number.error().message));
   using Kind = RunRequest::Kind;
   const Kind kind = asked.request().kind;
   const bool obstacle = kind == Kind::kAdd || kind == Kind::kMove || kind == Kind::kRemove;
-  requests_.push_back(
-      {std::move(asked), *number, obstacle, false, false, std::chrono::steady_clock::now()});
+  requests_.push_back({std::move(asked), *number, obstacle, std::chrono::steady_clock::now()});
 }
 
-void WorldRequests::take_order(runtime::RunControl::Asked asked, sim::WorldAuthority& authority) {
-  const RunRequest request = asked.request();
-  if (!request.robot.empty()) {
-    const auto robot = runtime::find_robot(authority.spec(), request.robot);
-    // The desk knows leases by name only, so an unknown robot must not get one.
-    if (!robot) return asked.answer(fail(robot.error().code, "{}", robot.error().message));
+Status WorldRequests::check_for_hosts(const RunRequest& request,
+                                      const sim::WorldAuthority& authority) const {
+  using Kind = RunRequest::Kind;
+  const bool of_lease = request.kind == Kind::kTake || request.kind == Kind::kGive;
+  // The terminal and super-users release a robot whoever drives it.
+  const bool releases = request.kind == Kind::kRelease && !request.by.empty() && !request.overrides;
+  if (!runtime::is_order(request.kind) && !of_lease && !releases) return {};
+  if (request.robot.empty()) {
+    return fail(ErrorCode::kState, "`{}` is for the hosts of the robots, which keep their leases",
+                runtime::to_string(request.kind));
   }
-  std::uint64_t number = 0;
-  auto answer = desk_.serve(
-      request,
-      [&](const RunRequest& input) -> Result<std::string> {
-        RAVE_TRY_ASSIGN(number, pass_on(input, authority));
-        return std::string();
-      },
-      [&](const std::string& robot) { return is_driven(authority, robot); },
-      runtime::OrderDesk::Time::clock::now());
-  tell_leases();
-  // What ends with a lease that changes hands is nobody's request.
-  const bool of_lease =
-      request.kind == RunRequest::Kind::kTake || request.kind == RunRequest::Kind::kGive;
-  if (!answer || number == 0 || of_lease) return asked.answer(std::move(answer));
-  requests_.push_back({std::move(asked), number, false, runtime::is_order(request.kind), false,
-                       std::chrono::steady_clock::now()});
-}
-
-bool WorldRequests::is_driven(const sim::WorldAuthority& authority, const std::string& name) const {
-  const auto robot = runtime::find_robot(authority.spec(), name);
-  return robot && orders_[robot->value()] == kDriven;
-}
-
-void WorldRequests::tell_leases() {
-  const auto changes = desk_.take_changes();
-  if (changes.empty()) return;
-  for (const runtime::HostLeases::Change& change : changes) {
-    if (log_ != nullptr) {
-      log_->info("robot " + change.robot, "lease: {}", runtime::lease_text(change));
-    }
-  }
-  control_->refresh([this](runtime::RunStatus& status) { show_orders(status); });
-}
-
-void WorldRequests::show_orders(runtime::RunStatus& status) const {
-  for (std::size_t r = 0; r < status.robots.size(); ++r) {
-    runtime::RunStatus::Robot& robot = status.robots[r];
-    robot.lease = desk_.holder(robot.name);
-    robot.lease_page = desk_.page(robot.name);
-    robot.order = orders_[r];
-  }
+  RAVE_TRY_ASSIGN(const RobotId robot, runtime::find_robot(authority.spec(), request.robot));
+  const auto host = std::ranges::find_if(hosts_, [robot](const config::PlannedHost& one) {
+    return std::ranges::find(one.robots, robot.value()) != one.robots.end();
+  });
+  return fail(ErrorCode::kState, "`{}` is for host `{}` of robot `{}`, which keeps its lease",
+              runtime::to_string(request.kind), host != hosts_.end() ? host->name : "?",
+              request.robot);
 }
 
 void WorldRequests::put_off(std::string_view why) {
@@ -220,41 +173,14 @@ void WorldRequests::answer(Pending& pending, Result<std::string> text) {
   pending.asked.answer(std::move(text));
 }
 
-/// What robots do for people, as far as it was asked here.
-void WorldRequests::note_order(const sim::WorldInput& input) {
-  using Kind = sim::WorldInput::Kind;
-  const bool ends = input.kind == Kind::kStop || input.kind == Kind::kCancel;
-  const bool moves =
-      input.kind == Kind::kDrive || input.kind == Kind::kGoal || input.kind == Kind::kPath;
-  if (!ends && !moves) return;
-  for (std::uint32_t r = 0; r < orders_.size(); ++r) {
-    if (input.robot.valid() && input.robot.value() != r) continue;
-    orders_[r] = ends                         ? std::string()
-                 : input.kind == Kind::kDrive ? std::string(kDriven)
-                                              : sim::order_text(input);
-    order_numbers_[r] = input.sequence;
-  }
-}
-
-void WorldRequests::note_inputs(const sim::WorldAuthority& authority, const sim::WorldStep& world) {
+void WorldRequests::note_inputs(const sim::WorldStep& world) {
   bool any = false;
-  // What a host has refused in the step before, its robot does not do.
-  for (const sim::InputRefusal& refusal : authority.refusals()) {
-    for (std::uint32_t r = 0; r < orders_.size(); ++r) {
-      // A later order may have replaced the refused one.
-      if (order_numbers_[r] != refusal.sequence || orders_[r].empty()) continue;
-      orders_[r].clear();
-      any = true;
-    }
-  }
-  for (const sim::WorldInput& input : world.inputs) {
-    note_order(input);
-    any = note_stop(input, stopped_) || any || sim::is_order(input.kind);
-  }
+  for (const sim::WorldInput& input : world.inputs) any = note_stop(input, stopped_) || any;
+  // What hosts forward was not asked here.
+  will_be_stopped_ = stopped_;
   if (!any) return;
   control_->refresh([this](runtime::RunStatus& status) {
     for (std::size_t r = 0; r < status.robots.size(); ++r) status.robots[r].stopped = stopped_[r];
-    show_orders(status);
   });
 }
 
@@ -264,14 +190,11 @@ void WorldRequests::after_step(const sim::WorldAuthority& authority, const sim::
   next_step_ = world.step + 1;
   if (!begun_) return;
   control_->set_time(static_cast<double>(world.step) * authority.spec().step.seconds());
-  if (!world.inputs.empty() || !authority.refusals().empty()) note_inputs(authority, world);
+  if (!world.inputs.empty()) note_inputs(world);
   if (requests_.empty()) return;
   // Those by hand come before those of the scenario, in the order in which they were asked for.
   auto made = world.obstacles.begin();
-  std::vector<Pending> later;
-  for (Pending& pending : requests_) {
-    // A host refuses an order in its next report. So an order is kept for one more step (`told`)
-    // before it counts as accepted.
+  for (Pending& pending : std::exchange(requests_, {})) {
     const auto refusals = authority.refusals();
     const auto refusal = std::find_if(refusals.begin(), refusals.end(), [&](const auto& one) {
       return one.sequence == pending.number;
@@ -280,17 +203,11 @@ void WorldRequests::after_step(const sim::WorldAuthority& authority, const sim::
       answer(pending, fail(ErrorCode::kInvalidArgument, "{}", refusal->text));
       continue;
     }
-    if (pending.order && !std::exchange(pending.told, true)) {
-      later.push_back(std::move(pending));
-      continue;
-    }
     const bool of_obstacle = pending.obstacle && made != world.obstacles.end();
     const std::string done =
         of_obstacle ? made_text(authority, *made++) : done_text(pending.asked.request());
-    const std::uint64_t from = pending.order ? world.step - 1 : world.step;
-    answer(pending, fmt::format("{}; {}", done, from_step(authority, from)));
+    answer(pending, fmt::format("{}; {}", done, from_step(authority, world.step)));
   }
-  requests_ = std::move(later);
 }
 
 }  // namespace rave::manager

@@ -34,6 +34,9 @@ class EngineHost {
   }
   void speak(const SteppedEndpoint::Visit& visit) {
     if (gone || (says && !says(report_.step))) return;
+    spoken = spoken_in_ == report_.step ? spoken + 1 : 1;
+    spoken_in_ = report_.step;
+    if (forwards) report_.inputs = forwards(report_.step);
     const std::uint64_t hash = engine_->hash().value();
     bus::HostReport& message = message_.fill(report_, epoch_, hash);
     message.writer = writer;
@@ -48,7 +51,10 @@ class EngineHost {
 
   std::uint64_t writer;
   std::function<bool(std::uint64_t)> says{};  ///< Whether it says its report of this step now.
-  bool twice = false;                         ///< Says all that it says again, with something else.
+  /// What people have asked of it by now; may be empty.
+  std::function<std::vector<sim::WorldInput>(std::uint64_t)> forwards{};
+  int spoken = 0;      ///< How often it said its report of this step.
+  bool twice = false;  ///< Says all that it says again, with something else.
   bool gone = false;
   bool done = false;  ///< It has had the last world.
 
@@ -57,6 +63,7 @@ class EngineHost {
   sim::HostReport report_;
   lock_step::ReportMessage message_;
   std::uint64_t epoch_ = 0;
+  std::uint64_t spoken_in_ = 0;
 };
 
 /// Carries messages between a manager in lock-step and its hosts, in the thread of the manager.
@@ -94,6 +101,7 @@ class FakeSteppedEndpoint final : public SteppedEndpoint {
   Status send(const sim::WorldStep& world, const sim::AuthorityState& authority,
               const std::vector<HostSlot>& slots) override {
     last_ = {world, authority};
+    for (const sim::InputAnswer& answer : world.answers) answers.emplace_back(world.step, answer);
     deliver(slots);
     return {};
   }
@@ -108,6 +116,7 @@ class FakeSteppedEndpoint final : public SteppedEndpoint {
   std::function<bool(const EngineHost&, std::uint64_t)> loses{};
   std::optional<std::pair<sim::WorldStep, sim::AuthorityState>> handed{};
   std::vector<std::string> refused;
+  std::vector<std::pair<std::uint64_t, sim::InputAnswer>> answers;  ///< By step.
   int resent = 0;
 
  private:

@@ -48,6 +48,19 @@ TEST_F(RosterBookTest, KindsAreThoseThatTheHostSays) {
   EXPECT_TRUE(book_.simulated(0, kLeft));
 }
 
+TEST_F(RosterBookTest, WhoDrivesIsWhomTheHostNames) {
+  using Driver = std::pair<std::string, std::uint64_t>;
+  EXPECT_EQ(book_.driver(0, kLeft), Driver());
+  bus::RosterEntry entry = entry_of(kLeft, 0, 0, "anna");
+  bus::put_text(entry.driver, "lisa");
+  entry.driver_page = 7;
+  EXPECT_EQ(reason(entry, kLeft), "accepted");
+  EXPECT_TRUE(book_.take_news());
+  EXPECT_EQ(book_.driver(0, kLeft), Driver("lisa", 7));
+  EXPECT_EQ(book_.driver(0, kOther), Driver()) << "another process serves the host now";
+  EXPECT_EQ(book_.driver(1, kLeft), Driver());
+}
+
 TEST_F(RosterBookTest, WhatIsNotInTheScenarioIsRefusedOncePerProcess) {
   EXPECT_EQ(reason(entry_of(kLeft, 3, 0, "carl"), kLeft),
             "robot 3 is not one of the 3 of the scenario");

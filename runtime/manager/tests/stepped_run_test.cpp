@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <future>
 
 #include "fake_stepped_endpoint.hpp"
 #include "own_corner.hpp"
@@ -185,6 +186,117 @@ TEST_F(SteppedRunTest, WhoStoodStillItselfGivesNobodyUp) {
   };
   expect_that_of_one_process(go());
   EXPECT_FALSE(lines_.has("has not answered")) << lines_.said();
+}
+
+/// What a person asks of robot 1: a stop.
+std::vector<sim::WorldInput> stop_of_one(std::uint64_t number) {
+  sim::WorldInput stop;
+  stop.sequence = number;
+  stop.author.name = "anna";
+  stop.robot = RobotId(1);
+  return {stop};
+}
+
+class ForwardedInputs : public SteppedRunTest {
+ protected:
+  /// The run is that of one process in which robot 1 was stopped before that step.
+  void expect_stopped_at(const ManagerOutcome& outcome, std::uint64_t step) {
+    const auto alone = make_engine(driving_pair());
+    sim::testing::run(*alone, static_cast<int>(step));
+    alone->stop(RobotId(1), {true, "anna"});
+    sim::testing::run(*alone, static_cast<int>(kAll - step));
+    ASSERT_TRUE(outcome.hash);
+    EXPECT_EQ(*outcome.hash, alone->hash().value()) << lines_.said();
+    ASSERT_EQ(bus_->answers.size(), 1U) << "it is done once";
+    EXPECT_EQ(bus_->answers[0].first, step);
+    EXPECT_EQ(bus_->answers[0].second.host, 1U);
+    EXPECT_EQ(bus_->answers[0].second.asked, 77U);
+    EXPECT_EQ(bus_->answers[0].second.sequence, 1U);
+  }
+};
+
+TEST_F(ForwardedInputs, CountFromTheStepOfTheReport) {
+  hosts_[1].forwards = [](std::uint64_t step) {
+    return step == kMoment ? stop_of_one(77) : std::vector<sim::WorldInput>();
+  };
+  expect_stopped_at(go(), kMoment);
+}
+
+TEST_F(ForwardedInputs, CountAlsoIfTheyComeWhileAnotherHostIsWaitedFor) {
+  hosts_[0].says = [this](std::uint64_t step) { return step != kMoment || hosts_[1].spoken > 3; };
+  hosts_[1].forwards = [this](std::uint64_t step) {
+    const bool asked = step == kMoment && hosts_[1].spoken > 1;
+    return asked ? stop_of_one(77) : std::vector<sim::WorldInput>();
+  };
+  expect_stopped_at(go(), kMoment);
+}
+
+TEST_F(ForwardedInputs, AreTakenFromAHostWithoutItsManagerByTheNext) {
+  begin_with_another_manager();
+  options_.resume = true;
+  hosts_[1].forwards = [](std::uint64_t step) {
+    return step == kMoment ? stop_of_one(77) : std::vector<sim::WorldInput>();
+  };
+  expect_stopped_at(go(), kMoment);
+}
+
+TEST_F(ForwardedInputs, OfARobotOfAnotherHostAreRefusedAndItIsWaitedForTheRightReport) {
+  hosts_[0].forwards = [this](std::uint64_t step) {
+    const bool wrong = step == kMoment && hosts_[0].spoken < 3;
+    return wrong ? stop_of_one(77) : std::vector<sim::WorldInput>();
+  };
+  expect_that_of_one_process(go());
+  ASSERT_FALSE(bus_->refused.empty());
+  EXPECT_NE(bus_->refused[0].find("an input that its host may not forward"), std::string::npos)
+      << bus_->refused[0];
+  EXPECT_TRUE(bus_->answers.empty());
+}
+
+TEST_F(SteppedRunTest, OrdersAreForTheHostOfTheRobotAndStopsAreForAll) {
+  runtime::RunControl control;
+  options_.control = &control;
+  std::vector<std::future<Result<std::string>>> answers;
+  using Kind = runtime::RunRequest::Kind;
+  const auto ask = [&](Kind kind, const std::string& robot, const std::string& by) {
+    runtime::RunRequest request;
+    request.kind = kind;
+    request.robot = robot;
+    request.by = by;
+    auto answer = control.post(request);
+    ASSERT_TRUE(answer);
+    answers.push_back(*std::move(answer));
+  };
+  options_.on_world = [&](const sim::WorldAuthority& authority) {
+    if (authority.next_step() != kMoment + 1) return false;
+    ask(Kind::kDrive, "r1", "anna");
+    ask(Kind::kTake, "r0", "anna");
+    ask(Kind::kCancel, "", "");
+    ask(Kind::kRelease, "r1", "anna");
+    ask(Kind::kStop, "r1", "bert");
+    ask(Kind::kRelease, "r1", "");
+    return false;
+  };
+  run_.emplace(options_, authority_of_pair(), [&] {
+    auto endpoint = std::make_unique<FakeSteppedEndpoint>(hosts_);
+    bus_ = endpoint.get();
+    return endpoint;
+  }());
+  EXPECT_TRUE(go().whole) << lines_.said();
+  const auto text = [](std::future<Result<std::string>>& answer) {
+    const auto said = answer.get();
+    return said ? *said : "refused: " + said.error().message;
+  };
+  ASSERT_EQ(answers.size(), 6U);
+  EXPECT_EQ(text(answers[0]),
+            "refused: `drive` is for host `two` of robot `r1`, which keeps its lease");
+  EXPECT_EQ(text(answers[1]),
+            "refused: `take` is for host `one` of robot `r0`, which keeps its lease");
+  EXPECT_EQ(text(answers[2]),
+            "refused: `cancel` is for the hosts of the robots, which keep their leases");
+  EXPECT_EQ(text(answers[3]),
+            "refused: `release` is for host `two` of robot `r1`, which keeps its lease");
+  EXPECT_EQ(text(answers[4]), "stopped r1; counts from step 8 on, at 0.080 s");
+  EXPECT_EQ(text(answers[5]), "released r1; counts from step 8 on, at 0.080 s");
 }
 
 }  // namespace

@@ -30,6 +30,11 @@ void HostPort::Impl::tell_word(std::uint64_t step) {
   host_word->tell({has_world ? phase : rave_wire_RUN_GATHERS, step, told, true, manager != 0});
 }
 
+void HostPort::Impl::serve() {
+  if (requests) requests->serve();
+  if (commands) commands->serve();
+}
+
 Status HostPort::Impl::send(const sim::HostReport& report, std::uint64_t hash,
                             const sim::WorldStep& last) {
   if (has_world && epoch == 0) {
@@ -99,7 +104,8 @@ HostPort::~HostPort() = default;
 
 Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, Identity identity,
                                                  LogSink* log, Patience patience,
-                                                 bus::BeginRequest begin_request) {
+                                                 bus::BeginRequest begin_request,
+                                                 bus::OnCommand on_command) {
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
   RAVE_TRY_ASSIGN(auto reports, bus::Writer<bus::HostReport>::create(*bus));
   RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
@@ -112,18 +118,20 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
   RAVE_TRY_ASSIGN(auto roster, Roster::create(*bus, identity.host));
   RAVE_TRY_ASSIGN(auto host_results, HostResultsSender::create(*bus));
   RAVE_TRY_ASSIGN(auto requests, bus::RequestBox::create(*bus, std::move(begin_request), log));
+  RAVE_TRY_ASSIGN(auto commands, bus::CommandBox::create(*bus, std::move(on_command)));
   RAVE_TRY(waits.add(worlds));
   RAVE_TRY(waits.add(states));
   RAVE_TRY(waits.add(infos));
   if (requests) RAVE_TRY(requests->wake(waits));
+  if (commands) RAVE_TRY(commands->wake(waits));
   RAVE_TRY(waits.add_events());
   bus::HostInfo info = introduction(identity);
   RAVE_TRY(own_info.write(info));
   std::unique_ptr<Impl> impl(
       new Impl{std::move(identity), log, bus::EventLog(log), std::move(bus), std::move(reports),
                std::move(own_info), std::move(last_worlds), std::move(worlds), std::move(states),
-               std::move(infos), std::move(requests), std::move(waits), std::move(pulse),
-               std::move(roster), std::move(host_results), info, patience});
+               std::move(infos), std::move(requests), std::move(commands), std::move(waits),
+               std::move(pulse), std::move(roster), std::move(host_results), info, patience});
   RAVE_TRY_ASSIGN(auto states_out, bus::Writer<bus::HostState>::create(*impl->bus));
   impl->states_out.emplace(std::move(states_out));
   RAVE_TRY_ASSIGN(auto word, HostWord::create(*impl->bus, impl->self.host, impl->self.name));
@@ -133,12 +141,14 @@ Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, I
 
 Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::uint64_t hash,
                                             sim::WorldStep& world,
-                                            const std::function<bool()>& stopping) {
+                                            const std::function<bool()>& stopping,
+                                            const std::function<Look()>& look) {
   Impl& port = *impl_;
   auto patience = kFirstPatience;
   auto send_at = Clock::now();
+  Look next = look ? look() : Look{.within = kLook};
   // Checked by time, so that constant wake-ups cannot prevent a stop.
-  auto next_stop = Clock::now() + kLook;
+  auto next_stop = Clock::now() + next.within;
   for (;;) {
     port.pulse.beat({report.step});
     port.tell_word(report.step);
@@ -147,8 +157,8 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
       send_at = Clock::now() + patience;
       patience = std::min(2 * patience, kLongestPatience);
     }
-    static_cast<void>(port.waits.wait(bus::left_until(std::min(send_at, next_stop))));
-    if (port.requests) port.requests->serve();
+    static_cast<void>(port.waits.wait(bus::left_until(std::min(send_at, next_stop)), next.asked));
+    port.serve();
     if (port.take_world(report, world)) {
       port.told.clear();
       return Answer::kWorld;
@@ -158,9 +168,16 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
     if (port.unfit) return tl::unexpected(*port.unfit);
     if (port.over) return Answer::kEnded;
     // Checked rarely: usually the answer to a step arrives earlier.
-    if (Clock::now() < next_stop) continue;
+    if (Clock::now() < next_stop && !next.asked.stop_requested()) continue;
+    const std::size_t inputs = report.inputs.size();
     if (stopping()) return Answer::kStopped;
-    next_stop = Clock::now() + kLook;
+    port.serve();
+    next = look ? look() : Look{.within = kLook};
+    next_stop = Clock::now() + next.within;
+    if (report.inputs.size() == inputs) continue;
+    // They are to count from the step that everybody waits for.
+    send_at = Clock::now();
+    patience = kFirstPatience;
   }
 }
 
@@ -187,6 +204,8 @@ void HostPort::show(const sim::Engine& engine, std::span<const RobotId> robots) 
   static_cast<void>(port.states_out->write(message));
 }
 
+void HostPort::serve() { impl_->serve(); }
+const std::string& HostPort::waits_for() const noexcept { return impl_->told; }
 HostWord& HostPort::word() noexcept { return *impl_->host_word; }
 bus::Bus& HostPort::bus() noexcept { return *impl_->bus; }
 Roster& HostPort::roster() noexcept { return impl_->roster; }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "rave/bus/command_box.hpp"
 #include "rave/bus/event_log.hpp"
 #include "rave/bus/request_box.hpp"
 #include "rave/bus/wait_set.hpp"
@@ -39,6 +40,7 @@ struct HostPort::Impl {
   bus::Reader<bus::RunState> states;
   bus::Reader<bus::HostInfo> infos;
   std::unique_ptr<bus::RequestBox> requests;  ///< Null if other processes may not send requests.
+  std::unique_ptr<bus::CommandBox> commands;  ///< The same for commands.
   bus::WaitSet waits;
   Pulse pulse;
   Roster roster;
@@ -80,6 +82,8 @@ struct HostPort::Impl {
   void hear(const RunWord& word);
   void look_at_patience();
   void tell_word(std::uint64_t step);
+  /// Begins what others ask, and answers what is done.
+  void serve();
   Status send(const sim::HostReport& report, std::uint64_t hash, const sim::WorldStep& last);
   Status follow_obstacles(const sim::WorldStep& world, sim::AuthorityState& state);
   [[nodiscard]] bool take_world(const sim::HostReport& report, sim::WorldStep& world);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "input_messages.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <variant>
@@ -125,6 +126,32 @@ Result<sim::WorldInput> from_wire(const rave_wire_WorldInput& wire) {
   return input;
 }
 
+Status InputParts::fill(const std::vector<sim::WorldInput>& inputs) {
+  inputs_.assign(inputs.size(), {});
+  changes_.resize(std::max(changes_.size(), inputs.size()));
+  points_.resize(std::max(points_.size(), inputs.size()));
+  const auto fill_one = [](const sim::WorldInput& input, rave_wire_WorldInput& wire, auto& changes,
+                           auto& points) -> Status {
+    wire.number = input.sequence;
+    wire.kind = static_cast<std::uint8_t>(input.kind);
+    wire.author = input.author.by_hand ? 1 : 0;
+    wire.robot = input.robot.value();
+    changes.resize(input.changes.size());
+    for (std::size_t c = 0; c < input.changes.size(); ++c) {
+      RAVE_TRY(to_wire(input.changes[c], changes[c]));
+    }
+    borrow(wire.changes, changes);
+    return to_wire(input, wire, points);
+  };
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    Status filled = fill_one(inputs[i], inputs_[i], changes_[i], points_[i]);
+    if (filled) continue;
+    inputs_.resize(i);
+    return filled;
+  }
+  return {};
+}
+
 Status check_fits(const sim::WorldInput& input) {
   constexpr std::size_t kMostChanges = 64;
   if (input.changes.size() > kMostChanges) {
@@ -135,7 +162,9 @@ Status check_fits(const sim::WorldInput& input) {
     rave_wire_ParameterChange wire;
     RAVE_TRY(to_wire(change, wire));
   }
-  return {};
+  rave_wire_WorldInput wire{};
+  std::vector<rave_wire_OrderPoint> points;
+  return to_wire(input, wire, points);
 }
 
 }  // namespace rave::lock_step

@@ -116,13 +116,19 @@ Result<Roster> Roster::create(bus::Bus& bus, std::uint32_t host) {
 }
 
 Status Roster::tell(const sim::EngineSpec& spec,
-                    const std::function<NamedValues(RobotId)>& parameters_of) {
+                    const std::function<NamedValues(RobotId)>& parameters_of,
+                    const std::function<Driver(RobotId)>& driver_of) {
   Status wrong;
   while (!due_.empty()) {
     const RobotId robot(*due_.begin());
     bus::RosterEntry& entry = description_.fill(spec, robot, parameters_of(robot));
     entry.host = host_;
     entry.revision = revision_ + 1;
+    if (driver_of) {
+      const Driver driver = driver_of(robot);
+      bus::put_text(entry.driver, without_control_characters(driver.name, " "));
+      entry.driver_page = driver.page;
+    }
     const Status written = writer_.write(entry);
     // A slow reader blocks the writer. The rest stays due and is tried in a later step, so the run
     // never waits.

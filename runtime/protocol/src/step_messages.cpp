@@ -17,6 +17,32 @@ using bus::put_text;
 /// A flag in the kind of an event: it happened in the completed step before that of its world.
 constexpr std::uint32_t kOfStepBefore = 0x8000'0000;
 
+void fill_refusals(const std::vector<sim::InputRefusal>& refusals, std::size_t most,
+                   std::vector<rave_wire_InputRefusal>& wire) {
+  wire.clear();
+  for (const sim::InputRefusal& refusal : refusals) {
+    if (wire.size() == most) break;
+    wire.emplace_back().number = refusal.sequence;
+    put_text(wire.back().text, refusal.text);
+  }
+}
+
+template <class Sequence>
+void read_refusals(const Sequence& wire, std::vector<sim::InputRefusal>& refusals) {
+  for (const rave_wire_InputRefusal& refusal : elements(wire)) {
+    refusals.push_back({refusal.number, refusal.text});
+  }
+}
+
+template <class Sequence>
+Status read_inputs(const Sequence& wire, std::vector<sim::WorldInput>& inputs) {
+  for (const rave_wire_WorldInput& input : elements(wire)) {
+    RAVE_TRY_ASSIGN(auto read_input, from_wire(input));
+    inputs.push_back(std::move(read_input));
+  }
+  return {};
+}
+
 }  // namespace
 
 bus::HostReport& ReportMessage::fill(const sim::HostReport& report, std::uint64_t epoch,
@@ -32,16 +58,11 @@ bus::HostReport& ReportMessage::fill(const sim::HostReport& report, std::uint64_
   lend(message_.proposals.vy_mps, report.proposals.vy_mps);
   lend(message_.proposals.wz_radps, report.proposals.wz_radps);
   fill_parts(report, parts_, message_);
-  refusals_.clear();
-  for (const sim::InputRefusal& refusal : report.refusals) {
-    // Further texts are omitted: the requests are refused anyway, and the texts are only for
-    // people.
-    if (refusals_.size() == rave_wire_kMaxRefusals) break;
-    refusals_.emplace_back();
-    refusals_.back().number = refusal.sequence;
-    put_text(refusals_.back().text, refusal.text);
-  }
+  // Further texts are omitted: the requests are refused anyway, and the texts are only for people.
+  fill_refusals(report.refusals, rave_wire_kMaxRefusals, refusals_);
   borrow(message_.refusals, refusals_);
+  static_cast<void>(inputs_.fill(report.inputs));
+  borrow(message_.inputs, inputs_.inputs());
   return message_;
 }
 
@@ -73,7 +94,9 @@ Result<bus::LastWorld*> WorldMessage::fill(const sim::WorldStep& world,
   RAVE_TRY(fill_authority(authority));
   RAVE_TRY(obstacles_.fill(world.obstacles));
   borrow(message_.obstacles, obstacles_.changes());
-  RAVE_TRY(fill_inputs(world));
+  RAVE_TRY(inputs_.fill(world.inputs));
+  borrow(message_.inputs, inputs_.inputs());
+  fill_answers(world);
   return &message_;
 }
 
@@ -116,29 +139,17 @@ Status WorldMessage::fill_authority(const sim::AuthorityState& authority) {
   return {};
 }
 
-Status WorldMessage::fill_inputs(const sim::WorldStep& world) {
-  inputs_.assign(world.inputs.size(), {});
-  changes_.resize(std::max(changes_.size(), world.inputs.size()));
-  points_.resize(std::max(points_.size(), world.inputs.size()));
-  for (std::size_t i = 0; i < world.inputs.size(); ++i) {
-    const sim::WorldInput& input = world.inputs[i];
-    rave_wire_WorldInput& wire = inputs_[i];
-    wire.number = input.sequence;
-    wire.kind = static_cast<std::uint8_t>(input.kind);
-    wire.author = input.author.by_hand ? 1 : 0;
-    wire.robot = input.robot.value();
-    changes_[i].resize(input.changes.size());
-    for (std::size_t c = 0; c < input.changes.size(); ++c) {
-      RAVE_TRY(to_wire(input.changes[c], changes_[i][c]));
-    }
-    borrow(wire.changes, changes_[i]);
-    RAVE_TRY(to_wire(input, wire, points_[i]));
+void WorldMessage::fill_answers(const sim::WorldStep& world) {
+  answers_.clear();
+  for (const sim::InputAnswer& answer : world.answers) {
+    answers_.push_back({answer.host, answer.asked, answer.sequence});
   }
-  borrow(message_.inputs, inputs_);
-  return {};
+  borrow(message_.answers, answers_);
+  fill_refusals(world.refusals, rave_wire_kMaxInputs, refusals_);
+  borrow(message_.refusals, refusals_);
 }
 
-void read(const bus::HostReport& message, sim::HostReport& report) {
+Status read(const bus::HostReport& message, sim::HostReport& report) {
   report.begin(message.step);
   report.host = message.host;
   report.state = static_cast<sim::HostState>(message.state);
@@ -148,9 +159,8 @@ void read(const bus::HostReport& message, sim::HostReport& report) {
   take(message.proposals.vy_mps, report.proposals.vy_mps);
   take(message.proposals.wz_radps, report.proposals.wz_radps);
   read_parts(message, report);
-  for (const rave_wire_InputRefusal& refusal : elements(message.refusals)) {
-    report.refusals.push_back({refusal.number, refusal.text});
-  }
+  read_refusals(message.refusals, report.refusals);
+  return read_inputs(message.inputs, report.inputs);
 }
 
 namespace {
@@ -237,11 +247,11 @@ Status read(const bus::WorldStep& message, sim::WorldStep& world, sim::Authority
   read_parts(message, world);
   RAVE_TRY(read_authority(message.authority, message.step, authority));
   RAVE_TRY(read_obstacles(message.obstacles, world.obstacles));
-  for (const rave_wire_WorldInput& input : elements(message.inputs)) {
-    RAVE_TRY_ASSIGN(auto read_input, from_wire(input));
-    world.inputs.push_back(std::move(read_input));
+  for (const rave_wire_InputAnswer& answer : elements(message.answers)) {
+    world.answers.push_back({answer.host, answer.asked, answer.number});
   }
-  return {};
+  read_refusals(message.refusals, world.refusals);
+  return read_inputs(message.inputs, world.inputs);
 }
 
 }  // namespace rave::lock_step

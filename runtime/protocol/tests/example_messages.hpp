@@ -40,6 +40,29 @@ inline void add_packets(sim::SentPackets& sent) {
   }
 }
 
+inline std::vector<sim::WorldInput> example_orders() {
+  sim::WorldInput path;
+  path.sequence = 6;
+  path.kind = sim::WorldInput::Kind::kPath;
+  path.author.name = "anna";
+  path.robot = RobotId(0);
+  path.order.points_W = {{1, 2}, {-3.5, 1e-3}};
+  path.order.yaw_rad = 0.75;
+  path.order.speed_mps = 0.125;
+  sim::WorldInput words;
+  words.sequence = 7;
+  words.kind = sim::WorldInput::Kind::kText;
+  words.robot = RobotId(2);
+  words.order.text = "hello";
+  sim::WorldInput drive;
+  drive.sequence = 8;
+  drive.kind = sim::WorldInput::Kind::kDrive;
+  drive.robot = RobotId(2);
+  drive.order.v_mps = -0.5;
+  drive.order.w_radps = 1.5;
+  return {path, words, drive};
+}
+
 inline sim::HostReport example_report() {
   sim::HostReport report;
   report.host = 2;
@@ -51,6 +74,7 @@ inline sim::HostReport example_report() {
   report.poses = {example_pose(2), example_pose(5)};
   report.samples = {{RobotId(5), SimTime{800}, {1, 2, 3}}, {RobotId(5), SimTime{900}, {4, 5, 6}}};
   report.refusals = {{3, "there is no such parameter"}};
+  report.inputs = example_orders();
   return report;
 }
 
@@ -82,26 +106,11 @@ inline sim::WorldStep example_world() {
   change.changes = {{Part::kProgram, 0, "speed_mps", 0.4},
                     {Part::kController, 1, "mode", std::string("fast")},
                     {Part::kActuator, 2, "gains", std::vector<double>{1, 2, 3}}};
-  sim::WorldInput path;
-  path.sequence = 6;
-  path.kind = sim::WorldInput::Kind::kPath;
-  path.author.name = "anna";
-  path.robot = RobotId(0);
-  path.order.points_W = {{1, 2}, {-3.5, 1e-3}};
-  path.order.yaw_rad = 0.75;
-  path.order.speed_mps = 0.125;
-  sim::WorldInput words;
-  words.sequence = 7;
-  words.kind = sim::WorldInput::Kind::kText;
-  words.robot = RobotId(2);
-  words.order.text = "hello";
-  sim::WorldInput drive;
-  drive.sequence = 8;
-  drive.kind = sim::WorldInput::Kind::kDrive;
-  drive.robot = RobotId(2);
-  drive.order.v_mps = -0.5;
-  drive.order.w_radps = 1.5;
-  world.inputs = {stop, change, path, words, drive};
+  world.inputs = {stop, change};
+  const auto orders = example_orders();
+  world.inputs.insert(world.inputs.end(), orders.begin(), orders.end());
+  world.answers = {{2, 1'700'000'000'000'000'001, 6}, {2, 9, 7}};
+  world.refusals = {{7, "there is no room"}};
   sim::ObstacleChange crate;
   crate.id = BodyId(9);
   crate.name = "crate";

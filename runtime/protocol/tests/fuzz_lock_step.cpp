@@ -17,7 +17,7 @@ void receive_report(std::span<const std::byte> bytes, bool swapped) {
   bus::testing::Decoded<bus::HostReport> decoded;
   if (!decoded.decode(bytes, swapped) || !bus::validate(decoded.sample())) return;
   sim::HostReport report;
-  lock_step::read(decoded.sample(), report);
+  if (!lock_step::read(decoded.sample(), report)) return;
   // What was read can be sent again.
   lock_step::ReportMessage message;
   static_cast<void>(message.fill(report, 1, 2));

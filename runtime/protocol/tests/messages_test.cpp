@@ -66,6 +66,27 @@ void put(std::string& text, const std::vector<sim::ObstacleChange>& changes) {
   }
 }
 
+void put(std::string& text, const std::vector<sim::InputRefusal>& refusals) {
+  for (const sim::InputRefusal& refusal : refusals) {
+    text += fmt::format("refusal {} {} ", refusal.sequence, refusal.text);
+  }
+}
+
+void put(std::string& text, const std::vector<sim::WorldInput>& inputs) {
+  for (const sim::WorldInput& input : inputs) {
+    text += fmt::format("input {} {} {} {} {} ", input.sequence, static_cast<int>(input.kind),
+                        input.author.by_hand, input.author.name, input.robot.value());
+    for (const Vec2 p_W : input.order.points_W) text += bits(p_W.x) + bits(p_W.y);
+    text += input.order.yaw_rad ? bits(*input.order.yaw_rad) : "none ";
+    text += bits(input.order.v_mps) + bits(input.order.w_radps) + bits(input.order.speed_mps) +
+            input.order.text;
+    for (const sim::ParameterChange& change : input.changes) {
+      text += fmt::format("{} {} {} {} ", static_cast<int>(change.part), change.index, change.name,
+                          sim::to_string(change.value));
+    }
+  }
+}
+
 std::string text_of(const sim::HostReport& report) {
   std::string text = fmt::format("{} {} {} {} ", report.host, report.step,
                                  static_cast<int>(report.state), report.text);
@@ -76,9 +97,8 @@ std::string text_of(const sim::HostReport& report) {
   put(text, report.sent);
   put(text, report.poses);
   put(text, report.samples);
-  for (const sim::InputRefusal& refusal : report.refusals) {
-    text += fmt::format("refusal {} {} ", refusal.sequence, refusal.text);
-  }
+  put(text, report.refusals);
+  put(text, report.inputs);
   return text;
 }
 
@@ -104,18 +124,11 @@ std::string text_of(const sim::WorldStep& world) {
   put(text, world.samples);
   put(text, world.sent);
   put(text, world.obstacles);
-  for (const sim::WorldInput& input : world.inputs) {
-    text += fmt::format("input {} {} {} {} {} ", input.sequence, static_cast<int>(input.kind),
-                        input.author.by_hand, input.author.name, input.robot.value());
-    for (const Vec2 p_W : input.order.points_W) text += bits(p_W.x) + bits(p_W.y);
-    text += input.order.yaw_rad ? bits(*input.order.yaw_rad) : "none ";
-    text += bits(input.order.v_mps) + bits(input.order.w_radps) + bits(input.order.speed_mps) +
-            input.order.text;
-    for (const sim::ParameterChange& change : input.changes) {
-      text += fmt::format("{} {} {} {} ", static_cast<int>(change.part), change.index, change.name,
-                          sim::to_string(change.value));
-    }
+  put(text, world.inputs);
+  for (const sim::InputAnswer& answer : world.answers) {
+    text += fmt::format("answer {} {} {} ", answer.host, answer.asked, answer.sequence);
   }
+  put(text, world.refusals);
   return text;
 }
 
@@ -153,7 +166,8 @@ TEST(Messages, AReportComesThroughToTheBit) {
   EXPECT_EQ(decoded.sample().epoch, 6U);
   EXPECT_EQ(decoded.sample().hash, 77U);
   sim::HostReport again = example_report();  // what was there before leaves no trace
-  read(decoded.sample(), again);
+  const Status was_read = read(decoded.sample(), again);
+  ASSERT_TRUE(was_read) << was_read.error().message;
   EXPECT_EQ(text_of(again), text_of(report));
 }
 
@@ -207,8 +221,30 @@ TEST(Messages, WhatTheBusCannotCarryIsRefusedBeforeItIsAsked) {
   EXPECT_TRUE(check_fits(input));
   input.changes[0].name = std::string(129, 'n');
   EXPECT_FALSE(check_fits(input));
+  input.author.name = std::string(200, 'n');
+  input.changes.clear();
+  EXPECT_FALSE(check_fits(input)) << "nor a name";
+  input.author.name.clear();
   input.changes.assign(65, {sim::ParameterChange::Part::kProgram, 0, "a", 1.0});
   EXPECT_FALSE(check_fits(input));
+}
+
+TEST(Messages, AReportThatNobodyCouldUseIsRefused) {
+  const auto refusal = [](auto&& spoil) {
+    const sim::HostReport report = example_report();
+    ReportMessage message;
+    bus::HostReport sample = message.fill(report, 6, 77);
+    sample.writer = 1;
+    spoil(sample);
+    if (const Status valid = bus::validate(sample); !valid) return valid.error().message;
+    sim::HostReport again;
+    const Status was_read = read(sample, again);
+    return was_read ? std::string() : was_read.error().message;
+  };
+  EXPECT_EQ(refusal([](bus::HostReport&) {}), "");
+  EXPECT_NE(refusal([](bus::HostReport& r) { r.inputs._buffer[2].v_mps = std::nan(""); }), "");
+  EXPECT_EQ(refusal([](bus::HostReport& r) { r.inputs._buffer[0].kind = 99; }),
+            "an input of an unknown kind or author");
 }
 
 constexpr auto kUnknownChange = static_cast<rave_wire_ObstacleChangeKind>(3);

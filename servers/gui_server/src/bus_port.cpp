@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
 #include <utility>
+
+#include "rave/control/order_desk.hpp"
 
 namespace rave::gui_server {
 
@@ -13,6 +16,14 @@ constexpr auto kStatusEvery = std::chrono::seconds(1);
 constexpr Duration kStatusPatience = from_seconds(1);
 /// How often the driver of a robot is asked about, who is heard without an answer meanwhile.
 constexpr auto kAskDriver = std::chrono::seconds(1);
+constexpr Duration kHostPatience = from_seconds(2);
+
+/// Whether the host of a robot is asked, and nobody else: it keeps the lease.
+bool is_for_host(runtime::RunRequest::Kind kind) {
+  using Kind = runtime::RunRequest::Kind;
+  return runtime::OrderDesk::is_for(kind) || kind == Kind::kStop || kind == Kind::kArm ||
+         kind == Kind::kResetShadow;
+}
 
 /// In lock-step the manager has the say, in real time each host of its robots.
 bool has_the_say(const control::BusPeer& peer, const std::string& /*scenario*/) {
@@ -22,10 +33,11 @@ bool has_the_say(const control::BusPeer& peer, const std::string& /*scenario*/) 
 }  // namespace
 
 BusPort::BusPort(std::unique_ptr<control::BusRun> bus, std::unique_ptr<control::BusRun> status,
-                 std::unique_ptr<CommandLine> commands)
+                 std::unique_ptr<CommandLine> commands, std::map<std::string, std::string> host_of)
     : bus_(std::move(bus)),
       status_(std::move(status)),
       commands_(std::move(commands)),
+      host_of_(std::move(host_of)),
       thread_([this](const std::stop_token& stop) { work(stop); }),
       watcher_([this](const std::stop_token& stop) { watch(stop); }) {}
 
@@ -44,16 +56,20 @@ std::vector<runtime::RunStatus::Robot> BusPort::robots() const {
 void BusPort::watch(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     std::vector<runtime::RunStatus::Robot> robots;
+    std::vector<runtime::RunStatus::Robot> of_manager;
     for (control::BusReply& reply :
          status_->ask_each(control::Request{}, has_the_say, kStatusPatience)) {
       if (!reply.answer || !reply.answer->good) continue;
       auto& told = reply.answer->status.robots;
-      robots.insert(robots.end(), std::make_move_iterator(told.begin()),
-                    std::make_move_iterator(told.end()));
+      auto& all = reply.peer.manager ? of_manager : robots;
+      all.insert(all.end(), std::make_move_iterator(told.begin()),
+                 std::make_move_iterator(told.end()));
     }
     std::unique_lock lock(mutex_);
-    robots_ = std::move(robots);
-    changed_.wait_for(lock, stop, kStatusEvery, [] { return false; });
+    // Hosts know more of their robots than a manager.
+    robots_ = robots.empty() ? std::move(of_manager) : std::move(robots);
+    changed_.wait_for(lock, stop, kStatusEvery, [this] { return stirred_; });
+    stirred_ = false;
   }
 }
 
@@ -96,6 +112,9 @@ void BusPort::work(const std::stop_token& stop) {
     waiting_.pop_front();
     lock.unlock();
     promise.set_value(ask(request));
+    lock.lock();
+    stirred_ = true;
+    changed_.notify_all();
   }
   for (auto& [request, promise] : waiting_) {
     promise.set_value(fail(ErrorCode::kState, "the server is shutting down"));
@@ -104,9 +123,15 @@ void BusPort::work(const std::stop_token& stop) {
 
 BusPort::Answer BusPort::ask(const runtime::RunRequest& request) {
   const control::Request asked = control::request_of(request);
+  const auto host = host_of_.find(request.robot);
+  if (host != host_of_.end() && is_for_host(request.kind)) return ask_host(host->second, asked);
+  const bool of_hosts = runtime::OrderDesk::is_for(request.kind);
+  const auto meant = [of_hosts](const control::BusPeer& peer, const std::string& scenario) {
+    return of_hosts ? !peer.manager : has_the_say(peer, scenario);
+  };
   std::string done;
   std::string refused;
-  for (const control::BusReply& reply : bus_->ask_each(asked, has_the_say)) {
+  for (const control::BusReply& reply : bus_->ask_each(asked, meant)) {
     const bool good = reply.answer && reply.answer->good;
     std::string& text = good ? done : refused;
     if (!text.empty()) text += "; ";
@@ -120,6 +145,33 @@ BusPort::Answer BusPort::ask(const runtime::RunRequest& request) {
   const bool whole = refused.empty() || (!request.robot.empty() && !done.empty());
   if (!whole) return fail(ErrorCode::kState, "{}", refused);
   return done;
+}
+
+BusPort::Answer BusPort::ask_host(const std::string& host, const control::Request& request) {
+  RAVE_TRY_ASSIGN(const control::BusPeer peer, bus_->find(host, kHostPatience));
+  RAVE_TRY_ASSIGN(const control::Answer answer, bus_->ask(peer, request));
+  if (!answer.good) return fail(ErrorCode::kState, "{}", answer.text);
+  return answer.text;
+}
+
+std::vector<runtime::RunStatus::Robot> ManagedPort::robots() const {
+  std::vector<runtime::RunStatus::Robot> robots = manager_.robots();
+  std::map<std::string_view, runtime::RunStatus::Robot*> by_name;
+  for (runtime::RunStatus::Robot& robot : robots) by_name.emplace(robot.name, &robot);
+  for (runtime::RunStatus::Robot& told : hosts_->robots()) {
+    const auto robot = by_name.find(told.name);
+    if (robot == by_name.end()) continue;
+    // Who drives and who is stopped the manager learns sooner.
+    robot->second->armed = told.armed;
+    robot->second->takes = std::move(told.takes);
+    robot->second->order = std::move(told.order);
+  }
+  return robots;
+}
+
+Result<std::future<Result<std::string>>> ManagedPort::post(runtime::RunRequest request) {
+  const bool of_hosts = runtime::OrderDesk::is_for(request.kind);
+  return of_hosts ? hosts_->post(std::move(request)) : manager_.post(std::move(request));
 }
 
 }  // namespace rave::gui_server

@@ -62,6 +62,25 @@ Result<LiveSource::Start> start_of(const config::ExpandedScenario& scenario,
   return start;
 }
 
+/// Requests go to who takes them, in the partitions of hosts and manager.
+Result<std::unique_ptr<BusPort>> port_to_hosts(const config::ExpandedScenario& scenario,
+                                               const runtime::BuiltScenario& built,
+                                               bus::BusConfig bus) {
+  bus.side = bus::Side::kAll;
+  RAVE_TRY_ASSIGN(auto asker, control::BusRun::open(bus, "GUI Server"));
+  RAVE_TRY_ASSIGN(auto status, control::BusRun::open(bus, "GUI Server"));
+  std::vector<std::string> names;
+  for (const sim::RobotSpec& robot : built.spec.robots) names.push_back(robot.name);
+  RAVE_TRY_ASSIGN(auto commands, CommandLine::open(bus, names));
+  RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
+  std::map<std::string, std::string> host_of;
+  for (const config::PlannedHost& host : hosts) {
+    for (const std::size_t robot : host.robots) host_of[names[robot]] = host.name;
+  }
+  return std::make_unique<BusPort>(std::move(asker), std::move(status), std::move(commands),
+                                   std::move(host_of));
+}
+
 }  // namespace
 
 Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenario,
@@ -73,26 +92,20 @@ Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenar
   bus.side = bus::Side::kMonitor;
   RAVE_TRY_ASSIGN(auto observer, watch::Observer::open(bus));
   RAVE_TRY_ASSIGN(auto listener, onlook::Listener::create(observer->bus()));
+  RAVE_TRY_ASSIGN(auto hosts, port_to_hosts(scenario, built, bus));
+  const bool managed = control != nullptr && built.live_reason.empty();
   std::unique_ptr<RunPort> port;
-  if (control != nullptr && built.live_reason.empty()) {
-    port = std::make_unique<LocalPort>(*control, "");
+  if (managed) {
+    port = std::make_unique<ManagedPort>(*control, std::move(hosts));
   } else {
-    // Requests go to who takes them: in lock-step the manager, in the partition of the run.
-    bus::BusConfig to_all = bus;
-    to_all.side = bus::Side::kAll;
-    RAVE_TRY_ASSIGN(auto asker, control::BusRun::open(to_all, "GUI Server"));
-    RAVE_TRY_ASSIGN(auto status, control::BusRun::open(to_all, "GUI Server"));
-    std::vector<std::string> names;
-    for (const sim::RobotSpec& robot : built.spec.robots) names.push_back(robot.name);
-    RAVE_TRY_ASSIGN(auto commands, CommandLine::open(to_all, names));
-    port = std::make_unique<BusPort>(std::move(asker), std::move(status), std::move(commands));
+    port = std::move(hosts);
   }
   RAVE_TRY_ASSIGN(auto start, start_of(scenario, built));
   if (described) {
     start.probes = std::make_shared<ProbeDesk>(std::move(described), start.about.step_s);
   }
-  // In lock-step the manager takes the orders; beside it there is no shorter way.
-  if (control != nullptr && start.about.lock_step) start.about.relay = true;
+  // Who manages the run serves its page: without this process there is no run either.
+  if (managed) start.about.relay = true;
   return std::make_shared<BusSource>(std::move(start), std::make_shared<LiveBox>(), std::move(port),
                                      std::move(observer), std::move(listener),
                                      world_of(scenario, built));

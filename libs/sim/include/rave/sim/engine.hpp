@@ -217,6 +217,9 @@ class Engine {
   /// hand-over, lost, or of another host; with several hosts the authority places). After an error
   /// nothing has changed.
   Status order(const WorldInput& input);
+  /// Whether order() would accept it now; of kPlace with several hosts only what needs no
+  /// authority. Errors as there.
+  [[nodiscard]] Status check_order(const WorldInput& input) const;
   /// The orders that a robot takes now; none if it runs elsewhere.
   [[nodiscard]] OrderSet takes(RobotId robot) const noexcept;
   /// The current order of a robot in words; empty: none.

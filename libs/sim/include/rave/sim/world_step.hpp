@@ -30,6 +30,14 @@ struct ResizedRobot {
   std::string by{};  ///< Name of the user who requested it by hand, if any.
 };
 
+/// What became of an input of HostReport::inputs: it is among WorldStep::inputs, or among
+/// WorldStep::refusals.
+struct InputAnswer {
+  std::uint32_t host = 0;      ///< That asked.
+  std::uint64_t asked = 0;     ///< Its number there.
+  std::uint64_t sequence = 0;  ///< Its number in the run.
+};
+
 /// The message of the authority to all hosts, one per step: the world that step `step` senses, and
 /// the inputs of its robots. Its bits do not depend on the distribution of robots over hosts.
 /// Doubles are sent bit by bit. Frames: poses X_WR in the world frame, velocities in the body
@@ -65,6 +73,10 @@ struct WorldStep {
   SentPackets sent;
   /// Inputs for robots that take effect with this step, in this order.
   std::vector<WorldInput> inputs;
+  /// One for each input of the reports for this step, so that a host asks for nothing twice.
+  std::vector<InputAnswer> answers;
+  /// Those of them that the authority refuses.
+  std::vector<InputRefusal> refusals;
 
   /// Clears the lists, keeps the allocated memory, and resizes the columns to `robots`.
   void begin(std::uint64_t of_step, std::size_t robots) {
@@ -82,6 +94,8 @@ struct WorldStep {
     obstacles.clear();
     sent.clear();
     inputs.clear();
+    answers.clear();
+    refusals.clear();
   }
 };
 

@@ -68,6 +68,7 @@ class RunModel {
     std::string name;
     std::string team;
     bool simulated = true;
+    std::string driver{};
   };
   /// A host according to the manager.
   struct Sight {

@@ -77,9 +77,10 @@ struct RobotReport {
 
 struct RobotView {
   std::uint32_t number = 0;
-  std::string name;  ///< Empty if unknown.
-  std::string team;  ///< Empty if unknown or without a team.
-  std::string host;  ///< Empty if unknown.
+  std::string name;    ///< Empty if unknown.
+  std::string team;    ///< Empty if unknown or without a team.
+  std::string host;    ///< Empty if unknown.
+  std::string driver;  ///< Who has its command lease; empty if nobody does.
   std::optional<bool> simulated;
   bool stale = false;
   std::optional<double> age_s;

@@ -38,6 +38,8 @@ class OrderDesk {
   void tick(const Give& give, Time now);
   /// Whether anything may expire.
   [[nodiscard]] bool waits() const noexcept { return leases_.any() || watch_.any(); }
+  /// Whether a drive may have to be ended soon, within DriveWatch::kSilence.
+  [[nodiscard]] bool drives() const noexcept { return watch_.any(); }
   [[nodiscard]] const std::string& holder(const std::string& robot) const noexcept {
     return leases_.holder(robot);
   }

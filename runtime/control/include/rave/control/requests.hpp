@@ -9,6 +9,9 @@ namespace rave::runtime {
 /// Executes a request between two steps. Returns a description of what was done.
 [[nodiscard]] Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request);
 
+/// Checks that an order could be carried out now; errors are those of the request.
+[[nodiscard]] Status check_order_now(const sim::Engine& engine, const sim::WorldInput& input);
+
 /// Updates the robots of a status and whether they may move.
 void refresh_status(const sim::Engine& engine, RunStatus& status);
 

@@ -123,6 +123,8 @@ struct RunStatus {
     std::string order = {};
   };
   std::string scenario;
+  /// Of a run of several processes: its id, the same in all of them; else empty.
+  std::string run = {};
   double sim_s = 0;
   double duration_s = 0;
   double pace = 1;  ///< Simulated seconds per second; 0: no limit.
@@ -221,6 +223,10 @@ class RunControl {
   void begin(RunStatus status);
   /// Executes the pending requests in order; if there were any, `refresh` updates the status.
   void serve(const Serve& serve, const std::function<void(RunStatus&)>& refresh);
+  /// Like serve(), for a run that answers some requests later: `serve` then moves the request away
+  /// and returns nothing.
+  using ServeOrKeep = std::function<std::optional<Result<std::string>>(Asked&)>;
+  void serve_or_keep(const ServeOrKeep& serve, const std::function<void(RunStatus&)>& refresh);
   /// Keeps a chat message for the process that writes the recording, if that is not the run itself.
   void keep_said(RunRequest chat);
   [[nodiscard]] std::vector<RunRequest> take_said();

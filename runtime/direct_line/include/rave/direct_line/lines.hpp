@@ -42,15 +42,11 @@ class Lines {
 [[nodiscard]] Result<std::unique_ptr<Lines>> lines_on_bus(
     bus::BusConfig bus, std::function<std::vector<std::string>(const std::string&)> robots_of);
 
-/// The host name of the Environment Manager's line. In lock-step orders go to it; in real time they
-/// go to each host.
-inline constexpr const char* kManagerHost = "environment manager";
-
-/// Announces the line of a process on the bus and receives withdrawals, in a thread of its own. The
-/// announcement begins with the run, if this process accepts orders.
+/// Announces the line of a host on the bus and receives withdrawals, in a thread of its own. The
+/// announcement begins with the run.
 class LineBeacon {
  public:
-  /// `host`: its name in the scenario, or kManagerHost. `control`: of the run of this process. The
+  /// `host`: its name in the scenario. `control`: of the run of this process. The
   /// last three arguments must outlive the beacon. If the bus cannot be opened, it logs a warning
   /// and the run continues.
   [[nodiscard]] static std::unique_ptr<LineBeacon> start(bus::BusConfig bus,

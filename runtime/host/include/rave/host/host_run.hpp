@@ -32,8 +32,7 @@ struct HostOptions {
   /// Begins a request to this host that arrived on the bus, in the calling thread; empty: such
   /// requests are refused.
   bus::BeginRequest begin_request;
-  bus::OnCommand
-      on_command;  ///< The same for commands in real time; in lock-step the manager gets them.
+  bus::OnCommand on_command;  ///< The same for commands (topic rave/command), which get no answer.
 };
 
 /// The outcome for this host. It writes result.json, events.log, scenario.yaml, results.cdr (from

@@ -3,11 +3,15 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rave/control/order_desk.hpp"
+#include "rave/host/input_forwarder.hpp"
 #include "rave/host/run.hpp"
 #include "rave/observe/run_observer.hpp"
 #include "rave/plugin/catalogue.hpp"
@@ -64,6 +68,19 @@ class ObserverList {
   /// In real time over several hosts: puts a simulated robot of this host elsewhere, in the world
   /// that this host keeps of it.
   void on_place(std::function<Status(const sim::WorldInput&)> place) { place_ = std::move(place); }
+  /// In lock-step over several hosts: what is asked of the robots goes this way to the authority of
+  /// the world. `forwarder` is not owned and outlives the requests.
+  void forward_to(InputForwarder* forwarder) noexcept { forwarder_ = forwarder; }
+  /// Of the last serve(): what was passed on and is not done yet.
+  [[nodiscard]] std::optional<std::uint64_t> take_given() { return std::exchange(given_, {}); }
+  /// Whether somebody drives a robot, so that tick() is due often.
+  [[nodiscard]] bool drives() const noexcept { return desk_.drives(); }
+  /// Robots whose lease has changed since the last call.
+  [[nodiscard]] std::set<RobotId> take_leased() { return std::exchange(leased_, {}); }
+  /// The holder of a robot's lease, and the page; empty: none.
+  [[nodiscard]] std::pair<std::string, std::uint64_t> holder(const std::string& robot) const {
+    return {desk_.holder(robot), desk_.page(robot)};
+  }
   /// Whether the status of the run changes though nobody asks for anything.
   [[nodiscard]] bool has_orders() const noexcept { return had_orders_; }
   /// Puts into the status who drives whom.
@@ -76,7 +93,9 @@ class ObserverList {
 
  private:
   Result<std::string> place(const sim::Engine& engine, const RunRequest& request);
-  Result<std::string> make_input(sim::Engine& engine, const RunRequest& request);
+  /// `awaited`: somebody waits for what comes of it.
+  Result<std::string> make_input(sim::Engine& engine, const RunRequest& request, bool awaited);
+  Result<std::string> serve_order(sim::Engine& engine, const RunRequest& request);
   void note_leases(const sim::Engine& engine);
   explicit ObserverList(const Parts& parts);
   Status open_all(const Parts& parts);
@@ -89,7 +108,9 @@ class ObserverList {
   std::unique_ptr<RecordKeeper> record_;
   OrderDesk desk_;
   std::function<Status(const sim::WorldInput&)> place_;
-  bool follows_ = false;  ///< A host in lock-step: its manager takes orders.
+  InputForwarder* forwarder_ = nullptr;
+  std::optional<std::uint64_t> given_;
+  std::set<RobotId> leased_;
   bool had_orders_ = false;
   std::vector<sim::Event> new_leases_;  ///< Since the last step.
   std::vector<sim::Event> leases_;      ///< As events of the last step.

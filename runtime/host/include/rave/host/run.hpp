@@ -37,6 +37,8 @@ struct RunOptions {
   bool arm = false;
   /// Name of the run for who controls it from elsewhere; only for messages.
   std::string run_name;
+  /// Of one of several processes: the id of their run.
+  std::string run_id{};
 };
 
 /// Runs a scenario to its end in the calling thread. Errors: what keeps it from starting, and a

@@ -9,7 +9,6 @@
 
 #include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
-#include "rave/bus/command_box.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/bus/request_book.hpp"
 #include "rave/config/expanded_scenario.hpp"
@@ -44,7 +43,6 @@ struct ManagerOptions {
   /// Begins a request that arrived on the bus, in the calling thread; empty: such requests are
   /// refused.
   bus::BeginRequest begin_request;
-  bus::OnCommand on_command;  ///< The same for commands (topic rave/command), which get no answer.
   /// Passed to `on_progress` about ten times a second, in the calling thread.
   struct Progress {
     std::uint64_t step = 0;

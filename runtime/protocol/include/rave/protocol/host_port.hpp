@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <string>
 
 #include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
 #include "rave/base/time.hpp"
 #include "rave/bus/bus.hpp"
+#include "rave/bus/command_box.hpp"
 #include "rave/bus/request_book.hpp"
 #include "rave/protocol/host_word.hpp"
 #include "rave/protocol/introduction.hpp"
@@ -43,24 +46,35 @@ class HostPort {
   };
 
   /// Joins the bus. `log` is not owned and may be null. `begin_request` handles bus requests of
-  /// others, inside exchange(); may be empty. Errors: those of bus::Bus::open().
+  /// others and `on_command` their commands, inside exchange(); both may be empty. Errors: those of
+  /// bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<HostPort>> open(const bus::BusConfig& bus,
                                                               Identity identity, LogSink* log,
                                                               Patience patience = {},
-                                                              bus::BeginRequest begin_request = {});
+                                                              bus::BeginRequest begin_request = {},
+                                                              bus::OnCommand on_command = {});
   HostPort(const HostPort&) = delete;
   HostPort& operator=(const HostPort&) = delete;
   ~HostPort();
 
-  /// Sends a report repeatedly until it is answered. `stopping` is called ten times a second.
-  /// `world` must be the last answer, and receives the new one. If the Environment Manager was
-  /// restarted, it gets the last answer, to continue from there. While there is no answer, the log
-  /// names the hosts that all wait for. Errors: kState (another process already serves this host;
-  /// the manager has another scenario or interface), kInvalidArgument (the report is larger than
-  /// the bus can carry).
+  /// When exchange() calls `stopping` before its time.
+  struct Look {
+    std::stop_token asked{};                ///< As soon as this is requested, and
+    std::chrono::milliseconds within{100};  ///< after this time.
+  };
+  /// Sends a report repeatedly until it is answered. `stopping` is called ten times a second, or as
+  /// `look` says, which is asked anew after each call; it may add inputs to `report`, which is then
+  /// sent again at once. `world` must be the last answer, and receives the new one. If the
+  /// Environment Manager was restarted, it gets the last answer, to continue from there. While
+  /// there is no answer, the log names the hosts that all wait for. Errors: kState (another process
+  /// already serves this host; the manager has another scenario or interface), kInvalidArgument
+  /// (the report is larger than the bus can carry).
   [[nodiscard]] Result<Answer> exchange(const sim::HostReport& report, std::uint64_t hash,
                                         sim::WorldStep& world,
-                                        const std::function<bool()>& stopping);
+                                        const std::function<bool()>& stopping,
+                                        const std::function<Look()>& look = {});
+  /// Answers requests of others that have been handled since exchange(), without waiting for it.
+  void serve();
   /// Publishes the states of this host's robots for monitors: at most 30 times a second, and only
   /// while somebody reads it. No process of the run does.
   void show(const sim::Engine& engine, std::span<const RobotId> robots);
@@ -70,6 +84,8 @@ class HostPort {
   [[nodiscard]] bus::Bus& bus() noexcept;
   /// The roster of this host's robots; nothing in the run waits for it.
   [[nodiscard]] Roster& roster() noexcept;
+  /// What the run waits for, as its manager says it; empty: it goes on, or nobody knows.
+  [[nodiscard]] const std::string& waits_for() const noexcept;
   /// The state of the authority for the last world. It includes earlier obstacle changes only if
   /// this host had missed some.
   [[nodiscard]] const sim::AuthorityState& authority() const noexcept;

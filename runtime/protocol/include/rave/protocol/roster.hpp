@@ -53,11 +53,17 @@ class Roster {
   /// Whether any robot is marked.
   [[nodiscard]] bool due() const noexcept { return !due_.empty(); }
 
+  /// Who has the command lease of a robot.
+  struct Driver {
+    std::string name;        ///< Empty: nobody.
+    std::uint64_t page = 0;  ///< 0: no particular one.
+  };
   /// Publishes the marked robots in their present state. Does not block: a robot whose sample is
   /// not accepted, because a reader does not keep up, stays marked. `parameters_of` is called for
-  /// each robot. Error kInvalidArgument: a robot cannot be described and is omitted.
-  Status tell(const sim::EngineSpec& spec,
-              const std::function<NamedValues(RobotId)>& parameters_of);
+  /// each robot, and `driver_of`, which may be empty. Error kInvalidArgument: a robot cannot be
+  /// described and is omitted.
+  Status tell(const sim::EngineSpec& spec, const std::function<NamedValues(RobotId)>& parameters_of,
+              const std::function<Driver(RobotId)>& driver_of = {});
 
  private:
   Roster(bus::Writer<bus::RosterEntry> writer, std::uint32_t host)

@@ -21,12 +21,26 @@ struct WireParts {
   std::vector<rave_wire_SentPacket> packets;
 };
 
+/// Inputs as members of bus messages. One owner thread.
+class InputParts {
+ public:
+  /// The members borrow from the inputs and from this object. Errors: kInvalidArgument: an input
+  /// that the bus cannot carry; those before it are there.
+  Status fill(const std::vector<sim::WorldInput>& inputs);
+  [[nodiscard]] std::vector<rave_wire_WorldInput>& inputs() noexcept { return inputs_; }
+
+ private:
+  std::vector<rave_wire_WorldInput> inputs_;
+  std::vector<std::vector<rave_wire_ParameterChange>> changes_;
+  std::vector<std::vector<rave_wire_OrderPoint>> points_;  ///< By input.
+};
+
 /// Encodes the report of a host as a bus message. One owner thread.
 class ReportMessage {
  public:
   /// The message borrows from `report` and from this object: valid until either changes. `epoch`:
   /// that of the authority that is answered, 0 if none. `hash`: hash of the completed steps of this
-  /// host.
+  /// host. Inputs from the first one on that check_fits() refuses are left out.
   [[nodiscard]] bus::HostReport& fill(const sim::HostReport& report, std::uint64_t epoch,
                                       std::uint64_t hash);
 
@@ -34,6 +48,7 @@ class ReportMessage {
   bus::HostReport message_{};
   WireParts parts_;
   std::vector<rave_wire_InputRefusal> refusals_;
+  InputParts inputs_;
 };
 
 /// Encodes a step of the world as a bus message. One owner thread.
@@ -49,7 +64,7 @@ class WorldMessage {
   void address(std::span<const std::uint64_t> hosts);
 
  private:
-  Status fill_inputs(const sim::WorldStep& world);
+  void fill_answers(const sim::WorldStep& world);
   Status fill_authority(const sim::AuthorityState& authority);
 
   bus::LastWorld message_{};
@@ -62,19 +77,20 @@ class WorldMessage {
   std::vector<rave_wire_RefusedChange> refused_;
   std::vector<std::uint32_t> pinned_;
   std::vector<std::uint64_t> hosts_;
-  std::vector<rave_wire_WorldInput> inputs_;
+  InputParts inputs_;
+  std::vector<rave_wire_InputAnswer> answers_;
+  std::vector<rave_wire_InputRefusal> refusals_;
   ObstacleParts obstacles_;
   ObstacleParts obstacles_before_;
-  std::vector<std::vector<rave_wire_ParameterChange>> changes_;
-  std::vector<std::vector<rave_wire_OrderPoint>> points_;  ///< By input.
 };
 
 /// Checks that the bus can carry an input; errors as in WorldMessage::fill().
 [[nodiscard]] Status check_fits(const sim::WorldInput& input);
 
 /// Decodes a message that has passed bus::validate(). Reuses the memory of `report`.
-/// WorldAuthority::step() checks whether it fits the run.
-void read(const bus::HostReport& message, sim::HostReport& report);
+/// WorldAuthority::step() checks whether it fits the run. Error kInvalidArgument: an unknown kind
+/// of input.
+[[nodiscard]] Status read(const bus::HostReport& message, sim::HostReport& report);
 /// Decodes a step of the world, which Engine::apply() checks, and the state of its authority.
 /// Errors: kInvalidArgument (an unknown kind of input or part of a robot, an event without a robot
 /// that does not concern the world, an invalid obstacle).

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "rave/base/result.hpp"
+#include "rave/control/order_words.hpp"
+#include "rave/control/run_control.hpp"
+
+namespace rave::runtime {
+
+/// Passes on what people ask of robots that run here, where another process numbers the inputs of
+/// the run. Belongs to the thread of the run.
+class InputForwarder {
+ public:
+  virtual ~InputForwarder() = default;
+
+  /// What it passes on: stops, releases, arming and orders.
+  [[nodiscard]] static constexpr bool is_for(RunRequest::Kind kind) noexcept {
+    using Kind = RunRequest::Kind;
+    return kind == Kind::kStop || kind == Kind::kRelease || kind == Kind::kArm || is_order(kind);
+  }
+  /// Checks a request as far as this process knows, and passes it on. Returns a description of what
+  /// will be done. Errors: those of the run.
+  virtual Result<std::string> give(const RunRequest& request) = 0;
+  /// The last request that was passed on since the last call; none if there was nothing to do.
+  [[nodiscard]] virtual std::optional<std::uint64_t> take_given() = 0;
+  /// Whether a user drives the robot, with what is on its way.
+  [[nodiscard]] virtual bool is_driven(const std::string& robot) const = 0;
+  /// Who asked for it is answered when it is done or refused; `text` is the description.
+  virtual void await(std::uint64_t given, RunControl::Asked asked, std::string text) = 0;
+};
+
+}  // namespace rave::runtime

@@ -54,23 +54,7 @@ inline sim::HostReport example_report() {
   return report;
 }
 
-inline sim::WorldStep example_world() {
-  sim::WorldStep world;
-  world.begin(41, 3);
-  world.last = true;
-  world.x_m = {1, 2, 3};
-  world.y_m = {-1, -2, -3};
-  world.yaw_rad = {0.1, 0.2, 0.3};
-  world.vx_mps = {0.5, 0.6, 0.7};
-  world.vy_mps = {0, 0, -0.0};
-  world.wz_radps = {1, -1, 0.25};
-  world.flags = {3, 1, 0};
-  world.pushed = {{RobotId(1), {7, 8, 9}}};
-  world.touches = {{RobotId(2), {0.6, -0.8}}};
-  world.poses = {example_pose(0), example_pose(1)};
-  world.samples = {{RobotId(1), SimTime{700}, {1, 2, 3}}};
-  world.resized = {{RobotId(2), 1.5, "bert"}};
-  add_packets(world.sent);
+inline std::vector<sim::WorldInput> example_inputs() {
   sim::WorldInput stop;
   stop.sequence = 4;
   sim::WorldInput change;
@@ -101,7 +85,10 @@ inline sim::WorldStep example_world() {
   drive.robot = RobotId(2);
   drive.order.v_mps = -0.5;
   drive.order.w_radps = 1.5;
-  world.inputs = {stop, change, path, words, drive};
+  return {stop, change, path, words, drive};
+}
+
+inline std::vector<sim::ObstacleChange> example_obstacles() {
   sim::ObstacleChange crate;
   crate.id = BodyId(9);
   crate.name = "crate";
@@ -118,7 +105,28 @@ inline sim::WorldStep example_world() {
   gone.kind = sim::ObstacleChange::Kind::kRemove;
   gone.id = BodyId(8);
   gone.name = "post";
-  world.obstacles = {crate, gone};
+  return {crate, gone};
+}
+
+inline sim::WorldStep example_world() {
+  sim::WorldStep world;
+  world.begin(41, 3);
+  world.last = true;
+  world.x_m = {1, 2, 3};
+  world.y_m = {-1, -2, -3};
+  world.yaw_rad = {0.1, 0.2, 0.3};
+  world.vx_mps = {0.5, 0.6, 0.7};
+  world.vy_mps = {0, 0, -0.0};
+  world.wz_radps = {1, -1, 0.25};
+  world.flags = {3, 1, 0};
+  world.pushed = {{RobotId(1), {7, 8, 9}}};
+  world.touches = {{RobotId(2), {0.6, -0.8}}};
+  world.poses = {example_pose(0), example_pose(1)};
+  world.samples = {{RobotId(1), SimTime{700}, {1, 2, 3}}};
+  world.resized = {{RobotId(2), 1.5, "bert"}};
+  add_packets(world.sent);
+  world.inputs = example_inputs();
+  world.obstacles = example_obstacles();
   return world;
 }
 

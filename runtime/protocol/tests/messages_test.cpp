@@ -263,6 +263,9 @@ TEST(Messages, AWorldThatNobodyCouldUseIsRefusedWithItsField) {
             "inputs.by has control characters");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[4].v_mps = std::nan(""); }),
             "inputs.v_mps is nan, not within +-10000");
+}
+
+TEST(Messages, AWorldWithObstaclesOrEventsThatCannotBeIsRefusedWithItsField) {
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.obstacles._buffer[1].kind = kUnknownChange; }),
             "obstacles[1].kind is unknown");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) {

@@ -223,10 +223,8 @@ struct ScenarioFile {
   bool operator==(const ScenarioFile&) const = default;
 };
 
-/// Reads a scenario file without opening the files it names. Errors: those of rave::read_file, and
-/// kParse with file:line:column for errors in its content.
-[[nodiscard]] Result<ScenarioFile> read_scenario_file(const std::filesystem::path& path);
-/// Like read_scenario_file(), for a text; `file_name` is used in messages.
+/// Reads the text of a scenario file without opening the files it names. `file_name` is used in
+/// messages. Errors: kParse with file:line:column.
 [[nodiscard]] Result<ScenarioFile> read_scenario_text(std::string_view text,
                                                       std::string_view file_name);
 

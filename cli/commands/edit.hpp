@@ -6,7 +6,6 @@
 #include <string>
 
 #include "bus_options.hpp"
-#include "rave/base/result.hpp"
 
 // What one terminal changes in the world of a run that goes in another.
 namespace rave::cli {
@@ -31,8 +30,5 @@ struct EditCommand {
 /// Prints what was done and how long the run took to do it. Returns 0; 1 if the run refuses; 2 for
 /// bad input, or if there is no such run or it does not answer.
 [[nodiscard]] int edit_world(const EditCommand& options);
-
-/// What a run is told: the obstacle as a file has it, in one line. Errors: kInvalidArgument.
-[[nodiscard]] Result<std::string> obstacle_yaml(const EditCommand& options);
 
 }  // namespace rave::cli

@@ -47,11 +47,9 @@ class OrdersOverHosts : public HeldRun {
   /// inputs, all of the step for which the run waits.
   void drive_and_let_go() {
     const std::string drives = "`terminal` drives it";
-    control::Request drive;
-    drive.what = control::Request::What::kDrive;
-    drive.robot = "bert";
-    drive.v_mps = 0.3;
-    drive.w_radps = 0.1;
+    control::Request drive = control::request_of({runtime::RunRequest::Kind::kDrive, "bert"});
+    drive.run.v_mps = 0.3;
+    drive.run.w_radps = 0.1;
     ASSERT_EQ(::setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1), 0);
     const auto run = control::find_run("orders");
     ASSERT_TRUE(run) << run.error().text();

@@ -93,7 +93,7 @@ inline std::vector<sim::ObstacleChange> example_obstacles() {
   crate.id = BodyId(9);
   crate.name = "crate";
   crate.X_WB = {1, -2, 0.5};
-  crate.asked = "{name: crate}";
+  crate.asked = R"({"remove_obstacle": "crate"})";
   crate.by = "anna";
   crate.body.name = crate.name;
   crate.body.colour = "#102030";

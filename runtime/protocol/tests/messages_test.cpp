@@ -272,6 +272,10 @@ TEST(Messages, AWorldWithObstaclesOrEventsThatCannotBeIsRefusedWithItsField) {
               w.obstacles._buffer[0].shapes._buffer[1].x_m._buffer[2] = std::nan("");
             }),
             "obstacles[0].shapes[1].x_m is nan, not within +-10000000");
+  EXPECT_EQ(
+      refusal_of([](bus::WorldStep& w) { bus::put_text(w.obstacles._buffer[0].asked, "{}"); }),
+      "obstacle `crate`, asked: an edit has 0 of `add_obstacle`, `move_obstacle` and "
+      "`remove_obstacle`; expected one");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.authority.obstacles._buffer[0].x_m = 1e9; }),
             "authority.obstacles[0].x_m is 1000000000, not within +-10000000");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) {

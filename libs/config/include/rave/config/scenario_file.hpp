@@ -125,9 +125,7 @@ struct ChangeFile {
   std::optional<Located<std::string>> robot;
   std::optional<RawNode> set;  ///< A mapping from keys such as `program.speed_mps` to values.
   std::optional<HandOverTo> hand_over;
-  std::optional<ObstacleFile> add_obstacle;
-  std::optional<MoveObstacleFile> move_obstacle;
-  std::optional<Located<std::string>> remove_obstacle;
+  ObstacleEdit obstacle;  ///< Its keys are those of this entry.
   bool operator==(const ChangeFile&) const = default;
 };
 

@@ -191,7 +191,8 @@ void add_edit(CLI::App& root, EditCommand& c) {
   add_value(add, "--height", c.height,
             "Lower and upper edge above the floor, LOW,HIGH in metres [0,0.5]", "HEIGHT");
   add_value(add, "--layer", c.layer, "virtual_obstacles or mapped_real [virtual_obstacles]",
-            "LAYER");
+            "LAYER")
+      ->check(CLI::IsMember({"virtual_obstacles", "mapped_real"}).description(""));
   add_value(add, "--colour", c.colour, "Colour in pictures, #rrggbb", "COLOUR");
   add_value(add, "--barcode", c.barcode, "Barcode that landmark cameras read [none]", "N");
   CLI::App& move = *app.add_subcommand("move", "Move an obstacle");

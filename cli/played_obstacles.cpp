@@ -11,6 +11,7 @@
 
 #include "rave/config/diagnostics.hpp"
 #include "rave/config/yaml.hpp"
+#include "rave/control/obstacle_edits.hpp"
 #include "rave/record/run_reader.hpp"
 
 namespace rave::cli {
@@ -18,15 +19,14 @@ namespace {
 
 using config::RawNode;
 
-/// What one kind of change is called: in scenarios, as an input, as an event.
+/// What one kind of change is called: in scenarios and requests, as an event.
 struct Words {
   const char* key;
-  const char* input;
   const char* event;
 };
-constexpr std::array kWords = {Words{"add_obstacle", "add", "obstacle added"},
-                               Words{"move_obstacle", "move", "obstacle moved"},
-                               Words{"remove_obstacle", "remove", "obstacle removed"}};
+constexpr std::array kWords = {Words{"add_obstacle", "obstacle added"},
+                               Words{"move_obstacle", "obstacle moved"},
+                               Words{"remove_obstacle", "obstacle removed"}};
 
 /// Step, kind and beginning of the text of what was made.
 using Made = std::set<std::tuple<std::uint64_t, std::string, std::string>>;
@@ -61,19 +61,15 @@ Result<Made> made_changes(const record::McapReader& reader) {
 Status add_by_hand(const record::McapReader& reader, std::vector<Change>& changes) {
   const auto take = [&](const record::MessageView& message) -> Status {
     RAVE_TRY_ASSIGN(const record::RunInput input, record::decode_input(message.bytes));
-    for (const Words& words : kWords) {
-      if (input.kind != words.input) continue;
-      if (input.kind == "remove") {
-        changes.push_back({input.step, words.key, RawNode::text(input.key)});
-        continue;
-      }
-      config::Diagnostics diagnostics;
-      auto value = config::parse_yaml(input.value, "input", diagnostics);
-      if (!value || !diagnostics.ok()) {
-        return fail(ErrorCode::kParse, "the recording has an unknown input `{}`", input.kind);
-      }
-      changes.push_back({input.step, words.key, *std::move(value)});
+    const auto edit = runtime::recorded_edit(input.kind, input.key, input.value);
+    if (!edit) return {};
+    if (!*edit) {
+      return fail(ErrorCode::kParse, "step {}: the recording has an unknown `{}`: {}", input.step,
+                  input.kind, edit->error().message);
     }
+    config::Diagnostics diagnostics;
+    const auto node = config::parse_yaml(config::write_edit(**edit), "edit", diagnostics);
+    changes.push_back({input.step, node->key(0), node->child(0)});
     return {};
   };
   return record::for_each_message(reader, record::topic::kInputs, take);

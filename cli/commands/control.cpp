@@ -19,6 +19,8 @@ namespace rave::cli {
 namespace {
 
 using control::Request;
+using control::request_of;
+using RunKind = runtime::RunRequest::Kind;
 
 /// Asks one run and prints its answer.
 int ask_run(const AskedRun& run, const Request& request) {
@@ -86,19 +88,12 @@ int ask_controllers(const AskedRun& run, const Request& request, bool sure) {
   if (hosts && robots_of(*controllers) != robots_of({run})) {
     replies.push_back({run.name(), run.ask(request)});
   }
-  return tell(replies, request.robot);
+  return tell(replies, request.run.robot);
 }
 
 int find_and_ask(const std::string& word, const BusOptions& bus, const Request& request) {
   const auto run = AskedRun::find(word, bus);
   return run ? ask_run(*run, request) : complain(run.error());
-}
-
-Request request_of(Request::What what, const std::string& robot) {
-  Request request;
-  request.what = what;
-  request.robot = robot;
-  return request;
 }
 
 std::string pace_text(const runtime::RunStatus& status) {
@@ -210,7 +205,7 @@ int list_runs(const PsCommand& options) {
 }
 
 int stop_robots(const StopCommand& options) {
-  const Request request = request_of(Request::What::kStop, options.robot);
+  const Request request = request_of({RunKind::kStop, options.robot});
   if (!options.all) return stop_run(options, request);
   if (!options.run.empty() || !options.robot.empty() || options.bus.says_where()) {
     return complain({ErrorCode::kInvalidArgument,
@@ -246,17 +241,17 @@ int arm_robots(const ArmCommand& options) {
   const auto run = AskedRun::find(options.run, options.bus);
   if (!run) return complain(run.error());
   if (options.release) {
-    const Request release = request_of(Request::What::kRelease, options.robot);
+    const Request release = request_of({RunKind::kRelease, options.robot});
     if (const int code = ask_controllers(*run, release, true); code != kGood) return code;
   }
-  return ask_controllers(*run, request_of(Request::What::kArm, options.robot), true);
+  return ask_controllers(*run, request_of({RunKind::kArm, options.robot}), true);
 }
 
 int set_parameter(const SetCommand& options) {
   const std::size_t first = options.words.size() == 4 ? 1 : 0;
-  Request request = request_of(Request::What::kSet, options.words[first]);
-  request.key = options.words[first + 1];
-  request.value = options.words[first + 2];
+  Request request = request_of({RunKind::kSet, options.words[first]});
+  request.run.key = options.words[first + 1];
+  request.run.value = options.words[first + 2];
   return find_and_ask(first == 1 ? options.words[0] : "", options.bus, request);
 }
 

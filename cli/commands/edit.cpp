@@ -2,8 +2,8 @@
 #include "commands/edit.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <vector>
@@ -36,26 +36,20 @@ tl::unexpected<Error> wrong(std::string_view option, const std::string& found,
               expected);
 }
 
-/// In quotes, as YAML and JSON have them.
-std::string in_quotes(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return result + "\"";
-}
-
-Result<std::string> place_yaml(const EditCommand& options) {
+template <class Entry>
+Status take_place(const EditCommand& options, Entry& entry) {
   const std::vector<double> at = numbers_in(options.at, ',');
   if (at.size() != 2 && at.size() != 3) {
     return wrong("--at", options.at, "X,Y or X,Y,DEG, such as 1,2.5,30");
   }
-  return fmt::format("x_m: {}, y_m: {}, yaw_deg: {}", at[0], at[1], at.size() == 3 ? at[2] : 0.0);
+  entry.x_m = at[0];
+  entry.y_m = at[1];
+  if (at.size() == 3) entry.yaw_deg = at[2];
+  return {};
 }
 
-Result<std::string> corners_yaml(const EditCommand& options) {
-  std::vector<std::string> corners;
+Status take_corners(const EditCommand& options, config::Outline& outline) {
+  auto& polygon_m = outline.polygon_m.emplace();
   std::string_view rest = options.corners;
   while (!rest.empty()) {
     const std::string_view word = rest.substr(0, rest.find(' '));
@@ -65,63 +59,62 @@ Result<std::string> corners_yaml(const EditCommand& options) {
     if (corner.size() != 2) {
       return wrong("--corners", options.corners, "places such as \"0,0 1,0 0.5,1\"");
     }
-    corners.push_back(fmt::format("[{}, {}]", corner[0], corner[1]));
+    polygon_m.push_back({corner[0], corner[1]});
   }
-  return fmt::format("polygon_m: [{}]", fmt::join(corners, ", "));
+  return {};
 }
 
-Result<std::string> outline_yaml(const EditCommand& options) {
-  if (options.shape == "polygon") return corners_yaml(options);
+Status take_outline(const EditCommand& options, config::Outline& outline) {
+  if (options.shape == "polygon") return take_corners(options, outline);
   const bool is_box = options.shape == "box";
   const std::vector<double> size = numbers_in(options.size, 'x');
-  if (is_box && size.size() == 2) return fmt::format("box_m: [{}, {}]", size[0], size[1]);
-  if (!is_box && size.size() == 1) return fmt::format("disc_radius_m: {}", size[0]);
-  return wrong("--size", options.size,
-               is_box ? "length and width of the box in metres, such as 0.5x0.3"
-                      : "the radius of the disc in metres, such as 0.25");
-}
-
-Result<control::Request> request_of(const EditCommand& options) {
-  control::Request request;
-  switch (options.what) {
-    case What::kList:
-      request.what = control::Request::What::kList;
-      return request;
-    case What::kRemove:
-      request.what = control::Request::What::kRemove;
-      request.key = options.name;
-      return request;
-    case What::kMove: {
-      request.what = control::Request::What::kMove;
-      RAVE_TRY_ASSIGN(const std::string place, place_yaml(options));
-      // YAML, so that the run checks it with the reader of world files.
-      request.value = fmt::format("{{name: {}, {}}}", in_quotes(options.name), place);
-      return request;
-    }
-    case What::kAdd:
-      break;
+  if (size.size() != (is_box ? 2 : 1)) {
+    return wrong("--size", options.size,
+                 is_box ? "length and width of the box in metres, such as 0.5x0.3"
+                        : "the radius of the disc in metres, such as 0.25");
   }
-  request.what = control::Request::What::kAdd;
-  RAVE_TRY_ASSIGN(request.value, obstacle_yaml(options));
-  return request;
+  if (is_box) {
+    outline.box_m = {size[0], size[1]};
+  } else {
+    outline.disc_radius_m = size[0];
+  }
+  return {};
 }
 
-}  // namespace
-
-Result<std::string> obstacle_yaml(const EditCommand& options) {
-  RAVE_TRY_ASSIGN(const std::string outline, outline_yaml(options));
-  RAVE_TRY_ASSIGN(const std::string place, place_yaml(options));
-  std::string yaml = fmt::format("{{name: {}, {}, {}", in_quotes(options.name), outline, place);
+Result<config::ObstacleFile> obstacle_of(const EditCommand& options) {
+  config::ObstacleFile obstacle;
+  obstacle.name = options.name;
+  RAVE_TRY(take_outline(options, obstacle.outline));
+  RAVE_TRY(take_place(options, obstacle));
   if (!options.height.empty()) {
     const std::vector<double> height = numbers_in(options.height, ',');
     if (height.size() != 2) return wrong("--height", options.height, "LOW,HIGH, such as 0,0.8");
-    yaml += fmt::format(", z_m: [{}, {}]", height[0], height[1]);
+    obstacle.z_m = {height[0], height[1]};
   }
-  if (!options.layer.empty()) yaml += ", layer: " + in_quotes(options.layer);
-  if (!options.colour.empty()) yaml += ", colour: " + in_quotes(options.colour);
-  if (options.barcode) yaml += fmt::format(", barcode: {}", *options.barcode);
-  return yaml + "}";
+  if (options.layer == "mapped_real") obstacle.layer = config::ObstacleLayer::kMappedReal;
+  if (!options.colour.empty()) obstacle.colour = options.colour;
+  obstacle.barcode = options.barcode;
+  return obstacle;
 }
+
+Result<control::Request> request_of(const EditCommand& options) {
+  using Kind = runtime::RunRequest::Kind;
+  if (options.what == What::kList) return control::request_of({Kind::kList, ""});
+  config::ObstacleEdit edit;
+  if (options.what == What::kRemove) {
+    edit.remove_obstacle = options.name;
+  } else if (options.what == What::kMove) {
+    edit.move_obstacle.emplace().name = options.name;
+    RAVE_TRY(take_place(options, *edit.move_obstacle));
+  } else {
+    RAVE_TRY_ASSIGN(edit.add_obstacle, obstacle_of(options));
+  }
+  runtime::RunRequest run{Kind::kEdit, ""};
+  run.edit = std::move(edit);
+  return control::request_of(std::move(run));
+}
+
+}  // namespace
 
 int edit_world(const EditCommand& options) {
   const auto request = request_of(options);

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "bus_options.hpp"
-#include "rave/base/result.hpp"
 
 // Changes from one terminal to the world of a run in another.
 namespace rave::cli {
@@ -31,9 +30,5 @@ struct EditCommand {
 /// Prints what was done and how long the run took to do it. Returns 0; 1 if the run refuses; 2 for
 /// bad input, or if there is no such run or it does not answer.
 [[nodiscard]] int edit_world(const EditCommand& options);
-
-/// The obstacle as it is sent to the run: an entry of a world file on one line. Errors:
-/// kInvalidArgument.
-[[nodiscard]] Result<std::string> obstacle_yaml(const EditCommand& options);
 
 }  // namespace rave::cli

@@ -21,6 +21,8 @@ namespace rave::cli {
 namespace {
 
 using control::Request;
+using control::request_of;
+using RunKind = runtime::RunRequest::Kind;
 using runtime::RunStatus;
 
 constexpr auto kLook = std::chrono::milliseconds(50);
@@ -28,13 +30,6 @@ constexpr auto kLook = std::chrono::milliseconds(50);
 constexpr auto kLookFar = std::chrono::milliseconds(200);
 /// So many looks in a row may be refused by a process on the bus.
 constexpr int kMostMisses = 10;
-
-Request hand_over_request(Request::What what, const std::string& robot) {
-  Request request;
-  request.what = what;
-  request.robot = robot;
-  return request;
-}
 
 int refused(const AskedRun& run, const std::string& text) {
   complain({ErrorCode::kState, fmt::format("{}: {}", run.name(), text), {}});
@@ -171,8 +166,8 @@ int hand_over(const HandOverCommand& options) {
   const auto status = run->status();
   if (!status) return complain(status.error());
   const auto before = hand_over_of(*status, options.robot).value_or(RunStatus::HandOver{});
-  Request request = hand_over_request(Request::What::kHandOver, options.robot);
-  request.value = options.to;
+  Request request = request_of({RunKind::kHandOver, options.robot});
+  request.run.value = options.to;
   const auto answer = run->ask(request);
   if (!answer) return complain(answer.error());
   if (!answer->good) return refused(*run, answer->text);
@@ -186,7 +181,7 @@ int show_shadows(const ShadowCommand& options) {
       });
   if (!run) return complain(run.error());
   if (options.reset) {
-    const auto answer = run->ask(hand_over_request(Request::What::kResetShadow, options.robot));
+    const auto answer = run->ask(request_of({RunKind::kResetShadow, options.robot}));
     if (!answer) return complain(answer.error());
     if (!answer->good) return refused(*run, answer->text);
     put(stdout, fmt::format("{}: {}\n", run->name(), answer->text));

@@ -17,17 +17,12 @@ namespace rave::cli {
 namespace {
 
 using control::Request;
+using control::request_of;
+using RunKind = runtime::RunRequest::Kind;
 using Clock = std::chrono::steady_clock;
 
 /// Well within the time after which a driver counts as gone.
 constexpr std::chrono::milliseconds kAgain{50};
-
-Request request_of(Request::What what, const std::string& robot) {
-  Request request;
-  request.what = what;
-  request.robot = robot;
-  return request;
-}
 
 Result<std::vector<Vec2>> points_of(const OrderCommand& options) {
   if (options.numbers.size() % 2 != 0 || options.numbers.empty()) {
@@ -45,31 +40,31 @@ Result<Request> read_request(const OrderCommand& options) {
   using What = OrderCommand::What;
   switch (options.what) {
     case What::kDrive: {
-      Request request = request_of(Request::What::kDrive, options.robot);
-      request.v_mps = options.numbers[0];
-      request.w_radps = options.numbers[1];
+      Request request = request_of({RunKind::kDrive, options.robot});
+      request.run.v_mps = options.numbers[0];
+      request.run.w_radps = options.numbers[1];
       return request;
     }
     case What::kGoal: {
-      if (options.cancel) return request_of(Request::What::kCancel, options.robot);
+      if (options.cancel) return request_of({RunKind::kCancel, options.robot});
       RAVE_TRY_ASSIGN(auto points, points_of(options));
-      Request request = request_of(points.size() == 1 ? Request::What::kGoal : Request::What::kPath,
-                                   options.robot);
+      Request request =
+          request_of({points.size() == 1 ? RunKind::kGoal : RunKind::kPath, options.robot});
       // Here as well as in the run, so that a mistake is told before a run is searched for.
       if (points.size() > 1) RAVE_TRY(runtime::check_path_size(points.size()));
-      request.points = std::move(points);
-      request.speed_mps = options.speed_mps;
+      request.run.points = std::move(points);
+      request.run.speed_mps = options.speed_mps;
       return request;
     }
     case What::kSay: {
-      Request request = request_of(Request::What::kText, options.robot);
-      request.value = options.text;
+      Request request = request_of({RunKind::kText, options.robot});
+      request.run.value = options.text;
       return request;
     }
     case What::kPlace: {
-      Request request = request_of(Request::What::kPlace, options.robot);
-      request.points = {{options.numbers[0], options.numbers[1]}};
-      if (options.numbers.size() > 2) request.yaw_rad = deg_to_rad(options.numbers[2]);
+      Request request = request_of({RunKind::kPlace, options.robot});
+      request.run.points = {{options.numbers[0], options.numbers[1]}};
+      if (options.numbers.size() > 2) request.run.yaw_rad = deg_to_rad(options.numbers[2]);
       return request;
     }
   }
@@ -116,7 +111,7 @@ int drive_on(const AskedRun& run, const Request& drive, double for_s) {
   // The last velocity holds until the end, and then the program takes over; without the cancel it
   // would wait until the driver counts as gone.
   std::this_thread::sleep_until(end);
-  return ask({run}, request_of(Request::What::kCancel, drive.robot)).code;
+  return ask({run}, request_of({RunKind::kCancel, drive.run.robot})).code;
 }
 
 }  // namespace
@@ -128,8 +123,8 @@ int give_order(const OrderCommand& options) {
   if (!run) return complain(run.error());
   const std::vector<AskedRun> runs = run->takers_of_orders(options.robot);
   if (options.force) {
-    Request take = request_of(Request::What::kTake, options.robot);
-    take.value = "force";
+    Request take = request_of({RunKind::kTake, options.robot});
+    take.run.value = "force";
     if (const int code = ask(runs, take).code; code != kGood) return code;
   }
   const Given given = ask(runs, *request);

@@ -24,11 +24,4 @@ std::span<const Sighting> SightingLog::group(std::size_t index) const noexcept {
   return std::span(sightings_).subspan(begin, end - begin);
 }
 
-std::size_t SightingLog::first_group_after(std::int64_t t_ns) const noexcept {
-  const auto found = std::upper_bound(
-      group_begins_.begin(), group_begins_.end(), t_ns,
-      [this](std::int64_t t, std::size_t begin) { return t < sightings_[begin].t_ns; });
-  return static_cast<std::size_t>(found - group_begins_.begin());
-}
-
 }  // namespace rave::utias

@@ -38,8 +38,6 @@ class SightingLog {
   [[nodiscard]] std::size_t group_count() const noexcept { return group_begins_.size(); }
   /// `index` < group_count(); never empty.
   [[nodiscard]] std::span<const Sighting> group(std::size_t index) const noexcept;
-  /// The index of the first group after a time; group_count() if there is none.
-  [[nodiscard]] std::size_t first_group_after(std::int64_t t_ns) const noexcept;
 
  private:
   std::vector<Sighting> sightings_;

@@ -35,9 +35,6 @@ class Subjects {
                                              std::span<const int> robots);
 
   [[nodiscard]] std::span<const Landmark> landmarks() const noexcept { return landmarks_; }
-  [[nodiscard]] const std::map<int, int>& subject_by_code() const noexcept {
-    return subject_by_code_;
-  }
   /// The subject with a barcode, or kUnknownSubject.
   [[nodiscard]] int subject_of_code(int code) const noexcept;
   /// The barcode of a subject, or -1.

@@ -61,7 +61,8 @@ def main():
     before_s = run.time_s()
     run.step(100)
     print(f"computed {run.time_s() - before_s:.1f} s")
-    run.ask("add", value="{name: wall, box_m: [0.2, 4], x_m: 1.5, y_m: 0, z_m: [0, 0.5]}")
+    wall = {"name": "wall", "box_m": [0.2, 4], "x_m": 1.5, "y_m": 0, "z_m": [0, 0.5]}
+    run.ask("edit", edit={"add_obstacle": wall})
     run.ask("set", robot="walker", key="program.cruise_mps", value="0.1")
     try:
         run.ask("set", robot="walker", key="program.cruise_mps", value="fast")

@@ -51,7 +51,7 @@ TEST_F(BusRequests, ARunInLockStepDoesWhatIsAskedFromElsewhere) {
   EXPECT_EQ(far({"set", "right-2", "body.scale", "0.8"}).exit_code, 0);
   // Who asked, and what, is in the log of whoever was asked.
   EXPECT_TRUE(logged("env", R"({"rave":1,"do":"stop","robot":"left-1"})")) << console("env");
-  EXPECT_TRUE(logged("env", R"({"rave":1,"do":"remove","key":"pillar"})")) << console("env");
+  EXPECT_TRUE(logged("env", R"({"rave":1,"do":"edit","edit":{"remove_obstacle":"pillar"}})")) << console("env");
   EXPECT_FALSE(logged("env", R"({"rave":1,"do":"list"})"));
 
   refused({"edit", "remove", "pillar"}, "there is no obstacle `pillar`");
@@ -82,7 +82,7 @@ TEST_F(BusRequests, ARunInRealTimeDoesWhatIsAskedFromElsewhere) {
   EXPECT_EQ(added.exit_code, 0) << added.err;
   EXPECT_NE(added.out.find("in effect at all 2 hosts "), std::string::npos) << added.out;
   EXPECT_NE(near({"edit", "live_twins@two", "list"}).out.find("bale"), std::string::npos);
-  EXPECT_NE(console("env").find(R"(over the bus: {"rave":1,"do":"add")"), std::string::npos);
+  EXPECT_NE(console("env").find(R"(over the bus: {"rave":1,"do":"edit")"), std::string::npos);
   refused({"pause", "live_twins"}, "a live run cannot be paused");
   const Ended stopped = far({"stop", "live_twins@one"});
   EXPECT_EQ(stopped.exit_code, 0) << stopped.err;

@@ -68,11 +68,9 @@ class OrdersOverHosts : public HeldRun {
   /// inputs, all of the step for which the run waits.
   void drive_and_let_go() {
     const std::string drives = "`terminal` drives it";
-    control::Request drive;
-    drive.what = control::Request::What::kDrive;
-    drive.robot = "bert";
-    drive.v_mps = 0.3;
-    drive.w_radps = 0.1;
+    control::Request drive = control::request_of({runtime::RunRequest::Kind::kDrive, "bert"});
+    drive.run.v_mps = 0.3;
+    drive.run.w_radps = 0.1;
     EXPECT_EQ(said_by(host_of("bert"), drive).substr(0, 5), "good:");
     const auto robots = [this] { return rave({"ps", "--robots"}).out; };
     EXPECT_NE(robots().find(drives), std::string::npos) << robots();

@@ -5,19 +5,7 @@ import {join} from 'node:path';
 import {check, untilHere} from './checks.mjs';
 import {pressPad, setPad} from './hands.mjs';
 
-/** What drives, against a made-up run. Further checks of driving may use what it returns. */
-export async function checkDriving(page, server, choose, folder) {
-  await page.getByRole('radio', {name: 'Drive'}).click();
-  await page.waitForTimeout(500);
-  const stick = page.locator('rave-joystick .stick');
-  const drive = () => server.run.driven.at(-1);
-  const stands = async (what, of = page) => {
-    await untilHere(of, () => drive()?.[1] === 0 && drive()?.[2] === 0, `it stands after ${what}`);
-    const count = server.run.driven.length;
-    await of.waitForTimeout(150);
-    assert.equal(server.run.driven.length, count, `nothing comes after ${what}`);
-  };
-
+async function checkMouse({page, server, stick, drive, stands, choose, folder}) {
   await check('the mouse drives, and letting go stops', async () => {
     await choose(page, 6);
     const box = await stick.boundingBox();
@@ -33,7 +21,9 @@ export async function checkDriving(page, server, choose, folder) {
     await page.mouse.up();
     await stands('the mouse');
   });
+}
 
+async function checkAsked({page, folder}) {
   await check('the Robot panel shows what was asked beside what was driven', async () => {
     await page.evaluate(() => document.querySelector('rave-app').context.show('robot'));
     const plot = page.locator('rave-robot .trace');
@@ -42,7 +32,9 @@ export async function checkDriving(page, server, choose, folder) {
     await page.locator('rave-robot .trace').first().locator('polyline.asked').first().waitFor({state: 'attached'});
     await page.screenshot({path: join(folder, 'asked.png')});
   });
+}
 
+async function checkKeys({page, stick, drive, stands}) {
   await check('keys drive, and a page that is left stops', async () => {
     await stick.focus();
     await page.keyboard.down('w');
@@ -64,7 +56,9 @@ export async function checkDriving(page, server, choose, folder) {
     await page.keyboard.up('ArrowUp');
     await stands('Shift and an arrow');
   });
+}
 
+async function checkGamepad({page, drive, stands}) {
   await check('a gamepad drives while its stick is moved', async () => {
     await setPad(page, 0.02, 0.03);
     await page.waitForTimeout(100);
@@ -79,7 +73,9 @@ export async function checkDriving(page, server, choose, folder) {
     await setPad(page, 0, 0);
     await page.waitForTimeout(100);
   });
+}
 
+async function checkPedals({page, server, drive, stands, folder}) {
   await check('pedals drive: gear, throttle, steering and brake, by mouse, keys and triggers', async () => {
     await page.evaluate(() => { window.padAxes = null; });
     await page.getByRole('radio', {name: 'Pedals'}).click();
@@ -118,6 +114,26 @@ export async function checkDriving(page, server, choose, folder) {
     await page.getByRole('radio', {name: 'Stick'}).click();
     await page.locator('rave-joystick .stick').waitFor();
   });
+}
 
+/** What drives, against a made-up run. Further checks of driving may use what it returns. */
+export async function checkDriving(page, server, choose, folder) {
+  await page.getByRole('radio', {name: 'Drive'}).click();
+  await page.waitForTimeout(500);
+  const stick = page.locator('rave-joystick .stick');
+  const drive = () => server.run.driven.at(-1);
+  const stands = async (what, of = page) => {
+    await untilHere(of, () => drive()?.[1] === 0 && drive()?.[2] === 0, `it stands after ${what}`);
+    const count = server.run.driven.length;
+    await of.waitForTimeout(150);
+    assert.equal(server.run.driven.length, count, `nothing comes after ${what}`);
+  };
+
+  const at = {page, server, stick, drive, stands, choose, folder};
+  await checkMouse(at);
+  await checkAsked(at);
+  await checkKeys(at);
+  await checkGamepad(at);
+  await checkPedals(at);
   return {stick, drive, stands};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {RobotFlag, decodeFrame, kFirstProbe, isMapTile, isPoseFrame, isVariances, type Variance} from '../protocol/frames';
-import type {Accounts, Answer, AuditLines, Body, DriveState, Event, Hello, Host, Invited, Line, Person, Rights, Robot, Sensor, ServerMessage, Time} from '../protocol/messages';
+import type {Accounts, Answer, AuditLines, AuditWritten, Body, Chat, DriveState, Event, Hello, Host, Invited, Leases, Line, People, Person, Rights, Robot, Roster, Sensor, ServerMessage, Time} from '../protocol/messages';
 import {Maps} from './maps';
 import {PoseHistory} from './pose_history';
 import {Probes} from './probes';
@@ -14,6 +14,8 @@ export interface KnownRobot extends Robot {
   /** One of its two sets of drivers is real, the other is not. */
   mixed?: boolean;
 }
+
+type OfPeople = People | Rights | Accounts | Invited | AuditLines | AuditWritten | Leases | Chat;
 
 /** What the page knows of the run: the one place that messages and frames go to. */
 export class RunModel {
@@ -123,16 +125,6 @@ export class RunModel {
         for (const id of message.gone) this.bodies.delete(id);
         this.sceneChanged.emit();
         break;
-      case 'roster':
-        this.robots = message.robots;
-        this.rosterCame = true;
-        for (const robot of this.robots) if (robot.twin !== undefined) robot.mixed = robot.twin.kind !== robot.kind;
-        this.mixed = this.robots.flatMap((robot, slot) => (robot.mixed === true ? [slot] : []));
-        this.poses.clear();
-        this.truth.clear();
-        this.readings.clear();
-        this.rosterChanged.emit();
-        break;
       case 'time':
         this.time = message;
         this.timeChanged.emit();
@@ -146,6 +138,42 @@ export class RunModel {
         this.hosts = message.hosts;
         this.hostsChanged.emit();
         break;
+      case 'maps':
+        this.maps.take(message.maps);
+        break;
+      case 'catalogue':
+        this.probes.takeCatalogue(message);
+        break;
+      case 'probes':
+        // The numbers mean other sensors now.
+        this.readings.forgetFrom(kFirstProbe);
+        this.probes.take(message);
+        break;
+      case 'roster':
+        this.takeRoster(message);
+        break;
+      case 'answer':
+        this.answered.emit(message);
+        break;
+      default:
+        this.takeOfPeople(message);
+    }
+  }
+
+  private takeRoster(message: Roster): void {
+    this.robots = message.robots;
+    this.rosterCame = true;
+    for (const robot of this.robots) if (robot.twin !== undefined) robot.mixed = robot.twin.kind !== robot.kind;
+    this.mixed = this.robots.flatMap((robot, slot) => (robot.mixed === true ? [slot] : []));
+    this.poses.clear();
+    this.truth.clear();
+    this.readings.clear();
+    this.rosterChanged.emit();
+  }
+
+  /** Who is here, what they may, drive and say. */
+  private takeOfPeople(message: OfPeople): void {
+    switch (message.type) {
       case 'people':
         this.people = message.people;
         this.peopleChanged.emit();
@@ -175,20 +203,6 @@ export class RunModel {
       case 'chat':
         this.lines = message.reset ? message.lines : [...this.lines, ...message.lines];
         this.linesChanged.emit();
-        break;
-      case 'maps':
-        this.maps.take(message.maps);
-        break;
-      case 'catalogue':
-        this.probes.takeCatalogue(message);
-        break;
-      case 'probes':
-        // The numbers mean other sensors now.
-        this.readings.forgetFrom(kFirstProbe);
-        this.probes.take(message);
-        break;
-      case 'answer':
-        this.answered.emit(message);
         break;
     }
   }

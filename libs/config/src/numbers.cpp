@@ -57,6 +57,8 @@ PlainType plain_type(std::string_view text) noexcept {
 std::string number_text(double value) {
   if (std::isnan(value)) return ".nan";
   if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
+  // `-0` would be read as the integer 0, which has no sign.
+  if (value == 0 && std::signbit(value)) return "-0.0";
   std::string text = fmt::format("{}", value);
   // YAML 1.1 reads `1e+21` as text; it requires a decimal point.
   const std::size_t exponent = text.find('e');

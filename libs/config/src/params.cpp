@@ -30,7 +30,6 @@ std::vector<std::string_view> views_of(const std::vector<std::string>& names) {
 }
 
 /// Calls `f` with the C++ type of a parameter; an enum is a std::string.
-/// One place that knows which C++ type a declared type has; readers, writers and schemas use it.
 template <class F>
 auto with_type(ParamType type, F&& f) {
   switch (type) {
@@ -68,63 +67,12 @@ std::string expectation_of(const FieldSpec& spec) {
   });
 }
 
-RawNode schema_of(const FieldSpec& spec) {
-  if (spec.type == ParamType::kEnum) return detail::enum_schema(views_of(spec.choices));
-  return with_type(spec.type, [&]<class T>(std::type_identity<T> /*type*/) -> RawNode {
-    return Codec<T>::schema(options_of(spec));
-  });
-}
-
-RawNode node_of(const ParamValue& value) {
-  return std::visit([](const auto& v) { return Codec<std::remove_cvref_t<decltype(v)>>::write(v); },
-                    value);
-}
-
-bool has_type(const ParamValue& value, ParamType type) {
-  return with_type(type, [&]<class T>(std::type_identity<T> /*type*/) {
-    return std::holds_alternative<T>(value);
-  });
-}
-
-Status check_default(const FieldSpec& spec) {
-  if (!spec.default_value) return {};
-  if (!has_type(*spec.default_value, spec.type)) {
-    return fail(ErrorCode::kInvalidArgument, "the default of `{}` is not of its type", spec.name);
-  }
-  Diagnostics diagnostics;
-  const FieldOptions options = options_of(spec);
-  // The default is read as if a file had it, so the same limits apply to both.
-  const ReadContext context{diagnostics, options, fmt::format("the default of `{}`", spec.name)};
-  (void)read_value(context, node_of(*spec.default_value), spec);
-  if (diagnostics.ok()) return {};
-  return fail(ErrorCode::kInvalidArgument, "{}", diagnostics.joined().message);
-}
-
 }  // namespace
 
 const Param* ParamValues::find(std::string_view name) const noexcept {
   const auto found = std::find_if(params_.begin(), params_.end(),
                                   [name](const Param& p) { return p.name == name; });
   return found == params_.end() ? nullptr : &*found;
-}
-
-Status check_specs(std::span<const FieldSpec> specs) {
-  for (std::size_t i = 0; i < specs.size(); ++i) {
-    const FieldSpec& spec = specs[i];
-    if (spec.name.empty() || spec.name.size() > 200) {
-      return fail(ErrorCode::kInvalidArgument, "parameter {} has no usable name", i + 1);
-    }
-    for (std::size_t j = 0; j < i; ++j) {
-      if (specs[j].name == spec.name) {
-        return fail(ErrorCode::kInvalidArgument, "the parameter `{}` is declared twice", spec.name);
-      }
-    }
-    if (spec.type == ParamType::kEnum && spec.choices.empty()) {
-      return fail(ErrorCode::kInvalidArgument, "the parameter `{}` has no choices", spec.name);
-    }
-    RAVE_TRY(check_default(spec));
-  }
-  return {};
 }
 
 ParamValues read_params(const RawNode& node, std::span<const FieldSpec> specs,
@@ -170,30 +118,6 @@ Result<ParamValues> read_params(const RawNode& node, std::span<const FieldSpec> 
   if (diagnostics.ok()) return values;
   diagnostics.sort();
   return tl::unexpected<Error>(diagnostics.joined());
-}
-
-RawNode write_params(const ParamValues& values, std::span<const FieldSpec> specs) {
-  RawNode mapping = RawNode::mapping();
-  // In the order of the declaration, so that the same values give the same text.
-  for (const FieldSpec& spec : specs) {
-    if (const Param* param = values.find(spec.name)) {
-      mapping.append(spec.name, node_of(param->value), field_comment(spec.doc, spec.unit));
-    }
-  }
-  return mapping;
-}
-
-RawNode params_schema(std::span<const FieldSpec> specs) {
-  RawNode properties = RawNode::mapping();
-  RawNode required = RawNode::sequence();
-  for (const FieldSpec& spec : specs) {
-    RawNode initial;
-    if (spec.default_value) initial = node_of(*spec.default_value);
-    properties.append(spec.name, annotated_schema(schema_of(spec), spec.doc, spec.unit,
-                                                  spec.default_value ? &initial : nullptr));
-    if (!spec.default_value) required.push_back(RawNode::text(spec.name));
-  }
-  return object_schema(std::move(properties), std::move(required));
 }
 
 }  // namespace rave::config

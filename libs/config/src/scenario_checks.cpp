@@ -80,8 +80,7 @@ void validate(const GuiFile& c, CheckContext& check) {
 }
 
 void validate(const ChangeFile& c, CheckContext& check) {
-  const int kinds = int{c.robot || c.set || c.hand_over} + int{c.add_obstacle.has_value()} +
-                    int{c.move_obstacle.has_value()} + int{c.remove_obstacle.has_value()};
+  const int kinds = int{c.robot || c.set || c.hand_over} + parts_of(c.obstacle);
   // One kind per entry, since the order of entries is the order of the changes.
   if (kinds != 1) {
     check.error("",

@@ -161,10 +161,7 @@ void describe(V& v, ChangeFile& c) {
   v.field("hand_over", c.hand_over,
           {.doc = "Hands the robot over to other drivers: real, simulated, first (those of `file`) "
                   "or twin."});
-  v.field("add_obstacle", c.add_obstacle,
-          {.doc = "Obstacle to add; no other obstacle may have its name at that time."});
-  v.field("move_obstacle", c.move_obstacle, {.doc = "Obstacle to move."});
-  v.field("remove_obstacle", c.remove_obstacle, {.doc = "Name of an obstacle to remove."});
+  describe_edit(v, c.obstacle);
 }
 
 void validate(const ChangeFile& c, CheckContext& check);

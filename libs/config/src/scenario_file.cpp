@@ -26,9 +26,4 @@ Result<GuiFile> read_gui_text(std::string_view text, std::string_view file_name)
       "`file`: expected `rights`, `relay` and `components` in this file, not another file");
 }
 
-Result<ScenarioFile> read_scenario_file(const std::filesystem::path& path) {
-  RAVE_TRY_ASSIGN(const std::string text, rave::read_file(path, kMaxFileBytes));
-  return read_scenario_text(text, path.string());
-}
-
 }  // namespace rave::config

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "numbers.hpp"
 #include "rave/config/yaml.hpp"
@@ -166,14 +167,18 @@ std::string json_scalar(const RawNode& node) {
   if (node.is_null()) return "null";
   if (node.is_text()) return in_quotes(node.scalar());
   if (node.as_bool()) return node.scalar();
-  if (const auto whole = node.as_int()) return fmt::format("{}", *whole);
+  // A zero with a sign is no integer: its sign would be lost.
+  const auto whole_number = node.as_int();
+  if (whole_number == 0 && node.scalar().starts_with('-')) return "-0.0";
+  if (whole_number) return fmt::format("{}", *whole_number);
   if (const auto whole = node.as_uint()) return fmt::format("{}", *whole);
   const auto number = node.as_double();
   // JSON has neither infinity nor NaN.
   return number && std::isfinite(*number) ? number_text(*number) : "null";
 }
 
-void json(const RawNode& node, std::size_t indent, std::string& out) {
+/// Without an indent, all in one line.
+void json(const RawNode& node, std::optional<std::size_t> indent, std::string& out) {
   if (node.is_null() || node.is_scalar()) {
     out += json_scalar(node);
     return;
@@ -183,15 +188,17 @@ void json(const RawNode& node, std::size_t indent, std::string& out) {
     out += named ? "{}" : "[]";
     return;
   }
+  const auto new_line = [&](std::size_t more) {
+    if (indent) out.append("\n").append(*indent + more, ' ');
+  };
   out += named ? '{' : '[';
   for (std::size_t i = 0; i < node.size(); ++i) {
-    out += i == 0 ? "\n" : ",\n";
-    out.append(indent + 2, ' ');
+    if (i > 0) out += indent ? "," : ", ";
+    new_line(2);
     if (named) out += in_quotes(node.key(i)) + ": ";
-    json(node.child(i), indent + 2, out);
+    json(node.child(i), indent ? std::optional(*indent + 2) : std::nullopt, out);
   }
-  out += '\n';
-  out.append(indent, ' ');
+  new_line(0);
   out += named ? '}' : ']';
 }
 
@@ -207,6 +214,12 @@ std::string to_json(const RawNode& node) {
   std::string out;
   json(node, 0, out);
   return out + "\n";
+}
+
+std::string to_json_line(const RawNode& node) {
+  std::string out;
+  json(node, std::nullopt, out);
+  return out;
 }
 
 }  // namespace rave::config

@@ -37,6 +37,34 @@ void describe(V& v, MoveObstacleFile& c) {
   v.field("yaw_deg", c.yaw_deg, angle_deg("Rotation of the outline about its origin."));
 }
 
+/// The keys of an edit, also as part of another struct.
+template <class V>
+void describe_edit(V& v, ObstacleEdit& c) {
+  v.field("add_obstacle", c.add_obstacle,
+          {.doc = "Obstacle to add; no other obstacle may have its name at that time."});
+  v.field("move_obstacle", c.move_obstacle, {.doc = "Obstacle to move."});
+  v.field("remove_obstacle", c.remove_obstacle, {.doc = "Name of an obstacle to remove."});
+}
+
+/// How many of the members are set.
+[[nodiscard]] inline int parts_of(const ObstacleEdit& c) noexcept {
+  return int{c.add_obstacle.has_value()} + int{c.move_obstacle.has_value()} +
+         int{c.remove_obstacle.has_value()};
+}
+
+template <class V>
+void describe(V& v, ObstacleEdit& c) {
+  describe_edit(v, c);
+}
+
+inline void validate(const ObstacleEdit& c, CheckContext& check) {
+  if (parts_of(c) == 1) return;
+  check.error("",
+              "an edit has {} of `add_obstacle`, `move_obstacle` and `remove_obstacle`; expected "
+              "one",
+              parts_of(c));
+}
+
 template <class V>
 void describe(V& v, MapFile& c) {
   v.required("file", c.file,

@@ -9,12 +9,21 @@ Result<WorldFile> read_world_text(std::string_view text, std::string_view file_n
   return read_text<WorldFile>(text, file_name);
 }
 
-Result<ObstacleFile> read_obstacle_text(std::string_view text, std::string_view file_name) {
-  return read_text<ObstacleFile>(text, file_name);
+Result<ObstacleEdit> read_edit(std::string_view text, std::string_view source) {
+  return read_text<ObstacleEdit>(text, source);
 }
 
-Result<MoveObstacleFile> read_move_text(std::string_view text, std::string_view file_name) {
-  return read_text<MoveObstacleFile>(text, file_name);
+std::string write_edit(const ObstacleEdit& edit) {
+  RawNode node = write_node(edit);
+  for (const char* const key : {"add_obstacle", "move_obstacle", "remove_obstacle"}) {
+    if (node.find(key)->is_null()) node.erase(key);
+  }
+  return to_json_line(node);
+}
+
+Status check_edit(const ObstacleEdit& edit) {
+  RAVE_TRY(read_node<ObstacleEdit>(write_node(edit)));
+  return {};
 }
 
 Result<WorldFile> read_world_file(const std::filesystem::path& path) {

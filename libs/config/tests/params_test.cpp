@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "rave/config/yaml.hpp"
 
 namespace rave::config {
@@ -80,53 +78,12 @@ TEST(Params, BadValuesAreNamed) {
   EXPECT_EQ(params_error("[1]"), "r.yaml:1:1: driver `x`: found a list, expected a mapping");
 }
 
-TEST(Params, WrittenParametersReadBackEqual) {
-  const auto all = specs();
-  const auto values = read_params(parse("port: \"3\"\nweights: [0.1]\n"), all, "d");
-  ASSERT_TRUE(values.has_value());
-  const std::string text = to_yaml(write_params(*values, all));
-  EXPECT_EQ(text,
-            "range_m: 8  # [m] Farthest reading.\nrays: 180\nnoisy: false\nkind: laser\n"
-            "weights: [0.1]\nport: \"3\"\nlabel: \"\"\n");
-  const auto again = read_params(parse(text), all, "d");
-  ASSERT_TRUE(again.has_value());
-  EXPECT_EQ(*again, *values);
-}
-
 TEST(Params, NothingGivenIsTheDefaults) {
   auto all = specs();
   all.erase(all.begin() + 5);
   const auto values = read_params(RawNode{}, all, "d");
   ASSERT_TRUE(values.has_value());
   EXPECT_EQ(values->size(), 6U);
-}
-
-TEST(Params, Schema) {
-  const auto schema = nlohmann::json::parse(to_json(params_schema(specs())));
-  EXPECT_EQ(schema["required"], nlohmann::json::array({"port"}));
-  EXPECT_EQ(schema["properties"]["kind"]["enum"], nlohmann::json::array({"laser", "sonar"}));
-  EXPECT_EQ(schema["properties"]["weights"]["items"]["minimum"], 0);
-  EXPECT_EQ(schema["properties"]["weights"]["minItems"], 1);
-  EXPECT_EQ(schema["properties"]["range_m"]["default"], 8);
-  EXPECT_EQ(schema["properties"]["range_m"]["description"], "[m] Farthest reading.");
-}
-
-TEST(Params, UnsoundSpecsAreRefused) {
-  EXPECT_TRUE(check_specs(specs()).has_value());
-  auto twice = specs();
-  twice[1].name = "range_m";
-  EXPECT_EQ(check_specs(twice).error().text(), "the parameter `range_m` is declared twice");
-  auto wrong_type = specs();
-  wrong_type[0].default_value = std::int64_t{8};
-  EXPECT_EQ(check_specs(wrong_type).error().text(), "the default of `range_m` is not of its type");
-  auto out_of_range = specs();
-  out_of_range[0].default_value = 0.0;
-  EXPECT_EQ(check_specs(out_of_range).error().text(),
-            "the default of `range_m`: found the number 0, expected a number (greater than 0, in "
-            "metres)");
-  auto no_choices = specs();
-  no_choices[3].choices.clear();
-  EXPECT_EQ(check_specs(no_choices).error().text(), "the parameter `kind` has no choices");
 }
 
 }  // namespace

@@ -36,6 +36,41 @@ void record_blocks(RunRecorder& recorder, std::span<const float> ranges,
   }
 }
 
+/// What record_blocks() has recorded for four robots.
+struct Row {
+  const std::vector<float>& ranges;
+  const std::vector<std::byte>& commands;
+  const std::vector<RobotPose>& poses;
+};
+
+/// A message of the record has what was recorded, if it is of percepts, commands or poses.
+void expect_row(const std::string& name, std::span<const std::byte> bytes, const Row& row) {
+  if (name == topic::kPercepts) {
+    const auto read = decode_percepts(bytes);
+    ASSERT_TRUE(read && read->items.size() == 4) << read.error().text();
+    for (std::uint32_t r = 0; r < 4; ++r) {
+      const Percept& percept = read->items[r];
+      EXPECT_EQ(percept.robot, RobotId(r));
+      EXPECT_EQ(percept.header,
+                (ReadingHeader{7, static_cast<std::uint32_t>(read->step), 2, 1, 0}));
+      ASSERT_EQ(percept.records.size(), 8U);
+      EXPECT_TRUE(same_bits(percept.records.data(), &row.ranges[2 * r], 8));
+    }
+  } else if (name == topic::kCommands) {
+    const auto read = decode_commands(bytes);
+    ASSERT_TRUE(read && read->items.size() == 4);
+    for (const CommandRecord& command : read->items) {
+      ASSERT_EQ(command.command.size(), 40U);
+      const std::byte* const given = &row.commands[40 * command.robot.value()];
+      EXPECT_EQ(std::memcmp(command.command.data(), given, 40), 0);
+    }
+  } else if (name == topic::kPoses) {
+    const auto read = decode_poses(bytes);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->items, row.poses);
+  }
+}
+
 TEST(RunRecordBlocks, EachRobotOfARowComesBackBitForBit) {
   const TemporaryFile file;
   RunInfo info = sample_info();
@@ -65,30 +100,7 @@ TEST(RunRecordBlocks, EachRobotOfARowComesBackBitForBit) {
     const auto channel =
         std::ranges::find(reader->channels(), (*message)->channel, &ChannelInfo::id);
     ++messages[channel->topic];
-    if (channel->topic == topic::kPercepts) {
-      const auto read = decode_percepts((*message)->bytes);
-      ASSERT_TRUE(read && read->items.size() == 4) << read.error().text();
-      for (std::uint32_t r = 0; r < 4; ++r) {
-        const Percept& percept = read->items[r];
-        EXPECT_EQ(percept.robot, RobotId(r));
-        EXPECT_EQ(percept.header,
-                  (ReadingHeader{7, static_cast<std::uint32_t>(read->step), 2, 1, 0}));
-        ASSERT_EQ(percept.records.size(), 8U);
-        EXPECT_TRUE(same_bits(percept.records.data(), &ranges[2 * r], 8));
-      }
-    } else if (channel->topic == topic::kCommands) {
-      const auto read = decode_commands((*message)->bytes);
-      ASSERT_TRUE(read && read->items.size() == 4);
-      for (const CommandRecord& command : read->items) {
-        ASSERT_EQ(command.command.size(), 40U);
-        EXPECT_EQ(std::memcmp(command.command.data(), &commands[40 * command.robot.value()], 40),
-                  0);
-      }
-    } else if (channel->topic == topic::kPoses) {
-      const auto read = decode_poses((*message)->bytes);
-      ASSERT_TRUE(read);
-      EXPECT_EQ(read->items, poses);
-    }
+    expect_row(channel->topic, (*message)->bytes, {ranges, commands, poses});
   }
   EXPECT_EQ(messages[topic::kPercepts], 2);
   EXPECT_EQ(messages[topic::kCommands], 2);

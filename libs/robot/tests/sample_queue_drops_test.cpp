@@ -11,6 +11,15 @@
 namespace rave {
 namespace {
 
+class StillClock final : public RunClock {
+ public:
+  [[nodiscard]] SimTime now() const noexcept override { return {}; }
+  [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(
+      SimTime) const noexcept override {
+    return {};
+  }
+};
+
 TEST(SampleQueue, DropsStampsThatStepBackAndRemembersTheFirst) {
   SampleQueue queue = values(4);
   put(queue, 2'000'000'000, 0);
@@ -40,14 +49,7 @@ TEST(SampleQueue, AStreamThatIsLiveCanRecoverAndAnotherCannot) {
   stepped.fail("gone", 4);
   stepped.recover();
   EXPECT_EQ(stepped.failure(), "gone");
-  class StillClock final : public RunClock {
-   public:
-    [[nodiscard]] SimTime now() const noexcept override { return {}; }
-    [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(
-        SimTime) const noexcept override {
-      return {};
-    }
-  } clock;
+  const StillClock clock{};
   SampleQueue live(ReadingKind::kValues, 2, 4, &clock);
   live.fail("gone", 4);
   EXPECT_EQ(live.wait_complete({0}, std::chrono::milliseconds(0)), SampleQueue::Wait::kFailed);
@@ -59,14 +61,7 @@ TEST(SampleQueue, AStreamThatIsLiveCanRecoverAndAnotherCannot) {
 }
 
 TEST(SampleQueue, TellsWhenTheNewestSampleArrivedWhateverItsStamp) {
-  class StillClock final : public RunClock {
-   public:
-    [[nodiscard]] SimTime now() const noexcept override { return {}; }
-    [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(
-        SimTime) const noexcept override {
-      return {};
-    }
-  } clock;
+  const StillClock clock{};
   SampleQueue queue(ReadingKind::kValues, 1, 4, &clock);
   EXPECT_EQ(queue.newest_arrival(), std::nullopt);
   const double value = 1;

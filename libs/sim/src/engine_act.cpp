@@ -21,6 +21,41 @@ std::string_view text_for(const ErrorText& error, std::size_t slot) noexcept {
   return error.slot == slot ? std::string_view(error.text) : "failed, like others in this step";
 }
 
+/// What the proposals of an actuator are for.
+struct Proposals {
+  std::uint64_t step;
+  const std::vector<RobotId>& members;
+  std::vector<Twist2>& by_robot;
+};
+
+/// A virtual actuator proposes velocities for the inputs that actuate() has left in the worker.
+void propose_motion(ActuatorSlots& slots, const Block& block, Worker& worker,
+                    const Proposals& made) {
+  ErrorText error;
+  std::uint8_t failed_before[kMemberBlock];
+  std::copy(slots.failed.begin() + block.begin, slots.failed.begin() + block.end, failed_before);
+  slots.spec->virtual_ops->propose(
+      slots.instances.at(block.begin), slots.instances.stride(), worker.motion_inputs.data(),
+      worker.proposals.data(), block.end - block.begin, slots.failed.data() + block.begin, &error);
+  for (std::uint32_t m = block.begin; m < block.end; ++m) {
+    Twist2 twist = worker.proposals[m - block.begin];
+    std::string_view problem = text_for(error, m - block.begin);
+    if (slots.failed[m] == 0 &&
+        !(std::isfinite(twist.vx) && std::isfinite(twist.vy) && std::isfinite(twist.wz))) {
+      slots.failed[m] = 1;
+      problem = "proposed a velocity that is not finite";
+    }
+    if (slots.failed[m] != 0) {
+      twist = {};
+      if (failed_before[m - block.begin] == 0) {
+        worker.events.push_back({made.step, made.members[m], EventKind::kDriverFailed, BodyId(),
+                                 fmt::format("actuator `{}`: {}", slots.spec->name, problem)});
+      }
+    }
+    made.by_robot[made.members[m].value()] = twist;
+  }
+}
+
 }  // namespace
 
 void Engine::Impl::act() {
@@ -154,32 +189,9 @@ void Engine::Impl::actuate(RobotGroup& group, const Block& block, Worker& worker
       input.contact = truth.limited[r];
     }
     if (slots.spec->virtual_ops == nullptr) continue;
-    ErrorText error;
-    std::uint8_t failed_before[kMemberBlock];
-    std::copy(slots.failed.begin() + block.begin, slots.failed.begin() + block.end, failed_before);
     const CrashNote whose = crash_note(block, "actuator", slots.spec->driver);
     const CrashScope scope(whose);
-    slots.spec->virtual_ops->propose(slots.instances.at(block.begin), slots.instances.stride(),
-                                     worker.motion_inputs.data(), worker.proposals.data(),
-                                     block.end - block.begin, slots.failed.data() + block.begin,
-                                     &error);
-    for (std::uint32_t m = block.begin; m < block.end; ++m) {
-      Twist2 twist = worker.proposals[m - block.begin];
-      std::string_view problem = text_for(error, m - block.begin);
-      if (slots.failed[m] == 0 &&
-          !(std::isfinite(twist.vx) && std::isfinite(twist.vy) && std::isfinite(twist.wz))) {
-        slots.failed[m] = 1;
-        problem = "proposed a velocity that is not finite";
-      }
-      if (slots.failed[m] != 0) {
-        twist = {};
-        if (failed_before[m - block.begin] == 0) {
-          worker.events.push_back({step, group.members[m], EventKind::kDriverFailed, BodyId(),
-                                   fmt::format("actuator `{}`: {}", slots.spec->name, problem)});
-        }
-      }
-      truth.proposal[group.members[m].value()] = twist;
-    }
+    propose_motion(slots, block, worker, {step, group.members, truth.proposal});
   }
 }
 

@@ -11,9 +11,6 @@
 // Functions used by several makers of devices.
 namespace rave::runtime {
 
-/// The values of a driver's parameters, defaults filled in. Errors: with file, line and column.
-[[nodiscard]] Result<plugin::ParamSet> read_params(const plugin::Driver& driver,
-                                                   const config::RawNode& params);
 /// Like read_params(), for a sensor. A missing parameter `geo_origin` is set from the scenario.
 [[nodiscard]] Result<plugin::ParamSet> read_sensor_params(const DeviceContext& context,
                                                           const plugin::Driver& driver,

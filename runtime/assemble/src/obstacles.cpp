@@ -26,18 +26,8 @@ std::vector<Vec2> corners_of(const config::Outline& outline) {
   return corners;
 }
 
-/// Converts an entry of `changes:` about an obstacle.
-Result<sim::ObstacleChange> change_of(const config::ChangeFile& file) {
-  if (file.add_obstacle) {
-    RAVE_TRY_ASSIGN(auto obstacle, make_obstacle(*file.add_obstacle));
-    return addition(std::move(obstacle));
-  }
-  return file.move_obstacle ? move_of(*file.move_obstacle) : removal(file.remove_obstacle->value);
-}
-
-const config::Located<std::string>& name_in(const config::ChangeFile& file) {
-  if (file.add_obstacle) return file.add_obstacle->name;
-  return file.move_obstacle ? file.move_obstacle->name : *file.remove_obstacle;
+Pose2 pose_of(double x_m, double y_m, double yaw_deg) {
+  return {x_m, y_m, wrap_angle(deg_to_rad(yaw_deg))};
 }
 
 }  // namespace
@@ -65,7 +55,7 @@ Result<world::Obstacle> make_obstacle(const config::ObstacleFile& file) {
   obstacle.body.name = file.name.value;
   obstacle.body.layer = layer_of(file.layer);
   obstacle.body.colour = file.colour.value_or("");
-  obstacle.X_WB = {file.x_m, file.y_m, wrap_angle(deg_to_rad(file.yaw_deg))};
+  obstacle.X_WB = pose_of(file.x_m, file.y_m, file.yaw_deg);
   auto shapes = shapes_of(file.outline, {}, file.z_m);
   if (!shapes) {
     return fail_at(file.name.where, ErrorCode::kInvalidArgument, "obstacle `{}`: {}",
@@ -81,26 +71,20 @@ Result<world::Obstacle> make_obstacle(const config::ObstacleFile& file) {
   return obstacle;
 }
 
-sim::ObstacleChange addition(world::Obstacle obstacle) {
+Result<sim::ObstacleChange> change_of(const config::ObstacleEdit& edit) {
   sim::ObstacleChange change;
-  change.name = obstacle.body.name;
-  change.X_WB = obstacle.X_WB;
-  change.body = std::move(obstacle.body);
-  return change;
-}
-
-sim::ObstacleChange removal(std::string name) {
-  sim::ObstacleChange change;
-  change.kind = Kind::kRemove;
-  change.name = std::move(name);
-  return change;
-}
-
-sim::ObstacleChange move_of(const config::MoveObstacleFile& file) {
-  sim::ObstacleChange change;
-  change.kind = Kind::kMove;
-  change.name = file.name.value;
-  change.X_WB = {file.x_m, file.y_m, wrap_angle(deg_to_rad(file.yaw_deg))};
+  change.name = edit.name().value;
+  if (edit.remove_obstacle) {
+    change.kind = Kind::kRemove;
+  } else if (edit.move_obstacle) {
+    change.kind = Kind::kMove;
+    change.X_WB =
+        pose_of(edit.move_obstacle->x_m, edit.move_obstacle->y_m, edit.move_obstacle->yaw_deg);
+  } else {
+    RAVE_TRY_ASSIGN(world::Obstacle obstacle, make_obstacle(*edit.add_obstacle));
+    change.X_WB = obstacle.X_WB;
+    change.body = std::move(obstacle.body);
+  }
   return change;
 }
 
@@ -113,11 +97,12 @@ Status add_obstacle_changes(const config::ExpandedScenario& scenario, sim::Engin
     names.emplace_back(obstacle.body.name);
   }
   for (const config::ChangeFile& file : scenario.scenario.changes) {
-    if (file.add_obstacle) names.emplace_back(*file.add_obstacle->name);
+    const auto& added = file.obstacle.add_obstacle;
+    if (added) names.emplace_back(*added->name);
   }
   for (const config::ChangeFile& file : scenario.scenario.changes) {
     if (file.robot) continue;
-    const auto& name = name_in(file);
+    const config::Located<std::string>& name = file.obstacle.name();
     if (std::find(names.begin(), names.end(), *name) == names.end()) {
       return fail_at(name.where, ErrorCode::kNotFound, "there is no obstacle `{}`{}", *name,
                      suggestion(*name, names));
@@ -125,7 +110,7 @@ Status add_obstacle_changes(const config::ExpandedScenario& scenario, sim::Engin
     sim::ScheduledObstacle scheduled;
     scheduled.step =
         static_cast<std::uint64_t>(std::llround(file.at_s.value / scenario.scenario.step_s.value));
-    RAVE_TRY_ASSIGN(scheduled.change, change_of(file));
+    RAVE_TRY_ASSIGN(scheduled.change, change_of(file.obstacle));
     // The same check as for requests of a run in progress, so a scenario cannot contain what a
     // request may not ask.
     const Status checked = sim::check_obstacle_change(scheduled.change);

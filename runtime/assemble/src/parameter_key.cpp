@@ -125,12 +125,6 @@ Result<sim::ParameterChange> parse_change(const sim::RobotType& type, std::strin
   return tl::unexpected(std::move(error));
 }
 
-std::vector<std::string> parameter_keys(const sim::RobotType& type) {
-  std::vector<std::string> keys;
-  for (const Known& known : known_parameters(type)) keys.push_back(known.key);
-  return keys;
-}
-
 std::vector<ChangeableParameter> changeable_parameters(const sim::RobotType& type) {
   std::vector<ChangeableParameter> all;
   for (const Known& known : known_parameters(type)) all.push_back({known.key, known.spec});

@@ -11,7 +11,7 @@
 namespace rave::control {
 
 /// The answer to requests that need no step of the run: status, pause, resume, single steps. Empty
-/// for requests to the run; see run_request(). May be called from any thread.
+/// for requests to the run; `run`. May be called from any thread.
 [[nodiscard]] std::optional<Answer> answer_at_once(runtime::RunControl& control,
                                                    const Request& request);
 

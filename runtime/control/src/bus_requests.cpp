@@ -28,7 +28,7 @@ BegunRequest answered(const Answer& answer, std::string told, bool understood = 
 
 /// The log line for a request; empty for requests that only read.
 std::string told_of(const Request& request) {
-  if (request.what == Request::What::kStatus || request.what == Request::What::kList) return {};
+  if (request.only_reads()) return {};
   std::string text = write_request(request);
   text.erase(text.find_last_not_of('\n') + 1);
   return text;
@@ -46,7 +46,7 @@ bus::BeginRequest bus_requests_of(RunControl& control) {
     if (const auto answer = answer_at_once(control, *request)) {
       return answered(*answer, told_of(*request));
     }
-    auto posted = control.post(run_request(*request));
+    auto posted = control.post(request->run);
     if (!posted) return answered({false, posted.error().message, {}}, told_of(*request));
     // shared_ptr because a std::function must be copyable, and it is shared with nothing else.
     const auto awaited = std::make_shared<std::future<Result<std::string>>>(*std::move(posted));

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "line_json.hpp"
@@ -16,118 +19,68 @@
 namespace rave::control {
 namespace {
 
-struct Word {
-  std::string_view name;
-  Request::What what;
-};
-constexpr std::array kWords = {Word{"status", Request::What::kStatus},
-                               Word{"stop", Request::What::kStop},
-                               Word{"release", Request::What::kRelease},
-                               Word{"arm", Request::What::kArm},
-                               Word{"set", Request::What::kSet},
-                               Word{"pause", Request::What::kPause},
-                               Word{"resume", Request::What::kResume},
-                               Word{"step", Request::What::kStep},
-                               Word{"end", Request::What::kEnd},
-                               Word{"add", Request::What::kAdd},
-                               Word{"move", Request::What::kMove},
-                               Word{"remove", Request::What::kRemove},
-                               Word{"list", Request::What::kList},
-                               Word{"hand_over", Request::What::kHandOver},
-                               Word{"reset_shadow", Request::What::kResetShadow},
-                               Word{"drive", Request::What::kDrive},
-                               Word{"goal", Request::What::kGoal},
-                               Word{"path", Request::What::kPath},
-                               Word{"cancel", Request::What::kCancel},
-                               Word{"text", Request::What::kText},
-                               Word{"place", Request::What::kPlace},
-                               Word{"take", Request::What::kTake},
-                               Word{"give", Request::What::kGive},
-                               Word{"chat", Request::What::kChat}};
+using What = Request::What;
+using Kind = runtime::RunRequest::Kind;
 
-using RunKind = runtime::RunRequest::Kind;
+/// Requests that do not go to the run; those that do have the words of their kinds.
+constexpr std::array kWords = {std::pair{What::kStatus, std::string_view("status")},
+                               std::pair{What::kPause, std::string_view("pause")},
+                               std::pair{What::kResume, std::string_view("resume")},
+                               std::pair{What::kStep, std::string_view("step")},
+                               std::pair{What::kEnd, std::string_view("end")}};
 
-struct RunWord {
-  Request::What what;
-  RunKind kind;
-};
-/// The requests to a run, in both forms.
-constexpr std::array kRunWords = {RunWord{Request::What::kStop, RunKind::kStop},
-                                  RunWord{Request::What::kRelease, RunKind::kRelease},
-                                  RunWord{Request::What::kArm, RunKind::kArm},
-                                  RunWord{Request::What::kSet, RunKind::kSet},
-                                  RunWord{Request::What::kAdd, RunKind::kAdd},
-                                  RunWord{Request::What::kMove, RunKind::kMove},
-                                  RunWord{Request::What::kRemove, RunKind::kRemove},
-                                  RunWord{Request::What::kList, RunKind::kList},
-                                  RunWord{Request::What::kHandOver, RunKind::kHandOver},
-                                  RunWord{Request::What::kResetShadow, RunKind::kResetShadow},
-                                  RunWord{Request::What::kDrive, RunKind::kDrive},
-                                  RunWord{Request::What::kGoal, RunKind::kGoal},
-                                  RunWord{Request::What::kPath, RunKind::kPath},
-                                  RunWord{Request::What::kCancel, RunKind::kCancel},
-                                  RunWord{Request::What::kText, RunKind::kText},
-                                  RunWord{Request::What::kPlace, RunKind::kPlace},
-                                  RunWord{Request::What::kTake, RunKind::kTake},
-                                  RunWord{Request::What::kGive, RunKind::kGive},
-                                  RunWord{Request::What::kChat, RunKind::kChat}};
-
-std::optional<Request::What> take_what(Json& json) {
-  if (!json.contains("do") || !json.at("do").is_string()) return std::nullopt;
-  const auto word = json.at("do").get<std::string>();
-  json.erase("do");
-  for (const Word& known : kWords) {
-    if (known.name == word) return known.what;
+std::string_view word_of(const Request& request) noexcept {
+  for (const auto& [what, word] : kWords) {
+    if (what == request.what) return word;
   }
-  return std::nullopt;
+  return runtime::to_string(request.run.kind);
+}
+
+std::string all_words() {
+  std::vector<std::string_view> words;
+  for (const auto& [what, word] : kWords) words.push_back(word);
+  for (auto kind = 0; kind <= static_cast<int>(Kind::kChat); ++kind) {
+    words.push_back(runtime::to_string(static_cast<Kind>(kind)));
+  }
+  return join_names(words);
+}
+
+/// The request that `do` names, without its details.
+std::optional<Request> take_what(Json& json) {
+  if (!json.contains("do") || !json.at("do").is_string()) return std::nullopt;
+  const auto asked = json.at("do").get<std::string>();
+  json.erase("do");
+  for (const auto& [what, word] : kWords) {
+    if (word == asked) return Request{what};
+  }
+  const auto kind = runtime::request_kind(asked);
+  return kind ? std::optional(request_of({*kind, ""})) : std::nullopt;
 }
 
 /// Checks the number of points before the points are read, to give a specific error message.
-Status check_points(Request::What what, const Json& json) {
-  if (what != Request::What::kPath || !json.contains("points")) return {};
+Status check_points(const runtime::RunRequest& run, const Json& json) {
+  if (run.kind != Kind::kPath || !json.contains("points")) return {};
   const Json& points = json.at("points");
   return points.is_array() ? runtime::check_path_size(points.size()) : Status();
 }
 
+/// An edit is described where files are, which also says what is wrong with it.
+Status take_edit(Json& json, runtime::RunRequest& run) {
+  if (run.kind != Kind::kEdit) return {};
+  if (!json.contains("edit")) {
+    return fail(ErrorCode::kInvalidArgument,
+                "`edit` is missing: expected an object with one of `add_obstacle`, "
+                "`move_obstacle` and `remove_obstacle`");
+  }
+  auto edit = config::read_edit(json.at("edit").dump(), "edit");
+  // Lines have no places that would help the user.
+  if (!edit) return fail(edit.error().code, "{}", edit.error().message);
+  run.edit = *std::move(edit);
+  json.erase("edit");
+  return {};
+}
+
 }  // namespace
-
-Request request_of(const runtime::RunRequest& request) {
-  Request asked;
-  for (const auto& [what, kind] : kRunWords) {
-    if (kind == request.kind) asked.what = what;
-  }
-  asked.robot = request.robot;
-  asked.key = request.key;
-  asked.value = request.value;
-  asked.by = request.by;
-  asked.overrides = request.overrides;
-  asked.page = request.page;
-  asked.points = request.points;
-  asked.yaw_rad = request.yaw_rad;
-  asked.v_mps = request.v_mps;
-  asked.w_radps = request.w_radps;
-  asked.speed_mps = request.speed_mps;
-  return asked;
-}
-
-runtime::RunRequest run_request(const Request& request) {
-  runtime::RunRequest asked;
-  for (const auto& [what, kind] : kRunWords) {
-    if (what == request.what) asked.kind = kind;
-  }
-  asked.robot = request.robot;
-  asked.key = request.key;
-  asked.value = request.value;
-  asked.by = request.by;
-  asked.overrides = request.overrides;
-  asked.page = request.page;
-  asked.points = request.points;
-  asked.yaw_rad = request.yaw_rad;
-  asked.v_mps = request.v_mps;
-  asked.w_radps = request.w_radps;
-  asked.speed_mps = request.speed_mps;
-  return asked;
-}
 
 std::string too_long_text() {
   return fmt::format("the line is longer than {} bytes, which hold a path of {} points",
@@ -144,42 +97,38 @@ Result<Request> parse_request(std::string_view line) {
     return fail(ErrorCode::kParse, "expected `\"rave\": 1`, the version of this protocol");
   }
   json.erase("rave");
-  Request request;
-  const auto what = take_what(json);
-  if (!what) {
-    std::vector<std::string_view> names;
-    for (const Word& word : kWords) names.push_back(word.name);
-    return fail(ErrorCode::kInvalidArgument, "expected `do` to be one of {}", join_names(names));
+  auto request = take_what(json);
+  if (!request) {
+    return fail(ErrorCode::kInvalidArgument, "expected `do` to be one of {}", all_words());
   }
-  request.what = *what;
-  RAVE_TRY(check_points(*what, json));
-  if (!take_request_fields(json, request)) {
+  RAVE_TRY(check_points(request->run, json));
+  RAVE_TRY(take_edit(json, request->run));
+  if (!take_request_fields(json, *request)) {
     return fail(ErrorCode::kInvalidArgument, "a key is missing or has the wrong type");
   }
   if (!json.empty()) {
     return fail(ErrorCode::kInvalidArgument, "unexpected key `{}`", json.begin().key());
   }
-  return request;
+  return *std::move(request);
 }
 
 std::string write_request(const Request& request) {
-  Json json = {{"rave", 1}};
-  for (const Word& word : kWords) {
-    if (word.what == request.what) json["do"] = word.name;
-  }
-  if (!request.robot.empty()) json["robot"] = request.robot;
-  if (!request.key.empty()) json["key"] = request.key;
-  if (!request.value.empty()) json["value"] = request.value;
-  if (request.what == Request::What::kStep) json["count"] = request.count;
-  if (!request.by.empty()) json["by"] = request.by;
-  if (request.overrides) json["overrides"] = true;
-  if (request.page != 0) json["page"] = request.page;
-  for (const Vec2 p_W : request.points) json["points"].push_back({p_W.x, p_W.y});
-  if (request.yaw_rad) json["yaw"] = *request.yaw_rad;
-  if (request.speed_mps != 0) json["speed"] = request.speed_mps;
-  if (request.what == Request::What::kDrive) {
-    json["v"] = request.v_mps;
-    json["w"] = request.w_radps;
+  const runtime::RunRequest& run = request.run;
+  Json json = {{"rave", 1}, {"do", word_of(request)}};
+  if (!run.robot.empty()) json["robot"] = run.robot;
+  if (!run.key.empty()) json["key"] = run.key;
+  if (!run.value.empty()) json["value"] = run.value;
+  if (request.what == What::kStep) json["count"] = request.count;
+  if (!run.by.empty()) json["by"] = run.by;
+  if (run.overrides) json["overrides"] = true;
+  if (run.page != 0) json["page"] = run.page;
+  for (const Vec2 p_W : run.points) json["points"].push_back({p_W.x, p_W.y});
+  if (run.edit) json["edit"] = Json::parse(config::write_edit(*run.edit));
+  if (run.yaw_rad) json["yaw"] = *run.yaw_rad;
+  if (run.speed_mps != 0) json["speed"] = run.speed_mps;
+  if (request.what == What::kRun && run.kind == Kind::kDrive) {
+    json["v"] = run.v_mps;
+    json["w"] = run.w_radps;
   }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -11,6 +11,9 @@
 namespace rave::control {
 namespace {
 
+using runtime::RunRequest;
+using Kind = RunRequest::Kind;
+
 constexpr std::size_t kMaxWordBytes = 4096;
 constexpr std::uint64_t kMaxSteps = 1'000'000'000;
 
@@ -50,7 +53,7 @@ bool take_page(Json& json, std::uint64_t& page) {
 }
 
 /// The author of a request; only requests that change something may name one.
-bool take_author(Json& json, Request& request) {
+bool take_author(Json& json, RunRequest& request) {
   return take_text(json, "by", request.by) && request.by.size() <= kMostOrderAuthor &&
          take_flag(json, "overrides", request.overrides) && take_page(json, request.page);
 }
@@ -64,13 +67,13 @@ bool take_number(Json& json, const char* key, bool needed, double& value) {
   return std::isfinite(value);
 }
 
-bool take_yaw(Json& json, Request& request) {
+bool take_yaw(Json& json, RunRequest& request) {
   if (!json.contains("yaw")) return true;
   return take_number(json, "yaw", true, request.yaw_rad.emplace());
 }
 
 /// A list of points, each a list of x and y.
-bool take_points(Json& json, std::size_t least, std::size_t most, Request& request) {
+bool take_points(Json& json, std::size_t least, std::size_t most, RunRequest& request) {
   if (!json.contains("points") || !json.at("points").is_array()) return false;
   const Json points = std::move(json.at("points"));
   json.erase("points");
@@ -86,34 +89,34 @@ bool take_points(Json& json, std::size_t least, std::size_t most, Request& reque
   return true;
 }
 
-bool take_robot(Json& json, Request& request) {
+bool take_robot(Json& json, RunRequest& request) {
   return take_text(json, "robot", request.robot) && !request.robot.empty();
 }
 
 /// The members of orders and leases.
-bool take_order(Json& json, Request& request) {
+bool take_order(Json& json, RunRequest& request) {
   if (!take_author(json, request)) return false;
-  switch (request.what) {
-    case Request::What::kDrive:
+  switch (request.kind) {
+    case Kind::kDrive:
       return take_robot(json, request) && take_number(json, "v", true, request.v_mps) &&
              take_number(json, "w", true, request.w_radps);
-    case Request::What::kGoal:
+    case Kind::kGoal:
       return take_robot(json, request) && take_points(json, 1, 1, request) &&
              take_yaw(json, request) && take_number(json, "speed", false, request.speed_mps);
-    case Request::What::kPath:
+    case Kind::kPath:
       return take_robot(json, request) && take_points(json, 2, kMostOrderPoints, request) &&
              take_number(json, "speed", false, request.speed_mps);
-    case Request::What::kPlace:
+    case Kind::kPlace:
       return take_robot(json, request) && take_points(json, 1, 1, request) &&
              take_yaw(json, request);
-    case Request::What::kText:
+    case Kind::kText:
       return take_robot(json, request) && take_text(json, "value", request.value) &&
              !request.value.empty() && request.value.size() <= kMostOrderText;
-    case Request::What::kCancel:
+    case Kind::kCancel:
       return take_text(json, "robot", request.robot);
-    case Request::What::kChat:
+    case Kind::kChat:
       return take_text(json, "key", request.key) && take_text(json, "value", request.value) &&
-             runtime::chat_line(run_request(request)).has_value();
+             runtime::chat_line(request).has_value();
     default:
       return take_robot(json, request) && take_text(json, "value", request.value) &&
              request.value.size() <= kMostOrderAuthor;
@@ -123,30 +126,24 @@ bool take_order(Json& json, Request& request) {
 }  // namespace
 
 bool take_request_fields(Json& json, Request& request) {
-  if (request.what >= Request::What::kDrive) return take_order(json, request);
-  const bool changes =
-      request.what != Request::What::kStatus && request.what != Request::What::kList;
-  if (changes && !take_author(json, request)) return false;
-  switch (request.what) {
-    case Request::What::kStop:
-    case Request::What::kRelease:
-    case Request::What::kArm:
-    case Request::What::kResetShadow:
-      return take_text(json, "robot", request.robot);
-    case Request::What::kSet:
-      return take_text(json, "robot", request.robot) && take_text(json, "key", request.key) &&
-             take_text(json, "value", request.value) && !request.robot.empty() &&
-             !request.key.empty() && !request.value.empty();
-    case Request::What::kHandOver:
-      return take_text(json, "robot", request.robot) && take_text(json, "value", request.value) &&
-             !request.robot.empty() && !request.value.empty();
-    case Request::What::kStep:
-      return take_count(json, request.count);
-    case Request::What::kAdd:
-    case Request::What::kMove:
-      return take_text(json, "value", request.value) && !request.value.empty();
-    case Request::What::kRemove:
-      return take_text(json, "key", request.key) && !request.key.empty();
+  RunRequest& run = request.run;
+  if (request.what == Request::What::kRun && run.kind >= Kind::kDrive) return take_order(json, run);
+  if (!request.only_reads() && !take_author(json, run)) return false;
+  if (request.what == Request::What::kStep) return take_count(json, request.count);
+  if (request.what != Request::What::kRun) return true;
+  switch (run.kind) {
+    case Kind::kStop:
+    case Kind::kRelease:
+    case Kind::kArm:
+    case Kind::kResetShadow:
+      return take_text(json, "robot", run.robot);
+    case Kind::kSet:
+      return take_text(json, "robot", run.robot) && take_text(json, "key", run.key) &&
+             take_text(json, "value", run.value) && !run.robot.empty() && !run.key.empty() &&
+             !run.value.empty();
+    case Kind::kHandOver:
+      return take_text(json, "robot", run.robot) && take_text(json, "value", run.value) &&
+             !run.robot.empty() && !run.value.empty();
     default:
       return true;
   }

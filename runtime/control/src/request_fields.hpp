@@ -6,7 +6,7 @@
 
 namespace rave::control {
 
-/// Takes the keys that belong to `request.what` out of an object; false: one of them is missing,
+/// Takes the keys that belong to a request out of an object; false: one of them is missing,
 /// has the wrong type or is beyond its bounds. What stays in the object does not belong there.
 [[nodiscard]] bool take_request_fields(Json& json, Request& request);
 

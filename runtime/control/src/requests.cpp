@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "asked_change.hpp"
 #include "rave/assemble/obstacles.hpp"
 #include "rave/assemble/parameter_key.hpp"
 #include "rave/assemble/twins.hpp"
 #include "rave/base/names.hpp"
 #include "rave/config/diagnostics.hpp"
 #include "rave/config/yaml.hpp"
+#include "rave/control/obstacle_edits.hpp"
 #include "rave/control/order_words.hpp"
 #include "rave/control/world_request.hpp"
 
@@ -69,7 +69,7 @@ Result<std::string> set(sim::Engine& engine, RobotId robot, const RunRequest& re
 }
 
 Result<std::string> edit(sim::Engine& engine, const RunRequest& request) {
-  RAVE_TRY_ASSIGN(const sim::ObstacleChange change, asked_change(request));
+  RAVE_TRY_ASSIGN(const sim::ObstacleChange change, requested_change(request));
   RAVE_TRY_ASSIGN(const sim::ChangedObstacle made,
                   engine.change_obstacle(change, {true, request.by}));
   const double from_s = static_cast<double>(made.step) * engine.spec().step.seconds();
@@ -137,9 +137,7 @@ Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request
       return arm(engine, robot, author);
     case RunRequest::Kind::kSet:
       return set(engine, robot, request);
-    case RunRequest::Kind::kAdd:
-    case RunRequest::Kind::kMove:
-    case RunRequest::Kind::kRemove:
+    case RunRequest::Kind::kEdit:
       return edit(engine, request);
     case RunRequest::Kind::kHandOver:
       return hand_over(engine, robot, request);

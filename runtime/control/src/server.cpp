@@ -33,7 +33,7 @@ Answer answer_line(runtime::RunControl& control, std::string_view line) {
   const auto request = parse_request(line);
   if (!request) return {false, request.error().message, {}};
   if (auto answer = answer_at_once(control, *request)) return *std::move(answer);
-  return answer_of(control.ask(run_request(*request)));
+  return answer_of(control.ask(request->run));
 }
 
 }  // namespace

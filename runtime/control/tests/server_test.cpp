@@ -50,10 +50,7 @@ class ServerTest : public ::testing::Test {
   }
 
   static Request stop(const std::string& robot) {
-    Request request;
-    request.what = Request::What::kStop;
-    request.robot = robot;
-    return request;
+    return request_of({runtime::RunRequest::Kind::kStop, robot});
   }
 
   fs::path folder_;

@@ -74,7 +74,7 @@ TEST(LineMessage, RefusesWhatIsNoOrder) {
             "a path has 1 points; expected 2 to 1000");
   EXPECT_EQ(refused(R"("kind":"text","text":"")"), "`text`: expected text");
   EXPECT_EQ(refused(R"("kind":"stop","by":"ben")"), "unknown members");
-  for (const char* const other : {"set", "add", "arm", "hand_over", "remove", "list"}) {
+  for (const char* const other : {"set", "edit", "arm", "hand_over", "list"}) {
     EXPECT_NE(refused((R"("kind":")" + std::string(other) + "\"").c_str()).find("`kind`: expected"),
               std::string::npos)
         << other;

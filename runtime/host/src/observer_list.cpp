@@ -117,8 +117,7 @@ Result<std::string> ObserverList::make_input(sim::Engine& engine, const RunReque
   }
   const bool places = request.kind == RunRequest::Kind::kPlace && place_;
   auto answer = places ? place(engine, request) : serve_request(engine, request);
-  const bool asks = request.kind == RunRequest::Kind::kList;
-  if (answer && !asks) keep(request, engine.steps_done());
+  if (answer && !request.only_reads()) keep(request, engine.steps_done());
   return answer;
 }
 

@@ -187,15 +187,21 @@ TEST(Requests, AreServedBetweenStepsAlsoWhilePaused) {
   EXPECT_EQ(ask(RunRequest::Kind::kSet, "", "body.scale", "1").error().code,
             ErrorCode::kInvalidArgument);
   using Kind = RunRequest::Kind;
-  EXPECT_EQ(ask(Kind::kAdd, "", "", "{name: crate, box_m: [1, 2], x_m: 5, y_m: 0.5}").value(),
+  const auto edit = [&](const std::string& text) {
+    RunRequest request{Kind::kEdit, ""};
+    // One that says nothing is what read_edit() refuses; code may put it together.
+    request.edit = text.empty() ? config::ObstacleEdit() : config::read_edit(text, "test").value();
+    return control.ask(request, std::chrono::minutes(1));
+  };
+  EXPECT_EQ(edit("{add_obstacle: {name: crate, box_m: [1, 2], x_m: 5, y_m: 0.5}}").value(),
             "added `crate` at (5, 0.5), yaw 0 rad (by hand); counts from step 0 on, at 0.000 s");
-  EXPECT_EQ(ask(Kind::kMove, "", "", "{name: crate, x_m: 6}").value(),
+  EXPECT_EQ(edit("{move_obstacle: {name: crate, x_m: 6}}").value(),
             "moved `crate` at (6, 0), yaw 0 rad (by hand); counts from step 0 on, at 0.000 s");
-  EXPECT_EQ(ask(Kind::kAdd, "", "", "{name: crate}").error().code, ErrorCode::kParse);
-  EXPECT_EQ(ask(Kind::kAdd, "", "", "[").error().code, ErrorCode::kParse);
-  EXPECT_EQ(ask(Kind::kMove, "", "", "{name: crte, x_m: 6}").error().message,
+  EXPECT_EQ(edit("").error().code, ErrorCode::kParse);
+  EXPECT_EQ(ask(Kind::kEdit, "").error().message, "expected the edit of an obstacle");
+  EXPECT_EQ(edit("{move_obstacle: {name: crte, x_m: 6}}").error().message,
             "there is no obstacle `crte`; did you mean `crate`?");
-  EXPECT_EQ(ask(Kind::kAdd, "", "", "{name: lid, disc_radius_m: 1}").error().code,
+  EXPECT_EQ(edit("{add_obstacle: {name: lid, disc_radius_m: 1}}").error().code,
             ErrorCode::kInvalidArgument);
   const std::string listed = ask(Kind::kList, "").value();
   EXPECT_TRUE(listed.starts_with("1 obstacle\n     1  crate ")) << listed;

@@ -25,10 +25,6 @@ constexpr Duration kConfirmation = from_seconds(2);
 constexpr std::chrono::seconds kComing{1};
 constexpr std::chrono::seconds kHandingOver{5};
 
-bool is_edit(RequestKind kind) noexcept {
-  return kind == RequestKind::kAdd || kind == RequestKind::kMove || kind == RequestKind::kRemove;
-}
-
 /// The changes, by id, from the obstacles of the start to the present ones.
 std::vector<sim::ObstacleChange> changes_of(
     const std::map<std::uint32_t, real_time::ObstacleSight>& obstacles) {
@@ -270,7 +266,7 @@ void LiveEdits::note(const sim::ObstacleChange& made) {
 }
 
 Result<std::string> LiveEdits::edit(const runtime::RunRequest& request, SimTime now) {
-  if (!is_edit(request.kind)) {
+  if (request.kind != RequestKind::kEdit) {
     return fail(ErrorCode::kState,
                 "in real time each host controls its own robots: send the request to the host that "
                 "runs them (`rave ps` lists it; on the bus it is RUN@HOST); this process only "

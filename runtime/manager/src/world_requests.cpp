@@ -129,9 +129,7 @@ void WorldRequests::take(runtime::RunControl::Asked asked, sim::WorldAuthority& 
   }
   const auto number = pass_on(asked.request(), authority);
   if (!number) return asked.answer(fail(number.error().code, "{}", number.error().message));
-  using Kind = RunRequest::Kind;
-  const Kind kind = asked.request().kind;
-  const bool obstacle = kind == Kind::kAdd || kind == Kind::kMove || kind == Kind::kRemove;
+  const bool obstacle = asked.request().kind == RunRequest::Kind::kEdit;
   requests_.push_back({std::move(asked), *number, obstacle, std::chrono::steady_clock::now()});
 }
 

@@ -88,17 +88,6 @@ Status read_layers(const RawNode& block, sim::SensorSpec& sensor) {
   return {};
 }
 
-struct AddProbeValue {
-  plugin::ParamSet& set;
-  const std::string& name;
-
-  void operator()(bool value) const { set.add_number(name, value ? 1 : 0); }
-  void operator()(std::int64_t value) const { set.add_number(name, static_cast<double>(value)); }
-  void operator()(double value) const { set.add_number(name, value); }
-  void operator()(const std::string& value) const { set.add_text(name, value); }
-  void operator()(const std::vector<double>& value) const { set.add_list(name, value); }
-};
-
 Status read_driver(const RawNode& block, plugin::Catalogue& catalogue, sim::SensorSpec& sensor) {
   RAVE_TRY_ASSIGN(const std::string name, text_in(block, "driver"));
   constexpr std::array kKinds = {DriverKind::kVirtualSensor};
@@ -106,14 +95,9 @@ Status read_driver(const RawNode& block, plugin::Catalogue& catalogue, sim::Sens
   sensor.driver = driver->info.name;
   sensor.kind = static_cast<ReadingKind>(driver->info.data_kind);
   sensor.virtual_ops = static_cast<const VirtualSensorOps*>(driver->ops);
-  const auto specs = runtime::field_specs(driver->info);
   const RawNode* const params = block.find("params");
-  RAVE_TRY_ASSIGN(const auto values,
-                  config::read_params(params == nullptr ? RawNode() : *params, specs,
-                                      fmt::format("driver `{}`", sensor.driver)));
-  for (const config::Param& param : values.all()) {
-    std::visit(AddProbeValue{sensor.params, param.name}, param.value);
-  }
+  RAVE_TRY_ASSIGN(sensor.params,
+                  runtime::read_params(*driver, params == nullptr ? RawNode() : *params));
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "rave/bus/sequence.hpp"
+#include "rave/config/world_file.hpp"
 
 namespace rave::lock_step {
 namespace {
@@ -170,6 +171,13 @@ Result<sim::ObstacleChange> read_obstacle(const rave_wire_ObstacleChange& wire) 
   change.X_WB = {wire.x_m, wire.y_m, wire.yaw_rad};
   change.asked = wire.asked;
   change.by = wire.author;
+  if (!change.asked.empty()) {
+    const auto edit = config::read_edit(change.asked, "asked");
+    if (!edit) {
+      return fail(ErrorCode::kInvalidArgument, "obstacle `{}`, asked: {}", change.name,
+                  edit.error().message);
+    }
+  }
   if (change.kind == Kind::kAdd) RAVE_TRY(read_body(wire, change.body));
   RAVE_TRY(sim::check_obstacle_change(change));
   return change;

@@ -78,6 +78,44 @@ inline sim::HostReport example_report() {
   return report;
 }
 
+inline std::vector<sim::WorldInput> example_inputs() {
+  sim::WorldInput stop;
+  stop.sequence = 4;
+  sim::WorldInput change;
+  change.sequence = 5;
+  change.kind = sim::WorldInput::Kind::kChange;
+  change.author = sim::Author::kRun;
+  change.robot = RobotId(1);
+  using Part = sim::ParameterChange::Part;
+  change.changes = {{Part::kProgram, 0, "speed_mps", 0.4},
+                    {Part::kController, 1, "mode", std::string("fast")},
+                    {Part::kActuator, 2, "gains", std::vector<double>{1, 2, 3}}};
+  std::vector<sim::WorldInput> inputs = {stop, change};
+  const auto orders = example_orders();
+  inputs.insert(inputs.end(), orders.begin(), orders.end());
+  return inputs;
+}
+
+inline std::vector<sim::ObstacleChange> example_obstacles() {
+  sim::ObstacleChange crate;
+  crate.id = BodyId(9);
+  crate.name = "crate";
+  crate.X_WB = {1, -2, 0.5};
+  crate.asked = R"({"remove_obstacle": "crate"})";
+  crate.by = "anna";
+  crate.body.name = crate.name;
+  crate.body.colour = "#102030";
+  crate.body.code = 7;
+  crate.body.shapes = {*world::make_disc({0.1, 0.2}, 0.3, 0, 1)};
+  const std::vector<Vec2> corners = {{0, 0}, {1, 0}, {0.25, 0.5}};
+  crate.body.shapes.push_back(world::make_prisms(corners, 0.1, 0.9)->front());
+  sim::ObstacleChange gone;
+  gone.kind = sim::ObstacleChange::Kind::kRemove;
+  gone.id = BodyId(8);
+  gone.name = "post";
+  return {crate, gone};
+}
+
 inline sim::WorldStep example_world() {
   sim::WorldStep world;
   world.begin(41, 3);
@@ -95,39 +133,10 @@ inline sim::WorldStep example_world() {
   world.samples = {{RobotId(1), SimTime{700}, {1, 2, 3}}};
   world.resized = {{RobotId(2), 1.5, "bert"}};
   add_packets(world.sent);
-  sim::WorldInput stop;
-  stop.sequence = 4;
-  sim::WorldInput change;
-  change.sequence = 5;
-  change.kind = sim::WorldInput::Kind::kChange;
-  change.author = sim::Author::kRun;
-  change.robot = RobotId(1);
-  using Part = sim::ParameterChange::Part;
-  change.changes = {{Part::kProgram, 0, "speed_mps", 0.4},
-                    {Part::kController, 1, "mode", std::string("fast")},
-                    {Part::kActuator, 2, "gains", std::vector<double>{1, 2, 3}}};
-  world.inputs = {stop, change};
-  const auto orders = example_orders();
-  world.inputs.insert(world.inputs.end(), orders.begin(), orders.end());
+  world.inputs = example_inputs();
+  world.obstacles = example_obstacles();
   world.answers = {{2, 1'700'000'000'000'000'001, 6}, {2, 9, 7}};
   world.refusals = {{7, "there is no room"}};
-  sim::ObstacleChange crate;
-  crate.id = BodyId(9);
-  crate.name = "crate";
-  crate.X_WB = {1, -2, 0.5};
-  crate.asked = "{name: crate}";
-  crate.by = "anna";
-  crate.body.name = crate.name;
-  crate.body.colour = "#102030";
-  crate.body.code = 7;
-  crate.body.shapes = {*world::make_disc({0.1, 0.2}, 0.3, 0, 1)};
-  const std::vector<Vec2> corners = {{0, 0}, {1, 0}, {0.25, 0.5}};
-  crate.body.shapes.push_back(world::make_prisms(corners, 0.1, 0.9)->front());
-  sim::ObstacleChange gone;
-  gone.kind = sim::ObstacleChange::Kind::kRemove;
-  gone.id = BodyId(8);
-  gone.name = "post";
-  world.obstacles = {crate, gone};
   return world;
 }
 

@@ -30,7 +30,7 @@ ObstacleSight crate(std::uint32_t id, std::uint64_t revision, const Pose2& X_WB 
   sight.stands.name = "crate" + std::to_string(id);
   sight.stands.X_WB = X_WB;
   sight.stands.body = box({}, 0.2, 0.2).body;
-  sight.stands.asked = "by somebody";
+  sight.stands.asked = R"({"remove_obstacle": "crate"})";
   return sight;
 }
 

@@ -299,12 +299,19 @@ TEST(Messages, AWorldThatNobodyCouldUseIsRefusedWithItsField) {
             "inputs.by has control characters");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[4].v_mps = std::nan(""); }),
             "inputs.v_mps is nan, not within +-10000");
+}
+
+TEST(Messages, AWorldWithObstaclesOrEventsThatCannotBeIsRefusedWithItsField) {
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.obstacles._buffer[1].kind = kUnknownChange; }),
             "obstacles[1].kind is unknown");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) {
               w.obstacles._buffer[0].shapes._buffer[1].x_m._buffer[2] = std::nan("");
             }),
             "obstacles[0].shapes[1].x_m is nan, not within +-10000000");
+  EXPECT_EQ(
+      refusal_of([](bus::WorldStep& w) { bus::put_text(w.obstacles._buffer[0].asked, "{}"); }),
+      "obstacle `crate`, asked: an edit has 0 of `add_obstacle`, `move_obstacle` and "
+      "`remove_obstacle`; expected one");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.authority.obstacles._buffer[0].x_m = 1e9; }),
             "authority.obstacles[0].x_m is 1000000000, not within +-10000000");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) {

@@ -55,7 +55,7 @@ sim::ObstacleChange addition(std::vector<world::Shape> shapes) {
   change.body.code_z1_m = 0.4;
   change.body.colour = "#00ff7f";
   change.body.shapes = std::move(shapes);
-  change.asked = "{name: bale}";
+  change.asked = R"({"add_obstacle": {"name": "bale", "disc_radius_m": 1}})";
   return change;
 }
 

@@ -166,9 +166,10 @@ void RecordKeeper::keep_pose(const sim::Engine& engine, RobotId robot) {
 }
 
 void RecordKeeper::keep(const RunRequest& request, std::uint64_t step) {
-  static_cast<void>(
-      recorder_.input({step, std::string(to_string(request.kind)), request.robot, request.key,
-                       is_order(request.kind) ? order_words(request) : request.value, request.by}));
+  std::string value = is_order(request.kind) ? order_words(request) : request.value;
+  if (request.edit) value = config::write_edit(*request.edit);
+  static_cast<void>(recorder_.input({step, std::string(to_string(request.kind)), request.robot,
+                                     request.key, std::move(value), request.by}));
 }
 
 void record_chat(const RunRequest& chat, std::uint64_t step, record::RunRecorder& recorder) {

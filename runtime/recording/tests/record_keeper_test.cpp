@@ -40,7 +40,7 @@ std::vector<Place> places_in(const sim::Engine& engine) {
 }
 
 /// A real robot comes late and drives through simulated ones, which make way for it.
-TEST(RecordKeeper, KeepsWhereEachRobotWasAndWasToldToBe) {
+sim::EngineSpec crowd_with_a_late_robot() {
   using sim::testing::add_robot;
   using sim::testing::add_twin;
   sim::EngineSpec spec;
@@ -55,7 +55,11 @@ TEST(RecordKeeper, KeepsWhereEachRobotWasAndWasToldToBe) {
   believes.pose_from = 0;
   add_robot(spec, std::move(believes), {0, 5, 0});
   add_robot(spec, sim::testing::simulated_type(), {2, 5, 0});
-  const auto engine = sim::testing::make_engine(std::move(spec));
+  return spec;
+}
+
+TEST(RecordKeeper, KeepsWhereEachRobotWasAndWasToldToBe) {
+  const auto engine = sim::testing::make_engine(crowd_with_a_late_robot());
   ASSERT_NE(engine, nullptr);
   const BodyKinds kinds(engine->spec(), std::vector<std::string>(engine->spec().robots.size()));
   const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) /

@@ -8,6 +8,7 @@
 #include "host_again.hpp"
 #include "rave/assemble/build.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/control/obstacle_edits.hpp"
 #include "rave/control/order_words.hpp"
 #include "rave/control/requests.hpp"
 #include "rave/pace/stall_watch.hpp"
@@ -99,13 +100,24 @@ Again again_of(HostAgain& host) {
 }
 
 /// Converts a recorded request.
-Result<RunRequest> request_of(RunRequest::Kind kind, const record::RunInput& input) {
+Result<RunRequest> request_of(const record::RunInput& input) {
   RunRequest request;
-  request.kind = kind;
   request.robot = input.robot;
-  request.key = input.key;
   request.by = input.by;
-  if (is_order(kind)) {
+  if (auto edit = recorded_edit(input.kind, input.key, input.value)) {
+    request.kind = RunRequest::Kind::kEdit;
+    RAVE_TRY_ASSIGN(request.edit, *std::move(edit));
+    return request;
+  }
+  const auto kind = request_kind(input.kind);
+  if (!kind) {
+    return fail(ErrorCode::kParse,
+                "the recording has an input `{}`, which this version of RAVE does not know",
+                input.kind);
+  }
+  request.kind = *kind;
+  request.key = input.key;
+  if (is_order(*kind)) {
     RAVE_TRY(read_order_words(input.value, request));
   } else {
     request.value = input.value;
@@ -126,13 +138,7 @@ class InputReplay {
     // step.
     for (; next_ < inputs_.size() && inputs_[next_].step <= step; ++next_) {
       const record::RunInput& input = inputs_[next_];
-      const auto kind = request_kind(input.kind);
-      if (!kind) {
-        return fail(ErrorCode::kParse,
-                    "the recording has an input `{}`, which this version of RAVE does not know",
-                    input.kind);
-      }
-      RAVE_TRY_ASSIGN(const RunRequest request, request_of(*kind, input));
+      RAVE_TRY_ASSIGN(const RunRequest request, request_of(input));
       const auto answer = again.ask(request);
       if (answer) {
         // The second recording needs the inputs as well, or it would differ from the first.

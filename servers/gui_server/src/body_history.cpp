@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "rave/control/world_request.hpp"
+#include "rave/control/obstacle_edits.hpp"
 #include "rave/record/run_messages.hpp"
 #include "rave/record/run_reader.hpp"
 #include "scene_json.hpp"
@@ -48,15 +48,12 @@ std::optional<Named> read_text(const std::string& text) {
 void add_asked(const record::McapReader& reader, double step_s, Comings& comings) {
   const auto take = [&](const record::MessageView& message) -> Status {
     const auto input = record::decode_input(message.bytes);
-    if (!input || input->kind != "add") return {};
-    runtime::RunRequest request;
-    request.kind = runtime::RunRequest::Kind::kAdd;
-    request.value = input->value;
-    const auto asked = runtime::input_of({}, request);
-    if (!asked || !asked->obstacle) return {};
-    const world::Obstacle obstacle{asked->obstacle->body, asked->obstacle->X_WB};
-    comings[asked->obstacle->name].push_back(
-        {static_cast<double>(input->step) * step_s, BodyJson::parse(body_json(0, obstacle))});
+    if (!input) return {};
+    const auto edit = runtime::recorded_edit(input->kind, input->key, input->value);
+    if (!edit || !*edit || !(*edit)->add_obstacle) return {};
+    const config::ObstacleFile& added = *(*edit)->add_obstacle;
+    comings[added.name.value].push_back(
+        {static_cast<double>(input->step) * step_s, BodyJson::parse(body_json(0, added))});
     return {};
   };
   // A recording without inputs, or with damaged ones, shows the rest.
@@ -66,9 +63,10 @@ void add_asked(const record::McapReader& reader, double step_s, Comings& comings
 Comings comings_of(const record::McapReader& reader, const config::ExpandedScenario& scenario) {
   Comings comings;
   for (const config::ChangeFile& change : scenario.scenario.changes) {
-    if (!change.add_obstacle) continue;
-    comings[change.add_obstacle->name.value].push_back(
-        {change.at_s.value, BodyJson::parse(body_json(0, *change.add_obstacle))});
+    const auto& added = change.obstacle.add_obstacle;
+    if (!added) continue;
+    comings[added->name.value].push_back(
+        {change.at_s.value, BodyJson::parse(body_json(0, *added))});
   }
   add_asked(reader, scenario.scenario.step_s.value, comings);
   for (auto& [name, looks] : comings) {

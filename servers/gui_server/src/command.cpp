@@ -25,12 +25,8 @@ std::string_view to_string(CommandMessage::Kind kind) noexcept {
       return "give";
     case CommandMessage::Kind::kSet:
       return "set";
-    case CommandMessage::Kind::kAdd:
-      return "add";
-    case CommandMessage::Kind::kMove:
-      return "move";
-    case CommandMessage::Kind::kRemove:
-      return "remove";
+    case CommandMessage::Kind::kEdit:
+      return "edit";
     case CommandMessage::Kind::kHandOver:
       return "hand_over";
     case CommandMessage::Kind::kResetShadow:

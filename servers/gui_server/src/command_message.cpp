@@ -2,7 +2,6 @@
 #include "command_message.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <array>
 #include <numbers>
@@ -165,7 +164,6 @@ Result<CommandMessage> set_of(Members& members) {
   return command;
 }
 
-/// A name that means the same in quotes of YAML and without.
 Result<std::string> body_name_of(Members& members) {
   RAVE_TRY_ASSIGN(std::string name, members.text("name", kLongestBodyName));
   const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
@@ -178,7 +176,9 @@ Result<std::string> body_name_of(Members& members) {
   return name;
 }
 
-Result<std::string> place_yaml(Members& members) {
+/// Files have degrees, so an edit has them, too.
+template <class Entry>
+Status take_pose(Members& members, Entry& entry) {
   RAVE_TRY_ASSIGN(const PageJson* const pose, members.array("pose", 3));
   if (pose->size() != 3 || !(*pose)[2].is_number() ||
       std::abs((*pose)[2].get<double>()) > 2 * std::numbers::pi) {
@@ -187,45 +187,45 @@ Result<std::string> place_yaml(Members& members) {
   // Obstacles become the YAML that `rave edit` sends, so that one reader checks both.
   const PageJson xy = PageJson::array({(*pose)[0], (*pose)[1]});
   RAVE_TRY_ASSIGN(const Vec2 p, point_of(xy, "pose"));
-  return fmt::format("x_m: {}, y_m: {}, yaw_deg: {}", p.x, p.y,
-                     (*pose)[2].get<double>() * 180 / std::numbers::pi);
+  entry.x_m = p.x;
+  entry.y_m = p.y;
+  entry.yaw_deg = (*pose)[2].get<double>() * 180 / std::numbers::pi;
+  return {};
 }
 
-Result<std::string> outline_yaml(Members& members) {
+Status take_outline(Members& members, config::Outline& outline) {
   if (members.has("disc")) {
-    RAVE_TRY_ASSIGN(const double radius_m, number_within(members, "disc", kFarthest_m));
-    return fmt::format("disc_radius_m: {}", radius_m);
+    RAVE_TRY_ASSIGN(outline.disc_radius_m, number_within(members, "disc", kFarthest_m));
+    return {};
   }
   RAVE_TRY_ASSIGN(const std::vector<Vec2> corners, points_of(members, "polygon", kMostCorners));
   if (corners.size() < 3) {
     return fail(ErrorCode::kParse, "`polygon`: expected 3 to {} corners", kMostCorners);
   }
-  std::vector<std::string> words;
-  words.reserve(corners.size());
-  for (const Vec2& corner : corners) words.push_back(fmt::format("[{}, {}]", corner.x, corner.y));
-  return fmt::format("polygon_m: [{}]", fmt::join(words, ", "));
+  auto& polygon_m = outline.polygon_m.emplace();
+  for (const Vec2& corner : corners) polygon_m.push_back({corner.x, corner.y});
+  return {};
 }
 
 Result<CommandMessage> edit_of(Members& members) {
   CommandMessage command;
+  command.kind = Command::kEdit;
+  config::ObstacleEdit& edit = command.edit.emplace();
   RAVE_TRY_ASSIGN(command.request, members.index("request"));
   RAVE_TRY_ASSIGN(const std::string word, members.word("do"));
-  RAVE_TRY_ASSIGN(command.key, body_name_of(members));
+  RAVE_TRY_ASSIGN(const std::string name, body_name_of(members));
   if (word == "remove") {
-    command.kind = Command::kRemove;
-    return command;
-  }
-  if (word != "add" && word != "move") {
+    edit.remove_obstacle = name;
+  } else if (word == "move") {
+    edit.move_obstacle.emplace().name = name;
+    RAVE_TRY(take_pose(members, *edit.move_obstacle));
+  } else if (word == "add") {
+    edit.add_obstacle.emplace().name = name;
+    RAVE_TRY(take_pose(members, *edit.add_obstacle));
+    RAVE_TRY(take_outline(members, edit.add_obstacle->outline));
+  } else {
     return fail(ErrorCode::kParse, "`do`: expected add, move or remove");
   }
-  command.kind = word == "add" ? Command::kAdd : Command::kMove;
-  RAVE_TRY_ASSIGN(const std::string place, place_yaml(members));
-  if (word == "move") {
-    command.value = fmt::format("{{name: \"{}\", {}}}", command.key, place);
-    return command;
-  }
-  RAVE_TRY_ASSIGN(const std::string outline, outline_yaml(members));
-  command.value = fmt::format("{{name: \"{}\", {}, {}}}", command.key, outline, place);
   return command;
 }
 

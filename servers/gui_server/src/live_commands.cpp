@@ -34,12 +34,8 @@ RunRequest::Kind kind_of(CommandMessage::Kind kind) {
       return To::kGive;
     case From::kSet:
       return To::kSet;
-    case From::kAdd:
-      return To::kAdd;
-    case From::kMove:
-      return To::kMove;
-    case From::kRemove:
-      return To::kRemove;
+    case From::kEdit:
+      return To::kEdit;
     case From::kHandOver:
       return To::kHandOver;
     case From::kResetShadow:
@@ -52,7 +48,8 @@ RunRequest::Kind kind_of(CommandMessage::Kind kind) {
 RunRequest request_of(const CommandMessage& command, const Author& author) {
   RunRequest request;
   request.kind = kind_of(command.kind);
-  request.key = command.kind == CommandMessage::Kind::kMove ? "" : command.key;
+  request.key = command.key;
+  request.edit = command.edit;
   request.value = command.value;
   request.by = author.name;
   request.overrides = author.overrides;

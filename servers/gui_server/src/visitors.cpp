@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "rave/control/obstacle_edits.hpp"
 #include "rave/direct_line/ticket.hpp"
 #include "secrets.hpp"
 
@@ -38,7 +39,7 @@ Person known_as(const Person& person) {
 std::string command_text(const CommandMessage& command, const PageAnswer& answer) {
   std::string text =
       command.of_obstacle()
-          ? fmt::format("{} {}", to_string(command.kind), command.key)
+          ? fmt::format("{} {}", runtime::word_of(*command.edit), *command.edit->name())
           : fmt::format("{}, {} robots", to_string(command.kind), command.slots.size());
   return answer.good ? text : fmt::format("{}: {}", text, answer.text);
 }

@@ -103,11 +103,24 @@ TEST(PageMessage, LeasesParametersAndObstaclesAreRead) {
       R"({"type":"set","request":1,"slots":[0],"key":"program.cruise_mps","value":0.25})");
   EXPECT_EQ(set.key, "program.cruise_mps");
   EXPECT_EQ(set.value, "0.25");
-  EXPECT_EQ(command_in(
-                R"({"type":"edit","request":1,"do":"add","name":"pond","pose":[1,2,0],"disc":0.5})")
-                .value,
-            R"({name: "pond", disc_radius_m: 0.5, x_m: 1, y_m: 2, yaw_deg: 0})");
-  EXPECT_EQ(command_in(R"({"type":"edit","request":1,"do":"remove","name":"pond"})").key, "pond");
+  const auto edit_in = [](const std::string& rest) {
+    const std::string text = R"({"type":"edit","request":1,"name":"pond",)" + rest + "}";
+    return *command_in(text.c_str()).edit;
+  };
+  config::ObstacleEdit pond;
+  pond.add_obstacle.emplace().name = std::string("pond");
+  pond.add_obstacle->x_m = 1;
+  config::Outline& outline = pond.add_obstacle->outline;
+  outline.disc_radius_m = 0.5;
+  EXPECT_EQ(edit_in(R"("do":"add","pose":[1,0,0],"disc":0.5)"), pond);
+  outline.disc_radius_m.reset();
+  outline.polygon_m = std::vector<std::array<double, 2>>{{0, 0}, {1, 0}, {0, 1}};
+  EXPECT_EQ(edit_in(R"("do":"add","pose":[1,0,0],"polygon":[[0,0],[1,0],[0,1]])"), pond);
+  const config::ObstacleEdit moved = edit_in(R"("do":"move","pose":[1,2,-0.5])");
+  ASSERT_TRUE(moved.move_obstacle);
+  EXPECT_EQ(moved.move_obstacle->y_m, 2);
+  EXPECT_NEAR(moved.move_obstacle->yaw_deg, -28.65, 0.01);
+  EXPECT_EQ(edit_in(R"("do":"remove")").remove_obstacle->value, "pond");
   const CommandMessage swap =
       command_in(R"({"type":"twin","request":1,"do":"hand_over","slots":[3],"to":"real"})");
   EXPECT_EQ(swap.kind, CommandMessage::Kind::kHandOver);

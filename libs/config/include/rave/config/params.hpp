@@ -67,10 +67,6 @@ class ParamValues {
   std::vector<Param> params_;
 };
 
-/// Checks the specs themselves: unique and non-empty names, choices for every enum, defaults of the
-/// right type and within their limits. Errors: kInvalidArgument.
-[[nodiscard]] Status check_specs(std::span<const FieldSpec> specs);
-
 /// Reads parameters from a mapping (or null: none given) and adds the defaults. Unknown names and
 /// wrong types are errors. `context` begins each message, for example "driver `virtual_laser`".
 /// Errors are added to the diagnostics; the values are complete only if none was added.
@@ -79,12 +75,5 @@ class ParamValues {
 /// Like read_params(), with all errors joined into one.
 [[nodiscard]] Result<ParamValues> read_params(const RawNode& node, std::span<const FieldSpec> specs,
                                               std::string_view context);
-
-/// The values as a mapping; units and doc sentences become comments (to_yaml gives the text).
-/// Parameters without a value are omitted.
-[[nodiscard]] RawNode write_params(const ParamValues& values, std::span<const FieldSpec> specs);
-
-/// The JSON Schema fragment (draft 07) of a mapping with these parameters.
-[[nodiscard]] RawNode params_schema(std::span<const FieldSpec> specs);
 
 }  // namespace rave::config

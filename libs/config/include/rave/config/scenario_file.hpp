@@ -125,9 +125,7 @@ struct ChangeFile {
   std::optional<Located<std::string>> robot;
   std::optional<RawNode> set;  ///< A mapping from keys such as `program.speed_mps` to values.
   std::optional<HandOverTo> hand_over;
-  std::optional<ObstacleFile> add_obstacle;
-  std::optional<MoveObstacleFile> move_obstacle;
-  std::optional<Located<std::string>> remove_obstacle;
+  ObstacleEdit obstacle;  ///< Its keys are those of this entry.
   bool operator==(const ChangeFile&) const = default;
 };
 
@@ -223,10 +221,8 @@ struct ScenarioFile {
   bool operator==(const ScenarioFile&) const = default;
 };
 
-/// Reads a scenario file without opening the files it names. Errors: those of rave::read_file, and
-/// kParse with file:line:column for errors in its content.
-[[nodiscard]] Result<ScenarioFile> read_scenario_file(const std::filesystem::path& path);
-/// Like read_scenario_file(), for a text; `file_name` is used in messages.
+/// Reads the text of a scenario file without opening the files it names. `file_name` is used in
+/// messages. Errors: kParse with file:line:column.
 [[nodiscard]] Result<ScenarioFile> read_scenario_text(std::string_view text,
                                                       std::string_view file_name);
 

@@ -37,6 +37,24 @@ struct MoveObstacleFile {
   bool operator==(const MoveObstacleFile&) const = default;
 };
 
+/// An edit of the obstacles of a run; exactly one member is set. A scenario plans it for a time, a
+/// person requests it during the run. It is the same struct in files, in requests and in records.
+struct ObstacleEdit {
+  std::optional<ObstacleFile> add_obstacle;
+  std::optional<MoveObstacleFile> move_obstacle;
+  std::optional<Located<std::string>> remove_obstacle;
+
+  [[nodiscard]] bool empty() const noexcept {
+    return !add_obstacle && !move_obstacle && !remove_obstacle;
+  }
+  /// The name of the obstacle; not for an empty edit.
+  [[nodiscard]] const Located<std::string>& name() const {
+    if (add_obstacle) return add_obstacle->name;
+    return move_obstacle ? move_obstacle->name : *remove_obstacle;
+  }
+  bool operator==(const ObstacleEdit&) const = default;
+};
+
 /// A ROS map_server map whose occupied cells become walls; read it with read_map.
 struct MapFile {
   Located<std::string> file;  ///< As written; absolute after expand_scenario.
@@ -59,12 +77,14 @@ struct WorldFile {
 /// Like read_world_file(), for a text; `file_name` is used in messages.
 [[nodiscard]] Result<WorldFile> read_world_text(std::string_view text, std::string_view file_name);
 
-/// Reads one entry of `obstacles:` (a mapping) for a change of a running world. `file_name` is used
-/// in messages. Errors: kParse.
-[[nodiscard]] Result<ObstacleFile> read_obstacle_text(std::string_view text,
-                                                      std::string_view file_name);
-[[nodiscard]] Result<MoveObstacleFile> read_move_text(std::string_view text,
-                                                      std::string_view file_name);
+/// Reads an edit: a mapping with one of `add_obstacle`, `move_obstacle` and `remove_obstacle`, as
+/// JSON or YAML. `source` is used in messages. Errors: kParse.
+[[nodiscard]] Result<ObstacleEdit> read_edit(std::string_view text, std::string_view source);
+/// The edit as JSON in one line, with all defaults; only the member that is set. read_edit() gives
+/// an equal value.
+[[nodiscard]] std::string write_edit(const ObstacleEdit& edit);
+/// Whether an edit that code has put together is one that read_edit() accepts. Errors: kParse.
+[[nodiscard]] Status check_edit(const ObstacleEdit& edit);
 
 /// The world as YAML with all defaults. read_world_text gives an equal value.
 [[nodiscard]] std::string write_world(const WorldFile& world);

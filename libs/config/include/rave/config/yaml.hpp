@@ -29,5 +29,7 @@ inline constexpr std::size_t kMaxKeyBytes = 200;
 
 /// JSON with an indent of two, keys in their order, and a final newline. Infinities become null.
 [[nodiscard]] std::string to_json(const RawNode& node);
+/// The same in one line, without a newline.
+[[nodiscard]] std::string to_json_line(const RawNode& node);
 
 }  // namespace rave::config

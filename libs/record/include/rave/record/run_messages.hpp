@@ -150,15 +150,15 @@ struct RunEvent {
 /// A request that changed the run between two steps, complete enough to repeat it.
 struct RunInput {
   std::uint64_t step = 0;  ///< The next step after the request.
-  /// `stop`, `release`, `arm`, `set`, `hand_over`; of obstacles `add`, `move`, `remove`; orders of
-  /// users `drive`, `goal`, `path`, `cancel`, `text`, `place`.
+  /// `stop`, `release`, `arm`, `set`, `hand_over`; of obstacles `edit`, in earlier recordings
+  /// `add`, `move`, `remove`; orders of users `drive`, `goal`, `path`, `cancel`, `text`, `place`.
   std::string kind;
   std::string robot;  ///< Empty: all robots.
-  std::string key;    ///< For `set`: the parameter, such as `program.max_speed_mps`; for `remove`:
-                      ///< the obstacle.
-  std::string value;  ///< For `set`, `hand_over`, `add` and `move`: the value as in a file; for
-                      ///< orders: their content.
-  std::string by{};   ///< The user who sent it; empty: no named user, or an older recording.
+  std::string key;    ///< For `set`: the parameter, such as `program.max_speed_mps`.
+  /// For `set` and `hand_over`: as in a file; for `edit`: the edit as JSON, with the keys of a
+  /// scenario's `changes`; for orders: their content.
+  std::string value;
+  std::string by{};  ///< The user who sent it; empty: no named user, or an older recording.
 
   friend bool operator==(const RunInput&, const RunInput&) = default;
 };

@@ -41,8 +41,8 @@ struct ObstacleChange {
   std::string name;
   Pose2 X_WB;        ///< kAdd and kMove.
   world::Body body;  ///< kAdd: shapes, layer, barcode and colour; its name becomes `name`.
-  /// The text of a request by hand, for the recordings of all hosts; at most kMostAskedBytes.
-  /// Empty: the change is part of the run.
+  /// The edit of a request by hand as recordings have it, for those of all hosts; at most
+  /// kMostAskedBytes. Empty: the change is part of the run.
   std::string asked;
   std::string by{};  ///< Name of the user who requested it; empty: none.
 };

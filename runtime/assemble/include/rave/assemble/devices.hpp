@@ -22,6 +22,10 @@ struct DeviceContext {
 /// The descriptions of a driver's parameters for the configuration library.
 [[nodiscard]] std::vector<config::FieldSpec> field_specs(const DriverInfo& info);
 
+/// The values of a driver's parameters, defaults filled in. Errors: with file, line and column.
+[[nodiscard]] Result<plugin::ParamSet> read_params(const plugin::Driver& driver,
+                                                   const config::RawNode& params);
+
 /// Adds transmitters and communicators to `type`. In radio_devices.cpp.
 Status add_radio(const DeviceContext& context, const config::RobotGroup& group,
                  sim::RobotType& type);

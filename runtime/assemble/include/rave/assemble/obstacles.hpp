@@ -18,9 +18,9 @@ namespace rave::runtime {
 /// Errors: kInvalidArgument with the place in the file.
 [[nodiscard]] Result<world::Obstacle> make_obstacle(const config::ObstacleFile& file);
 
-[[nodiscard]] sim::ObstacleChange addition(world::Obstacle obstacle);
-[[nodiscard]] sim::ObstacleChange move_of(const config::MoveObstacleFile& file);
-[[nodiscard]] sim::ObstacleChange removal(std::string name);
+/// The change that an edit, which must not be empty, asks of the world. Errors: kInvalidArgument,
+/// for an edit of a file with the place.
+[[nodiscard]] Result<sim::ObstacleChange> change_of(const config::ObstacleEdit& edit);
 
 /// Adds the obstacle changes of a scenario, by step. Errors: kNotFound (no such obstacle at any
 /// time) and kInvalidArgument, with the place in the file.

@@ -23,9 +23,6 @@ namespace rave::runtime {
                                                         std::string_view key,
                                                         const config::RawNode& value);
 
-/// All keys that parse_change() accepts for a robot of this type.
-[[nodiscard]] std::vector<std::string> parameter_keys(const sim::RobotType& type);
-
 /// A parameter that parse_change() accepts, with the description of its driver.
 struct ChangeableParameter {
   std::string key;

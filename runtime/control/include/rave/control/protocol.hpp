@@ -2,10 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <utility>
 
 #include "rave/base/result.hpp"
 #include "rave/control/run_control.hpp"
@@ -17,55 +16,26 @@ namespace rave::control {
 inline constexpr std::size_t kMaxLineBytes = 65'536;
 inline constexpr std::size_t kMaxAnswerBytes = 16U << 20U;
 
-/// One request to a run.
+/// One request to a process of a run.
 struct Request {
-  enum class What : std::uint8_t {
-    kStatus,
-    kStop,
-    kRelease,
-    kArm,
-    kSet,
-    kPause,
-    kResume,
-    kStep,
-    kEnd,
-    kAdd,
-    kMove,
-    kRemove,
-    kList,
-    kHandOver,
-    kResetShadow,
-    kDrive,
-    kGoal,
-    kPath,
-    kCancel,
-    kText,
-    kPlace,
-    kTake,
-    kGive,
-    kChat,
-  };
+  /// All but kRun are answered at once, by the process alone.
+  enum class What : std::uint8_t { kStatus, kPause, kResume, kStep, kEnd, kRun };
   What what = What::kStatus;
-  std::string robot;  ///< kStop, kRelease, kArm, kResetShadow: empty: all robots; kSet, kHandOver.
-  std::string key;    ///< kSet; kRemove: the name of an obstacle.
-  std::string value;  ///< kSet; kHandOver; kAdd and kMove: YAML, see runtime::RunRequest.
   std::uint64_t count = 1;  ///< kStep: 1 to 1e9.
-  // Orders and leases, see runtime::RunRequest. All numbers are finite.
-  std::string by = {};     ///< The sender; also for requests that change something.
-  bool overrides = false;  ///< Whether the sender is a super-user.
-  std::uint64_t page = 0;  ///< The sender's page; 0: none.
-  std::vector<Vec2> points = {};
-  std::optional<double> yaw_rad = std::nullopt;
-  double v_mps = 0;
-  double w_radps = 0;
-  double speed_mps = 0;
+  /// kRun: what the run is asked for, with finite numbers. Otherwise only the sender.
+  runtime::RunRequest run = {};
+
+  /// Whether it changes nothing: it has no author and is not logged.
+  [[nodiscard]] bool only_reads() const noexcept {
+    return what == What::kStatus || (what == What::kRun && run.only_reads());
+  }
   friend bool operator==(const Request&, const Request&) = default;
 };
 
-/// A run request in the form of the protocol; not for kStatus and requests that pause or end a run.
-[[nodiscard]] Request request_of(const runtime::RunRequest& request);
-/// The inverse of request_of().
-[[nodiscard]] runtime::RunRequest run_request(const Request& request);
+/// A request to the run itself.
+[[nodiscard]] inline Request request_of(runtime::RunRequest run) {
+  return {Request::What::kRun, 1, std::move(run)};
+}
 
 /// The error for a line of more than kMaxLineBytes.
 [[nodiscard]] std::string too_long_text();

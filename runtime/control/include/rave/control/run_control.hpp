@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/config/world_file.hpp"
 #include "rave/math/pose.hpp"
 
 namespace rave::runtime {
@@ -27,10 +28,8 @@ struct RunRequest {
     kRelease,
     kArm,
     kSet,
-    kAdd,     ///< Adds an obstacle.
-    kMove,    ///< Moves an obstacle.
-    kRemove,  ///< Removes an obstacle.
-    kList,    ///< Lists the obstacles; changes nothing.
+    kEdit,  ///< Adds, moves or removes an obstacle.
+    kList,  ///< Lists the obstacles; changes nothing.
     kHandOver,
     kResetShadow,  ///< For one robot or for all.
     // Orders. Each needs a robot, and a user needs its lease.
@@ -47,13 +46,12 @@ struct RunRequest {
     kChat,
   };
   Kind kind = Kind::kStop;
-  std::string robot;  ///< Empty: all robots, except for orders and leases.
-  /// kSet: the parameter, such as `program.max_speed_mps`. kRemove: the name of the obstacle.
-  std::string key = {};
-  /// kHandOver: `real`, `simulated`, `first` or `twin`. kSet: the value as in a file. kAdd, kMove:
-  /// YAML, an entry of `obstacles:`, or of `move_obstacle:`. kText: the text, at most 1000 bytes of
-  /// UTF-8. kGive: the new holder; empty: none. kTake: empty (refused with the name of the holder
-  /// if another user has the lease) or `force` (takes it over and notifies the previous holder).
+  std::string robot;     ///< Empty: all robots, except for orders and leases.
+  std::string key = {};  ///< kSet: the parameter, such as `program.max_speed_mps`.
+  /// kHandOver: `real`, `simulated`, `first` or `twin`. kSet: the value as in a file. kText: the
+  /// text, at most 1000 bytes of UTF-8. kGive: the new holder; empty: none. kTake: empty (refused
+  /// with the name of the holder if another user has the lease) or `force` (takes it over and
+  /// notifies the previous holder).
   std::string value = {};
   /// Name of the user who sent it. Empty: the local terminal, a super-user.
   std::string by = {};
@@ -66,11 +64,17 @@ struct RunRequest {
   double v_mps = 0;                              ///< kDrive: forward speed.
   double w_radps = 0;                            ///< kDrive: turning rate, counter-clockwise.
   double speed_mps = 0;  ///< kGoal, kPath: speed limit; 0: the robot decides.
+  std::optional<config::ObstacleEdit> edit = std::nullopt;  ///< kEdit.
+
+  /// Whether it changes nothing in the run: it is answered at once, and is not recorded as an
+  /// input.
+  [[nodiscard]] bool only_reads() const noexcept { return kind == Kind::kList; }
+  friend bool operator==(const RunRequest&, const RunRequest&) = default;
 };
 
-/// The name of a kind: `stop`, `release`, `arm`, `set`, `add`, `move`, `remove`, `list`,
-/// `hand_over`, `reset_shadow`, `drive`, `goal`, `path`, `cancel`, `text`, `place`, `take` or
-/// `give`; and the inverse, empty for any other word.
+/// The name of a kind: `stop`, `release`, `arm`, `set`, `edit`, `list`, `hand_over`,
+/// `reset_shadow`, `drive`, `goal`, `path`, `cancel`, `text`, `place`, `take` or `give`; and the
+/// inverse, empty for any other word.
 [[nodiscard]] std::string_view to_string(RunRequest::Kind kind) noexcept;
 [[nodiscard]] std::optional<RunRequest::Kind> request_kind(std::string_view word) noexcept;
 

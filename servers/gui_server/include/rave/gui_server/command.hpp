@@ -39,9 +39,7 @@ struct CommandMessage {
     kTake,         ///< Takes the lease; `value`: empty, or `force`.
     kGive,         ///< Gives the lease; `value`: the receiver, or empty to return it.
     kSet,          ///< Sets the parameter `key` to `value`.
-    kAdd,          ///< Adds an obstacle; `value`: YAML.
-    kMove,         ///< Moves an obstacle; `key`: its name; `value`: YAML.
-    kRemove,       ///< Removes the obstacle `key`.
+    kEdit,         ///< Adds, moves or removes an obstacle: `edit`.
     kHandOver,     ///< Hands over to the drivers `value`: `real`, `simulated`, `first` or `twin`.
     kResetShadow,  ///< Places the shadow at the robot's pose.
   };
@@ -56,10 +54,9 @@ struct CommandMessage {
   double speed_mps = 0;  ///< 0: the robot decides.
   std::string key;
   std::string value;
+  std::optional<config::ObstacleEdit> edit{};
 
-  [[nodiscard]] bool of_obstacle() const noexcept {
-    return kind == Kind::kAdd || kind == Kind::kMove || kind == Kind::kRemove;
-  }
+  [[nodiscard]] bool of_obstacle() const noexcept { return kind == Kind::kEdit; }
   [[nodiscard]] bool stands() const noexcept {
     return kind == Kind::kDrive && v_mps == 0 && w_radps == 0;
   }

@@ -51,7 +51,8 @@ TEST_F(BusRequests, ARunInLockStepDoesWhatIsAskedFromElsewhere) {
   EXPECT_EQ(far({"set", "right-2", "body.scale", "0.8"}).exit_code, 0);
   // Who asked, and what, is in the log of whoever was asked.
   EXPECT_TRUE(logged("env", R"({"rave":1,"do":"stop","robot":"left-1"})")) << console("env");
-  EXPECT_TRUE(logged("env", R"({"rave":1,"do":"edit","edit":{"remove_obstacle":"pillar"}})")) << console("env");
+  EXPECT_TRUE(logged("env", R"({"rave":1,"do":"edit","edit":{"remove_obstacle":"pillar"}})"))
+      << console("env");
   EXPECT_FALSE(logged("env", R"({"rave":1,"do":"list"})"));
 
   refused({"edit", "remove", "pillar"}, "there is no obstacle `pillar`");

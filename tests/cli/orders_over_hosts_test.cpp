@@ -136,17 +136,15 @@ TEST_F(OrdersOverHosts, WhatAHostRefusesIsSaid) {
 }
 
 /// What a person asks, as a page would.
-control::Request of_person(control::Request::What what, const std::string& robot,
+control::Request of_person(runtime::RunRequest::Kind kind, const std::string& robot,
                            const std::string& by) {
-  control::Request request;
-  request.what = what;
-  request.robot = robot;
-  request.by = by;
+  control::Request request = control::request_of({kind, robot});
+  request.run.by = by;
   return request;
 }
 
 TEST_F(OrdersOverHosts, TheHostOfTheRobotKeepsItsLeaseAndTheManagerIsNotAsked) {
-  using What = control::Request::What;
+  using Kind = runtime::RunRequest::Kind;
   start("split", [this] {
     Words words = split();
     words.emplace_back("--no-record");
@@ -157,16 +155,16 @@ TEST_F(OrdersOverHosts, TheHostOfTheRobotKeepsItsLeaseAndTheManagerIsNotAsked) {
   ASSERT_NE(host.find('@'), std::string::npos) << host;
   const auto manager = control::find_run("orders");
   ASSERT_TRUE(manager) << manager.error().text();
-  EXPECT_EQ(said_by(host, of_person(What::kTake, "bert", "anna")), "good: bert is yours");
-  control::Request drive = of_person(What::kDrive, "bert", "mona");
-  drive.v_mps = 0.1;
+  EXPECT_EQ(said_by(host, of_person(Kind::kTake, "bert", "anna")), "good: bert is yours");
+  control::Request drive = of_person(Kind::kDrive, "bert", "mona");
+  drive.run.v_mps = 0.1;
   EXPECT_EQ(said_by(host, drive), "refused: `anna` drives bert");
-  EXPECT_EQ(said_by(host, of_person(What::kRelease, "bert", "mona")),
+  EXPECT_EQ(said_by(host, of_person(Kind::kRelease, "bert", "mona")),
             "refused: `anna` drives bert");
-  EXPECT_EQ(said_by(host, of_person(What::kTake, "bert", "mona")), "refused: `anna` drives bert");
-  EXPECT_EQ(said_by(host, of_person(What::kTake, "carl", "mona")),
+  EXPECT_EQ(said_by(host, of_person(Kind::kTake, "bert", "mona")), "refused: `anna` drives bert");
+  EXPECT_EQ(said_by(host, of_person(Kind::kTake, "carl", "mona")),
             "refused: robot `carl` runs in another process of this run");
-  EXPECT_NE(said_by(*manager, of_person(What::kTake, "bert", "anna")).find("which keeps its lease"),
+  EXPECT_NE(said_by(*manager, of_person(Kind::kTake, "bert", "anna")).find("which keeps its lease"),
             std::string::npos);
   // All who ask how the run stands hear of it, also from the manager.
   const auto told = [&](const std::string& process) {
@@ -180,8 +178,8 @@ TEST_F(OrdersOverHosts, TheHostOfTheRobotKeepsItsLeaseAndTheManagerIsNotAsked) {
   EXPECT_EQ(told(host), "anna");
   wait_until([&] { return told(*manager) == "anna"; });
   // A stop needs no lease.
-  EXPECT_EQ(said_by(host, of_person(What::kStop, "bert", "mona")).substr(0, 5), "good:");
-  EXPECT_EQ(said_by(host, of_person(What::kGive, "bert", "anna")), "good: nobody drives bert now");
+  EXPECT_EQ(said_by(host, of_person(Kind::kStop, "bert", "mona")).substr(0, 5), "good:");
+  EXPECT_EQ(said_by(host, of_person(Kind::kGive, "bert", "anna")), "good: nobody drives bert now");
   wait_until([&] { return told(*manager).empty(); });
 }
 

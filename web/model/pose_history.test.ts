@@ -58,6 +58,9 @@ describe('interpolation', () => {
     }
   });
 
+});
+
+describe('interpolation of one robot', () => {
   it('turns the shorter way', () => {
     expect(turn(0.1, 6.2)).toBeCloseTo(-0.183, 2);
     expect(turn(6.2, 0.1)).toBeCloseTo(0.183, 2);

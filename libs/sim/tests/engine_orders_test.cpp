@@ -203,16 +203,13 @@ TEST(EngineOrders, ARefusedOrderLeavesEverythingAsItWas) {
   refused("is not a yaw", place(kListener, {1, 1}, nan));
   refused("`path` needs a robot", order(Kind::kPath, RobotId()));
   refused("`goal` needs a robot", goal(RobotId(99), {0, 0}));
-  refused("1 points; expected 2 to 1000", [] {
+  const auto path_of = [](std::size_t points) {
     WorldInput path = order(Kind::kPath, kListener);
-    path.order.points_W = {{1, 0}};
+    path.order.points_W.assign(points, {1, 0});
     return path;
-  }());
-  refused("10000 points; expected 2 to 1000", [] {
-    WorldInput path = order(Kind::kPath, kListener);
-    path.order.points_W.assign(10'000, {1, 0});
-    return path;
-  }());
+  };
+  refused("1 points; expected 2 to 1000", path_of(1));
+  refused("10000 points; expected 2 to 1000", path_of(10'000));
   refused("its program takes no paths", [] {
     WorldInput path = order(Kind::kPath, kDriver);
     path.order.points_W = {{1, 0}, {2, 0}};

@@ -57,7 +57,6 @@ describe('interpolation', () => {
       expect(now - placed.x[0]).toBeLessThan(50);
     }
   });
-
 });
 
 describe('interpolation of one robot', () => {

@@ -48,7 +48,8 @@ class OrdersOverHosts : public HeldRun {
   [[nodiscard]] std::string host_of(const std::string& robot) const {
     EXPECT_EQ(::setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1), 0);
     std::string alone;
-    for (const std::string& run : control::running_runs().value()) {
+    const auto runs = control::running_runs();
+    for (const std::string& run : runs.value()) {
       const auto answer = control::ask(run, control::Request{});
       const bool has = answer && std::ranges::any_of(answer->status.robots, [&](const auto& one) {
                          return one.name == robot;

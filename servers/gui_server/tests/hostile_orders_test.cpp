@@ -61,7 +61,7 @@ TEST_F(Hostile, ACommanderCommandsTheirOwnTeamAlone) {
   EXPECT_NE(audit().find("goal, 3 robots: Your rights do not include this."), std::string::npos);
   RawSocket boss = super_user();
   boss.send(R"({"type":"edit","request":1,"do":"add","name":"a","pose":[0,0,0],"disc":1})");
-  EXPECT_NE(boss.text_with("\"to\":\"add\"").find("\"good\":true"), std::string::npos);
+  EXPECT_NE(boss.text_with("\"to\":\"edit\"").find("\"good\":true"), std::string::npos);
   EXPECT_TRUE(run_->commands().back().second.overrides);
 }
 

@@ -4,15 +4,15 @@
 #include <cmath>
 
 // Takes the parameters and says how many values a sample has.
-rave::Status @CLASS
-    @ ::configure(const rave::VirtualSensorSetup& setup, rave::VirtualDeclaration& declaration) {
+rave::Status @CLASS@::configure(const rave::VirtualSensorSetup& setup,
+                                rave::VirtualDeclaration& declaration) {
   p_WB_ = {setup.parameters().number("x_m"), setup.parameters().number("y_m")};
   declaration.capacity = 1;
   return {};
 }
 
 // One sample of one robot. Noise, delay and filters are set in the robot file, not here.
-void @CLASS @ ::sample(const rave::WorldView& /*world*/, const rave::SampleItem& item) const {
+void @CLASS@::sample(const rave::WorldView& /*world*/, const rave::SampleItem& item) const {
   const double distance_m = std::sqrt(rave::squared_norm(p_WB_ - item.X_WS.position()));
   *static_cast<double*>(item.records) = distance_m;
   item.header->count = 1;
@@ -26,6 +26,6 @@ constexpr rave::ParamSpec kParams[] = {
 }  // namespace
 
 RAVE_VIRTUAL_PLUGIN("@NAME@") {
-  rave::add_virtual_sensor<@CLASS @>(
+  rave::add_virtual_sensor<@CLASS@>(
       registry, {.name = "@NAME@", .summary = "Distance to a beacon.", .params = kParams});
 }

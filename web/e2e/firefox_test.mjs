@@ -102,7 +102,7 @@ try {
     await page.keyboard.type('12.5');
     await page.keyboard.press('Enter');
     await page.evaluate((what) => document.querySelector('rave-app').link.send(what), {type: 'transport', do: 'pause'});
-    await until(page, `${newest}?.time_s > 12.4 && ${app}.model.time.state === 'paused'`);
+    await until(page, `${newest}?.time_s > 12.4 && ${app}.model.time.state === 'paused' && ${newest}.step === ${app}.model.time.step`);
     const step = await page.evaluate(`${newest}.step`);
     await page.keyboard.press('.');
     await until(page, `${newest}.step === ${step} + 1`);

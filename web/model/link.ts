@@ -17,6 +17,8 @@ export type LinkState = 'opening' | 'open' | 'lost' | 'refused' | 'empty';
 const kNotSignedIn = 4401;
 const kNotAllowed = 4403;
 const kNoRun = 4404;
+/** The server takes no more sensors, and no more robots, in one message. */
+const kMostLooked = 256;
 
 /** Something that shows readings says which: slot and index of each sensor. */
 export type Interest = readonly [number, number][];
@@ -51,6 +53,7 @@ export class Link {
   /** A panel shows which virtual sensors there are. */
   wantsCatalogue = false;
   private truePoses = false;
+  private variances: readonly number[] = [];
   parts = false;
 
   constructor(
@@ -130,6 +133,12 @@ export class Link {
     this.queueLook();
   }
 
+  /** The robots whose variances of reported poses are shown. */
+  lookAtVariances(slots: readonly number[]): void {
+    this.variances = slots;
+    this.queueLook();
+  }
+
   /** Whether true poses are shown; the server sends them to those who may have them. */
   lookAtTruth(wanted: boolean): void {
     if (wanted === this.truePoses) return;
@@ -191,7 +200,8 @@ export class Link {
         type: 'look',
         poses: seen,
         true_poses: this.truePoses,
-        readings: seen ? [...all.values()].slice(0, 256) : [],
+        readings: seen ? [...all.values()].slice(0, kMostLooked) : [],
+        variances: seen ? this.variances.slice(-kMostLooked) : [],
         parts: this.parts,
         max_hz: 30,
       };

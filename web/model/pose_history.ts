@@ -27,6 +27,8 @@ export class PoseHistory {
   readonly past: PoseFrame[] = [];
   /** When the pose of each robot was last no stale one, seconds of the run. */
   private fresh = new Float64Array(0);
+  /** The highest speed of each robot while its pose was no stale one, metres per second. */
+  private fastest = new Float32Array(0);
 
   /** Takes a frame that arrived at `now_ms` (performance.now()). The past comes after the moment that it belongs to. */
   add(frame: PoseFrame, now_ms: number): void {
@@ -68,6 +70,7 @@ export class PoseHistory {
     this.delay_ms = kFirstGap_ms;
     this.past.length = 0;
     this.fresh = new Float64Array(0);
+    this.fastest = new Float32Array(0);
   }
 
   /** Writes where everybody is at `now_ms` to `out`: between frames that have come, never beyond. */
@@ -87,6 +90,7 @@ export class PoseHistory {
     out.resize(n);
     out.flags = newest.flags;
     out.fresh = this.fresh;
+    out.fastest = this.fastest;
     const span_s = from === null ? 0 : to.time_s - from.time_s;
     const share = from === null || span_s <= 0 ? 1 : Math.min(Math.max((shown_s - from.time_s) / span_s, 0), 1);
     out.time_s = from === null ? to.time_s : from.time_s + share * span_s;
@@ -112,8 +116,15 @@ export class PoseHistory {
 
   private note(frame: PoseFrame): void {
     const n = frame.flags.length;
-    if (this.fresh.length !== n) this.fresh = new Float64Array(n).fill(frame.time_s);
-    for (let i = 0; i < n; ++i) if ((frame.flags[i] & RobotFlag.stale) === 0) this.fresh[i] = Math.max(this.fresh[i], frame.time_s);
+    if (this.fresh.length !== n) {
+      this.fresh = new Float64Array(n).fill(frame.time_s);
+      this.fastest = new Float32Array(n);
+    }
+    for (let i = 0; i < n; ++i) {
+      if ((frame.flags[i] & RobotFlag.stale) !== 0) continue;
+      this.fresh[i] = Math.max(this.fresh[i], frame.time_s);
+      this.fastest[i] = Math.max(this.fastest[i], Math.abs(frame.speed[i]));
+    }
   }
 
   /** Puts a frame of the past in its place, unless there is one already, or it is too old. */
@@ -143,6 +154,7 @@ export class Placed {
   yaw = new Float32Array(0);
   flags: Uint16Array = new Uint16Array(0);
   fresh = new Float64Array(0);
+  fastest = new Float32Array(0);
 
   /** When the pose of a robot was last no stale one, seconds of the run. */
   freshAt(slot: number): number {

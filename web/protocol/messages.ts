@@ -506,6 +506,8 @@ export interface Look {
   true_poses: boolean;
   /** Slot and index of each sensor that is looked at; at most 256. */
   readings: [number, number][];
+  /** Slots of the robots whose variances of reported poses are shown; at most 256, none without it. */
+  variances?: number[];
   /** Also the halves of hybrid sensors. */
   parts: boolean;
   max_hz: number;

@@ -39,6 +39,16 @@ Result<PageMessage> look_of(Members& members) {
   }
   std::sort(look.readings.begin(), look.readings.end());
   look.readings.erase(std::unique(look.readings.begin(), look.readings.end()), look.readings.end());
+  if (members.has("variances")) {
+    RAVE_TRY_ASSIGN(const PageJson* const slots, members.array("variances", kMostSensors));
+    for (const PageJson& slot : *slots) {
+      RAVE_TRY_ASSIGN(const std::uint32_t robot, Members::index_of(slot, "variances"));
+      look.variances.push_back(robot);
+    }
+    std::sort(look.variances.begin(), look.variances.end());
+    look.variances.erase(std::unique(look.variances.begin(), look.variances.end()),
+                         look.variances.end());
+  }
   return PageMessage(std::move(look));
 }
 

@@ -22,6 +22,8 @@ struct LookMessage {
   bool parts = false;
   double max_hz = 30;
   std::vector<LookedAt> readings;  ///< At most 256, without repetitions.
+  /// Robots whose variances are shown; at most 256, sorted, without repetitions.
+  std::vector<std::uint32_t> variances;
 };
 
 /// Which maps a page shows at present: instead of those of before.

@@ -60,6 +60,7 @@ void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, boo
   told_variances_.clear();
   // The slots are others now; the page says again what it looks at.
   look_.readings.clear();
+  look_.variances.clear();
   map_stream_.look({});
   probes_.clear();
   told_map_names_ = 0;
@@ -320,16 +321,16 @@ void Session::send_probes() {
   }
 }
 
-/// Of the robots whose readings are looked at, when they change.
+/// Of the robots that the page names, when they change. Who may not see a robot has no pose of it,
+/// and so no variance.
 void Session::send_variances() {
   const PosesAt& poses = cursor_->poses();
   std::vector<VarianceAt> variances;
-  for (const LookedAt& looked : look_.readings) {
-    if (looked.slot >= poses.robots.size()) continue;
-    if (!variances.empty() && variances.back().slot == looked.slot) continue;
-    const RobotState& robot = poses.robots[looked.slot];
+  for (const std::uint32_t slot : look_.variances) {
+    if (slot >= poses.robots.size()) break;
+    const RobotState& robot = poses.robots[slot];
     if (robot.variance_xy_m2 <= 0 && robot.variance_yaw_rad2 <= 0) continue;
-    variances.push_back({looked.slot, robot.variance_xy_m2, robot.variance_yaw_rad2});
+    variances.push_back({slot, robot.variance_xy_m2, robot.variance_yaw_rad2});
   }
   if (variances == told_variances_) return;
   socket_.send_binary(payload(encode_variances(variances, poses.time_s, 1)));

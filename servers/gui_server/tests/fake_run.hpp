@@ -19,6 +19,8 @@ class FakeRun : public Source {
   static constexpr double kSecretX_m = 7777.25;
   static constexpr double kOpenTruth_m = 5512.5;  ///< True place of robots of team green.
   static constexpr double kSecretTruth_m = 6666.5;
+  static constexpr float kOpenVariance_m2 = 0.40625F;
+  static constexpr float kSecretVariance_m2 = 3333.75F;
   static constexpr float kSecretRange_m = 1234.5F;
   static constexpr float kOpenRange_m = 2.5F;
   static constexpr float kHalfRange_m = 987.5F;
@@ -61,6 +63,7 @@ class FakeRun : public Source {
     maps_.add({"of spy-2", maps::kNoRobot, {0.5, {}, 4, 2}, 0, 0, 1, {}, kSecretCells});
     for (int i = 0; i < 4; ++i) {
       poses_.robots.push_back({i % 2 == 0 ? 1.0 : kSecretX_m, 0, 0, 0, kKnown});
+      poses_.robots.back().variance_xy_m2 = i % 2 == 0 ? kOpenVariance_m2 : kSecretVariance_m2;
       // There whether or not somebody asks: no more than a part of it may be sent.
       poses_.truth.push_back({i % 2 == 0 ? kOpenTruth_m : kSecretTruth_m, 0, 0, 0, kKnown});
     }

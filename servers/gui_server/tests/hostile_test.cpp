@@ -29,6 +29,7 @@ std::vector<std::string> secrets() {
           "secret-pond",
           bytes_of(FakeRun::kSecretRange_m),
           bytes_of(FakeRun::kHalfRange_m),
+          bytes_of(FakeRun::kSecretVariance_m2),
           bytes_of_place(FakeRun::kSecretX_m),
           bytes_of_place(FakeRun::kSecretTruth_m),
           bytes_of_place(FakeRun::kOpenTruth_m)};
@@ -36,7 +37,7 @@ std::vector<std::string> secrets() {
 
 constexpr const char* kLookAtAll =
     R"({"type":"look","poses":true,"true_poses":true,"parts":true,"max_hz":60,)"
-    R"("readings":[[0,0],[1,0],[2,0],[3,0],[4294967295,0]]})";
+    R"("readings":[[0,0],[1,0],[2,0],[3,0],[4294967295,0]],"variances":[0,1,2,3,4294967295]})";
 
 /// Looks at everything until so many readings came; acknowledges frames as a page does.
 void look_until(RawSocket& socket, int readings) {
@@ -89,10 +90,36 @@ TEST_F(Hostile, AnObserverGetsNothingThatIsWithheldWhateverTheyAsk) {
   EXPECT_NE(heard.find("walker-1: at home"), std::string::npos);
   EXPECT_NE(heard.find("hall"), std::string::npos);
   EXPECT_NE(heard.find(bytes_of(FakeRun::kOpenRange_m)), std::string::npos);
+  EXPECT_NE(heard.find(bytes_of(FakeRun::kOpenVariance_m2)), std::string::npos);
   EXPECT_NE(heard.find(R"("hidden":["virtual"])"), std::string::npos);
   EXPECT_EQ(heard.find("nowhere"), std::string::npos);
   EXPECT_EQ(run_->halted_robots, 0);
   EXPECT_EQ(run_->moved, 0);
+}
+
+/// Whether variances came before the second frame of poses.
+bool hears_variances(RawSocket& socket, std::string_view look) {
+  socket.send(look);
+  bool variances = false;
+  for (int frames = 2; frames > 0;) {
+    const auto frame = socket.next();
+    if (!frame) return variances;
+    if (frame->opcode != 2 || frame->payload.empty()) continue;
+    if (frame->payload[0] == 3 && frame->payload.size() > 20) variances = true;
+    if (frame->payload[0] == 1 && (frame->payload[1] & 1) == 0) --frames;
+  }
+  return variances;
+}
+
+TEST_F(Hostile, VariancesNeedNoReadingsAndComeOnlyWhereTheyAreLookedAt) {
+  constexpr const char* kReadings =
+      R"({"type":"look","poses":true,"true_poses":false,"parts":false,"max_hz":60,"readings":[[0,0]]})";
+  constexpr const char* kVariances =
+      R"({"type":"look","poses":true,"true_poses":false,"parts":false,"max_hz":60,"readings":[],"variances":[0]})";
+  RawSocket reader = super_user();
+  EXPECT_FALSE(hears_variances(reader, kReadings));
+  RawSocket watcher = super_user();
+  EXPECT_TRUE(hears_variances(watcher, kVariances));
 }
 
 /// Looks at true poses until a frame of poses came; whether one of true poses came before it.

@@ -15,6 +15,7 @@ TEST(PageMessage, LooksAreReadAndSortedOnce) {
   EXPECT_TRUE(look.parts);
   EXPECT_EQ(look.max_hz, 25);
   EXPECT_EQ(look.readings, (std::vector<LookedAt>{{0, 2}, {3, 1}}));
+  EXPECT_TRUE(look.variances.empty());
 }
 
 TEST(PageMessage, RightsAreSetOfARoleOrAUser) {
@@ -266,7 +267,17 @@ INSTANTIATE_TEST_SUITE_P(
             "1 to 60"},
         Refused{
             R"({"type":"look","poses":true,"true_poses":false,"parts":true,"max_hz":9,"readings":[[1]]})",
-            "pairs"}));
+            "pairs"},
+        Refused{
+            R"({"type":"look","poses":true,"true_poses":false,"parts":true,"max_hz":9,"readings":[],"variances":[-1]})",
+            "`variances`: expected a whole number"}));
+
+TEST(PageMessage, VariancesAreLookedAtByRobotWhateverReadingsAre) {
+  const auto message = parse_page_message(
+      R"({"type":"look","poses":true,"true_poses":false,"parts":false,"max_hz":25,"readings":[],"variances":[7,2,7]})");
+  ASSERT_TRUE(message) << message.error().text();
+  EXPECT_EQ(std::get<LookMessage>(*message).variances, (std::vector<std::uint32_t>{2, 7}));
+}
 
 TEST(PageMessage, MapsAreLookedAtBySlotOrName) {
   const auto message = parse_page_message(R"({"type":"look_maps","maps":["world file",7,0,7]})");

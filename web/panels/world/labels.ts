@@ -15,6 +15,8 @@ export interface Label {
   below?: boolean;
   /** Fades what is far away; 1 if left out. */
   alpha?: number;
+  /** Drawn even where no place is free, as the person asks for it. */
+  always?: boolean;
 }
 
 interface Box {
@@ -70,14 +72,16 @@ export class LabelPlacer {
   }
 
   private place(label: Label, w: number): Box | null {
+    let first: Box | null = null;
     const places = label.below === true ? [kPlaces[3], kPlaces[2]] : kPlaces;
     for (const [dx, dy] of places) {
       const cx = label.x + dx * (label.gap + (dx === 0 ? 0 : w / 2 + 2));
       const cy = label.y + dy * (label.gap + kHeight / 2);
       const box = {x0: cx - w / 2 - 2, y0: cy - kHeight / 2, x1: cx + w / 2 + 2, y1: cy + kHeight / 2};
       if (this.free(box)) return box;
+      first ??= box;
     }
-    return null;
+    return label.always === true ? first : null;
   }
 
   private free(box: Box): boolean {

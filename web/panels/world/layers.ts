@@ -15,6 +15,8 @@ export interface Layers {
   sightings: boolean;
   hits: boolean;
   uncertainty: boolean;
+  /** Of real robots: their simulated twins, with the gap. */
+  shadows: boolean;
   names: boolean;
   grid: boolean;
   density: boolean;
@@ -34,6 +36,7 @@ export const kLayers: Layers = {
   sightings: true,
   hits: true,
   uncertainty: true,
+  shadows: true,
   names: true,
   grid: true,
   density: true,
@@ -45,7 +48,7 @@ export const kLayers: Layers = {
 export function readLayers(kept: unknown): Layers {
   const given = typeof kept === 'object' && kept !== null ? (kept as Partial<Layers>) : {};
   const layers: Layers = {...kLayers, hidden: Array.isArray(given.hidden) ? given.hidden : []};
-  for (const name of ['trails', 'sightings', 'hits', 'uncertainty', 'names', 'grid', 'density', 'minimap'] satisfies Flag[]) {
+  for (const name of ['trails', 'sightings', 'hits', 'uncertainty', 'shadows', 'names', 'grid', 'density', 'minimap'] satisfies Flag[]) {
     if (typeof given[name] === 'boolean') layers[name] = given[name];
   }
   if (given.poses === 'both' || given.poses === 'true') layers.poses = given.poses;

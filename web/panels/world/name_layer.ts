@@ -3,6 +3,7 @@ import type {Palette, Selection} from '../../panel_api';
 import type {Placed} from '../../model/pose_history';
 import {RobotFlag} from '../../protocol/frames';
 import type {Body, Robot} from '../../protocol/messages';
+import {bodyState} from './body_state';
 import type {Camera} from './camera';
 import {LabelPlacer, type Label} from './labels';
 import type {Kind, Layers} from './layers';
@@ -29,7 +30,8 @@ export function robotLabel(
     gap: r + (selection.has(slot) ? 9 : 4),
     colour: marked ? palette.hue(slot).ink : palette.token('sim-ink'),
     weight: marked ? 600 : 400,
-    rank: slot === selection.primary ? 0 : robot.kind === 'real' ? 1 : robot.word !== '' ? 2 : stale ? 3 : 5,
+    always: selection.hovered === slot,
+    rank: selection.hovered === slot ? -1 : slot === selection.primary ? 0 : robot.kind === 'real' ? 1 : robot.word !== '' ? 2 : stale ? 3 : 5,
   };
 }
 
@@ -73,6 +75,8 @@ export function robotLabels(
     const y = camera.toScreenY(placed.y[slot]);
     const r = Math.max(radius(slot) * camera.scale, 5);
     placer.block(x, y, 0.8 * r);
+    // The word below it.
+    if (bodyState(robots[slot].kind, placed.flags[slot]) !== 'plain') placer.block(x, y + r + 13, 14, 8);
     return robotLabel(robots[slot], slot, placed.flags[slot], x, y, r, selection, palette);
   });
 }

@@ -4,6 +4,7 @@ import type {Placed} from '../../model/pose_history';
 import {RobotFlag} from '../../protocol/frames';
 import type {Robot} from '../../protocol/messages';
 import type {Camera} from './camera';
+import {bodyState, reachOf} from './body_state';
 import {kFont} from './labels';
 import {isDisc, outlinePath, radiusOf} from './outlines';
 import {withAlpha} from './scan_layer';
@@ -16,6 +17,9 @@ interface Outline {
 
 /** A robot that matters keeps half of this width from any distance, pixels. */
 const kLeast_px = 7.5;
+/** A ring about a ghost keeps this distance from it, and from that radius on its inside fades. */
+const kRing_px = 12;
+const kPlainRing_px = 60;
 
 /** Draws robots one by one, with outline, heading and what is not normal about them. */
 export class RobotLayer {
@@ -61,7 +65,8 @@ export class RobotLayer {
     const scale = camera.scale * grow;
     const r = outline.radius * scale;
     const hue = this.palette.hue(slot);
-    const stale = (flags & RobotFlag.stale) !== 0;
+    const state = bodyState(robot.kind, flags);
+    const stale = state === 'stale';
     if (this.selection.has(slot)) this.drawRing(ctx, x, y, r + 5, true);
     else if (this.selection.hovered === slot) this.drawRing(ctx, x, y, r + 4, false);
     ctx.save();
@@ -73,7 +78,7 @@ export class RobotLayer {
     ctx.lineWidth = 1.5 / scale;
     if (stale) ctx.setLineDash([3 / scale, 3 / scale]);
     if (robot.kind === 'real' && !stale) {
-      const unarmed = (flags & RobotFlag.unarmed) !== 0;
+      const unarmed = state === 'unarmed';
       ctx.globalAlpha = unarmed ? 0.45 : 1;
       ctx.fillStyle = hue.fill;
       ctx.fill(outline.path);
@@ -91,7 +96,8 @@ export class RobotLayer {
     ctx.restore();
     this.drawHeading(ctx, r, robot, stale ? null : (tint ?? hue.ink));
     ctx.restore();
-    if (stale) this.drawReach(ctx, x, y, r, placed.time_s - placed.freshAt(slot));
+    if (stale) this.drawReach(ctx, x, y, r, r + reachOf(placed, slot) * camera.scale, placed.time_s - placed.freshAt(slot));
+    if (state === 'unarmed') this.drawWord(ctx, 'arm', x, y + r + 5, this.palette.token('warn'));
     if ((flags & RobotFlag.stopped) !== 0) drawStopped(ctx, x + 0.75 * r, y - 0.75 * r, this.palette);
   }
 
@@ -127,23 +133,33 @@ export class RobotLayer {
     ctx.stroke();
   }
 
-  /** A ghost: how old its pose is, and a circle about where it may be by now. */
-  private drawReach(ctx: CanvasRenderingContext2D, x: number, y: number, r: number, age_s: number): void {
+  /** A ghost: how old its pose is, and a circle about where it may be by now, pixels. */
+  private drawReach(ctx: CanvasRenderingContext2D, x: number, y: number, r: number, reach: number, age_s: number): void {
     const ink = this.palette.token('stale-ink');
     ctx.save();
     ctx.setLineDash([2, 4]);
     ctx.strokeStyle = ink;
-    ctx.fillStyle = withAlpha(ink, 0.08);
+    const ring = Math.max(r + kRing_px, reach);
+    // A large one is a line: it would tint the whole picture.
+    ctx.fillStyle = withAlpha(ink, 0.08 * Math.min(1, kPlainRing_px / ring));
     ctx.beginPath();
-    ctx.arc(x, y, r + 12, 0, 2 * Math.PI);
+    ctx.arc(x, y, ring, 0, 2 * Math.PI);
     ctx.fill();
     ctx.stroke();
     ctx.restore();
+    this.drawWord(ctx, `${age_s.toFixed(1)} s`, x, y + r + kRing_px + 3, ink);
+  }
+
+  /** What is not normal about a robot, under it. */
+  private drawWord(ctx: CanvasRenderingContext2D, text: string, x: number, y: number, ink: string): void {
     ctx.font = `500 11px ${kFont}`;
     ctx.textAlign = 'center';
     ctx.textBaseline = 'top';
+    ctx.lineWidth = 3;
+    ctx.strokeStyle = this.palette.token('floor');
+    ctx.strokeText(text, x, y);
     ctx.fillStyle = ink;
-    ctx.fillText(`${age_s.toFixed(1)} s`, x, y + r + 15);
+    ctx.fillText(text, x, y);
   }
 }
 

@@ -103,7 +103,7 @@ export class TopView {
     }
     drawReadings(ctx, camera, model, selection, palette, placed, layers, this.surface, camera.scale >= kFar_px);
     if (layers.uncertainty) drawVariances(ctx, camera, model, selection, palette, placed);
-    if (!layers.hidden.includes('real')) drawShadows(ctx, camera, model, selection, palette, placed, this.robots);
+    if (layers.shadows && !layers.hidden.includes('real')) drawShadows(ctx, camera, model, selection, palette, placed, this.robots);
     const speeds = model.poses.newest?.speed;
     for (const slot of cast.whole) {
       const robot = model.robots[slot];
@@ -111,7 +111,7 @@ export class TopView {
       this.robots.draw(ctx, camera, placed, slot, robot, share === null ? null : rampColour(share, palette.theme));
     }
     if (truth.count > 0) drawTruth(ctx, camera, cast.whole, selection, palette, placed, truth, this.robots);
-    if (layers.names) this.drawNames(ctx, camera, placed, layers, cast);
+    this.drawNames(ctx, camera, placed, layers, cast);
   }
 
   /** Who is seen from this camera; all of them one by one without `arrows`. */
@@ -208,9 +208,12 @@ export class TopView {
   private drawNames(ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed, layers: Layers, cast: Cast): void {
     const {model, palette, selection} = this;
     const placer = new LabelPlacer(camera.width, camera.height);
+    const hovered = selection.hovered;
+    if (!layers.names && (hovered === null || !cast.whole.includes(hovered))) return;
     const near = namesFit(camera, placed.count);
     const named = cast.whole.filter((slot) => near || this.outstanding(model.robots[slot], slot, placed));
     const labels = robotLabels(model.robots, named, camera, placed, (slot) => this.robots.radius(slot), selection, palette, placer);
+    if (!layers.names) return placer.draw(ctx, labels.filter((label) => label.always), palette.token('floor'));
     if (cast.far && cast.swarm.length > 0) drawPlates(ctx, camera, this.teams(placed), palette, placer);
     if (!cast.far) drawContactTags(ctx, camera, model.events, placed, palette, placer);
     labels.push(...bodyLabels(this.bodies.groups, camera, layers, near && !cast.far, palette, placer));

@@ -4,10 +4,8 @@ import type {Palette, Selection} from '../../panel_api';
 import {RobotFlag} from '../../protocol/frames';
 import type {Camera} from './camera';
 import type {RobotLayer} from './robot_layer';
-import {drawGap, gapText} from './shadow_layer';
+import {drawGap, gapText, kApart_px} from './shadow_layer';
 
-/** So far apart on the screen, true and reported pose are joined by a line that has the gap. */
-const kApart_px = 10;
 const kCross_px = 4;
 
 /** Whether the reported and the true pose of a robot are known. */

@@ -69,6 +69,7 @@ export function renderMenu(model: RunModel, layers: Layers, scale: [string, stri
     ${flag('sightings', 'Camera sightings')}
     ${flag('hits', 'Where readings hit')}
     ${flag('uncertainty', 'Uncertainty of reported poses')}
+    ${flag('shadows', 'Shadows of real robots')}
     <hr>
     ${choice('Colour by', layers.colourBy, kColourBy.map((by) => [by, by] as const), (colourBy: ColourBy) => ({...layers, colourBy}))}
     ${layers.colourBy === 'kind' ? nothing : renderScale(scale, theme)}

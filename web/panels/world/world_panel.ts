@@ -107,6 +107,7 @@ export class WorldPanel extends LitElement {
     super.disconnectedCallback();
     this.context.link.look(this, []);
     this.context.link.lookAtTruth(false);
+    this.context.link.lookAtVariances([]);
     this.resized.disconnect();
     for (const end of this.ends.splice(0)) end();
   }
@@ -258,6 +259,7 @@ export class WorldPanel extends LitElement {
     }
     link.look(this, pairs);
     link.lookAtTruth(this.poses !== 'reported');
+    link.lookAtVariances(this.layers.uncertainty ? selection.slots : []);
   }
 
   private resize(): void {

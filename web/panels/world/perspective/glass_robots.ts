@@ -12,6 +12,7 @@ const kCoarseFrom = 150;
 /** So many robots have edges only: faces would cost more than they tell. */
 const kFacesUpTo = 2000;
 const kFill = 0.16;
+const kGhostEdge = 60;
 /** Of a robot whose pose is not known, far below the floor. */
 const kNowhere = -1e6;
 
@@ -60,10 +61,11 @@ class Merged {
     this.places.needsUpdate = true;
   }
 
-  tint(toneOf: (slot: number) => Tone, alpha: number): void {
+  tint(toneOf: (slot: number) => Tone, alphaOf: (slot: number) => number): void {
     const out = this.tones.array as Uint8Array;
     for (const {slot, local, from} of this.parts) {
       const [red, green, blue] = toneOf(slot);
+      const alpha = alphaOf(slot);
       for (let v = from; v < from + local.length / 3; ++v) out.set([red, green, blue, alpha], 4 * v);
     }
     this.tones.needsUpdate = true;
@@ -98,10 +100,10 @@ export class GlassRobots {
     this.edges.place(placed, shown);
   }
 
-  /** Colours; needed only when they change. */
-  tint(toneOf: (slot: number) => Tone): void {
-    this.faces.tint(toneOf, Math.round(255 * kFill));
-    this.edges.tint(toneOf, 255);
+  /** Colours, and who is a ghost: empty, with edges that hardly show below its dashes. Needed only when they change. */
+  tint(toneOf: (slot: number) => Tone, ghost: (slot: number) => boolean): void {
+    this.faces.tint(toneOf, (slot) => (ghost(slot) ? 0 : Math.round(255 * kFill)));
+    this.edges.tint(toneOf, (slot) => (ghost(slot) ? kGhostEdge : 255));
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {RobotFlag} from '../../../protocol/frames';
+import {bodyState} from '../body_state';
 import {kFont, LabelPlacer, type Label} from '../labels';
 import {robotLabel, shortName} from '../name_layer';
 import type {Shown} from '../reading_layer';
@@ -8,6 +9,7 @@ import {bearingsOf, drawMark, mountOf} from '../scan_layer';
 import type {StageContext} from '../stage';
 import {bothKnown, drawTrueCross} from '../truth_layer';
 import {pointSurface, type Surface} from '../surface';
+import {GhostOverlay} from './ghost_overlay';
 import type {Orbit} from './orbit';
 import {topOf} from './prism';
 
@@ -19,7 +21,16 @@ const kGizmo_px = 74;
 
 /** Names, marks and signs over the picture in perspective; none of them scales. */
 export class Overlay {
-  constructor(private readonly context: StageContext, private readonly orbit: Orbit) {}
+  private readonly ghosts: GhostOverlay;
+
+  constructor(private readonly context: StageContext, private readonly orbit: Orbit) {
+    this.ghosts = new GhostOverlay(context, orbit);
+  }
+
+  /** The roster changed. */
+  refresh(): void {
+    this.ghosts.refresh();
+  }
 
   draw(ctx: CanvasRenderingContext2D, readings: readonly Shown[], surface: Surface | null, shown: (slot: number) => boolean): void {
     const layers = this.context.layers();
@@ -29,9 +40,10 @@ export class Overlay {
       } else if (one.fresh && layers.hits && surface !== null) this.drawHits(ctx, one, surface);
     }
     this.drawTruth(ctx, shown);
+    this.ghosts.draw(ctx, shown);
     const placer = new LabelPlacer(this.orbit.width, this.orbit.height);
     const labels = [...this.robotLabels(ctx, shown), ...this.bodyLabels()];
-    if (layers.names) placer.draw(ctx, labels, this.context.palette.token('floor'));
+    placer.draw(ctx, layers.names ? labels : labels.filter((label) => label.always), this.context.palette.token('floor'));
     this.drawGizmo(ctx);
   }
 
@@ -53,10 +65,10 @@ export class Overlay {
     const all = model.robots.length <= kMostNames;
     model.robots.forEach((robot, slot) => {
       if (slot >= placed.count || (placed.flags[slot] & RobotFlag.known) === 0 || !shown(slot)) return;
-      const marked = robot.kind === 'real' || robot.word !== '' || selection.has(slot) || selection.hovered === slot;
+      const state = bodyState(robot.kind, placed.flags[slot]);
+      const marked = robot.kind === 'real' || robot.word !== '' || selection.has(slot) || selection.hovered === slot || state !== 'plain';
       const stopped = (placed.flags[slot] & RobotFlag.stopped) !== 0;
-      const stale = (placed.flags[slot] & RobotFlag.stale) !== 0;
-      if (!marked && !all && !stale) return;
+      if (!marked && !all) return;
       const top = this.orbit.project(placed.x[slot], placed.y[slot], topOf(robot.shapes));
       if (top === null) return;
       const share = (kFadeTo_m - top.distance) / (kFadeTo_m - kFadeFrom_m);
@@ -64,10 +76,9 @@ export class Overlay {
       if (stopped && alpha > 0) drawStopped(ctx, top.x + 12, top.y - 6, palette);
       if (alpha === 0) return;
       const label = robotLabel(robot, slot, placed.flags[slot], top.x, top.y - 17, 0, selection, palette);
-      if (stale) {
-        label.text += `  ${(placed.time_s - placed.freshAt(slot)).toFixed(1)} s`;
-        label.colour = palette.token('stale-ink');
-      }
+      if (state === 'stale') label.text += `  ${(placed.time_s - placed.freshAt(slot)).toFixed(1)} s`;
+      if (state === 'unarmed') label.text += '  arm';
+      if (state !== 'plain') label.colour = palette.token(state === 'stale' ? 'stale-ink' : 'warn');
       labels.push({...label, gap: 0, below: true, alpha});
     });
     return labels;

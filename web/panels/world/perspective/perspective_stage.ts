@@ -10,6 +10,7 @@ import type {Stage, StageContext} from '../stage';
 import {Surface} from '../surface';
 import type {Tone} from '../swarm';
 import {Tint} from '../tint';
+import {writeDoubts} from './doubt_marks';
 import {FlatLayer} from './flat_layer';
 import {Floor} from './floor';
 import {writeRings, writeScans, writeTrails} from './floor_marks';
@@ -51,6 +52,7 @@ export class PerspectiveStage implements Stage {
   private readonly scans = new FlatLayer(0.006, 1);
   private readonly trails = new FlatLayer(0.009, 1);
   private readonly rings = new FlatLayer(0.012, 2);
+  private readonly doubts = new FlatLayer(0.0105, 2);
   private readonly overlay: Overlay;
   private readonly tint = new Tint();
   private surface: Surface | null = null;
@@ -70,7 +72,7 @@ export class PerspectiveStage implements Stage {
     this.sun.shadow.mapSize.set(kShadow_px, kShadow_px);
     this.sun.shadow.bias = -0.001;
     this.scene.add(new AmbientLight('#ffffff', 1.5), this.sun, this.sun.target, this.floor.group, this.maps.group, this.bodies.group, this.solid.group,
-      this.glass.group, this.scans.mesh, this.trails.mesh, this.rings.mesh);
+      this.glass.group, this.scans.mesh, this.trails.mesh, this.doubts.mesh, this.rings.mesh);
     this.overlay = new Overlay(context, this.orbit);
     new OrbitGestures(this.element, context, this.orbit, (px, py) => this.slotAt(px, py));
   }
@@ -84,6 +86,7 @@ export class PerspectiveStage implements Stage {
     this.bodies.refresh(model.bodies.values(), palette);
     this.solid.refresh(model.robots, palette);
     this.glass.refresh(model.robots);
+    this.overlay?.refresh();
     this.tinted = this.floorKey = '';
   }
 
@@ -134,6 +137,7 @@ export class PerspectiveStage implements Stage {
     const readings = shownReadings(model, selection, placed, layers);
     writeScans(this.scans, context, readings);
     writeTrails(this.trails, context, model.poses, (slot) => layers.trails && shown(slot));
+    writeDoubts(this.doubts, context, orbit);
     writeRings(this.rings, context, (slot) => this.radii[slot] ?? 0.2);
     this.renderer.render(this.scene, orbit.camera);
     const ctx = this.over.getContext('2d');
@@ -175,14 +179,19 @@ export class PerspectiveStage implements Stage {
   private setTint(): void {
     const {palette, model, placed} = this.context;
     const by = this.context.layers().colourBy;
-    const key = by === 'kind' || by === 'team' ? `${by} ${palette.theme}` : `${by} ${palette.theme} ${Math.floor(placed.time_s * 4)}`;
+    const ghost = (slot: number) => slot < placed.count && (placed.flags[slot] & RobotFlag.stale) !== 0;
+    let ghosts = 0;
+    // Whoever it is, the sum is another one.
+    for (let slot = 0; slot < placed.count; ++slot) if (ghost(slot)) ghosts = (31 * ghosts + slot + 1) % 1e9;
+    const fixed = `${by} ${palette.theme} ${ghosts}`;
+    const key = by === 'kind' || by === 'team' ? fixed : `${fixed} ${Math.floor(placed.time_s * 4)}`;
     if (key === this.tinted) return;
     this.tinted = key;
     const speeds = model.poses.newest?.speed;
     this.glass.tint((slot): Tone => {
       const share = by === 'kind' ? null : this.tint.share(by, slot, placed, speeds);
       return share === null ? bytesOf(palette.hue(slot).ink) : rampBytes(share, palette.theme);
-    });
+    }, ghost);
   }
 
   fit(animate: boolean, closer = false): boolean {

@@ -4,6 +4,7 @@ import type {Placed} from '../../../model/pose_history';
 import type {Palette} from '../../../panel_api';
 import {RobotFlag} from '../../../protocol/frames';
 import type {Robot, Shape} from '../../../protocol/messages';
+import {bodyState, type BodyState} from '../body_state';
 import {addPrism, type Solid} from './prism';
 import {stripes} from './stripes';
 
@@ -12,6 +13,7 @@ const kSides = 32;
 const kTubeRadius_m = 0.09;
 const kTubeHeight_m = 0.15;
 const kWedge_rad = 0.42;
+const kOpacity: Readonly<Record<BodyState, number>> = {plain: 1, unarmed: 0.45, stale: 0.08};
 
 /** Real robots: opaque, lit, with a white wedge to the front. */
 export class SolidRobots {
@@ -35,21 +37,22 @@ export class SolidRobots {
       if (!body.visible) continue;
       body.position.set(placed.x[slot], placed.y[slot], 0);
       body.rotation.z = placed.yaw[slot];
-      const ghost = (placed.flags[slot] & RobotFlag.stale) !== 0;
-      if (body.userData['ghost'] !== ghost) fade(body, ghost);
+      const state = bodyState('real', placed.flags[slot]);
+      if (body.userData['state'] !== state) fade(body, state);
     }
   }
 }
 
-/** What is old does not look new: a ghost is glass. */
-function fade(body: Group, ghost: boolean): void {
-  body.userData['ghost'] = ghost;
+/** What is old does not look new, and who waits to be armed is not ready: both have less of their colour. */
+function fade(body: Group, state: BodyState): void {
+  const plain = state === 'plain';
+  body.userData['state'] = state;
   body.traverse((part) => {
     if (!(part instanceof Mesh)) return;
-    part.castShadow = !ghost;
+    part.castShadow = plain;
     for (const material of Array.isArray(part.material) ? part.material : [part.material]) {
-      (material as Material).transparent = ghost;
-      (material as Material).opacity = ghost ? 0.25 : 1;
+      (material as Material).transparent = !plain;
+      (material as Material).opacity = kOpacity[state];
     }
   });
 }

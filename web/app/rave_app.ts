@@ -9,6 +9,7 @@ import {Palette} from '../panel_api/palette';
 import {Selection} from '../panel_api/selection';
 import {Windows} from '../panel_api/windows';
 import type {JoystickPanel} from '../panels/joystick/joystick_panel';
+import {kWorldKeys} from '../panels/world/world_keys';
 import type {WorldPanel} from '../panels/world/world_panel';
 import {renderAway} from './away_strip';
 import {Dock, type LayoutName} from './dock';
@@ -240,6 +241,7 @@ export class RaveApp extends LitElement {
       {keys: ['Z'], what: 'lens, while held', act: () => this.world?.lens(true), end: () => this.world?.lens(false)},
       {keys: ['M'], what: 'measure', act: () => this.world?.toggleMeasure()},
       {keys: ['P'], what: 'save a picture', act: () => this.world?.picture()},
+      ...kWorldKeys.map((of) => ({...of, act: () => {}})),
       ...this.orderKeys(),
       ...panelsFor(this.model).slice(0, 19).map((kind, i) => ({keys: panelKey(i), what: kind.title, act: () => this.showPanel(kind.id)})),
       {keys: ['?'], what: 'this list', act: () => this.open('showingKeys')},

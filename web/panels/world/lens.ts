@@ -10,9 +10,13 @@ const kHeight = 276;
 /** While Z is held: what lies below the pointer, enlarged, in the lower right corner. */
 export class Lens {
   on = false;
-  x = 0;
-  y = 0;
+  /** Where the pointer is, pixels; null: it looks at the middle, as at the keyboard. */
+  at: [number, number] | null = null;
   private readonly camera = new Camera();
+
+  toMiddle(): void {
+    this.at = null;
+  }
 
   /** `paint` draws the world through another camera. */
   draw(ctx: CanvasRenderingContext2D, main: Camera, palette: Palette, paint: (camera: Camera) => void): void {
@@ -21,13 +25,14 @@ export class Lens {
     const h = Math.min(kHeight, main.height - 60);
     const left = main.width - w - 12;
     const top = main.height - h - 40;
-    const [wx, wy] = main.toWorld(this.x, this.y);
+    const [px, py] = this.at ?? [main.width / 2, main.height / 2];
+    const [wx, wy] = main.toWorld(px, py);
     Object.assign(this.camera, {x: wx, y: wy, scale: main.scale * kTimes, width: w, height: h});
     const seen = [w / kTimes, h / kTimes];
     ctx.strokeStyle = palette.token('intent');
     ctx.lineWidth = 1.5;
     ctx.setLineDash([4, 3]);
-    ctx.strokeRect(this.x - seen[0] / 2, this.y - seen[1] / 2, seen[0], seen[1]);
+    ctx.strokeRect(px - seen[0] / 2, py - seen[1] / 2, seen[0], seen[1]);
     ctx.setLineDash([]);
     ctx.save();
     ctx.translate(left, top);

@@ -21,6 +21,25 @@ export class Measure {
     if (this.line !== null) [this.line[2], this.line[3]] = [x, y];
   }
 
+  /** Moves the end, metres; a line that is not there yet begins at `from`. */
+  nudge(dx: number, dy: number, from: readonly [number, number]): void {
+    const [ax, ay, bx, by] = this.line ?? [...from, ...from];
+    this.line = [ax, ay, bx + dx, by + dy];
+  }
+
+  /** Begins anew where the line ends, or at `from`. */
+  goOn(from: readonly [number, number]): void {
+    this.begin(...((this.line?.slice(2) as [number, number] | undefined) ?? from));
+  }
+
+  /** Length and direction in words; empty without a line. */
+  get text(): string {
+    if (this.line === null) return '';
+    const [ax, ay, bx, by] = this.line;
+    const degrees = Math.round((Math.atan2(by - ay, bx - ax) * 180) / Math.PI);
+    return `${Math.hypot(bx - ax, by - ay).toFixed(2)} m, ${degrees}°`.replace('-', '−');
+  }
+
   draw(ctx: CanvasRenderingContext2D, camera: Camera, palette: Palette): void {
     if (this.line === null) return;
     const [ax, ay, bx, by] = this.line;
@@ -32,8 +51,7 @@ export class Measure {
     ctx.moveTo(x0, y0);
     ctx.lineTo(x1, y1);
     ctx.stroke();
-    const degrees = Math.round((Math.atan2(by - ay, bx - ax) * 180) / Math.PI);
-    const text = `${Math.hypot(bx - ax, by - ay).toFixed(2)} m, ${degrees}°`.replace('-', '−');
+    const {text} = this;
     ctx.font = `500 12px ${kFont}`;
     const w = ctx.measureText(text).width + 12;
     ctx.fillStyle = palette.token('bg-2');

@@ -10,6 +10,23 @@ import {drawHits, drawScan, drawSightings, drawnSensors, mountOf} from './scan_l
 import type {Surface} from './surface';
 
 const kOldest_s = 5;
+/** Sensors of so many robots are drawn at a time. */
+const kScanned = 12;
+
+/** Slot and index of the sensors that the layers ask for: those of the selection, and of a few real robots. */
+export function sensorsToRead(model: RunModel, selection: Selection, layers: Layers): [number, number][] {
+  if (layers.scans === 'off') return [];
+  const wanted = new Set<number>(selection.primary === null ? [] : [selection.primary]);
+  if (layers.scans === 'real') {
+    model.robots.forEach((robot, slot) => {
+      if (robot.kind === 'real' && wanted.size < kScanned) wanted.add(slot);
+    });
+  }
+  return [...wanted].flatMap((slot) => {
+    const robot = model.robots[slot];
+    return robot === undefined ? [] : drawnSensors(robot).map((sensor): [number, number] => [slot, sensor]);
+  });
+}
 
 /** A reading that is to be drawn. */
 export interface Shown {

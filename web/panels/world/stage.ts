@@ -37,6 +37,14 @@ export interface Stage {
   lookFrom(text: string): void;
   /** Drops what the person has begun; false if there was nothing. */
   drop(): boolean;
+  /** At the keyboard: looks so many pixels farther to the right and down. */
+  nudge(dx: number, dy: number): void;
+  /** Zooms about the middle. */
+  zoomBy(factor: number): void;
+  /** Goes about what it looks at. */
+  turn?(dx: number, dy: number): void;
+  /** Enter: begins a measure where the last one ends; false if nothing is measured. */
+  mark?(): boolean;
   /** The picture with everything on it. */
   snapshot(): HTMLCanvasElement;
   /** Where a robot is on the screen, relative to the element. */

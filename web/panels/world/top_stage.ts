@@ -251,8 +251,7 @@ export class TopStage implements Stage {
   }
 
   pointed(px: number, py: number): void {
-    this.lens.x = px;
-    this.lens.y = py;
+    this.lens.at = [px, py];
     if (this.lens.on) this.context.redraw();
   }
 
@@ -268,6 +267,44 @@ export class TopStage implements Stage {
   lookFrom(text: string): void {
     const [x, y, scale] = text.split(',').slice(1).map(Number);
     if (Number.isFinite(x) && Number.isFinite(y) && scale > 0) this.camera.go({x, y, scale}, performance.now(), false);
+  }
+
+  nudge(dx: number, dy: number): void {
+    const {camera, measure} = this;
+    if (measure.on) {
+      measure.nudge(dx / camera.scale, -dy / camera.scale, this.measureFrom());
+      this.context.redraw();
+      return;
+    }
+    camera.pan(-dx, -dy);
+    this.context.selection.follow(false);
+    this.looked();
+  }
+
+  zoomBy(factor: number): void {
+    this.camera.zoom(factor, this.camera.width / 2, this.camera.height / 2);
+    this.looked();
+  }
+
+  mark(): boolean {
+    if (!this.measure.on) return false;
+    this.measure.goOn(this.measureFrom());
+    this.context.redraw();
+    return true;
+  }
+
+  /** Keys moved the camera: the lens is where the person looks, in the middle. */
+  private looked(): void {
+    this.lens.toMiddle();
+    this.context.moved();
+    this.context.redraw();
+  }
+
+  /** A measure at the keyboard begins at the selected robot, or in the middle. */
+  private measureFrom(): [number, number] {
+    const {selection, placed} = this.context;
+    const slot = selection.primary;
+    return slot !== null && slot < placed.count ? [placed.x[slot], placed.y[slot]] : [this.camera.x, this.camera.y];
   }
 
   drop(): boolean {

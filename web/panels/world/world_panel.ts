@@ -6,7 +6,7 @@ import {Placed} from '../../model/pose_history';
 import type {PanelContext} from '../../panel_api';
 import {viewOf} from '../../panel_api/windows';
 import {kColourBy, kLayers, readLayers, type Layers, type Poses} from './layers';
-import {drawnSensors} from './scan_layer';
+import {sensorsToRead} from './reading_layer';
 import {orderStyles} from './orders/order_cards';
 import type {Tool} from './orders/order_desk';
 import {WorldOrders} from './orders/world_orders';
@@ -14,13 +14,12 @@ import type {Stage, StageContext} from './stage';
 import {TopStage} from './top_stage';
 import {takePlaces} from './truth_layer';
 import {renderCard, worldCardStyles} from './world_card';
+import {pressWorldKey} from './world_keys';
 import {renderLegend, renderMenu, worldMenuStyles} from './world_menu';
 import {worldPanelStyles} from './world_panel_styles';
 
 const kKept = 'rave.world';
 const kKeptMode = 'rave.world.mode';
-/** Sensors of so many robots are drawn at a time. */
-const kScanned = 12;
 /** From so many robots on the colours are at hand without the menu. */
 const kCrowd = 100;
 /** From this share of the page on it is the only panel. */
@@ -226,6 +225,13 @@ export class WorldPanel extends LitElement {
     this.draw();
   }
 
+  /** A key on the focused picture. */
+  private press(event: KeyboardEvent): void {
+    if (!pressWorldKey(event, this.stage)) return;
+    event.preventDefault();
+    this.requestUpdate();
+  }
+
   /** While Z is held. */
   lens(on: boolean): void {
     if (this.top.lens.on === on) return;
@@ -245,19 +251,7 @@ export class WorldPanel extends LitElement {
   /** Says which sensors are drawn: those of the selection, and of a few real robots. */
   private lookAround(): void {
     const {model, link, selection} = this.context;
-    const wanted = new Set<number>(selection.primary === null ? [] : [selection.primary]);
-    if (this.layers.scans === 'real') {
-      model.robots.forEach((robot, slot) => {
-        if (robot.kind === 'real' && wanted.size < kScanned) wanted.add(slot);
-      });
-    }
-    if (this.layers.scans === 'off') wanted.clear();
-    const pairs: [number, number][] = [];
-    for (const slot of wanted) {
-      const robot = model.robots[slot];
-      if (robot) for (const sensor of drawnSensors(robot)) pairs.push([slot, sensor]);
-    }
-    link.look(this, pairs);
+    link.look(this, sensorsToRead(model, selection, this.layers));
     link.lookAtTruth(this.poses !== 'reported');
     link.lookAtVariances(this.layers.uncertainty ? selection.slots : []);
   }
@@ -362,7 +356,8 @@ export class WorldPanel extends LitElement {
         </div>
       </div>
       <div class="stage">
-        <div class="canvas" tabindex="0" role="img" aria-label=${this.summary()}></div>
+        <div class="canvas" tabindex="0" role="application" aria-label=${this.summary()} @keydown=${(event: KeyboardEvent) => this.press(event)}></div>
+        <span class="said" role="status">${this.top.measure.text}</span>
         ${selection.following && primary !== null
           ? html`<div class="note">${icon('crosshair', 14)} following <b style="color:${palette.hue(primary).ink}">${model.robots[primary]?.name}</b> <span>Esc ends</span></div>`
           : nothing}
@@ -379,7 +374,7 @@ export class WorldPanel extends LitElement {
 
   private summary(): string {
     const {model} = this.context;
-    return `World View: ${model.robots.length} robots, ${model.bodies.size} bodies. The panel Robots lists them.`;
+    return `World View: ${model.robots.length} robots, ${model.bodies.size} bodies. The panel Robots lists them. Arrows move the picture, plus and minus zoom it.`;
   }
 
   static override styles = [

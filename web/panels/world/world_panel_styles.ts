@@ -18,7 +18,10 @@ export const worldPanelStyles = css`
   @container (max-width: 640px) { .kind i { display: none; } .kind { padding: 0 5px; } }
   .stage { position: relative; flex: 1; min-height: 0; }
   .canvas { position: absolute; inset: 0; background: var(--floor); }
-  .canvas:focus-visible { outline-offset: -2px; }
+  /* The canvases lie over an outline of their own place. */
+  .canvas:focus-visible { outline: none; }
+  .canvas:focus-visible::after { content: ''; position: absolute; inset: 0; z-index: 2; border: 2px solid var(--intent); pointer-events: none; }
+  .said { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
   .stage-top, .stage-3d { position: absolute; inset: 0; touch-action: none; overflow: hidden; }
   canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block; pointer-events: none; }
   canvas[hidden] { display: none; }

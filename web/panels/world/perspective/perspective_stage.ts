@@ -256,6 +256,25 @@ export class PerspectiveStage implements Stage {
     if ([x, y, distance, yaw, pitch].every(Number.isFinite) && distance > 0) this.orbit.go({x, y, distance, yaw, pitch}, performance.now(), false);
   }
 
+  nudge(dx: number, dy: number): void {
+    this.orbit.pan(-dx, -dy);
+    this.context.selection.follow(false);
+    this.context.moved();
+    this.context.redraw();
+  }
+
+  zoomBy(factor: number): void {
+    this.orbit.zoom(factor);
+    this.context.moved();
+    this.context.redraw();
+  }
+
+  turn(dx: number, dy: number): void {
+    this.orbit.rotate(-dx, -dy);
+    this.context.moved();
+    this.context.redraw();
+  }
+
   drop(): boolean {
     return false;
   }

@@ -12,6 +12,9 @@ const kMoment_s = 1e-3;
 /** One point of the course of a sensor. */
 export interface CoursePoint {
   time_s: number;
+  rows: number;
+  /** Of each row. */
+  fields: number;
   values: Float32Array;
 }
 
@@ -28,7 +31,7 @@ export class Readings {
     const last = course[course.length - 1];
     if (last !== undefined && reading.stamp_s < last.time_s) course.length = 0;
     if (last !== undefined && reading.stamp_s === last.time_s) return;
-    course.push({time_s: reading.stamp_s, values: summary(reading)});
+    course.push({time_s: reading.stamp_s, rows: reading.rows, fields: reading.fields, values: reading.values});
     const kept_s = reading.sensor === kCommandsOf ? kToldCourse_s : kCourse_s;
     while (course.length > 1 && reading.stamp_s - course[0].time_s > kept_s) course.shift();
   }
@@ -73,15 +76,4 @@ export class Readings {
 
 function keyOf(slot: number, sensor: number, part: number): string {
   return `${slot}/${sensor}/${part}`;
-}
-
-/** Of many rows (rays, sightings) the nearest counts; of one row each field. */
-function summary(reading: Reading): Float32Array {
-  if (reading.rows <= 1) return reading.values;
-  const least = new Float32Array(reading.fields).fill(Infinity);
-  for (let i = 0; i < reading.values.length; ++i) {
-    const field = i % reading.fields;
-    if (reading.values[i] < least[field]) least[field] = reading.values[i];
-  }
-  return least;
 }

@@ -1,55 +1,123 @@
 // SPDX-License-Identifier: Apache-2.0
+import type uPlot from 'uplot';
+import {kCourse_s, type CoursePoint} from '../../model/readings';
 import type {Palette} from '../../panel_api';
-import type {CoursePoint} from '../../model/readings';
-import {kCourse_s} from '../../model/readings';
 import {kFont} from '../world/labels';
 import {roundStep, tickText} from '../world/ticks';
+import type {CourseField} from './course_fields';
 
-/** Draws one field of a sensor over the last seconds. Gaps stand for "no return". */
-export function drawCourse(
-  ctx: CanvasRenderingContext2D, width: number, height: number, course: readonly CoursePoint[], field: number,
-  now_s: number, colour: string, palette: Palette,
-): void {
-  const values = course.map((point) => point.values[field]).filter((value) => Number.isFinite(value));
-  const top = Math.max(...values, 0.1);
-  const bottom = Math.min(...values, 0);
-  const step = roundStep((top - bottom) / 2.5);
-  const low = Math.floor(bottom / step) * step;
-  const high = Math.ceil(top / step) * step;
-  const left = 34;
-  const right = width - 8;
-  const x = (t: number) => left + ((t - now_s + kCourse_s) / kCourse_s) * (right - left);
-  const y = (value: number) => 6 + ((high - value) / (high - low || 1)) * (height - 26);
-  ctx.font = `400 10px ${kFont}`;
-  ctx.textBaseline = 'middle';
-  ctx.lineWidth = 1;
-  for (let value = low; value <= high + 1e-9; value += step) {
-    ctx.strokeStyle = palette.token('line-1');
-    ctx.beginPath();
-    ctx.moveTo(left, Math.round(y(value)) + 0.5);
-    ctx.lineTo(right, Math.round(y(value)) + 0.5);
-    ctx.stroke();
-    ctx.fillStyle = palette.token('text-3');
-    ctx.textAlign = 'right';
-    ctx.fillText(tickText(value, step), left - 5, y(value));
+/** One line of a plot over time. */
+export interface CourseLine {
+  points: readonly CoursePoint[];
+  colour: string;
+  dashed?: boolean;
+}
+
+const kFont_px = 10;
+/** A text of an axis needs so much. */
+const kTicks_px = 22;
+
+/** One field of a sensor over the last seconds, with the value under the pointer. uPlot is loaded with the first one. */
+export class CoursePlot {
+  private plot: uPlot | null = null;
+  private library: typeof uPlot | null = null;
+  private asked = false;
+  private look = '';
+  /** Under the pointer: a value of each line and how long ago; null: the pointer is elsewhere. */
+  pointed: {values: (number | null)[]; ago_s: number} | null = null;
+
+  /** `changed` is called when the pointer is at another value, and once the plot can be drawn. */
+  constructor(private readonly changed: () => void) {}
+
+  /** Draws in `host`, which it fills. */
+  draw(host: HTMLElement, lines: readonly CourseLine[], field: CourseField, now_s: number, palette: Palette): void {
+    const {clientWidth: width, clientHeight: height} = host;
+    if (width === 0 || height === 0 || !this.ready()) return;
+    const look = [palette.theme, field.label, field.unit, ...lines.map(({colour, dashed}) => `${colour} ${dashed ?? false}`)].join();
+    if (this.plot === null || look !== this.look || this.plot.root.parentElement !== host) this.make(host, width, height, lines, field, palette);
+    this.look = look;
+    const {plot} = this;
+    if (plot === null) return;
+    if (plot.width !== width || plot.height !== height) plot.setSize({width, height});
+    plot.setData(this.table(lines, field, now_s));
   }
-  ctx.textAlign = 'center';
-  for (const back of [15, 10, 5]) ctx.fillText(`−${back} s`, Math.max(x(now_s - back), left + 12), height - 8);
-  ctx.textAlign = 'right';
-  ctx.fillText('now', right, height - 8);
-  ctx.strokeStyle = colour;
-  ctx.lineWidth = 1.5;
-  ctx.beginPath();
-  let pen = false;
-  for (const point of course) {
-    const value = point.values[field];
-    if (!Number.isFinite(value) || point.time_s < now_s - kCourse_s) {
-      pen = false;
-      continue;
+
+  dispose(): void {
+    this.plot?.destroy();
+    this.plot = null;
+    this.pointed = null;
+  }
+
+  private ready(): boolean {
+    if (this.library === null && !this.asked) {
+      this.asked = true;
+      void import('uplot').then((module) => {
+        this.library = module.default;
+        this.changed();
+      });
     }
-    if (pen) ctx.lineTo(x(point.time_s), y(value));
-    else ctx.moveTo(x(point.time_s), y(value));
-    pen = true;
+    return this.library !== null;
   }
-  ctx.stroke();
+
+  /** Times are counted from now, so that the axis stands still. */
+  private table(lines: readonly CourseLine[], field: CourseField, now_s: number): uPlot.AlignedData {
+    const tables = lines.map(({points}): uPlot.AlignedData => {
+      const shown = points.filter(({time_s}) => time_s >= now_s - kCourse_s && time_s <= now_s + 1e-3);
+      // null is a gap.
+      return [shown.map(({time_s}) => time_s - now_s), shown.map((point) => finite(field.of(point)))];
+    });
+    if (tables.every(([times]) => times.length === 0)) return [[], ...lines.map(() => [])] as unknown as uPlot.AlignedData;
+    return tables.length === 1 ? tables[0] : (this.library as typeof uPlot).join(tables, tables.map(() => [2, 2]));
+  }
+
+  private make(host: HTMLElement, width: number, height: number, lines: readonly CourseLine[], field: CourseField, palette: Palette): void {
+    this.dispose();
+    const faint = palette.token('text-3');
+    const axis = {stroke: faint, font: `400 ${kFont_px}px ${kFont}`, grid: {stroke: palette.token('line-1'), width: 1}, ticks: {show: false}};
+    const Plot = this.library as typeof uPlot;
+    this.plot = new Plot({
+      width, height,
+      padding: [8, 10, 0, 0],
+      legend: {show: false},
+      cursor: {y: false, drag: {x: false, y: false}, points: {size: 6}},
+      scales: {x: {time: false, range: [-kCourse_s, 0]}, y: {range: (_, low, high) => spanOf(low, high)}},
+      axes: [
+        {...axis, size: 18, gap: 3, splits: () => [-15, -10, -5, 0], values: (_, at) => at.map((t) => (t === 0 ? 'now' : `−${-t} s`))},
+        {...axis, size: 40, gap: 4, splits: (_, __, low, high) => ticksOf(low, high, height), values: (_, at) => at.map((value, i) => tickText(value, at.length > 1 ? at[1] - at[0] : 1) + (i === at.length - 1 && field.unit !== '' ? ` ${field.unit}` : ''))},
+      ],
+      series: [{}, ...lines.map(({colour, dashed}): uPlot.Series => ({
+        stroke: colour, width: 1.5, points: {show: false}, spanGaps: false, ...(dashed === true ? {dash: [4, 3]} : {}),
+      }))],
+      hooks: {setCursor: [(plot) => this.point(plot)]},
+    }, this.table(lines, field, 0), host);
+  }
+
+  private point(plot: uPlot): void {
+    const {idx} = plot.cursor;
+    const before = this.pointed;
+    this.pointed = idx === null || idx === undefined ? null : {values: plot.data.slice(1).map((line) => line[idx] ?? null), ago_s: -plot.data[0][idx]};
+    if (before !== null || this.pointed !== null) this.changed();
+  }
+}
+
+function finite(value: number): number | null {
+  return Number.isFinite(value) ? value : null;
+}
+
+/** From zero, or from the lowest below it, to a round number. */
+export function spanOf(low: number | null, high: number | null): [number, number] {
+  const bottom = Math.min(low ?? 0, 0);
+  const top = Math.max(high ?? 0, bottom < 0 ? 0 : 0.1);
+  const step = roundStep((top - bottom) / 2.5);
+  // No minus before a zero.
+  return [Math.floor(bottom / step + 1e-9) * step + 0, Math.ceil(top / step - 1e-9) * step + 0];
+}
+
+/** Round numbers with room for their texts. */
+export function ticksOf(low: number, high: number, height: number): number[] {
+  const most = Math.max(Math.floor((height - 26) / kTicks_px), 2);
+  const step = roundStep(Math.max((high - low) / most, 1e-6));
+  const ticks: number[] = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9; ++k) ticks.push(k * step + 0);
+  return ticks;
 }

@@ -15,10 +15,12 @@ function halfOpening(bearings: readonly number[], cone: number): number {
   return Math.min(Math.max(widest, 0.35), Math.PI);
 }
 
-/** Draws a range reading with ahead up. `met` says what a ray hit, or null; `real` is the real half of a hybrid. */
+/** Draws a range reading with ahead up. `met` says what a ray hit, or null; `real` is the real half of a hybrid, `beam`
+ * the one whose course is drawn. */
 export function drawPolar(
   ctx: CanvasRenderingContext2D, width: number, height: number, sensor: Sensor, reading: Reading | null,
   hue: {fill: string; ink: string}, palette: Palette, met: (ray: number) => Met | null, real: Reading | null = null,
+  beam: number | null = null,
 ): void {
   const max = sensor.range?.[1] ?? 4;
   const bearings = bearingsOf(sensor, reading?.rows ?? sensor.bearings?.length ?? 0);
@@ -68,6 +70,7 @@ export function drawPolar(
       drawMark(ctx, hit?.mark ?? 'disc', x, y, 1.8);
     }
   }
+  if (beam !== null && bearings[beam] !== undefined) drawBeam(ctx, [ox, oy], at(bearings[beam], radius), palette);
   ctx.fillStyle = hue.fill;
   ctx.beginPath();
   ctx.arc(ox, oy, 5, 0, 2 * Math.PI);
@@ -75,6 +78,18 @@ export function drawPolar(
   ctx.fillStyle = palette.token('text-2');
   ctx.textAlign = 'center';
   ctx.fillText('ahead', ox, 10);
+}
+
+/** The beam that the person looks at. */
+function drawBeam(ctx: CanvasRenderingContext2D, from: [number, number], to: [number, number], palette: Palette): void {
+  ctx.strokeStyle = palette.token('intent');
+  ctx.lineWidth = 1.25;
+  ctx.setLineDash([4, 3]);
+  ctx.beginPath();
+  ctx.moveTo(...from);
+  ctx.lineTo(...to);
+  ctx.stroke();
+  ctx.setLineDash([]);
 }
 
 /** What the real half of a hybrid measured: a thin line below its result. */

@@ -8,7 +8,9 @@ import type {Robot, Sensor} from '../../protocol/messages';
 import {LookingPanel} from '../looking_panel';
 import {shortName} from '../world/name_layer';
 import {Surface, type Met} from '../world/surface';
-import {drawCourse} from './course_plot';
+import {beamText, courseFieldsOf, type CourseField} from './course_fields';
+import {CoursePlot, type CourseLine} from './course_plot';
+import {courseStyles} from './course_styles';
 import {drawPolar} from './polar_plot';
 import {aboutText, metBy, nearestText, readingStyles, renderTable, renderValues} from './reading_texts';
 import {drawSightingsPlot, pairsOf, type Named} from './sightings_plot';
@@ -23,7 +25,10 @@ export class SensorsPanel extends LookingPanel {
   private pinned: number | null = null;
   private asTable = false;
   private field = 0;
+  /** The beam of a range sensor whose course is drawn; null: the middle one. */
+  private beam: number | null = null;
   private surface: Surface | null = null;
+  private readonly course = new CoursePlot(() => this.requestUpdate());
 
   protected override signals(): Signal[] {
     return [this.context.model.sceneChanged];
@@ -36,6 +41,7 @@ export class SensorsPanel extends LookingPanel {
 
   protected lookAway(): void {
     this.context.link.look(this, []);
+    this.course.dispose();
   }
 
   /** Pinned, else selected, else the first robot that has a sensor. */
@@ -107,21 +113,48 @@ export class SensorsPanel extends LookingPanel {
   private choose(slot: number, index: number): void {
     this.chosen.set(slot, index);
     this.field = 0;
+    this.beam = null;
     this.lookAround();
     this.requestUpdate();
   }
 
   private renderPlots(slot: number, sensor: Sensor, reading: Reading | null): TemplateResult {
     const ranges = sensor.kind === 'ranges';
-    const fields = sensor.fields;
-    const shown = Math.min(this.shownField(sensor), fields.length - 1);
     if (sensor.kind === 'sightings') return this.renderSightings(slot, sensor, reading);
     return html`
       ${sensor.origin === 'hybrid' ? html`<p class="halves"><span><i class="line"></i>real half</span><span><i class="dot"></i>result from it</span><span><i class="square"></i>result from the virtual half</span></p>` : nothing}
       ${ranges ? html`<canvas class="polar" role="img" aria-label="Ranges around the robot; the numbers are behind the button Show the numbers"></canvas>` : renderValues(sensor, reading)}
-      ${ranges ? html`<p class="sentence">${this.nearest(slot, sensor, reading)}<em>nearest, 15 s</em></p>` : html`
-        <div class="fields segments">${fields.map((name, i) => html`<button aria-pressed=${i === shown} @click=${() => { this.field = i; this.requestUpdate(); }}>${name.replace(/ \[.*/, '')}</button>`)}</div>`}
-      <canvas class="course" role="img" aria-label="Course of ${ranges ? 'the nearest range' : fields[shown] ?? 'the sensor'}"></canvas>`;
+      ${ranges ? html`<p class="sentence">${this.nearest(slot, sensor, reading)}</p>` : nothing}
+      ${this.renderCourse(sensor)}`;
+  }
+
+  /** Which field is drawn over time, and the plot. */
+  private renderCourse(sensor: Sensor): TemplateResult | typeof nothing {
+    const fields = courseFieldsOf(sensor, this.beamOf(sensor));
+    const field = fields[Math.min(this.field, fields.length - 1)];
+    if (field === undefined) return nothing;
+    const {pointed} = this.course;
+    const choose = (i: number) => { this.field = i; this.requestUpdate(); };
+    return html`
+      <div class="fields">
+        ${fields.length > 1 ? html`<div class="segments" role="radiogroup" aria-label="Field over time">${fields.map((other, i) => html`<button role="radio"
+          aria-checked=${other === field} @click=${() => choose(i)}>${other.label}</button>`)}</div>` : html`<span>${field.label}</span>`}
+        ${field.label === 'beam' ? this.renderBeam(sensor) : nothing}
+        <em>${pointed === null ? '15 s' : `${pointed.values.map((value) => (value === null ? 'nothing' : `${Number(value.toFixed(3))} ${field.unit}`.trim())).join(' · ')}, ${pointed.ago_s.toFixed(1)} s ago`}</em>
+      </div>
+      <div class="course" role="img" aria-label="${field.label} of ${sensor.name} in the last 15 seconds"></div>`;
+  }
+
+  private renderBeam(sensor: Sensor): TemplateResult {
+    const bearings = sensor.bearings ?? [];
+    const beam = this.beamOf(sensor);
+    return html`<label class="beam"><input type="range" min="0" max=${bearings.length - 1} .value=${String(beam)} aria-label="Beam" aria-valuetext=${beamText(bearings[beam] ?? 0)}
+      @input=${(event: Event) => { this.beam = Number((event.target as HTMLInputElement).value); this.requestUpdate(); }}>${beamText(bearings[beam] ?? 0)}</label>`;
+  }
+
+  private beamOf(sensor: Sensor): number {
+    const last = (sensor.bearings?.length ?? 1) - 1;
+    return Math.min(this.beam ?? Math.floor(last / 2), last);
   }
 
   /** A camera beside its twin: what it saw, and what it should see. */
@@ -135,14 +168,7 @@ export class SensorsPanel extends LookingPanel {
         ${twin === null ? nothing : html`<span><i class="square"></i>${robot.sensors[twin].name} ${sensor.origin === 'virtual' ? 'saw' : 'expects'} ${expected?.rows ?? 0}</span>
         <span class="space"></span><em>${count} of ${expected?.rows ?? 0} in both</em>`}</p>
       <canvas class="sightings" role="img" aria-label="Range and bearing of what the camera saw; the numbers are behind the button Show the numbers"></canvas>
-      ${renderValues(sensor, reading)}`;
-  }
-
-  /** Of several fields the first that is no stamp or code. */
-  private shownField(sensor: Sensor): number {
-    if (this.field !== 0) return this.field;
-    const first = sensor.fields.findIndex((name) => !/^(code|robot)\b/.test(name));
-    return Math.max(first, 0);
+      ${this.renderCourse(sensor)}`;
   }
 
   private met(slot: number, sensor: Sensor, reading: Reading, ray: number): Met | null {
@@ -179,31 +205,40 @@ export class SensorsPanel extends LookingPanel {
     const halves = sensor.origin === 'hybrid' ? model.readings.of(slot, index, 1) : null;
     this.onCanvas('.polar', (ctx, width, height) => {
       drawPolar(ctx, width, height, sensor, reading, hue, palette, (ray) =>
-        reading === null ? null : this.met(slot, sensor, reading, ray), halves);
+        reading === null ? null : this.met(slot, sensor, reading, ray), halves, this.field === 1 ? this.beamOf(sensor) : null);
     });
     this.onCanvas('.sightings', (ctx, width, height) => {
       const twin = twinOf(robot, index);
       drawSightingsPlot(ctx, width, height, sensor, reading, twin === null ? null : model.readings.of(slot, twin), (code) => this.namedCode(code), palette);
     });
-    this.onCanvas('.course', (ctx, width, height) => {
-      const field = sensor.kind === 'ranges' ? 0 : this.shownField(sensor);
-      drawCourse(ctx, width, height, model.readings.course(slot, index), field, this.placed.time_s, hue.ink, palette);
-    });
+    this.paintCourse(slot, index, sensor, hue.ink);
+  }
+
+  private paintCourse(slot: number, index: number, sensor: Sensor, ink: string): void {
+    const host = this.renderRoot.querySelector<HTMLElement>('.course');
+    const fields: readonly CourseField[] = courseFieldsOf(sensor, this.beamOf(sensor));
+    const field = fields[Math.min(this.field, fields.length - 1)];
+    if (host === null || field === undefined) return;
+    const {model, palette} = this.context;
+    const lines: CourseLine[] = [{points: model.readings.course(slot, index), colour: ink}];
+    const twin = twinOf(model.robots[slot], index);
+    if (twin !== null) lines.push({points: model.readings.course(slot, twin), colour: palette.token('virtual-ink'), dashed: true});
+    this.course.draw(host, lines, field, this.placed.time_s, palette);
   }
 
   static override styles = [
     controls,
     glyphs,
     readingStyles,
+    courseStyles,
     css`
       :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); overflow: hidden; }
       .head, .about { display: flex; align-items: center; gap: 8px; padding: 8px 12px 0; flex-wrap: wrap; }
       .about { color: var(--text-2); font-size: var(--fs-12); padding-top: 4px; flex-wrap: nowrap; white-space: nowrap; overflow: hidden; }
       .space { flex: 1; }
-      :host([embedded]) .head > :is(.glyph, b, .icon-button, .space), :host([compact]) .course { display: none; }
+      :host([embedded]) .head > :is(.glyph, b, .icon-button, .space), :host([compact]) :is(.course, .fields) { display: none; }
       .tag { display: inline-flex; align-items: center; gap: 6px; padding: 1px 8px; border-radius: var(--r-2); background: var(--virtual-fill); color: var(--virtual-ink); }
       .polar { flex: 1 1 160px; min-height: 100px; width: 100%; }
-      .course { flex: 0 1 96px; min-height: 56px; width: 100%; margin-top: 4px; }
       .sightings { flex: 1 1 180px; min-height: 120px; width: 100%; }
       .halves { display: flex; flex-wrap: wrap; gap: 4px 14px; margin: 6px 12px 0; color: var(--text-2); font-size: var(--fs-11); }
       .halves span { display: inline-flex; align-items: center; gap: 6px; }
@@ -212,7 +247,6 @@ export class SensorsPanel extends LookingPanel {
       .halves .saw { background: var(--text-1); }
       .halves .square { width: 7px; height: 7px; border: 1.5px solid var(--virtual-ink); }
       .halves .line { width: 14px; height: 0; border-top: 1.5px solid var(--wall-ink); }
-      .fields { margin: 4px 12px 0; align-self: flex-start; flex-wrap: wrap; }
     `,
   ];
 }

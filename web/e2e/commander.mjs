@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a commander does with a robot on the page, for tests with real runs.
 import {app, until} from './checks.mjs';
-import {clickAt} from './hands.mjs';
+import {clickAt, Hand} from './hands.mjs';
 
 export const newest = `${app}.model.poses.newest`;
 export const speed = (slot) => `Math.abs(${newest}.speed[${slot}])`;
@@ -24,20 +24,64 @@ export async function sendByClick(page, name, x, y) {
   await page.keyboard.press('v');
 }
 
-/** Drives a robot by the mouse on the stick; it stands when the mouse lets go. `still_mps`: what the measured speed of one that stands may be. */
-export async function driveByMouse(page, name, still_mps = 0.001) {
+/** Opens the stick of a robot: where it is on the page, and the robot in the world. */
+async function atStick(page, name) {
   const slot = await slotOf(page, name);
   await choose(page, slot);
   await page.getByRole('radio', {name: 'Drive'}).click();
   await page.waitForTimeout(300);
-  const before = await placeOf(page, slot);
-  const box = await page.locator('rave-joystick .stick').boundingBox();
+  return {slot, before: await placeOf(page, slot), box: await page.locator('rave-joystick .stick').boundingBox()};
+}
+
+/** Waits until a robot has left its place and is on its way. */
+async function goes(page, slot, [x, y]) {
+  await until(page, `Math.hypot(${newest}.x[${slot}] - ${x}, ${newest}.y[${slot}] - ${y}) > 0.1`);
+  await until(page, `${speed(slot)} > 0.05`);
+}
+
+/** Drives a robot by the mouse on the stick; it stands when the mouse lets go. `still_mps`: what the measured speed of one that stands may be. */
+export async function driveByMouse(page, name, still_mps = 0.001) {
+  const {slot, box, before} = await atStick(page, name);
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x, y - box.height / 4, {steps: 3});
-  await until(page, `Math.hypot(${newest}.x[${slot}] - ${before[0]}, ${newest}.y[${slot}] - ${before[1]}) > 0.1`);
-  await until(page, `${speed(slot)} > 0.05`);
+  await goes(page, slot, before);
   await page.mouse.up();
   await until(page, `${speed(slot)} < ${still_mps}`, 3000);
 }
+
+/** Drives a robot by a finger or a pen on the stick, which stands when it is lifted. */
+export async function driveByHand(page, name, kind) {
+  const {slot, box, before} = await atStick(page, name);
+  const hand = new Hand(page, kind);
+  const middle = [box.x + box.width / 2, box.y + box.height / 2];
+  await hand.drag([middle, [middle[0], middle[1] - box.height / 4]], false);
+  await goes(page, slot, before);
+  await hand.send('up', middle);
+  await until(page, `${speed(slot)} < 0.001`, 3000);
+}
+
+/** Drives a robot by keys on the stick. */
+export async function driveByKeys(page, name, key = 'w') {
+  const {slot, before} = await atStick(page, name);
+  await page.locator('rave-joystick .stick').focus();
+  await page.keyboard.down(key);
+  await goes(page, slot, before);
+  await page.keyboard.up(key);
+  await until(page, `${speed(slot)} < 0.001`, 3000);
+}
+
+/** Holds the stick of a robot by a gamepad that is never quite still: a mouse moves when the browser draws, and that is
+ * seldom on a machine without a graphics card. The robot goes on until the page is gone, or `dropStick`. */
+export async function holdStick(page, robot, least_mps = 0.05) {
+  const slot = await slotOf(page, robot);
+  await choose(page, slot);
+  await page.getByRole('radio', {name: 'Drive'}).click();
+  await page.locator('rave-joystick .stick').waitFor();
+  await page.evaluate(() => {
+    navigator.getGamepads = () => [{id: 'Test pad', connected: true, axes: [0, -0.5 - 0.3 * ((performance.now() / 97) % 1)], buttons: []}];
+  });
+  await until(page, `${speed(slot)} > ${least_mps}`);
+}
+export const dropStick = (page) => page.evaluate(() => { navigator.getGamepads = () => []; });

@@ -7,7 +7,7 @@ import {mkdirSync, rmSync} from 'node:fs';
 import {join} from 'node:path';
 import {launch, startServer} from './browser.mjs';
 import {app, check, report, showFailures, until, untilHere} from './checks.mjs';
-import {choose, driveByMouse, happened, newest, sendByClick, slotOf} from './commander.mjs';
+import {choose, driveByHand, driveByKeys, driveByMouse, happened, newest, sendByClick, slotOf} from './commander.mjs';
 import {clickAt, dragThrough} from './hands.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
@@ -49,6 +49,11 @@ try {
     });
 
     await check(`${what}: the mouse drives a robot, and letting go stops it`, () => driveByMouse(page, 'bert'));
+
+    await check(`${what}: keys drive it backwards, and letting go stops it`, () => driveByKeys(page, 'bert', 's'));
+    for (const hand of ['touch', 'pen']) {
+      await check(`${what}: a ${hand === 'touch' ? 'finger' : 'pen'} drives it, and lifting it stops it`, () => driveByHand(page, 'bert', hand));
+    }
 
     await check(`${what}: whoever drives holds the lease, which another commander is told of`, async () => {
       const other = await context.newPage();

@@ -8,7 +8,7 @@ import {mkdirSync, readFileSync, rmSync} from 'node:fs';
 import {join} from 'node:path';
 import {knowsHosts, launch, startServer} from './browser.mjs';
 import {app, check, report, showFailures, until, untilHere, watch} from './checks.mjs';
-import {near, sendByClick} from './commander.mjs';
+import {dropStick, holdStick, near, sendByClick} from './commander.mjs';
 import {kStands_ms, stoodAfterWord} from './stood.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
@@ -80,14 +80,13 @@ try {
   const drive = (robot, v) => page.evaluate(([name, speed]) => document.querySelector('rave-app').link.direct.order({kind: 'drive', robot: name, v: speed, w: 0, echo: true}), [robot, v]);
   const speed = (slot) => `${newest}.speed[${slot}]`;
 
-  await check('a drive by the line moves the robot', async () => {
+  await check('a drive by the line moves the robot, and so does the stick of the panel', async () => {
     const first = await drive('anna', 0.3);
     assert.equal(first.good, true, first.text);
-    await page.evaluate(() => {
-      const {direct} = document.querySelector('rave-app').link;
-      window.stick = setInterval(() => direct.order({kind: 'drive', robot: 'anna', v: 0.3, w: 0}), 33);
-    });
-    await until(page, `${speed(0)} > 0.26`);
+    const stick = page.locator('rave-joystick');
+    await holdStick(page, 'anna', 0.26);
+    await stick.getByText('dead-man held').waitFor();
+    await stick.getByText('Direct line').waitFor();
   });
 
   await check('the server is killed while the stick drives: the robot goes on to obey', async () => {
@@ -96,7 +95,16 @@ try {
     assert.equal(await page.evaluate(`${lines}.open.length`), 2);
     const answer = await drive('anna', 0.3);
     assert.equal(answer.good, true, answer.text);
+    // The panel still holds the stick, and each of its words is answered.
+    const loop = 'document.querySelector("rave-joystick").loop';
+    const answered = `${loop}.delays_ms.filter((delay) => delay !== 0).length`;
+    assert.equal(await page.evaluate(`${loop}.held`), 'pad');
+    await page.evaluate(`${loop}.delays_ms = []`);
+    await until(page, `${answered} > 20 && ${loop}.held === 'pad' && ${loop}.refusal === ''`);
     await page.screenshot({path: join(folder, 'server-gone.png')});
+    await dropStick(page);
+    await until(page, `${loop}.held === null`);
+    assert.equal((await drive('anna', 0)).good, true, 'it obeys when the stick is let go');
   });
 
   await check('STOP reaches both hosts without the server, and release as well', async () => {
@@ -118,13 +126,8 @@ try {
     const other = await context.newPage();
     await other.goto(new URL('/', gui.link).href);
     await until(other, `${newest} != null && ${lines}.open.length === 2`, 60000);
-    await other.evaluate(() => {
-      const {direct} = document.querySelector('rave-app').link;
-      // Another velocity each time, so that the recording shows each word; faster than its program drives.
-      let i = 0;
-      setInterval(() => direct.order({kind: 'drive', robot: 'ben', v: 0.3 + 0.01 * (++i % 5), w: 0}), 33);
-    });
-    await until(page, `${speed(1)} > 0.26`);
+    // Full stick is 0.4 m/s; faster than its program drives.
+    await holdStick(other, 'ben', 0.21);
     await other.close({runBeforeUnload: false});
     await until(page, `Math.abs(${speed(1)}) < 0.01`);
     // Its program drives it again when the lease ends.
@@ -142,7 +145,7 @@ try {
     const ended = once(right, 'exit');
     right.kill('SIGINT');
     await ended;
-    const stood_ms = stoodAfterWord(rave, join(folder, 'right'), 'ben', 0.25);
+    const stood_ms = stoodAfterWord(rave, join(folder, 'right'), 'ben', {above_mps: 0.205});
     console.log(`# ${stood_ms} ms`);
     assert.ok(stood_ms <= kStands_ms, `${stood_ms} ms`);
   });

@@ -116,6 +116,47 @@ async function checkPedals({page, server, drive, stands, folder}) {
   });
 }
 
+/** Radius of the arc in the dial; null: there is none. */
+const arcOf = (page) => page.evaluate(() => {
+  const d = document.querySelector('rave-joystick').renderRoot.querySelector('.dial .guard')?.getAttribute('d');
+  return d === undefined ? null : Number(d.split(' A ')[1].split(' ')[0]);
+});
+
+async function checkGuard({page, server, drive, stands, choose, folder}) {
+  await check('the limit of the guard is an arc in the dial, as wide as what it lets through, and the Robot panel says why', async () => {
+    const {run} = server;
+    await choose(page, 6);
+    assert.equal(await arcOf(page), null, 'nothing is held back');
+    // An event alone, and the speed that is driven: 0.2 of 0.4 m/s.
+    const event = {t: run.now_s, until: run.now_s + 60, count: 4, kind: 'guard slowed', level: 'warn', text: 'walker-2: crate 0.31 m ahead', slots: [6]};
+    run.events.push(event);
+    server.say({type: 'events', reset: false, first: run.events.length - 1, events: [event]});
+    await setPad(page, 0, -1);
+    await untilHere(page, () => drive()?.[1] > 0.35, 'it is asked for more');
+    const arc = page.locator('rave-joystick .dial .guard');
+    await arc.waitFor({state: 'attached'});
+    const half = await arcOf(page);
+    assert.ok(Math.abs(half - 43) < 2, `an arc of ${half}`);
+    await page.locator('rave-joystick .guarded').getByText('crate 0.31 m ahead').waitFor();
+    assert.match(await page.locator('rave-joystick .guarded').innerText(), /guard 0\.20 m\/s/);
+    await page.locator('rave-robot .guard').getByText('crate 0.31 m ahead').waitFor();
+    // What the host tells goes before what can be guessed.
+    run.told.set(6, [0.4, 0, 0.1, 0]);
+    await page.locator('rave-robot .guard', {hasText: '0.10 m/s'}).waitFor();
+    assert.ok((await arcOf(page)) < 30, 'the arc is narrower');
+    await page.screenshot({path: join(folder, 'guard.png')});
+    run.told.set(6, [0.4, 0, 0.4, 0]);
+    await arc.waitFor({state: 'detached'});
+    await page.locator('rave-robot').getByText(/Lets it drive\. \d+ s ago: crate 0\.31 m ahead/).waitFor();
+    await setPad(page, 0, 0);
+    await stands('the guard');
+    run.told.delete(6);
+    event.until = event.t;
+    server.say({type: 'events', reset: true, first: 0, events: run.events});
+    await page.evaluate(() => { window.padAxes = null; });
+  });
+}
+
 /** What drives, against a made-up run. Further checks of driving may use what it returns. */
 export async function checkDriving(page, server, choose, folder) {
   await page.getByRole('radio', {name: 'Drive'}).click();
@@ -134,6 +175,7 @@ export async function checkDriving(page, server, choose, folder) {
   await checkAsked(at);
   await checkKeys(at);
   await checkGamepad(at);
+  await checkGuard(at);
   await checkPedals(at);
   return {stick, drive, stands};
 }

@@ -5,6 +5,8 @@ const kTeams = ['north', 'south', 'east', 'scouts'];
 const kRange_m = 4;
 const kRays = 61;
 const kPoseHeader = 48;
+/** The sensor that stands for what a robot was asked and what is left of it. */
+const kCommandsOf = 0xefff;
 
 /** A roster of `count` robots: the first `real` of them are real and have a laser. */
 export function makeRobots(count, real = 5) {
@@ -75,6 +77,8 @@ export class FakeRun {
     this.components = [];
     /** Velocities that came: slot, m/s, rad/s. */
     this.driven = [];
+    /** By slot: what was asked, and what the guard left of it; m/s and rad/s each. */
+    this.told = new Map();
     this.drives = new Map(this.robots.map((_, slot) => [slot, {lease: '', takes: ['drive', 'goal', 'path', 'text', 'place'], order: ''}]));
     this.lines = [];
     this.hosts = null;
@@ -249,16 +253,22 @@ export class FakeRun {
   }
 
   reading(slot, sensor) {
-    const buffer = new ArrayBuffer(32 + 4 * kRays);
+    if (sensor === kCommandsOf && this.told.has(slot)) return this.row(slot, sensor, this.told.get(slot));
+    const ranges = Array.from({length: kRays}, (_, i) => (i % 20 < 12 ? Infinity : 1 + 0.05 * (i % 7)));
+    return this.row(slot, sensor, ranges, ranges.length, 1);
+  }
+
+  row(slot, sensor, values, rows = 1, fields = values.length) {
+    const buffer = new ArrayBuffer(32 + 4 * values.length);
     const view = new DataView(buffer);
     view.setUint8(0, 2);
     view.setUint16(2, sensor, true);
     view.setUint32(4, slot, true);
     view.setFloat64(8, this.now_s, true);
     view.setFloat64(16, this.now_s, true);
-    view.setUint32(24, kRays, true);
-    view.setUint32(28, 1, true);
-    for (let i = 0; i < kRays; ++i) view.setFloat32(32 + 4 * i, i % 20 < 12 ? Infinity : 1 + 0.05 * (i % 7), true);
+    view.setUint32(24, rows, true);
+    view.setUint32(28, fields, true);
+    values.forEach((value, i) => view.setFloat32(32 + 4 * i, value, true));
     return buffer;
   }
 }

@@ -315,7 +315,7 @@ try {
   });
 
   for (const [name, width, height] of [['phone', 390, 844], ['pen', 480, 640]]) {
-    await check(`${name}: long press opens the menu, a drag draws a path, a finger drives`, async () => {
+    await check(`${name}: long press opens the menu, a drag draws a path, finger and pen drive`, async () => {
       server.run.components = [];
       server.run.state = 'paused';
       const small = await browser.newContext({viewport: {width, height}, hasTouch: true, isMobile: true});
@@ -351,6 +351,10 @@ try {
       await hand.screenshot({path: join(folder, `${name}-stick.png`)});
       await finger.send('up', middle);
       await stands('the finger', hand);
+      await pen.drag([middle, [middle[0], middle[1] + box.height / 4]], false);
+      await untilHere(hand, () => drive()?.[1] < -0.1, 'a pen drives');
+      await pen.send('up', middle);
+      await stands('the pen', hand);
       assert.deepEqual(await seriousOf(hand), []);
       await small.close();
     });

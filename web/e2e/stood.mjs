@@ -22,10 +22,10 @@ function stepsOf(rave, recording, robot) {
 
 const stands = (step) => step.v_mps === 0 && step.w_radps === 0;
 
-/** Milliseconds from the last word that a driver said faster than `above_mps` until the robot stood, and stood on.
- * The driver must say another velocity each time: then a new speed is a new word. */
-export function stoodAfterWord(rave, recording, robot, above_mps = 0) {
-  const steps = stepsOf(rave, recording, robot);
+/** Milliseconds from the last word that a driver said faster than `above_mps`, before the moment `until_s` of the run,
+ * until the robot stood, and stood on. The driver must say another velocity each time: then a new speed is a new word. */
+export function stoodAfterWord(rave, recording, robot, {above_mps = 0, until_s = Infinity} = {}) {
+  const steps = stepsOf(rave, recording, robot).filter((step) => step.t_s < until_s);
   let last = -1;
   for (let i = 1; i < steps.length; ++i) {
     const [before, now] = [steps[i - 1], steps[i]];

@@ -152,16 +152,16 @@ void LiveSource::command(const CommandMessage& command, const Author& author,
 }
 
 void LiveSource::answer_asked() {
-  std::vector<Asked> waiting;
-  for (Asked& asked : asked_) {
+  // Who gets an answer may ask again at once, which makes the list longer meanwhile.
+  std::vector<Asked> all = std::exchange(asked_, {});
+  for (Asked& asked : all) {
     if (asked.answer.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-      waiting.push_back(std::move(asked));
+      asked_.push_back(std::move(asked));
       continue;
     }
     const auto answer = asked.answer.get();
     asked.reply(answer.has_value(), answer ? *answer : answer.error().message);
   }
-  asked_ = std::move(waiting);
 }
 
 /// A picture that comes over a bus does not say who is stopped; none says who drives.

@@ -174,12 +174,23 @@ bool View::names_hidden(std::string_view text) const {
   return false;
 }
 
+/// What an event tells of a robot beside that something happened: what people said to it and what
+/// it answered, or where it was sent.
+std::optional<InfoClass> View::told_by(const LogEvent& event) {
+  if (event.kind == "said") return InfoClass::kChat;
+  if (event.kind != "ordered") return std::nullopt;
+  const bool text = event.text.find(": ordered, text: ") != std::string::npos;
+  return text ? InfoClass::kChat : InfoClass::kGoals;
+}
+
 std::optional<LogEvent> View::event(const LogEvent& event) const {
+  const auto told = told_by(event);
   LogEvent mine = event;
   mine.slots.clear();
   if (event.slots.empty() && !may_any(InfoClass::kLog)) return std::nullopt;
   for (const std::uint32_t robot : event.slots) {
     if (!may(InfoClass::kLog, robot)) return std::nullopt;
+    if (told && !may(*told, robot)) return std::nullopt;
     mine.slots.push_back(*slot_of(robot));
   }
   if (names_hidden(event.text)) return std::nullopt;

@@ -81,6 +81,7 @@ class View {
  private:
   void note(const Rights& rights, const Person& person);
   [[nodiscard]] bool names_hidden(std::string_view text) const;
+  [[nodiscard]] static std::optional<InfoClass> told_by(const LogEvent& event);
 
   std::shared_ptr<const Cast> cast_;  ///< Shared by the views of a run.
   std::vector<std::string> teams_;    ///< Distinct ones.

@@ -208,6 +208,34 @@ TEST(ViewOfARun, WithholdsEventsThatNameTheUnseen) {
   EXPECT_EQ(view.event(event)->slots, (std::vector<std::uint32_t>{1}));
 }
 
+TEST(ViewOfARun, WithholdsWhatIsSaidToRobotsOfOthersAndWhereTheyAreSent) {
+  const View view{Rights(), {"ben", Role::kCommander, kGreen}, cast()};
+  const auto shown = [&view](const char* kind, const char* text, std::uint32_t robot) {
+    LogEvent event;
+    event.kind = kind;
+    event.text = text;
+    event.slots = {robot};
+    return view.event(event).has_value();
+  };
+  EXPECT_TRUE(shown("said", "walker-1: said, here", 0));
+  EXPECT_FALSE(shown("said", "spy-2: said, here", 1));
+  EXPECT_TRUE(shown("ordered", "walker-1: ordered, text: Where are you? (by hand: ben)", 0));
+  EXPECT_FALSE(shown("ordered", "spy-2: ordered, text: Where are you? (by hand: eve)", 1));
+  EXPECT_FALSE(shown("ordered", "spy-2: ordered, goal 1.00, 2.00 (by hand: eve)", 1));
+  // The rest of the log tells of all who are seen.
+  EXPECT_TRUE(shown("lease", "spy-2: lease, eve drives", 1));
+  Rights rights;
+  ASSERT_TRUE(rights.set(Role::kCommander, InfoClass::kGoals, {Kind::kAll, {}}));
+  const View goals{rights, {"ben", Role::kCommander, kGreen}, cast()};
+  LogEvent event{};
+  event.kind = "ordered";
+  event.slots = {1};
+  event.text = "spy-2: ordered, goal 1.00, 2.00 (by hand: eve)";
+  EXPECT_TRUE(goals.event(event));
+  event.text = "spy-2: ordered, text: Where are you? (by hand: eve)";
+  EXPECT_FALSE(goals.event(event));
+}
+
 TEST(ViewOfARun, WithholdsVirtualObstaclesAndHowManyThereAre) {
   const View view = own_team_view();
   const RightsJson bodies = RightsJson::parse(view.bodies_json(kBodies));

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run that is shown while it goes on, without its loop.
+#include "live_source.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace rave::gui_server {
+namespace {
+
+using Answer = Result<std::string>;
+
+/// Keeps what it is asked.
+class FakePort final : public RunPort {
+ public:
+  explicit FakePort(std::vector<std::promise<Answer>>& asked) : asked_(asked) {}
+  [[nodiscard]] std::string why_not_held() const override { return ""; }
+  [[nodiscard]] bool paused() const override { return false; }
+  [[nodiscard]] double pace() const override { return 1; }
+  void pause() override {}
+  void resume() override {}
+  void step(std::uint64_t /*count*/) override {}
+  void set_pace(double /*factor*/) override {}
+  [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override { return {}; }
+  [[nodiscard]] Result<std::future<Answer>> post(runtime::RunRequest /*request*/) override {
+    return asked_.emplace_back().get_future();
+  }
+
+ private:
+  std::vector<std::promise<Answer>>& asked_;
+};
+
+TEST(LiveSource, AnswersThatAreFollowedByNewRequestsAreAllGiven) {
+  std::vector<std::promise<Answer>> asked;
+  LiveSource::Start start;
+  start.about.relay = true;
+  start.robots = {"anna"};
+  start.robots_json = "[]";
+  LiveSource source(std::move(start), std::make_shared<LiveBox>(),
+                    std::make_unique<FakePort>(asked));
+  CommandMessage drive;
+  drive.kind = CommandMessage::Kind::kDrive;
+  drive.slots = {0};
+  int answered = 0;
+  int later = 0;
+  constexpr int kWaiting = 5;
+  // As a page does whose next drive waited for the answer.
+  for (int i = 0; i < kWaiting; ++i) {
+    source.command(drive, {}, [&](std::uint32_t, bool, const std::string&) {
+      ++answered;
+      source.command(drive, {}, [&](std::uint32_t, bool, const std::string&) { ++later; });
+    });
+  }
+  const auto answer_from = [&asked](std::size_t first) {
+    for (std::size_t i = first; i < asked.size(); ++i) asked[i].set_value("done");
+  };
+  answer_from(0);
+  source.tick({}, {});
+  EXPECT_EQ(answered, kWaiting);
+  ASSERT_EQ(asked.size(), 2U * kWaiting);
+  EXPECT_EQ(later, 0);
+  answer_from(kWaiting);
+  source.tick({}, {});
+  EXPECT_EQ(answered, kWaiting);
+  EXPECT_EQ(later, kWaiting);
+}
+
+}  // namespace
+}  // namespace rave::gui_server

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Against a pseudo-terminal and a TCP server of the test's own.
-#include "line/byte_line.hpp"
+#include "rave/line/byte_line.hpp"
 
 #include <arpa/inet.h>
 #include <fcntl.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "line/byte_line.hpp"
+#include "rave/line/byte_line.hpp"
 
 #include <poll.h>
 #include <sys/socket.h>

@@ -70,7 +70,7 @@ def libraries(tree):
     found = {f.split("/")[1] for f in tree.files if f.startswith("libs/") and f.count("/") > 1}
     served = {f.split("/include/rave/")[1].split("/")[0] for f in tree.files
               if f.startswith(("servers/", "bench/", "drivers/support/")) and "/include/rave/" in f
-              and not common.is_support(f)}
+              and "/testing/" not in f}
     rooms = {f.split("/")[1] for f in tree.files
              if f.startswith(tuple(room + "/" for room in ROOMS)) and f.count("/") > 1}
     return found, served | rooms

@@ -23,7 +23,7 @@ CODE = re.compile(r"^(```|~~~).*?^\1[^\n]*$|`[^`\n]*`|(?<=\n\n)(?: {4}[^\n]*\n)+
 TEXT = re.compile(r'"(?:\\.|[^"\\\n])*"(?:\s*"(?:\\.|[^"\\\n])*")*')
 SCRIPT_TEXT = re.compile(r"'(?:\\.|[^'\\\n])*'|\"(?:\\.|[^\"\\\n])*\"|`(?:\\.|[^`\\])*`")
 # Texts that have been rewritten in plain words, and are kept so.
-MESSAGE_FOLDERS = ("cli/", "libs/config/")
+MESSAGE_FOLDERS = ("cli/", "drivers/", "libs/", "ops/", "programs/", "runtime/", "servers/", "web/")
 SCRIPT_FOLDERS = ("web/app/", "web/model/", "web/panels/", "web/panel_api/")
 
 

@@ -212,7 +212,7 @@ std::string Participant::explain_silence(std::string_view topic, std::string_vie
       return fmt::format("another participant {} `{}`, but no message came", does, topic);
     }
     if (end.topic == topic) {
-      return fmt::format("`{}` is there with the type {} instead of {}", topic, end.type, wanted);
+      return fmt::format("topic `{}` has the type {}; expected {}", topic, end.type, wanted);
     }
     const bool told = std::ranges::find(elsewhere, end.topic) != elsewhere.end();
     if (end.type == wanted && !told) elsewhere.push_back(end.topic);

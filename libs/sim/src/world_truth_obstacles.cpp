@@ -55,7 +55,7 @@ Result<BodyId> WorldTruth::find_obstacle(const ObstacleChange& change) const {
   });
   if (count == 0) return tl::unexpected(unknown_obstacle(world, change.name));
   if (count == 1) return found;
-  return fail(ErrorCode::kInvalidArgument, "{1} obstacles have the name `{0}`; expected a number",
+  return fail(ErrorCode::kInvalidArgument, "{1} obstacles are named `{0}`; give the number of one instead",
               change.name, count);
 }
 

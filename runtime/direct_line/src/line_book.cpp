@@ -177,7 +177,7 @@ void LineBook::take(std::uint64_t /*id*/, Line& line, const RenewMessage& renew)
   if (!ticket) return refuse_line(line, ticket.error().message);
   // The challenge was answered for this page and this person only.
   if (ticket->page_key != line.ticket->page_key || ticket->user != line.ticket->user) {
-    return refuse_line(line, "showed the ticket of another page");
+    return refuse_line(line, "the ticket belongs to another page or person");
   }
   line.ticket = *std::move(ticket);
   line.send(dumped({{"type", "renewed"}, {"until", line.ticket->expires_s}}));

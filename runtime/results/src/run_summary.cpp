@@ -40,7 +40,7 @@ void add_capture_rows(const RunResults& results, Table& table) {
   }
   if (!capture.captures.empty()) return;
   const double closest_m = capture.closest_m.value_or(std::numeric_limits<double>::infinity());
-  table.rows.push_back({"captured", fmt::format("nobody; nearest {:.2f} m", closest_m)});
+  table.rows.push_back({"captured", fmt::format("none; nearest {:.2f} m", closest_m)});
 }
 
 void add_sighting_row(const RunResults& results, Table& table) {

@@ -144,7 +144,7 @@ TEST(ByteLine, TcpBytesGoThroughUntilTheServerCloses) {
   EXPECT_EQ(take(*line, 4), "pong");
   ::close(peer);
   EXPECT_EQ(line->read(got, kLong, nullptr).end, ReadEnd::kLost);
-  EXPECT_EQ(line->lost(), "the other end closed it");
+  EXPECT_EQ(line->lost(), "the other end closed the connection");
 }
 
 TEST(ByteLine, ARefusedConnectionIsAnError) {

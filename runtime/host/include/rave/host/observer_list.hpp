@@ -112,8 +112,8 @@ class ObserverList {
   std::optional<std::uint64_t> given_;
   std::set<RobotId> leased_;
   bool had_orders_ = false;
-  std::vector<sim::Event> new_leases_;  ///< Since the last step.
-  std::vector<sim::Event> leases_;      ///< As events of the last step.
+  std::vector<sim::Event> new_leases_;  ///< Lease changes since the last step.
+  std::vector<sim::Event> leases_;      ///< Lease changes of the last step, as events.
 };
 
 }  // namespace rave::runtime

@@ -74,7 +74,8 @@ void add_env(CLI::App& root, EnvCommand& c) {
   app.add_flag("--resume", c.resume,
                "Continue a run that lost its manager (default with on_lost_host: restart)");
   add_run_options(app, c.run);
-  add_processes(app, c.run.processes, "Number of hosts, host-1 to host-N, among which the robots are divided", 2);
+  add_processes(app, c.run.processes,
+                "Number of hosts, host-1 to host-N, among which the robots are divided", 2);
   add_bus_options(app, c.run.bus);
   app.footer(
       "Start the hosts with `rave robot`, before or after. If the manager dies, start another one\n"

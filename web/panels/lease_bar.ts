@@ -12,7 +12,7 @@ export class LeaseBar extends LitElement {
   declare robot: number;
   private note = '';
   private bad = false;
-  /** A lease of somebody else is taken with a second press. */
+  /** A lease of another person is taken with a second press. */
   private sure = false;
   private readonly ends: (() => void)[] = [];
 

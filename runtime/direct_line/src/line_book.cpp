@@ -224,7 +224,7 @@ void LineBook::take(std::uint64_t id, Line& line, const OrderMessage& order) {
   const bool takes_lease = order.request.kind != Kind::kStop &&
                            order.request.kind != Kind::kRelease &&
                            order.request.kind != Kind::kGive;
-  // More than a page commands at once are named by somebody who wants to fill the memory.
+  // Only an attacker who wants to fill the memory names more robots than a page commands at once.
   if (takes_lease && line.ordered.size() < kMostRemembered) {
     line.ordered.insert(order.request.robot);
   }

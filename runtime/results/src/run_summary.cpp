@@ -98,7 +98,7 @@ void add_hit_rows(const RunResults& results, Table& table) {
   }
 }
 
-/// What somebody has to know beside the results, the hash and the problems.
+/// What users have to know beside the results, the hash and the problems.
 void add_notes(const RunResults& results, const RunOutcome& outcome, Table& table) {
   const std::string deaf = disobedient(results);
   if (!deaf.empty()) {

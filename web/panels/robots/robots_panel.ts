@@ -9,7 +9,7 @@ import {RobotFlag} from '../../protocol/frames';
 import {parseFilter, type Filter} from './filter';
 import {stateOf, stoppable} from './robot_state';
 
-/** Beyond so many robots a team is a histogram, and its rows come on demand. */
+/** Beyond this number of robots a team is a histogram, and its rows come on demand. */
 const kMany = 200;
 const kRefresh_ms = 250;
 const kRows = 400;

@@ -96,7 +96,7 @@ class HostLink {
   void note_lateness(lock_step::Pulse::Lateness lateness);
 
   /// The last step showed local robots the obstacles up to LiveWorld::shown_revision(). The manager
-  /// is told if that has increased.
+  /// is notified if that has increased.
   void obstacles_shown();
 
   /// Sends the results of this host to the Environment Manager once, at the end of the run,

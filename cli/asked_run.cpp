@@ -102,7 +102,7 @@ Result<Found> search_bus(const std::string& word, const BusOptions& options) {
   if (!run) return none_at_all(word, config, run.error());
   config.run = *run;
   RAVE_TRY_ASSIGN(found.bus, BusRun::open(config, own_name()));
-  // A number means something to nobody who has said a name.
+  // A number means nothing to a user who gave a name.
   const bool named = !run_word.empty() && !run->text().starts_with(run_word);
   found.run = named ? run_word : name_of(*run);
   return found;
@@ -122,7 +122,7 @@ std::vector<Reply> ask_each_of(bus::BusConfig config, const bus::RunId& run, std
   const bool named = run_word.empty() || watch::is_called(run, run_word);
   found.run = named && !run.text().starts_with(run_word) ? std::string(run_word) : name_of(run);
   config.run = run;
-  // The search goes on.
+  // The search continues.
   config.beside = true;
   auto bus = BusRun::open(config, own_name());
   if (!bus) return {{found.run, tl::unexpected(std::move(bus).error())}};
@@ -249,7 +249,7 @@ Result<AskedRun> AskedRun::find_on_bus(const std::string& word, const BusOptions
   if (having.empty()) {
     // It may be what has it.
     if (silent) return tl::unexpected(*std::move(silent));
-    // Where nobody is heard, it has been waited for long enough.
+    // Where no process is heard, the wait was long enough.
     RAVE_TRY_ASSIGN(auto peer, found.bus->find({}, all.empty() ? Duration{} : BusRun::kPatience));
     return AskedRun(found.run, found.bus, std::move(peer));
   }
@@ -327,7 +327,7 @@ Result<std::vector<AskedRun>> AskedRun::controllers(bool sure) const {
 
 std::vector<AskedRun> AskedRun::takers_of_orders(const std::string& robot) const {
   const auto own = is_host() ? Result<runtime::RunStatus>() : status(kLookPatience);
-  // A run of one process has no hosts, whoever runs the same scenario beside it.
+  // A run of one process has no hosts, even if the same scenario runs elsewhere on the bus.
   if (!own || own->run.empty()) return {*this};
   std::vector<AskedRun> all;
   for (const AskedRun& host : hosts()) {

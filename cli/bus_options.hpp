@@ -38,9 +38,9 @@ struct BusOptions {
 /// Largest number of hosts that one command starts; monitors search for as many.
 inline constexpr std::size_t kMostHosts = 100;
 
-/// Configures discovery for so many hosts on this machine. Each possible process costs every other
-/// one some traffic, so in large runs hosts search for their manager only. `reach`: the role of
-/// this process.
+/// Configures discovery for this number of hosts on this machine. Each possible process costs every
+/// other one some traffic, so in large runs hosts search for their manager only. `reach`: the role
+/// of this process.
 void make_room(bus::BusConfig& config, std::size_t hosts, bus::Reach reach = bus::Reach::kAll);
 
 /// The same as words for the command line of another process of the run.

@@ -88,7 +88,7 @@ Result<HostLineEnds> open_line_here(const LineArguments& arguments,
                                     runtime::RunControl& control, gui_server::GuiServer& page,
                                     LogSink& log) {
   RAVE_TRY_ASSIGN(auto options, options_of(arguments, log));
-  // Page and line are in this process, so nobody else needs the key and it need not be a file.
+  // Page and line are in this process, so no other process needs the key and it need not be a file.
   const direct_line::SigningKey key = direct_line::new_signing_key();
   options.signer = key.open;
   // A run of one process has no number on a bus; tickets need one all the same, so that none fits

@@ -57,7 +57,7 @@ std::vector<std::string> commands_of(const ManagedRun& run,
   return commands;
 }
 
-/// Whether it goes on with a run that has lost its manager.
+/// Whether it continues a run that has lost its manager.
 bool resumes(const ManagedRun& run) {
   return run.resume || run.scenario.scenario.on_lost_host == config::LostHost::kRestart;
 }
@@ -157,7 +157,7 @@ void note_outcome(LiveManagerOutcome outcome, ManagedEnd& end) {
   end.end.problems = std::move(outcome.problems);
 }
 
-/// Hosts that need nobody.
+/// Hosts that do not need a manager.
 Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const runtime::BuiltScenario& built) {
   const std::string& name = run.scenario.scenario.name.value;
   if (!run.hosts_ended) {

@@ -29,7 +29,7 @@ struct ManagedRun {
   std::function<bool()> stopping;
   /// Set: the hosts belong to this process; whether all of them have ended.
   std::function<bool()> hosts_ended;
-  /// Go on with a run that has lost its manager; under the policy `restart` in any case.
+  /// Continue a run that has lost its manager; under the policy `restart` in any case.
   bool resume = false;
 };
 
@@ -53,10 +53,10 @@ struct ManagedEnd {
 };
 
 /// Builds the world, waits for the hosts and manages the run to its end, in lock-step or in real
-/// time. No plug-in stays loaded while it goes. A run in real time in which nobody looks at others
-/// is not managed: with hosts of this process it waits for their end. Errors: kInvalidArgument (not
-/// managed, and no hosts here), those of runtime::build(), manager::manage() and
-/// manager::manage_live().
+/// time. No plug-in stays loaded while it goes. A run in real time in which no robot needs the
+/// poses of others is not managed: with hosts of this process it waits for their end. Errors:
+/// kInvalidArgument (not managed, and no hosts here), those of runtime::build(), manager::manage()
+/// and manager::manage_live().
 [[nodiscard]] Result<ManagedEnd> manage_run(const ManagedRun& run);
 
 }  // namespace rave::cli

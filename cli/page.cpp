@@ -19,7 +19,8 @@ bool is_set(const char* name) {
   return value != nullptr && *value != '\0';
 }
 
-/// Opens the page where there is a desktop; over SSH and without a display only the link is told.
+/// Opens the page where there is a desktop; over SSH and without a display only the link is
+/// printed.
 void open_browser(const std::string& link) {
   if (is_set("SSH_CONNECTION") || (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))) return;
   // The link has only characters that a shell leaves alone within quotes.

@@ -31,7 +31,7 @@ struct PageOptions {
 [[nodiscard]] Result<std::unique_ptr<gui_server::GuiServer>> serve_page(
     const PageOptions& options, std::shared_ptr<gui_server::Source> source = nullptr);
 
-/// When a run is over, its page shows the recording in `folder` until somebody ends this process.
+/// When a run is over, its page shows the recording in `folder` until this process is ended.
 void replay_on_page(gui_server::GuiServer& page, bool quiet, const std::filesystem::path& folder,
                     const runtime::RunControl& control);
 

@@ -39,7 +39,7 @@ Status add_plugin_folders(const std::vector<std::string>& given, plugin::Catalog
 [[nodiscard]] Result<std::filesystem::path> find_scenario(std::string_view word);
 
 /// The record that a word on the command line stands for: the file itself, or that of the run in a
-/// folder (record::open_run()); what is missing of it is told. Does not say whether a file is
+/// folder (record::open_run()); what is missing of it is printed. Does not say whether a file is
 /// there. Errors: those of open_run().
 [[nodiscard]] Result<std::filesystem::path> record_file(std::string_view word);
 

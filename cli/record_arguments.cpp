@@ -106,12 +106,12 @@ void add_gui(CLI::App& root, GuiCommand& c) {
   add_word(app, "what", c.file, "Recording, folder of a run, or scenario of a run in progress",
            "WHAT");
   add_page_options(app, c.page);
-  add_processes(app, c.run.processes, "As for `rave env`", 2);
+  add_processes(app, c.run.processes, "Number of hosts among which the robots are divided", 2);
   add_plugins(app, c.run.plugins);
   add_bus_options(app, c.run.bus);
   app.footer(
-      "Given a scenario, shows its run of several processes, which is found on the bus; the run\n"
-      "may start later. For a run of one process use `rave run --gui`.\n\n"
+      "With a scenario, shows its run of several processes, found on the bus, even if it starts\n"
+      "later. For a run of one process use `rave run --gui`.\n\n"
       "Examples:\n"
       "  rave gui runs/20260101-120000-mixed-reality\n"
       "  rave gui lab --interface 192.168.1.7 --peer 192.168.1.2");

@@ -121,8 +121,8 @@ std::string line_of(const Look& look) {
 void add_sensor(const Look& look, const Pose2& X_WR, double body_m, double scale, std::size_t index,
                 Picture& picture) {
   Pose2 X_WS = compose(X_WR, look.X_RS);
-  // Fans that begin at the same point are drawn as one: sensors in one place are told apart by a
-  // distance that nobody sees.
+  // Fans that begin at the same point are drawn as one: sensors in one place are separated by a
+  // distance too small to see.
   X_WS.x += 1e-6 * body_m * static_cast<double>(index);
   const Vec2 from_W = X_WS.position();
   picture.instant->robots.push_back({disc_outline(from_W, 0.06 * body_m), X_WS, Kind::kSensor,

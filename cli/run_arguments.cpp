@@ -53,7 +53,7 @@ void add_robot(CLI::App& root, RobotCommand& c) {
             "Seconds to wait for an environment manager [no limit]", "S")
       ->check(number_in(0.1, 1e9));
   add_run_options(app, c.run);
-  add_processes(app, c.run.processes, "As for `rave env`", 2);
+  add_processes(app, c.run.processes, "Number of hosts among which the robots are divided", 2);
   add_line_options(app, c.run.line);
   add_bus_options(app, c.run.bus);
   app.footer(
@@ -74,7 +74,8 @@ void add_env(CLI::App& root, EnvCommand& c) {
   app.add_flag("--resume", c.resume,
                "Continue a run that lost its manager (default with on_lost_host: restart)");
   add_run_options(app, c.run);
-  add_processes(app, c.run.processes, "Divide the robots evenly among hosts host-1 to host-N", 2);
+  add_processes(app, c.run.processes,
+                "Number of hosts, host-1 to host-N, among which the robots are divided", 2);
   add_bus_options(app, c.run.bus);
   app.footer(
       "Start the hosts with `rave robot`, before or after. If the manager dies, start another one\n"
@@ -100,7 +101,7 @@ void add_run_options(CLI::App& app, RunCommand& c) {
             "Speed: max, realtime, or a factor such as 10x (overrides the scenario)", "PACE");
   app.add_flag("--no-picture", c.no_picture, "Do not draw picture.svg and picture.png");
   app.add_flag("--no-record", c.no_record, "Do not write run.mcap");
-  app.add_flag("--arm", c.arm, "Arm all robots at the start: real robots may move at once");
+  app.add_flag("--arm", c.arm, "Arm all robots at the start: real robots may move immediately");
   app.add_flag("--quiet", c.quiet, "Print errors and problems only");
   add_plugins(app, c.plugins);
 }

@@ -58,7 +58,7 @@ class Crew {
     }
   }
 
-  /// Nobody comes again: all that were to run have died before the run began.
+  /// No host comes again: all that were to run have died before the run began.
   [[nodiscard]] bool all_dead() const {
     if (members_.empty()) return false;
     for (const Member& member : members_) {
@@ -67,7 +67,7 @@ class Crew {
     return true;
   }
 
-  /// Nobody runs any more.
+  /// No host runs any more.
   [[nodiscard]] bool all_ended() const {
     return std::none_of(members_.begin(), members_.end(),
                         [](const Member& member) { return member.process.has_value(); });
@@ -108,7 +108,7 @@ class Crew {
 
  private:
   static constexpr int kMostStarts = 10;
-  /// If this process is killed, its hosts wait so long for somebody who goes on in its place.
+  /// If this process is killed, its hosts wait this long for a process that takes its place.
   static constexpr double kLeastPatience_s = 60;
   struct Member {
     std::string name;
@@ -170,7 +170,7 @@ class Crew {
   std::vector<Member> members_;
 };
 
-/// So many hosts with a line find one another.
+/// The most hosts with a line that find each other.
 constexpr std::size_t kMostLines = 50;
 
 /// Whether the hosts have direct lines: with a page, unless they are too many.
@@ -210,7 +210,8 @@ int run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario
                const std::vector<config::PlannedHost>& hosts) {
   RunCommand options = asked;
   BusOptions bus_options = options.bus;
-  // A run that this process starts is one of its own, whoever runs the same scenario beside it.
+  // A run that this process starts is one of its own, even if the same scenario runs elsewhere on
+  // the bus.
   if (bus_options.run.empty()) bus_options.run = bus::RunId::random().text();
   auto bus = bus_config(bus_options, "environment manager", runtime::shared_number(scenario));
   if (!bus) return complain(bus.error());

@@ -6,8 +6,10 @@
 #                         and bin/rave once more, so that it shows recordings without the runtime
 #   component doc         share/doc/rave: all pages, with the files that they link to
 #   component robot-dev   what a robot program is written with: no header of the simulator
-#   component driver-dev  on top of it: world and sim, for virtual drivers
+#   component driver-dev  on top of it: world and sim, for virtual drivers, and line, for drivers of
+#                         devices on serial lines and sockets
 #   component config-dev  on top of it: the reader of configuration files
+#   component run-dev     on top of these: from a scenario to an engine, for runs driven from C++
 include(CMakePackageConfigHelpers)
 set(RAVE_PACKAGE_DIR "lib/cmake/rave")
 
@@ -49,13 +51,16 @@ function(rave_install_libraries component)
 endfunction()
 
 rave_closure(RAVE_ROBOT_PART rave_robot)
-rave_closure(RAVE_DRIVER_PART rave_sim rave_world)
+rave_closure(RAVE_DRIVER_PART rave_sim rave_world rave_line)
 rave_closure(RAVE_CONFIG_PART rave_config)
+rave_closure(RAVE_RUN_PART rave_assemble)
 list(REMOVE_ITEM RAVE_DRIVER_PART ${RAVE_ROBOT_PART})
 list(REMOVE_ITEM RAVE_CONFIG_PART ${RAVE_ROBOT_PART} ${RAVE_DRIVER_PART})
+list(REMOVE_ITEM RAVE_RUN_PART ${RAVE_ROBOT_PART} ${RAVE_DRIVER_PART} ${RAVE_CONFIG_PART})
 rave_install_libraries(robot ${RAVE_ROBOT_PART})
 rave_install_libraries(driver ${RAVE_DRIVER_PART})
 rave_install_libraries(config ${RAVE_CONFIG_PART})
+rave_install_libraries(run ${RAVE_RUN_PART})
 
 # Which part the reader of configuration files came into decides who must find its packages.
 foreach(part ROBOT DRIVER CONFIG)
@@ -126,4 +131,4 @@ endif()
 # All that `cmake --install` needs.
 add_custom_target(rave_installable)
 add_dependencies(rave_installable rave_runtime rave_pages ${RAVE_ROBOT_PART} ${RAVE_DRIVER_PART}
-  ${RAVE_CONFIG_PART})
+  ${RAVE_CONFIG_PART} ${RAVE_RUN_PART})

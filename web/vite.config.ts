@@ -7,7 +7,7 @@ export default defineConfig({
     target: 'es2022',
     outDir: 'dist',
     assetsInlineLimit: 0,
-    // The 3-D renderer is loaded when somebody asks for it.
+    // The 3-D renderer is loaded on demand.
     chunkSizeWarningLimit: 800,
   },
   server: {proxy: {'/ws': {target: 'ws://127.0.0.1:8080', ws: true}}},

@@ -61,7 +61,7 @@ std::string summary_of(const InputFile& input, const runtime::BuiltScenario& bui
                      input.scenario.scenario.duration_s);
 }
 
-/// Whether a reading tells of what is around the robot; values may.
+/// Whether a reading describes what is around the robot; values may.
 bool tells_of_surroundings(ReadingKind kind) {
   return kind != ReadingKind::kNone && kind != ReadingKind::kPose &&
          kind != ReadingKind::kOdometry && kind != ReadingKind::kVelocity;

@@ -47,7 +47,7 @@ void print(const doctor::Findings& findings) {
   put(stdout, text);
 }
 
-/// Who listens is found by whoever asks; those who do not ask need not be known.
+/// A listener is found by the machine that asks, so it needs no peers of its own.
 bus::BusConfig listening(bus::BusConfig config, const std::string& address) {
   config.anonymous = true;
   if (config.multicast == bus::Multicast::kOff) config.peers.push_back(address);

@@ -28,7 +28,7 @@ using runtime::RunStatus;
 constexpr auto kLook = std::chrono::milliseconds(50);
 /// No more often than a process on the bus answers.
 constexpr auto kLookFar = std::chrono::milliseconds(200);
-/// So many looks in a row may be refused by a process on the bus.
+/// A process on the bus may refuse this number of looks in a row.
 constexpr int kMostMisses = 10;
 
 int refused(const AskedRun& run, const std::string& text) {
@@ -52,8 +52,8 @@ bool has_one(const RunStatus& status, const Has& has) {
 }
 
 /// The process of a run that has what is asked for: in real time over several hosts that is the
-/// host of the robot, and whoever types the name of the run, or nothing, means it. Errors: those of
-/// find_run(), kState (more than one has it, or it cannot be told whose hosts are here; then it
+/// host of the robot, and the name of the run, or no name, means that host. Errors: those of
+/// find_run(), kState (more than one has it, or it is unknown whose hosts are here; then it
 /// says how to choose, with the command's `option` for that).
 Result<std::string> find_process_here(const std::string& word, std::string_view option,
                                       const Has& has) {
@@ -75,7 +75,7 @@ Result<std::string> find_process_here(const std::string& word, std::string_view 
     if (!status || !(scenario.empty() || status->scenario == scenario)) continue;
     const bool is_host = one.find('@') != std::string::npos;
     if (!is_host) ++runs;
-    // With a run that was found, the hosts of it alone; without, whoever has it.
+    // With a run that was found, the hosts of it alone; without, every host that has it.
     if ((is_host || !run) && has_one(*status, has)) found.emplace_back(one);
   }
   if (found.empty()) return run;

@@ -50,7 +50,7 @@ Result<Request> read_request(const OrderCommand& options) {
       RAVE_TRY_ASSIGN(auto points, points_of(options));
       Request request =
           request_of({points.size() == 1 ? RunKind::kGoal : RunKind::kPath, options.robot});
-      // Here as well as in the run, so that a mistake is told before a run is searched for.
+      // Here as well as in the run, so that a mistake is reported before a run is searched for.
       if (points.size() > 1) RAVE_TRY(runtime::check_path_size(points.size()));
       request.run.points = std::move(points);
       request.run.speed_mps = options.speed_mps;

@@ -46,7 +46,7 @@ Result<std::string> read_password() {
   std::string first;
   std::string second;
   const NoEcho quiet;
-  // A script gives it once: there is nobody who could mistype it.
+  // A script gives it once: a script does not mistype.
   if (!quiet.terminal()) {
     std::getline(std::cin, first);
     return first;
@@ -75,7 +75,7 @@ std::string user_name() {
 Result<std::string> add(Accounts& accounts, const PeopleCommand& options) {
   RAVE_TRY_ASSIGN(const Role role, role_of(options.role));
   RAVE_TRY_ASSIGN(const Teams teams, gui_server::parse_teams(options.teams));
-  // Before the password is asked for, which nobody wants to type in vain.
+  // Before the password is asked for, so that it is not typed in vain.
   RAVE_TRY(gui_server::check_user_name(options.name));
   RAVE_TRY_ASSIGN(const std::string password, read_password());
   RAVE_TRY(accounts.add({options.name, role, teams}, password));

@@ -26,7 +26,7 @@ struct RunCommand {
   bool arm = false;
   bool quiet = false;
   std::vector<std::string> plugins;
-  std::optional<int> processes;  ///< Divide the robots among so many processes.
+  std::optional<int> processes;  ///< Divide the robots among this number of processes.
   BusOptions bus;                ///< For runs with several processes.
   bool gui = false;              ///< Show it in the browser, then its recording.
   PageOptions page;

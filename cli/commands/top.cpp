@@ -47,7 +47,7 @@ void wait_for(Duration span, const std::stop_token& stop) {
 }
 
 Look look_at(const std::string& lone_run) {
-  // Shared with nobody: a std::function wants to be copied.
+  // Has one owner, but a std::function must be copyable.
   auto run = std::make_shared<watch::LoneRun>(lone_run);
   return [run](Duration span, bool robots, const std::stop_token& stop) -> Result<watch::RunView> {
     RAVE_TRY(run->look(robots));
@@ -157,7 +157,7 @@ int top(const TopCommand& options) {
     const Status shown = show_live(*look, options, interval, keys);
     return shown ? kGood : complain(shown.error());
   }
-  bool over = false;  // Whoever reads a pipe waits for its end.
+  bool over = false;  // The reader of a pipe waits for its end.
   do {
     const auto view = (*look)(interval, options.robots, keys.next());
     if (!view) return complain(view.error());

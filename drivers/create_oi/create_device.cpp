@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "line/backoff.hpp"
 #include "rave/base/thread.hpp"
+#include "rave/line/backoff.hpp"
 
 namespace rave::oi {
 // One thread talks to the robot: it connects, reads frames and sends drive commands. Drivers of the

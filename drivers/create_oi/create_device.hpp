@@ -16,7 +16,7 @@
 #include "create_oi/create_report.hpp"
 #include "create_oi/oi_session.hpp"
 #include "create_oi/wheel_speeds.hpp"
-#include "line/wake.hpp"
+#include "rave/line/wake.hpp"
 #include "rave/robot/device.hpp"
 
 namespace rave::oi {

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "create_oi/oi_code.hpp"
-#include "line/address.hpp"
-#include "line/timing.hpp"
+#include "rave/line/address.hpp"
+#include "rave/line/timing.hpp"
 #include "rave/plugin/params.hpp"
 
 namespace rave::oi {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "line/host_clock.hpp"
+#include "rave/line/host_clock.hpp"
 #include "rave/math/scalar.hpp"
 
 namespace rave::oi {

@@ -8,7 +8,7 @@
 #include "create_oi/frame_times.hpp"
 #include "create_oi/oi_code.hpp"
 #include "create_oi/oi_decoder.hpp"
-#include "line/byte_line.hpp"
+#include "rave/line/byte_line.hpp"
 
 namespace rave::oi {
 

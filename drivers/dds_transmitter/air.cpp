@@ -5,8 +5,8 @@
 #include <chrono>
 #include <utility>
 
-#include "line/host_clock.hpp"
 #include "rave/base/thread.hpp"
+#include "rave/line/host_clock.hpp"
 
 namespace rave::dds_transmitter {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "dds_network/network_words.hpp"
 #include "dds_transmitter/air.hpp"
-#include "line/host_clock.hpp"
+#include "rave/line/host_clock.hpp"
 #include "rave/robot/plugin_entry.hpp"
 
 namespace rave::dds_transmitter {

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "line/host_clock.hpp"
+#include "rave/line/host_clock.hpp"
 #include "rave/robot/device.hpp"
 #include "rave/ros2/reader.hpp"
 #include "rave/ros2/waiter.hpp"

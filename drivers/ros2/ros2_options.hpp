@@ -5,8 +5,8 @@
 #include <string>
 
 #include "dds_network/network_words.hpp"
-#include "line/timing.hpp"
 #include "pose_doubt/pose_doubt.hpp"
+#include "rave/line/timing.hpp"
 #include "rave/plugin/params.hpp"
 #include "rave/ros2/participant.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "line/clock_offset.hpp"
+#include "rave/line/clock_offset.hpp"
 
 namespace rave::ros2_driver {
 

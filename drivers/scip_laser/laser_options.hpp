@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "line/address.hpp"
-#include "line/timing.hpp"
+#include "rave/line/address.hpp"
+#include "rave/line/timing.hpp"
 #include "rave/robot/hardware_sensor.hpp"
 #include "scip_laser/scip_parameters.hpp"
 #include "scip_laser/scip_scan.hpp"

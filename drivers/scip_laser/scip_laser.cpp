@@ -7,9 +7,9 @@
 #include <thread>
 #include <vector>
 
-#include "line/backoff.hpp"
-#include "line/clock_offset.hpp"
 #include "rave/base/thread.hpp"
+#include "rave/line/backoff.hpp"
+#include "rave/line/clock_offset.hpp"
 #include "rave/robot/plugin_entry.hpp"
 #include "scip_laser/laser_options.hpp"
 #include "scip_laser/laser_report.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "line/byte_line.hpp"
+#include "rave/line/byte_line.hpp"
 #include "scip_laser/scip_decoder.hpp"
 #include "scip_laser/scip_parameters.hpp"
 #include "scip_laser/scip_scan.hpp"

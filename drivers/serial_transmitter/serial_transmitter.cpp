@@ -8,9 +8,9 @@
 #include <stop_token>
 #include <thread>
 
-#include "line/backoff.hpp"
-#include "line/byte_line.hpp"
 #include "rave/base/thread.hpp"
+#include "rave/line/backoff.hpp"
+#include "rave/line/byte_line.hpp"
 #include "rave/robot/plugin_entry.hpp"
 #include "serial_transmitter/serial_frame.hpp"
 

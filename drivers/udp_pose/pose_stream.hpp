@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "line/clock_offset.hpp"
+#include "rave/line/clock_offset.hpp"
 #include "udp_pose/pose_datagram.hpp"
 
 namespace rave::udp_pose {

@@ -9,10 +9,10 @@
 #include <stop_token>
 #include <thread>
 
-#include "line/datagram_socket.hpp"
-#include "line/timing.hpp"
 #include "pose_doubt/pose_doubt.hpp"
 #include "rave/base/thread.hpp"
+#include "rave/line/datagram_socket.hpp"
+#include "rave/line/timing.hpp"
 #include "rave/robot/plugin_entry.hpp"
 #include "udp_pose/pose_stream.hpp"
 

@@ -7,8 +7,8 @@
 #include <stop_token>
 #include <thread>
 
-#include "line/datagram_socket.hpp"
 #include "rave/base/thread.hpp"
+#include "rave/line/datagram_socket.hpp"
 #include "rave/robot/plugin_entry.hpp"
 
 namespace rave::udp_transmitter {

@@ -19,8 +19,8 @@ constexpr double kLargestReal = 1e6;
 constexpr int kLargestCode = 1'000'000;
 
 /// Why a row was refused.
-/// A row with a NaN or an infinity is told apart from one that cannot be read, because a recording
-/// may have either and they have different causes.
+/// A row with a NaN or an infinity is distinguished from one that cannot be read, because a
+/// recording may have either and they have different causes.
 struct Fault {
   bool non_finite = false;
   int column = 0;

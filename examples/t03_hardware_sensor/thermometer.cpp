@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A driver of hardware: a thermometer that sends lines such as `T 21.50` on a serial line.
-#include <fcntl.h>
-#include <poll.h>
-#include <termios.h>
-#include <unistd.h>
-
+#include <array>
 #include <atomic>
 #include <charconv>
 #include <cmath>
-#include <cstring>
+#include <optional>
+#include <rave/line/byte_line.hpp>
 #include <rave/robot/plugin_entry.hpp>
 #include <string>
 #include <string_view>
@@ -24,8 +21,11 @@ class Thermometer final : public rave::HardwareSensor {
 
   rave::Status configure(const rave::HardwareSetup& setup,
                          rave::HardwareDeclaration& declaration) override {
-    line_ = setup.parameters().text("line");
-    if (!line_.starts_with('/')) line_ = std::string(setup.folder) + "/" + line_;
+    address_.device = setup.parameters().text("device");
+    if (!address_.device.starts_with('/')) {
+      address_.device = std::string(setup.folder) + "/" + address_.device;
+    }
+    address_.baud = setup.parameters().integer("baud");
     // Live: samples come by the wall clock, so a run with this sensor is in real time.
     declaration.clock = rave::DriverClock::kLive;
     declaration.period_s = 0.1;
@@ -33,26 +33,18 @@ class Thermometer final : public rave::HardwareSensor {
   }
 
   rave::Status open(rave::SampleSink& sink) override {
-    file_ = ::open(line_.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-    if (file_ < 0) {
-      return rave::fail(rave::ErrorCode::kIo, "cannot open `{}`: {}", line_, std::strerror(errno));
-    }
-    termios mode{};
-    if (::tcgetattr(file_, &mode) == 0) {
-      ::cfmakeraw(&mode);
-      ::cfsetspeed(&mode, B9600);
-      ::tcsetattr(file_, TCSANOW, &mode);
-    }
-    closing_ = false;
+    RAVE_TRY(wake_.open());
+    wake_.clear();  // close() rang it if the driver was open before.
+    RAVE_TRY_ASSIGN(auto line, rave::line::ByteLine::open(address_, kPatience, &wake_));
+    line_.emplace(std::move(line));
     thread_ = std::thread([this, &sink] { read_lines(sink); });  // The driver's own thread.
     return {};
   }
 
   void close() override {
-    closing_ = true;
+    wake_.ring();  // Ends the wait of the thread at once.
     if (thread_.joinable()) thread_.join();
-    if (file_ >= 0) ::close(file_);
-    file_ = -1;
+    line_.reset();
   }
 
   // Printed into result.json.
@@ -62,20 +54,17 @@ class Thermometer final : public rave::HardwareSensor {
 
  private:
   void read_lines(rave::SampleSink& sink) {
+    using rave::line::ReadEnd;
     std::string text;
-    while (!closing_) {
-      pollfd wait{file_, POLLIN, 0};
-      if (::poll(&wait, 1, 50) <= 0) continue;
-      char bytes[256];
-      const ssize_t count = ::read(file_, bytes, sizeof bytes);
-      if (count <= 0) {
-        constexpr std::string_view kLost = "the serial line is closed";
-        return sink.fail(kLost.data(), kLost.size());
-      }
-      text.append(bytes, static_cast<std::size_t>(count));
-      for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n')) {
-        publish(text.substr(0, end), sink);
-        text.erase(0, end + 1);
+    std::array<char, 256> room{};
+    while (true) {
+      const auto [end, size] = line_->read(room, kPatience, &wake_);
+      if (end == ReadEnd::kWoken) return;
+      if (end == ReadEnd::kLost) return sink.fail(line_->lost().data(), line_->lost().size());
+      text.append(room.data(), size);
+      for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n')) {
+        publish(text.substr(0, at), sink);
+        text.erase(0, at + 1);
       }
       if (text.size() > kLongestLine) text.clear();  // Noise on the line.
     }
@@ -91,16 +80,19 @@ class Thermometer final : public rave::HardwareSensor {
     if (sink.publish(sink.now(), &value_degC, 1)) ++samples_;
   }
 
-  std::string line_;
-  int file_ = -1;
-  std::atomic<bool> closing_ = false;
+  static constexpr rave::line::Wait kPatience{1000};
+
+  rave::line::Address address_;
+  rave::line::Wake wake_;
+  std::optional<rave::line::ByteLine> line_;
   std::atomic<std::uint64_t> samples_ = 0;
   std::thread thread_;
 };
 
 constexpr rave::ParamSpec kParams[] = {
-    rave::text_param("line", "/dev/ttyUSB0",
+    rave::text_param("device", "/dev/ttyUSB0",
                      "Serial line; relative to the folder of the robot file."),
+    rave::integer_param("baud", 9600, 300, 921600, "Speed of the line in bits per second."),
 };
 
 }  // namespace

@@ -31,7 +31,7 @@ constexpr ParamSpec kParams[] = {
     number_param("stay_within_m", "m", 0, 0, 1e6, "Radius of that area; 0: no limit."),
 };
 
-/// What each robot tells the others: where it is told to be, and its velocity, world frame.
+/// What each robot tells the others: its reported pose, and its velocity, world frame.
 struct FlockMessage {
   double x_m = 0;
   double y_m = 0;

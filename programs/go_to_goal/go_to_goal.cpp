@@ -32,7 +32,7 @@ constexpr ParamSpec kParams[] = {
 /// boundary until it is nearer to the goal than ever and sees the way free: the leave condition of
 /// TangentBug (I. Kamon, E. Rivlin, E. Rimon, "A new range-sensor based globally convergent
 /// navigation algorithm for mobile robots", ICRA 1996). Directions are chosen as in VFH+.
-/// Goals and paths of people come first; when they are cancelled it goes on with its own.
+/// Goals and paths of people come first; when they are cancelled it continues with its own.
 class GoToGoal final : public DecisionProcess {
  public:
   static constexpr OrderSet kTakes = kTakesGoal | kTakesPath;
@@ -46,7 +46,7 @@ class GoToGoal final : public DecisionProcess {
     return parameters_changed(params);
   }
 
-  /// New goals are driven to from the first one on; with the old ones it goes on where it was.
+  /// New goals are driven to from the first one on; with the old ones it continues where it was.
   Status parameters_changed(const Params& params) override {
     RAVE_TRY_ASSIGN(std::vector<Vec2> goals_W, read_goals(params));
     if (goals_W != goals_W_) {

@@ -96,7 +96,7 @@ class Predator final : public DecisionProcess {
 
   /// The smallest t > 0 with |p + v t| = speed t: lead pursuit along a collision course
   /// (R. Isaacs, "Differential Games", Wiley 1965). A prey that cannot be met is aimed at a little
-  /// ahead, so the hunt goes on.
+  /// ahead, so the hunt continues.
   double meeting_time_s(Vec2 p_R, Vec2 v_R) const {
     // |p + v t|^2 = s^2 t^2 is a t^2 - 2 b t - c = 0 with these a, b and c; its positive root is (b
     // + root) / a = c / (root - b).

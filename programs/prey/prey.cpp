@@ -25,7 +25,7 @@ constexpr ParamSpec kParams[] = {
     number_param("look_m", "m", 1.0, 0.1, 100, "Distance ahead that must be free."),
 };
 
-/// Flees from its neighbours, the nearer the more; strolls when nobody is near.
+/// Flees from its neighbours, the nearer the more; strolls when no robot is near.
 class Prey final : public DecisionProcess {
  public:
   Status start(const Setup& setup) override {
@@ -74,7 +74,7 @@ class Prey final : public DecisionProcess {
  private:
   /// Sum of the directions away from all neighbours that it fears, weighted by 1 / distance^2 (the
   /// repulsion of O. Khatib, "Real-time obstacle avoidance for manipulators and mobile robots",
-  /// IJRR 5(1), 1986, for robots instead of obstacles). Robot frame; zero: nobody is near.
+  /// IJRR 5(1), 1986, for robots instead of obstacles). Robot frame; zero: no robot is near.
   Vec2 away_from(std::span<const NeighbourReading> seen) const {
     const Pose2 X_RS = eyes_.info().X_RS;
     Vec2 sum_R;

@@ -83,7 +83,7 @@ class Wander final : public DecisionProcess {
     const bool must_turn = clearance_m < avoid_m_ || home != 0;
 
     if (turns_left_ == 0 && must_turn) {
-      // Still blocked after a turn: go on the same way round, or a corner would trap it.
+      // Still blocked after a turn: continue the same way round, or a corner would trap it.
       if (!turning_) side_ = home != 0 ? home : freer_side(percepts);
       turns_left_ = turn_length(percepts);
       if (!turning_ && clearance_m < avoid_m_) back_off_left_ = longest_back_off_;

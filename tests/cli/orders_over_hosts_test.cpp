@@ -180,7 +180,8 @@ TEST_F(OrdersOverHosts, TheHostOfTheRobotKeepsItsLeaseAndTheManagerIsNotAsked) {
   wait_until([&] { return told(*manager) == "anna"; });
   // A stop needs no lease.
   EXPECT_EQ(said_by(host, of_person(Kind::kStop, "bert", "mona")).substr(0, 5), "good:");
-  EXPECT_EQ(said_by(host, of_person(Kind::kGive, "bert", "anna")), "good: nobody drives bert now");
+  EXPECT_EQ(said_by(host, of_person(Kind::kGive, "bert", "anna")),
+            "good: no person drives bert now");
   wait_until([&] { return told(*manager).empty(); });
 }
 

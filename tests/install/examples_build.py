@@ -4,9 +4,9 @@
 
     tests/install/examples_build.py --build BUILD --make-project PROGRAM [--keep]
 
-Programs see a prefix with the component robot only, drivers one with robot and driver. Built and
-tested: both templates of `rave new` and every folder of examples/. Each program's binary is then
-searched for the simulator: its symbols, its libraries, its headers.
+Each project sees a prefix with the components that its CMakeLists.txt asks for and no more. Built
+and tested: both templates of `rave new` and every folder of examples/. The plug-ins of projects that
+ask for robot alone are then searched for the simulator: their symbols, their libraries, their headers.
 """
 import argparse
 import os
@@ -22,6 +22,11 @@ ALLOWED_LIBRARIES = re.compile(
     r"^(?:libc\.so|libm\.so|libstdc\+\+\.so|libgcc_s\.so|libfmt\.so|ld-linux)")
 SIMULATOR = re.compile(r"rave::(?:sim|world)\b|rave::(?:WorldView|VirtualSensor|Engine|Snapshot)\b")
 SIMULATOR_HEADERS = re.compile(r"rave/(?:sim|world)/")
+
+
+# What a project that asks for a component finds installed.
+PREFIXES = {"robot": ["robot"], "driver": ["robot", "driver"],
+            "run": ["robot", "driver", "config", "run"]}
 
 
 class Failure(Exception):
@@ -72,21 +77,28 @@ def check_program(library, out):
         raise Failure(f"{library.name} was compiled with headers of the simulator")
 
 
-def is_program(folder):
-    return "RAVE_VIRTUAL_PLUGIN" not in "".join(f.read_text() for f in folder.glob("*.cpp"))
+def component_of(folder):
+    """The last one that a project asks for, which stands on those before it."""
+    text = (folder / "CMakeLists.txt").read_text()
+    asked = re.search(r"find_package\(rave REQUIRED COMPONENTS [\w ]*?(\w+)\)", text)
+    if not asked or asked.group(1) not in PREFIXES:
+        raise Failure(f"{folder.name} asks for none of {', '.join(PREFIXES)}")
+    return asked.group(1)
 
 
-def plugins_of(out):
-    return sorted(out.glob("*.so"))
+def built_in(out, component):
+    """The plug-ins of a project; of one that makes runs, its programs."""
+    if component != "run":
+        return sorted(out.glob("*.so"))
+    return sorted(f for f in out.iterdir() if f.is_file() and os.access(f, os.X_OK))
 
 
 def check_all(arguments, scratch):
     build, templates = pathlib.Path(arguments.build), SOURCE / "share/templates"
-    robot, driver = scratch / "robot", scratch / "driver"
-    install(build, robot, ["robot-dev"])
-    install(build, driver, ["robot-dev", "driver-dev"])
-    for unwanted in ("sim", "world"):
-        if (robot / "include/rave" / unwanted).exists():
+    for prefix, parts in PREFIXES.items():
+        install(build, scratch / prefix, [f"{part}-dev" for part in parts])
+    for unwanted in ("sim", "world", "line", "config", "assemble"):
+        if (scratch / "robot/include/rave" / unwanted).exists():
             raise Failure(f"the component robot-dev installs headers of {unwanted}")
     projects = [scratch / "first_program", scratch / "first_driver"]
     for kind, folder in zip(("program", "driver"), projects):
@@ -94,12 +106,12 @@ def check_all(arguments, scratch):
     # What the examples do is tested by the pages that explain them (tests/docs).
     examples = sorted(f.parent for f in (SOURCE / "examples").glob("*/CMakeLists.txt"))
     for folder in projects + examples:
-        out, program = scratch / "build" / folder.name, is_program(folder)
-        build_project(folder, robot if program else driver, out, folder in projects)
-        built = plugins_of(out)
+        out, component = scratch / "build" / folder.name, component_of(folder)
+        build_project(folder, scratch / component, out, folder in projects)
+        built = built_in(out, component)
         if not built:
-            raise Failure(f"{folder.name} builds no plug-in")
-        for library in built if program else []:
+            raise Failure(f"{folder.name} builds nothing")
+        for library in built if component == "robot" else []:
             check_program(library, out)
         print(f"{folder.name}: ok, {', '.join(library.name for library in built)}")
     check_that_the_check_can_fail(scratch)

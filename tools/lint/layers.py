@@ -69,7 +69,8 @@ def package_of(text, prefixes):
 def libraries(tree):
     found = {f.split("/")[1] for f in tree.files if f.startswith("libs/") and f.count("/") > 1}
     served = {f.split("/include/rave/")[1].split("/")[0] for f in tree.files
-              if f.startswith(("servers/", "bench/")) and "/include/rave/" in f}
+              if f.startswith(("servers/", "bench/", "drivers/support/")) and "/include/rave/" in f
+              and "/testing/" not in f}
     rooms = {f.split("/")[1] for f in tree.files
              if f.startswith(tuple(room + "/" for room in ROOMS)) and f.count("/") > 1}
     return found, served | rooms

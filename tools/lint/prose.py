@@ -6,14 +6,18 @@
 
 A sentence of a page or example has at most MOST_WORDS words; code and tables do not count. The
 reading level of a page (Flesch-Kincaid grade: years of school that a reader needs) is at most
-MOST_GRADE. Where they are installed, codespell looks for misspellings in pages and messages, and
-proselint for clumsy phrases in pages. The change log and pages that are generated are left out.
+MOST_GRADE. codespell looks for misspellings in pages, C++ and TypeScript, and proselint for clumsy
+phrases in pages. Where one of the two is not installed the check says what it has not checked; with
+CI set that is a finding. The change log and pages that are generated are left out.
 """
+import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
+from unittest import mock
 
 import common
 import words
@@ -58,15 +62,34 @@ def check_lengths(tree):
                 yield f"{name}:{line}: a sentence of {count} words; at most {MOST_WORDS}: split it"
 
 
+def unchecked(tool, package, what):
+    """Says that a tool is missing; a finding where every tool must be there."""
+    said = f"not checked: {what}; {tool} is missing (Debian: {package})"
+    if os.environ.get("CI"):
+        return [said]
+    print(said, file=sys.stderr)
+    return []
+
+
+def is_spelt(tree, name):
+    """Whether people read or write its words: pages, and sources with their comments."""
+    if words.is_page(name):
+        return True
+    # Tests misspell names on purpose.
+    if common.is_support(name) or name.startswith("tests/") or name.endswith(".test.ts"):
+        return False
+    return name in tree.sources or name.startswith("web/") and name.endswith((".ts", ".mjs", ".css"))
+
+
 def check_spelling(tree):
-    names = [name for name in tree.files if words.is_page(name) or
-             name in tree.sources and name.startswith(words.MESSAGE_FOLDERS + ("examples/",)) and
-             not common.is_support(name)]
-    if not shutil.which("codespell") or not names:
-        return
+    names = [name for name in tree.files if is_spelt(tree, name)]
+    if not names:
+        return []
+    if not shutil.which("codespell"):
+        return unchecked("codespell", "codespell", f"the spelling of {len(names)} files")
     done = subprocess.run(["codespell", "--ignore-words-list", ALLOWED, *names], cwd=tree.root,
                           capture_output=True, text=True, check=False)
-    yield from done.stdout.splitlines()
+    return done.stdout.splitlines()
 
 
 def syllables(word):
@@ -100,7 +123,10 @@ def check_level(tree):
 
 def check_style(tree):
     names = list(filter(words.is_page, tree.files))
-    if not shutil.which("proselint") or not names:
+    if not names:
+        return
+    if not shutil.which("proselint"):
+        yield from unchecked("proselint", "python3-proselint", f"the phrases of {len(names)} pages")
         return
     with tempfile.TemporaryDirectory() as scratch:
         for name in names:
@@ -132,5 +158,18 @@ if shutil.which("proselint"):
 if shutil.which("codespell"):
     BREACHES.append(("teh ==> the", {"docs/a.md": "It is teh end.\n"}))
 
+
+
+def misses_missing_tools():
+    """Whether the check passes in continuous integration although its tools are not there."""
+    with tempfile.TemporaryDirectory() as root, mock.patch.object(shutil, "which", lambda _: None), \
+            mock.patch.dict(os.environ, {"CI": "1"}):
+        Path(root, "a.md").write_text("A page.\n", encoding="utf-8")
+        findings = check(common.Tree(root))
+    return sum("not checked" in finding for finding in findings) != 2
+
+
 if __name__ == "__main__":
+    if "--self-test" in sys.argv and misses_missing_tools():
+        sys.exit("self-test: a missing tool is no finding although CI is set")
     common.main(check, CLEAN, BREACHES)

@@ -4,8 +4,8 @@
 
 The phrases stand in a table of docs/glossary.md: what is not written, what is written instead, and
 where: `pages` are all Markdown files, `sources` are also the texts in C++ and TypeScript, `messages`
-are only the texts of MESSAGE_FOLDERS. Code in pages does not count, nor do the change log and the
-pages that are generated from sources.
+are only the texts of MESSAGE_FOLDERS, `comments` are the comments of the same folders. Code in
+pages does not count, nor do the change log and the pages that are generated from sources.
 """
 import re
 
@@ -22,8 +22,11 @@ CODE = re.compile(r"^(```|~~~).*?^\1[^\n]*$|`[^`\n]*`|(?<=\n\n)(?: {4}[^\n]*\n)+
                   re.MULTILINE | re.DOTALL)
 TEXT = re.compile(r'"(?:\\.|[^"\\\n])*"(?:\s*"(?:\\.|[^"\\\n])*")*')
 SCRIPT_TEXT = re.compile(r"'(?:\\.|[^'\\\n])*'|\"(?:\\.|[^\"\\\n])*\"|`(?:\\.|[^`\\])*`")
-# Texts that have been rewritten in plain words, and are kept so.
-MESSAGE_FOLDERS = ("cli/", "libs/config/")
+COMMENT = re.compile(r"(?<![:\"'`\w])//[^\n]*(?:\n\s*//[^\n]*)*|/\*.*?\*/", re.DOTALL)
+COMMENT_SIGN = re.compile(r"\n\s*(?://[/!]?|\*)")
+# Made from schemas/gui by tools/gui_types.py.
+GENERATED = ("web/protocol/messages.ts",)
+MESSAGE_FOLDERS = ("cli/", "drivers/", "libs/", "ops/", "programs/", "runtime/", "servers/", "web/")
 SCRIPT_FOLDERS = ("web/app/", "web/model/", "web/panels/", "web/panel_api/")
 
 
@@ -69,6 +72,22 @@ def texts_of(tree, name):
         yield match.start(), re.sub(r'"\s*"', "", match.group(0))
 
 
+def comments_of(tree, name):
+    """(offset, text) of each comment; the lines of a block are one, and keep their length."""
+    for match in COMMENT.finditer(tree.read(name)):
+        yield match.start(), COMMENT_SIGN.sub(lambda sign: "\n" + " " * (len(sign.group(0)) - 1),
+                                              match.group(0))
+
+
+def commented_sources(tree):
+    for name in tree.files:
+        if not name.startswith(MESSAGE_FOLDERS) or name.startswith(("web/e2e/", *GENERATED)):
+            continue
+        if name in tree.sources or name.endswith(".ts"):
+            if not common.is_support(name) and not name.endswith((".test.ts", "_test.cpp")):
+                yield name
+
+
 def readable_sources(tree):
     for name in tree.files:
         if common.is_support(name) or name.startswith("tests/"):
@@ -87,7 +106,7 @@ def check_words(tree):
     for name in filter(is_page, tree.files):
         text = page_of(tree, name)
         for pattern, phrase, instead, where in forbidden:
-            if where == "messages":
+            if where in ("messages", "comments"):
                 continue
             for match in pattern.finditer(text):
                 line = text.count("\n", 0, match.start()) + 1
@@ -102,6 +121,16 @@ def check_words(tree):
                     yield f"{name}:{line}: not `{phrase}`, but {instead} ({GLOSSARY})"
 
 
+def check_comments(tree):
+    forbidden = [entry for entry in phrases(tree) if entry[3] == "comments"]
+    for name in commented_sources(tree) if forbidden else ():
+        for offset, text in comments_of(tree, name):
+            for pattern, phrase, instead, _ in forbidden:
+                for match in pattern.finditer(text):
+                    line = tree.read(name).count("\n", 0, offset + match.start()) + 1
+                    yield f"{name}:{line}: a comment says `{phrase}`, not {instead} ({GLOSSARY})"
+
+
 def check_lengths(tree):
     for name in tree.files:
         if not (name.startswith(EXPLANATION) and name.endswith(".md")):
@@ -113,17 +142,21 @@ def check_lengths(tree):
 
 
 def check(tree):
-    return [*check_words(tree), *check_lengths(tree)]
+    return [*check_words(tree), *check_comments(tree), *check_lengths(tree)]
 
 
 TABLE = f"# G\n{HEADING}\n| not | but | where |\n|---|---|---|\n"
 WORDS = TABLE + "| the old word | new | pages |\n| how … fare | state | sources |\n| nobody | none | messages |\n"
+WORDS += "| goes on | continues | comments |\n"
 CLEAN = {
     GLOSSARY: WORDS,
     "docs/a.md": "A new word, nobody's. `the old word`\n```\nthe old word\n```\n\n    the old word\n",
     "CHANGELOG.md": "the old word\n",
     "cli/a.cpp": '// how they fare\nauto a = "the old word";\n',
-    "libs/sim/a.cpp": 'auto a = "nobody";\n',
+    "bench/a.cpp": 'auto a = "nobody";\n',
+    "libs/sim/a.cpp": "int a;  // it goes, on\n",
+    "libs/sim/tests/a.cpp": "// it goes on\n",
+    "web/app/b.ts": "const a = 'goes on';\n",
     "cli/tests/a_test.cpp": 'auto a = "how they fare";\n',
     "web/app/a.ts": "// how they fare\nconst a = 'welfare';\n",
     "docs/explanation/a.md": "word " * MOST_WORDS + "\n",
@@ -135,6 +168,9 @@ BREACHES = [
     ("cli/a.cpp:1: not `how", {GLOSSARY: WORDS, "cli/a.cpp": 'auto a = "how hosts "\n  "fare";\n'}),
     ("web/app/a.ts:2: not `how", {GLOSSARY: WORDS, "web/app/a.ts": "\nconst a = 'How we fare';\n"}),
     ("cli/b.cpp:1: not `nobody`", {GLOSSARY: WORDS, "cli/b.cpp": 'auto a = "for nobody";\n'}),
+    ("libs/sim/b.cpp:3: a comment says `goes on`",
+     {GLOSSARY: WORDS, "libs/sim/b.cpp": "int a;\n// The run\n// goes\n/// on.\n"}),
+    ("web/app/b.ts:2: a comment says `goes on`", {GLOSSARY: WORDS, "web/app/b.ts": "/** A run\n * goes on. */\n"}),
     ("there is no table", {GLOSSARY: "# G\n"}),
     ("1501 words", {"docs/explanation/a.md": "word " * (MOST_WORDS + 1)}),
 ]

@@ -9,11 +9,11 @@ import {controls} from './styles';
 
 const kShown = 8;
 
-/** Warnings and alerts that nobody has looked at yet. */
+/** Warnings and alerts that have not been looked at yet. */
 export class Bell extends LitElement {
   declare context: PanelContext;
   private open = false;
-  /** So many of the alerts have been looked at. */
+  /** The number of alerts that have been looked at. */
   private seen = 0;
   private count = -1;
   private readonly ends: (() => void)[] = [];

@@ -5,7 +5,7 @@ import type {LoadedComponent} from './component_loader';
 import {icon} from './icons';
 import {controls} from './styles';
 
-/** Whoever fails so often within a minute stays off. */
+/** A component with this number of failures within a minute stays off. */
 const kMostFailures = 3;
 const kMinute_ms = 60_000;
 

@@ -18,7 +18,7 @@ export class FoxgloveSheet extends LitElement {
     this.renderRoot.querySelector<HTMLElement>('[role=dialog]')?.focus();
   }
 
-  /** The address has a token, so it is asked for only when somebody wants to see it. */
+  /** The address has a token, so it is asked for only when the person wants to see it. */
   private async ask(): Promise<void> {
     try {
       const answer = await fetch(new URL('foxglove', document.baseURI), {cache: 'no-store'});

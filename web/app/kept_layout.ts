@@ -26,7 +26,7 @@ function leavesOf(node: Leaf): Leaf[] {
 }
 
 /** The layout with all panels in the page, and apart from that which of them had windows: a browser opens none
- * unless somebody presses something, so a page cannot begin with them. */
+ * unless the person presses something, so a page cannot begin with them. */
 export function bringHome(layout: SerializedDockview): {layout: SerializedDockview; windows: KeptWindow[]} {
   const home = JSON.parse(JSON.stringify(layout)) as SerializedDockview;
   const windows: KeptWindow[] = [];

@@ -29,7 +29,7 @@ export function renderWaits(model: RunModel): TemplateResult | typeof nothing {
   return html`<div class="strip waits" role="status">${icon('hourglass', 16)}<span>${time.reason}</span></div>`;
 }
 
-/** A super-user looks through the eyes of somebody else. */
+/** A super-user looks at the run as another user. */
 export function renderSeenBy(model: RunModel, back: () => void): TemplateResult | typeof nothing {
   const hello = model.hello;
   if (hello?.seen_by === undefined) return nothing;

@@ -97,8 +97,8 @@ export class RaveApp extends LitElement {
       this.arrive();
       this.retitle();
     });
-    // A direct line bypasses the rights that the server applies, so not while looking as somebody
-    // else.
+    // A direct line bypasses the rights that the server applies, so not while looking as another
+    // user.
     model.runChanged.on(() => this.link.direct?.want(model.live && model.may('stop') && model.hello?.seen_by === undefined));
     model.runChanged.on(() => void this.bringComponents());
     model.answered.on((answer) => {

@@ -10,7 +10,7 @@ import {controls} from './styles';
 import './timeline';
 
 const kReplayPaces = [0.25, 1, 4, 16];
-/** The clock is read by people: more often helps nobody and costs frames of the world. */
+/** The clock is read by people: more often has no use and costs frames of the world. */
 const kRefresh_ms = 50;
 /** 0 is as fast as it goes. */
 const kLivePaces = [0.5, 1, 4, 0];

@@ -7,7 +7,7 @@ import {controls, glyphs} from './styles';
 
 type Height = 'peek' | 'half' | 'full';
 const kHeights: readonly Height[] = ['peek', 'half', 'full'];
-/** A drag of so many pixels goes on to the next height. */
+/** A drag of this number of pixels leads to the next height. */
 const kDrag_px = 40;
 const kRefresh_ms = 250;
 

@@ -72,7 +72,7 @@ export class StopButton extends LitElement {
     this.requestUpdate();
   }
 
-  /** Goes on with the ring while the button is held; a full ring releases. */
+  /** Advances the ring while the button is held; a full ring releases. */
   private grow(): void {
     if (!this.hold.pressed) return;
     if (this.hold.share(performance.now()) >= 1) {

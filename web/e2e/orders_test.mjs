@@ -218,7 +218,7 @@ try {
     await lease.getByText('You hold the lease').waitFor();
     assert.equal(last('lease').do, 'force');
     await lease.getByRole('button', {name: 'Give back'}).click();
-    await lease.getByText('Nobody drives').waitFor();
+    await lease.getByText('No person drives').waitFor();
   });
 
   await check('a parameter of the robot is set within its range', async () => {

@@ -120,7 +120,7 @@ export class Commands {
     return answer;
   }
 
-  /** Leaves out what is done: no robot says any more that it is under way. */
+  /** Leaves out what is done: no robot reports it as its current order any more. */
   private prune(): void {
     const now_ms = performance.now();
     const kept = this.pending.filter((order) => {
@@ -141,7 +141,7 @@ export class Commands {
   }
 }
 
-/** Where the order goes that a robot says is under way; null if it names no place. */
+/** Where the current order of a robot goes; null if it names no place. */
 export function placeOf(order: string): Point | null {
   const found = [...order.matchAll(/(-?\d+(?:\.\d+)?), (-?\d+(?:\.\d+)?)/g)].pop();
   return found === undefined ? null : [Number(found[1]), Number(found[2])];

@@ -5,7 +5,7 @@ import {Signal} from './signal';
 const kFirstRetry_ms = 300;
 const kLongestRetry_ms = 5000;
 const kPing_ms = 1000;
-/** Of so many pings the median counts. */
+/** The number of pings whose median counts. */
 const kPings = 5;
 /** Without an answer to a ping for so long the line is dead, whatever the browser thinks. */
 const kDead_ms = 4000;

@@ -40,7 +40,7 @@ export class DirectLines {
     });
   }
 
-  /** A page that was opened just before its hosts is loaded anew by itself, once, while nobody has touched it. */
+  /** A page that was opened just before its hosts is loaded anew by itself, once, while the person has not touched it. */
   private block(line: DirectLine): void {
     line.block();
     const last_ms = Number(sessionStorage.getItem(kReloaded) ?? 0);
@@ -49,7 +49,7 @@ export class DirectLines {
     location.reload();
   }
 
-  /** The page has a live run and somebody who may give orders; or has not any more. */
+  /** Whether the page has a live run and a user who may give orders. */
   want(wanted: boolean): void {
     if (wanted === this.wanted) return;
     this.wanted = wanted;
@@ -115,7 +115,7 @@ export class DirectLines {
       if (response.ok) this.take((await response.json()) as Tickets, this.key);
       else this.why = await whyNot(response);
     } catch (error) {
-      // Without the server the lines that are there go on, with the tickets that they have.
+      // Without the server the lines that are there continue, with the tickets that they have.
       this.why = this.lines.size > 0 ? '' : String(error);
     }
     this.asking = false;

@@ -158,7 +158,7 @@ export class Link {
     if (this.model.probes.ask(owner, request)) this.tryProbes();
   }
 
-  /** A slider that is pulled says so many things, of which the last counts. */
+  /** A slider sends many values while it is pulled; the last one counts. */
   private tryProbes(): void {
     clearTimeout(this.probeTimer);
     this.probeTimer = window.setTimeout(() => {

@@ -7,7 +7,7 @@ const kSpacing_s = 0.2;
 /** A frame that comes so much later than the one before is a jump, not a motion. */
 const kJump_s = 1.5;
 
-/** So many frames are kept for interpolation, and so many gaps between them for its delay. */
+/** The numbers of frames that are kept for interpolation, and of gaps between them for its delay. */
 const kRecent = 4;
 const kGaps = 8;
 const kFirstGap_ms = 33;

@@ -3,7 +3,7 @@ import {kCommandsOf, type Reading} from '../protocol/frames';
 
 /** How long the course of a sensor is kept, seconds of the run. */
 export const kCourse_s = 15;
-/** The same of the velocities that a robot is told. */
+/** The same for the velocities that a robot is commanded. */
 export const kToldCourse_s = 30;
 
 /** Times of frames are rounded. */

@@ -27,7 +27,7 @@ export class RunModel {
   events: Event[] = [];
   hosts: Host[] = [];
   people: Person[] = [];
-  /** Who drives what, and what is under way; by slot. */
+  /** Who drives what, and the current orders; by slot. */
   drives = new Map<number, DriveState>();
   /** What people said, oldest first. */
   lines: Line[] = [];
@@ -37,7 +37,7 @@ export class RunModel {
   accounts: Accounts | null = null;
   /** Lines of the audit log that were asked for last. */
   audit: AuditLines | null = null;
-  /** A link that was told and that nobody has taken yet. */
+  /** A link that was received and not taken yet. */
   private invited: Invited | null = null;
   readonly poses = new PoseHistory();
   /** True poses, as far as they are looked at. */
@@ -71,7 +71,7 @@ export class RunModel {
   /** The robots were told at least once; before that, none says nothing about the run. */
   rosterCame = false;
 
-  /** The run goes on at this moment; otherwise what is shown is its recording. */
+  /** The run is in progress; otherwise what is shown is its recording. */
   get live(): boolean {
     return this.hello?.run.source === 'live';
   }

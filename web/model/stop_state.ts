@@ -11,11 +11,11 @@ export const kTwice_ms = 600;
 export interface StopCount {
   robots: number;
   stopped: number;
-  /** Nobody is left who could be stopped: the button releases. */
+  /** No robot is left that could be stopped: the button releases. */
   latched: boolean;
 }
 
-/** Recorded robots obey nobody, so they do not keep the others from counting as all. */
+/** Recorded robots obey no orders, so they do not keep the others from counting as all. */
 export function countStopped(model: RunModel): StopCount {
   const flags = model.poses.newest?.flags;
   let stopped = 0;

@@ -57,7 +57,7 @@ export interface PanelKind {
   needs?: Power;
   /** Panel that it is opened beside, as another tab, if that is open; otherwise where the person is. */
   beside?: string;
-  /** Of a run that goes on; a replay does not show it. */
+  /** Of a run in progress; a replay does not show it. */
   live?: boolean;
   /** Number beside the title; none if undefined. */
   count?(context: PanelContext): number;

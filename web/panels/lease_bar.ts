@@ -12,7 +12,7 @@ export class LeaseBar extends LitElement {
   declare robot: number;
   private note = '';
   private bad = false;
-  /** A lease of somebody else is taken with a second press. */
+  /** A lease of another person is taken with a second press. */
   private sure = false;
   private readonly ends: (() => void)[] = [];
 
@@ -60,7 +60,7 @@ export class LeaseBar extends LitElement {
     const own = other && this.isOwn(drive.lease);
     return html`<div class="bar ${mine ? 'mine' : ''}">
       ${drive === undefined || drive.lease === '' ? html`<i class="face none">${icon('hand', 14)}</i>` : html`<i class="face ${mine ? 'you' : ''}">${initials(mine ? (model.hello?.user.name ?? '') : drive.lease)}</i>`}
-      <span class="who"><b>${mine ? 'You hold the lease' : own ? 'You drive on another page' : other ? `${drive.lease} drives` : 'Nobody drives'}</b>
+      <span class="who"><b>${mine ? 'You hold the lease' : own ? 'You drive on another page' : other ? `${drive.lease} drives` : 'No person drives'}</b>
         <small>${this.note !== '' ? html`<span class=${this.bad ? 'bad' : ''}>${this.note}</span>` : this.about(mine, other)}</small></span>
       ${model.commands(this.robot) ? this.renderButtons(mine, other, drive?.lease ?? '') : nothing}</div>`;
   }

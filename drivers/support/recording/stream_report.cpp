@@ -108,7 +108,7 @@ void describe_timing(StreamReport& report, std::span<const std::int64_t> stamps_
       report.largest_gap_ns = length;
       report.largest_gap_start_ns = *row;
     }
-    // At most to the end of the window, because later nobody reads the sample.
+    // At most to the end of the window, because the sample is not read later.
     report.largest_age_ns = std::max(report.largest_age_ns, std::min(row[1], end_ns) - *row);
   }
 }

@@ -10,7 +10,7 @@
 
 namespace rave::recording {
 
-/// Repairs by the reader, reported so that nobody takes repaired data for intact data.
+/// Repairs by the reader, reported so that repaired data are not taken for intact data.
 enum class RepairKind : std::uint8_t {
   kDuplicateStamp,  ///< Rows dropped because a later row has the same stamp (not of sightings).
   kStepBack,        ///< Rows with a stamp before that of their predecessor; the stream was sorted,

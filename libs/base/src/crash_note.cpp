@@ -93,7 +93,7 @@ void install_crash_note() noexcept {
   }
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
     struct sigaction action {};
-    // Whoever has set a handler before, such as a sanitizer, keeps it.
+    // A handler that was set before, such as that of a sanitizer, stays.
     if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;
     action.sa_handler = &on_crash;
     action.sa_flags = SA_ONSTACK | static_cast<int>(SA_RESETHAND);

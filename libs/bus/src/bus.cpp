@@ -275,7 +275,7 @@ std::vector<BusEvent> Bus::take_events() {
     collect_incompatible(endpoint);
     collect_matches(endpoint);
   }
-  // Somebody has come or gone, so the addresses of the local transport may be others.
+  // A participant has come or gone, so addresses of the local transport may have changed.
   if (events_.size() > before) {
     for (Endpoint& endpoint : endpoints_) meet(endpoint);
   }
@@ -354,7 +354,7 @@ void Bus::note_foreign(const std::string& topic) {
 
 void Bus::note_refused(const std::string& topic, std::uint64_t writer, std::string why) {
   ++refused_samples_;
-  // Bounded: who sends nonsense sends much of it, and nobody may be asking for events.
+  // Bounded: a faulty sender sends many of them, and the caller may never ask for events.
   if (events_.size() < kMaxEvents) {
     events_.push_back({EventKind::kRefused, topic, "", writer, std::move(why)});
   }

@@ -51,7 +51,7 @@ void EventLog::note(const BusEvent& event, Clock::time_point now) {
   if (!worth || log_ == nullptr) return;
   std::string line = event.line();
   const auto told = told_.find(event.writer);
-  // A faulty sender causes the same event with each of its samples; it is told once, until
+  // A faulty sender causes the same event with each of its samples; it is reported once, until
   // something else is worth telling of that sender.
   if (told != told_.end() && told->second == line) return;
   write(LogLevel::kWarning, "bus", line, now);

@@ -201,7 +201,7 @@ const dds_guid_t* Participants::owner_of(std::uint64_t writer) const {
   return owner == owners_.end() ? nullptr : &owner->second;
 }
 
-// An id that nobody has announced protects nobody.
+// An id that no participant has announced protects none.
 bool Participants::speaks_for(const dds_guid_t& guid, std::uint64_t writer) const {
   const dds_guid_t* const owner = owner_of(writer);
   return owner == nullptr || key_of(*owner) == key_of(guid);

@@ -48,7 +48,7 @@ class Participants {
   [[nodiscard]] bool gone(const dds_guid_t& guid) const;
   [[nodiscard]] std::vector<BusProcess> all() const;
   /// Whether the participant may use the writer id: it is the first in the run that claimed it, or
-  /// nobody has.
+  /// no participant has.
   [[nodiscard]] bool speaks_for(const dds_guid_t& guid, std::uint64_t writer) const;
   /// The first participant of the run that claims the id; null if there is none.
   [[nodiscard]] const dds_guid_t* owner_of(std::uint64_t writer) const;

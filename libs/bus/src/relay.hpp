@@ -30,7 +30,7 @@ class Relay {
   Relay& operator=(const Relay&) = delete;
   ~Relay();
 
-  /// `receiver` must outlive the relay; it is told what ended a wait.
+  /// `receiver` must outlive the relay; it learns what ended a wait.
   void add(LocalReceiver& receiver);
   enum class Came : std::uint8_t { kNothing, kSocket, kSet };
   /// Waits; returns what to look at first. Negative `timeout`: without limit.

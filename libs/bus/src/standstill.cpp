@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether this process stood still, suspended or starved. Meanwhile it heard nobody, so others may
-// seem lost that are not.
+// Whether this process stood still, suspended or starved. Meanwhile it received nothing, so others
+// may seem lost that are not.
 #include "rave/bus/standstill.hpp"
 
 #include <algorithm>

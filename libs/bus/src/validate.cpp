@@ -99,7 +99,7 @@ Status check_body(const Sequence& body, bool needed) {
 template <class Message>
 Status check_address(const Message& sample) {
   RAVE_TRY(check_writer(sample));
-  // 0 is no process: such a message would be for nobody, or for everybody by mistake.
+  // 0 is no process: such a message would have no receiver, or all of them by mistake.
   if (sample.target == 0) return invalid("target is 0");
   if (sample.number == 0) return invalid("number is 0");
   return {};

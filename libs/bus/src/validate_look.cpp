@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What those who look on ask for, and what they are told.
+// Validation of what monitors ask for, and of what they receive.
 #include <algorithm>
 
 #include "rave/bus/validate.hpp"

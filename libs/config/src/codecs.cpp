@@ -87,7 +87,7 @@ void read_signed(const ReadContext& context, const RawNode& node, std::int64_t l
   const std::string expected = number_expectation("a whole number", context.options);
   const bool whole = found || node.is_whole_number();
   if (whole && (!found || *found < low || *found > high)) {
-    // The limits of the type are told only if the field has none of its own.
+    // The limits of the type are printed only if the field has none of its own.
     const bool limited = context.options.min && context.options.max;
     context.wrong(node, limited ? expected : whole_between(low, high));
   } else if (!whole || !in_range(static_cast<double>(*found), context.options)) {

@@ -139,7 +139,7 @@ const RawNode* RawNode::find(std::string_view key) const noexcept {
   return nullptr;
 }
 
-// For errors: what somebody wrote, as they would call it.
+// For errors: what the file has there, in the words of its author.
 std::string RawNode::found_text() const {
   switch (kind_) {
     case Kind::kNull:

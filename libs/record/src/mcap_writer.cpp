@@ -95,7 +95,7 @@ Status McapWriter::write_parts(std::uint16_t channel, std::uint32_t sequence,
                                std::uint64_t log_time_ns, std::uint64_t publish_time_ns,
                                std::span<const std::span<const std::byte>> parts) {
   if (auto usable = impl_->usable(); !usable) {
-    // The run goes on without its recording; how much is missing is counted.
+    // The run continues without its recording; missing messages are counted.
     impl_->queue.count_dropped();
     return usable;
   }

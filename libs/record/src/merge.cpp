@@ -191,8 +191,8 @@ void Merger::write_poses(RunRecorder& recorder) {
   }
 }
 
-/// A host tells of its own robots, when it comes to it. In the result each message has those of
-/// all.
+/// A host writes about its own robots, each at its own pace. In the result each message has those
+/// of all.
 void Merger::write_variances(RunRecorder& recorder) {
   bool told = false;
   each_item(parts_, topic::kVariances, decode_variances,

@@ -25,7 +25,7 @@ struct MergePart {
   bool here = false;   ///< It has messages at the merged time.
   std::string torn{};  ///< Why it is incomplete; empty: it is complete.
 
-  /// To the next time that has messages. An error ends the part: it is torn.
+  /// To the next time that has messages. An error ends the part: the file is damaged from there on.
   void advance();
 };
 

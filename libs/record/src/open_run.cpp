@@ -40,7 +40,8 @@ bool is_made_of(const fs::path& merged, const std::vector<fs::path>& parts) {
     std::error_code error;
     const auto name = part.lexically_proximate(merged.parent_path()).generic_string();
     const auto known = files.find(name);
-    // Sizes are enough to notice a part that has grown since, as in a run that was still going on.
+    // Sizes are enough to notice a part that has grown since, as in a run that was still in
+    // progress.
     return known != files.end() && known->second == std::to_string(fs::file_size(part, error));
   });
   return same && files.size() == parts.size();

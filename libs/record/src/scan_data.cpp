@@ -45,7 +45,7 @@ class DataScan {
     // With a footer the rest was lost; without one it was never written.
     (file_.ended ? file_.damages : file_.cuts)
         .push_back(fmt::format(
-            "`{}`: the record at offset {} is incomplete; {} bytes from there on are not read",
+            "`{}`: an incomplete MCAP record at offset {}; {} bytes from there on are not read",
             file_.source->name(), at, file_.source->size() - at));
   }
 

@@ -92,7 +92,7 @@ void draw_robot(Pen& pen, const std::vector<Vec2>& outline, Vec2 centre, Vec2 no
                 Rgb colour) {
   const bool is_light = kind != Kind::kRecordedRobot && kind != Kind::kHunter;
   pen.path(outline, true);
-  // A white border first, so that robots that touch each other can be told apart.
+  // A white border first, so that robots that touch each other can be distinguished.
   pen.stroke_keeping_path(kWhite, 2.6, 0.9);
   pen.fill_keeping_path(is_light ? lighter(colour, 0.75) : colour);
   pen.stroke(colour, 1.1);

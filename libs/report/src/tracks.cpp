@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tracks of robots: lines, ticks of time, gaps, ends. Points that nobody could see are left out, so
+// Tracks of robots: lines, ticks of time, gaps, ends. Points too close to be seen are left out, so
 // that a long run stays a small file.
 #include <algorithm>
 #include <cmath>
@@ -174,7 +174,7 @@ void draw_ends(Stage& stage, const PictureTrack& track) {
   stage.pen.disc(start, 2.6);
   stage.pen.fill_keeping_path(kWhite);
   stage.pen.stroke(colour, 1.2);
-  // No arrow at the end: after the pose was lost nobody knows the direction.
+  // No arrow at the end: after the pose was lost the direction is unknown.
   if (track.pose_lost_t_s) {
     draw_lost_mark(stage.pen, page_at(track, stage.panel, *track.pose_lost_t_s), colour);
     return;

@@ -34,7 +34,7 @@ Status check_amount(const char* name, double value, bool applies, ReadingKind ki
     return fail(ErrorCode::kInvalidArgument,
                 "noise: `{}` is {}; it must be a finite number of at least 0", name, value);
   }
-  // Noise without effect is a mistake in the file: somebody believes that it is there.
+  // Noise without effect is a mistake in the file: its author believes that it is there.
   if (value > 0 && !applies) {
     return fail(ErrorCode::kInvalidArgument, "noise: `{}` has no effect on a sensor of kind `{}`",
                 name, to_string(kind));
@@ -107,7 +107,7 @@ std::size_t filter_memory(const FilterSpec& filter, ReadingKind kind, std::uint3
   return std::size_t{capacity} * detail::filter_fields(kind).count * detail::filter_memory(filter);
 }
 
-// As many samples as can be under way during the latency, and the one that is just due.
+// Samples that can be delayed at the same time by the latency, and the one that is just due.
 std::uint64_t ring_depth(Duration latency, Duration period) {
   if (period.ns == 0) return std::max(kIrregularDepth, ring_depth(latency, kIrregularPeriod));
   return static_cast<std::uint64_t>((latency.ns + period.ns - 1) / period.ns + 1);
@@ -231,7 +231,7 @@ bool Processing::deliver_some(SimTime now, bool all, std::byte* state, SampleHea
     // Samples are in the order of their stamps, so all behind this one are not due either.
     if (SimTime{header.stamp_ns} + latency_ > now) break;
     // Filters see every sample in order, those too that a newer one replaces: their output would
-    // otherwise depend on how often somebody looks.
+    // otherwise depend on how often it is read.
     for (const Stage& stage : stages_) filter(stage, header, place + sizeof(SampleHeader), state);
     ring.dropped += header.dropped;
     ring.first = (ring.first + 1) % depth_;

@@ -65,7 +65,7 @@ T millimetres(double length_m) noexcept {
 
 }  // namespace
 
-// FNV-1a, 32 bits. 0 stands for nobody, so no name has it.
+// FNV-1a, 32 bits. 0 means that there is no name, so no name has it.
 std::uint32_t radio_name_hash(std::string_view name) noexcept {
   std::uint32_t hash = 0x811C9DC5U;
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x01000193U;

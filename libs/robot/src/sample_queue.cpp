@@ -143,7 +143,7 @@ SampleQueue::Wait SampleQueue::wait_complete(SimTime t, std::chrono::millisecond
     // Stamps do not decrease, so a stamp after t proves completeness up to t.
     if (complete_ns_ >= t.ns || newest_ns_ > t.ns) return Wait::kComplete;
     if (failed_ || closed_) return Wait::kFailed;
-    // A full queue is no timeout: the driver cannot go on before samples are taken.
+    // A full queue is no timeout: the driver cannot continue before samples are taken.
     return count_ == depth_ ? Wait::kFull : Wait::kTimeout;
   };
   if (const Wait now = state(); now != Wait::kTimeout) return now;

@@ -197,8 +197,8 @@ std::string Participant::explain_silence(std::string_view topic, std::string_vie
                                          bool writers) const {
   const std::string wanted = type_of_wire(type);
   const char* const does = writers ? "writes" : "reads";
-  // From the general to the particular: nobody at all, this topic with another type, this type at
-  // another topic.
+  // From the general to the particular: no other participant, this topic with another type, this
+  // type at another topic.
   if (others_here() == 0) {
     return fmt::format(
         "no other participant is in domain {} at {}; compare ROS_DOMAIN_ID, `interface`, "
@@ -212,7 +212,7 @@ std::string Participant::explain_silence(std::string_view topic, std::string_vie
       return fmt::format("another participant {} `{}`, but no message came", does, topic);
     }
     if (end.topic == topic) {
-      return fmt::format("`{}` is there with the type {} instead of {}", topic, end.type, wanted);
+      return fmt::format("topic `{}` has the type {}; expected {}", topic, end.type, wanted);
     }
     const bool told = std::ranges::find(elsewhere, end.topic) != elsewhere.end();
     if (end.type == wanted && !told) elsewhere.push_back(end.topic);

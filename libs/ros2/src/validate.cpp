@@ -60,7 +60,7 @@ Status check_triple(std::string_view field, const Triple& triple, double limit) 
 }
 
 Status check_rotation(std::string_view field, const Quaternion& q) {
-  // Drivers round, so the length need not be 1; one of 0 is the default of a message that nobody
+  // Drivers round, so the length need not be 1; one of 0 is the default of a message that no node
   // filled in.
   const double norm = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   if (norm >= kLeastNorm && norm <= kMostNorm) return {};

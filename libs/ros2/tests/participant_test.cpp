@@ -118,7 +118,7 @@ TEST(Ros2Participant, SilenceIsExplained) {
   {
     auto other = Writer<Imu>::create(*robot, "/scan");
     ASSERT_TRUE(other);
-    says("`/scan` is there with the type sensor_msgs/msg/Imu instead of sensor_msgs/msg/LaserScan");
+    says("topic `/scan` has the type sensor_msgs/msg/Imu; expected sensor_msgs/msg/LaserScan");
   }
   auto right = Writer<LaserScan>::create(*robot, "/scan");
   says("another participant writes `/scan`, but no message came");

@@ -19,7 +19,7 @@ bool AnswerBook::say(std::uint32_t robot, std::string_view text, bool done) {
     ++in_decision_[robot];
     answers_.push_back({robot, std::move(plain), done});
   } catch (const std::exception&) {
-    return false;  // no memory: a program is told so, and goes on
+    return false;  // no memory: the program gets false and continues
   }
   any_.store(true, std::memory_order_release);
   return true;

@@ -13,7 +13,8 @@
 namespace rave::sim {
 
 /// What programs say to people. say() may be called from all threads of a phase, for one robot from
-/// one at a time; the rest belongs to the thread of the engine. Costs nothing while nobody speaks.
+/// one at a time; the rest belongs to the thread of the engine. Costs nothing while no program
+/// speaks.
 class AnswerBook {
  public:
   static constexpr std::uint32_t kMostInDecision = 4;
@@ -22,7 +23,7 @@ class AnswerBook {
   struct Answer {
     std::uint32_t robot = 0;
     std::string text;
-    bool done = false;  ///< With the order under way.
+    bool done = false;  ///< With the current order.
   };
 
   AnswerBook() {

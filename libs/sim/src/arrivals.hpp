@@ -17,7 +17,7 @@ struct Delivery {
 /// Deliveries sorted by the step in which they arrive: a ring with one list for each step to come.
 class Arrivals {
  public:
-  /// No message may be under way longer.
+  /// The longest time that a message may take.
   static constexpr std::uint64_t kMaxSteps = 1U << 17U;
 
   void clear(std::uint64_t step) {

@@ -50,7 +50,7 @@ void WorldAuthority::Impl::make_obstacle_changes(WorldStep& world) {
 void WorldAuthority::Impl::refuse(RobotId robot, const Error& why) {
   events.push_back(
       noted_input(step, robot, EventKind::kChangeRefused, why.text(), Author::kRun, hash));
-  // All are counted, the first ones are kept: a new manager is told them with the world.
+  // All are counted, the first ones are kept: a new manager receives them with the world.
   if (refused_count++ < AuthorityState::kMostRefused) refused.push_back(events.back());
 }
 

@@ -21,7 +21,7 @@ AuthorityState WorldAuthority::state(bool with_obstacles) const {
   if (with_obstacles) state.obstacles = authority.history.changes();
   state.refused_count = authority.refused_count;
   state.refused = authority.refused;
-  // Hosts are told the contacts and pins of the last step and keep them, so that the results
+  // Hosts receive the contacts and pins of the last step and keep them, so that the results
   // outlive this process.
   std::ranges::copy_if(authority.done_events, std::back_inserter(state.done), [](const Event& e) {
     return e.kind == EventKind::kContact || e.kind == EventKind::kPinned;
@@ -50,7 +50,7 @@ Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& stat
   authority.step = world.step + 1;
   authority.hash = state.hash;
   authority.done_hash = state.hash;
-  authority.done_events = state.done;  // who gets that world again is told them again
+  authority.done_events = state.done;  // a host that gets that world again gets them again
   authority.events = state.events;
   authority.refused_count = state.refused_count;
   authority.refused = state.refused;

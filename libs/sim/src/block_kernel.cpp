@@ -49,7 +49,7 @@ void cast_padded(const SeenBy& discs, const SeenBy& polygons, const Vec2* vertic
   std::fill_n(view.inverse, view.askers * kPadded, 0.0F);
   std::fill_n(view.body, view.askers * kPadded, BodyId::kNone);
   // Numbers that were written one by one can only be read together when they have reached the
-  // cache: so many discs are put together first.
+  // cache: this number of discs is collected first.
   constexpr std::size_t kBatch = 64;
   SeenDiscs<kBatch> seen_discs;
   for (std::size_t begin = 0; begin < discs.pieces.size(); begin += kBatch) {

@@ -66,7 +66,7 @@ inline Surroundings what_sees(const FanTable& fan, const SensorPlace& place) noe
           rotate(place.turn, {fan.field.left.cos, fan.field.left.sin})};
 }
 
-/// Room for so many more candidates of each kind.
+/// Room for this number of further candidates of each kind.
 inline void make_room(FanScratch& scratch, std::size_t count) {
   const auto grow = [](std::vector<const world::ShapePiece*>& list, std::size_t size) {
     if (list.size() < size) list.resize(size);

@@ -28,7 +28,7 @@ struct Closing {
   std::mutex mutex;
   std::condition_variable changed;
   std::vector<std::size_t> stuck;
-  std::size_t next = 0;                    ///< The first that nobody has begun with.
+  std::size_t next = 0;                    ///< The first that no thread has begun to close.
   std::size_t turn = 0;                    ///< Of which thread it is; others have been left behind.
   std::optional<Clock::time_point> since;  ///< When the thread has begun with its last.
   bool is_done = false;
@@ -55,7 +55,7 @@ void close_in_order(Closing& closing, std::size_t turn) {
     driver.close(driver.instance);
     lock.lock();
   }
-  // It was given up while it closed the last one; another thread goes on with the others.
+  // It was given up while it closed the last one; another thread continues with the others.
   if (closing.turn != turn) return;
   closing.is_done = true;
   closing.changed.notify_all();

@@ -21,9 +21,9 @@ struct ToClose {
 };
 
 /// Closes drivers in their order, in a thread of its own, and returns those that have not returned
-/// within `limit` (after the first of them: a second at most). Their threads go on for as long as
-/// the process does, and with them `owner`, which is what their drivers use; nobody waits for them.
-/// Without drivers there is no thread.
+/// within `limit` (after the first of them: a second at most). Their threads live as long as
+/// the process does, and with them `owner`, which is what their drivers use; no thread waits for
+/// them. Without drivers there is no thread.
 [[nodiscard]] std::vector<ToClose> close_within(std::vector<ToClose> drivers,
                                                 std::chrono::milliseconds limit, const void* owner);
 

@@ -79,7 +79,7 @@ void throw_away(RobotGroup& other) {
 }
 
 /// The program keeps the last sample of the sensor until the new one gives one, and sees numbers
-/// that go on.
+/// that continue.
 void carry_sample(const SensorSlots& from, SensorSlots& to) {
   // Numbers also name random numbers: none may be used twice in a run.
   to.sequence[0] = from.sequence[0];
@@ -157,7 +157,7 @@ Status HandOvers::open_other(Twin& twin) {
   Status opened = check_live(twin.other);
   if (opened) opened = open_body(context, twin.other);
   twin.opening.clear();
-  // After the end of the run nobody else does.
+  // After the end of the run nothing else does.
   if (!opened || twin.left) close_group(twin.other);
   return opened;
 }
@@ -230,7 +230,7 @@ void HandOvers::change_drivers(Twin& twin) {
   RobotGroup& group = group_of(twin);
   const Pose2 X_before = truth_.movers[r].X_WR;
   const Arrival place = arrival(twin);
-  // The old hardware stands before anything else: from the exchange on nobody commands it.
+  // The old hardware stands before anything else: after the exchange nothing commands it.
   site_.halt(group);
   for (std::size_t s = 0; s < group.sensors.size(); ++s) {
     carry_sample(group.sensors[s], twin.other.sensors[s]);

@@ -255,7 +255,7 @@ void Engine::Impl::set_initial_state() {
   for (std::uint32_t r = 0; r < count; ++r) {
     const RobotType& type = spec.types[spec.robots[r].type];
     if (!type.simulated || !type.pose_from) continue;
-    // Until its pose source speaks, a simulated robot is told where it was put.
+    // Until its pose source reports, the reported pose of a simulated robot is its start pose.
     const Pose2& X_WR = truth.movers[r].X_WR;
     reported[r] = {{X_WR.x, X_WR.y, X_WR.yaw, 0, 0}, {}, {}, true, false};
   }

@@ -88,7 +88,7 @@ void Engine::Impl::write_hardware(RobotGroup& group, ActuatorSlots& slots, std::
   note_written(group, slots, member, failed, error.text);
 }
 
-/// A device that is gone may come back, so it is told on, and both are noted once.
+/// A device that is gone may come back, so it still gets commands, and both are logged once.
 void Engine::Impl::note_written(const RobotGroup& group, ActuatorSlots& slots, std::size_t member,
                                 bool failed, std::string_view text) {
   if (failed == (slots.failed[member] != 0)) return;

@@ -47,7 +47,7 @@ bool Engine::Impl::shut() noexcept {
   if (std::exchange(is_shut, true)) return true;
   tell_complaints();
   halt();
-  // What serves first: an opening that is under way may take its time.
+  // What serves first: an open() that still runs may take long.
   bool all = close_all(take_open());
   all = hand_overs.close() && all;
   if (radio) all = close_all(radio->take_open()) && all;
@@ -79,8 +79,8 @@ bool Engine::Impl::close_all(std::vector<ToClose> drivers) {
   return !is_in_use;
 }
 
-/// Who has not come to an end goes on in a thread of its own, with this engine and nothing else of
-/// the run.
+/// A driver that has not closed continues in a thread of its own, with this engine and nothing else
+/// of the run.
 void Engine::Impl::leave_behind() noexcept {
   hand_overs.leave_behind([this](const RobotType& type) { keep_loaded(spec, type); });
   // Programs and controllers, which no driver uses, end here as they would anyway. Of sensors the

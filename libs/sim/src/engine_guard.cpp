@@ -15,7 +15,7 @@ void Engine::Impl::set_up_guards() {
   for (std::size_t t = 0; t < spec.types.size(); ++t) {
     const RobotType& type = spec.types[t];
     guards[t] = type.guard;
-    // Nobody may forget the least that a real robot needs.
+    // A real robot has at least the default limits, whatever its file says.
     if (!type.simulated && !type.guard) guards[t] = GuardSpec{};
   }
   robot_guards.clear();
@@ -116,7 +116,7 @@ void Engine::Impl::halt() noexcept {
 }
 
 void Engine::Impl::halt(RobotGroup& group) noexcept {
-  // Their threads write the stop; nobody else may write to these actuators.
+  // Their threads write the stop; no other thread may write to these actuators.
   for (const GuardedMember& member : group.guards) {
     if (member.thread) member.thread->stand();
   }
@@ -124,7 +124,8 @@ void Engine::Impl::halt(RobotGroup& group) noexcept {
     if (slots.spec == nullptr || slots.spec->hardware_ops == nullptr) continue;
     for (std::size_t m = 0; m < slots.open.size(); ++m) {
       if (group.has_guard(m) || slots.open[m] == 0) continue;
-      // Only what takes velocities can be told to stand; the rest is left to its close().
+      // Only an actuator that takes velocities can be commanded to stand; the rest is left to its
+      // close().
       if (slots.commands[m].kind != CommandKind::kVelocity) continue;
       const Command stand = velocity_command(0, 0);
       ErrorText ignored;

@@ -214,7 +214,7 @@ struct Engine::Impl final : private HandOvers::Site {
 
   // engine_end.cpp
   [[nodiscard]] bool shut() noexcept;
-  /// False: some of the drivers do not come to an end. The log is told which.
+  /// False: some drivers do not close. The log names them.
   [[nodiscard]] bool close_all(std::vector<ToClose> drivers) override;
   /// Of those that serve.
   [[nodiscard]] std::vector<ToClose> take_open();

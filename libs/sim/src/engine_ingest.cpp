@@ -94,7 +94,7 @@ Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::s
       accept_hardware_sample(group, slots, member, sample);
     }
     // Stepped drivers lose nothing: the driver blocks on a full queue, so the room just made lets
-    // it go on.
+    // it continue.
     if (wait == SampleQueue::Wait::kFull) continue;
     if (wait == SampleQueue::Wait::kTimeout) {
       return fail(ErrorCode::kTimeout,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Real robots of a live run: their guards have threads of their own, and are told what is wanted.
+// Real robots of a live run: their guards have threads of their own, and receive the wanted
+// commands.
 #include <algorithm>
 #include <string>
 
@@ -22,7 +23,7 @@ bool is_obeyed(const RobotGroup& group, std::size_t member) {
   });
 }
 
-/// Whether the device behind an actuator stops by itself when nobody tells it anything any more.
+/// Whether the device behind an actuator stops by itself when commands cease.
 bool has_device_watchdog(const ActuatorSpec& spec) {
   return std::any_of(
       spec.params.values().begin(), spec.params.values().end(),
@@ -102,7 +103,7 @@ Result<std::unique_ptr<GuardThread>> Engine::Impl::start_guard(RobotGroup& group
   return GuardThread::start(std::move(setup), spec.robots[robot.value()].name);
 }
 
-/// What somebody has to know who lets real robots drive: what the guards cannot do.
+/// Warnings for a person who lets real robots drive: what the guards cannot do.
 void Engine::Impl::tell_of_guards() const {
   if (spec.log == nullptr) return;
   std::vector<std::string> without_watchdog;
@@ -152,7 +153,7 @@ void Engine::Impl::give_order(RobotGroup& group, std::uint32_t member) {
     ActuatorDemand& demand = order.demands[a];
     demand.command = group.actuators[a].commands[member];
     demand.expected = speaker != nullptr ? speaker->spec->ops->gives : CommandKind::kVelocity;
-    // A robot without a program has no watchdog: nobody has to speak.
+    // A robot without a program has no watchdog: no program has to command it.
     demand.watched = speaker != nullptr && group.program.spec != nullptr;
     demand.given = demand.watched ? guarded.given[group.index_of(*speaker)] : std::nullopt;
   }

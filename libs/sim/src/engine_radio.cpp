@@ -22,7 +22,7 @@ void Engine::Impl::carry_messages() {
     if (!roster.is_local(RobotId(r))) continue;
     const ProgramSlots& program = roster.group_of(RobotId(r)).program;
     if (program.spec == nullptr) {
-      // Nobody reads its mailbox.
+      // Nothing reads its mailbox.
       radio->collect(moment, RobotId(r), false);
     } else if (due(program.spec->period_steps, program.spec->phase_steps)) {
       radio->collect(moment, RobotId(r), program.failed[roster.member_of(RobotId(r))] == 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sense phase, by blocks of robots on all threads. It reads the snapshot of the step, which
-// nobody changes meanwhile, and writes the samples of its own robots only.
+// no thread changes meanwhile, and writes the samples of its own robots only.
 #include <algorithm>
 #include <optional>
 

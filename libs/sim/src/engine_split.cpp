@@ -90,7 +90,7 @@ Status Engine::Impl::propose(HostReport& report, PhaseTimer& phase) {
 
 void Engine::Impl::fill_report(HostReport& report) {
   report.begin(step);
-  // The first report opens the run: no step has been computed, so nobody has proposed anything.
+  // The first report opens the run: no step has been computed, so no host has proposed anything.
   if (step > 0) {
     Proposals& all = report.proposals;
     for (const RobotId robot : host->simulated) {
@@ -142,7 +142,7 @@ Status Engine::join(const WorldStep& world, const AuthorityState& state) {
   engine.hand_overs.skip_to(world.step);
   RAVE_TRY(engine.catch_up(world, state));
   RAVE_TRY(engine.take_newer_samples());
-  // The authority has had what it needs of that time from nobody, and needs it no more.
+  // No host has sent the authority the data of that time, and it does not need them any more.
   engine.host->samples.clear();
   return engine.apply(world, false, phase);
 }
@@ -254,7 +254,7 @@ void Engine::Impl::adopt(const WorldStep& world) {
     truth.limited[r] = (flags & WorldStep::kLimited) != 0 ? 1 : 0;
     // Touching robots are few, so only these are in the message; all others touch nothing.
     truth.touch[r] = {};
-    // Told as a robot that is alone is told: before it is pushed out of anybody's way.
+    // Reported as in a run of one process: before the robot is pushed out of another's way.
     if (!spec.types[spec.robots[r].type].pose_from) refresh_true(r);
   }
   for (const PushedRobot& pushed : world.pushed) {

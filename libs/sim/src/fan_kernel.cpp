@@ -23,7 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // What is seen among many rays covers a few of them: of wider groups most would be tried in vain.
 using Rays = hn::CappedTag<float, 8>;
 
-/// So many shapes are made out together.
+/// The number of shapes that are processed together.
 constexpr std::size_t kBatch = 8;
 
 /// The buckets of bearings, as bearing_bucket() has them.

@@ -16,8 +16,8 @@ inline constexpr std::size_t kRayPadding = 16;
 }
 /// Buckets of FanView::first_ray.
 inline constexpr std::size_t kBearingBuckets = 512;
-/// Up to so many rays all of them are tried against every candidate; above, an index finds those
-/// between the edges of the candidate.
+/// Up to this number of rays, all of them are tried against every candidate; above, an index finds
+/// those between the edges of the candidate.
 inline constexpr std::size_t kFewRays = 32;
 
 /// The rays of a fan, and where what they met is kept.

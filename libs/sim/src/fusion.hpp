@@ -33,7 +33,7 @@ struct FusionSlots {
   std::vector<std::byte> state;          ///< Of the virtual half's driver.
   std::vector<std::uint8_t> failed;      ///< No more readings.
   std::vector<std::uint32_t> withheld;   ///< Records since the last reading that was let through.
-  std::vector<std::uint64_t> too_late;   ///< Readings withheld because nobody knew the past.
+  std::vector<std::uint64_t> too_late;   ///< Withheld: the history is too short.
   std::vector<std::int64_t> last_stamp;  ///< Of the last reading; -1: none.
 
   /// Makes both drivers and checks that the halves fit: `real` is what the real half declared.

@@ -153,7 +153,7 @@ class Motion {
     return true;
   }
 
-  /// Distance above what is allowed after `t_s`, whether the other one stands or goes on for as
+  /// Distance above what is allowed after `t_s`, whether the other one stands or continues for as
   /// long as it takes to obey.
   [[nodiscard]] double worst_m(const Drive& drive, const GuardNeighbour& other,
                                double t_s) const noexcept {
@@ -235,7 +235,7 @@ auto first_lost(const GuardInput& in) noexcept {
 
 /// Why the robot has to stand; kGuardLimits: it need not.
 std::uint32_t hold_reason(const GuardSpec& spec, const GuardInput& in) noexcept {
-  // The order decides which reason is told: first what people did, then what the robot lacks.
+  // The order decides which reason is reported: first what people did, then what the robot lacks.
   // Comparisons are negated so that an age that is not a number counts as too old.
   if (in.stopped) return static_cast<std::uint32_t>(GuardLimit::kStopped);
   if (!in.armed) return static_cast<std::uint32_t>(GuardLimit::kUnarmed);

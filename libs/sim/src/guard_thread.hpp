@@ -44,7 +44,7 @@ struct GuardNews {
 /// The thread of the guard of one real robot in a live run, and the only one that writes to the
 /// actuators of that robot. It writes each `period` of wall time, and at once when something new is
 /// ordered, whatever the engine is at. It has a thread of its own so that a driver that hangs
-/// blinds nobody else.
+/// affects no other robot.
 ///
 /// All functions belong to the engine's thread, but where they say otherwise.
 class GuardThread {

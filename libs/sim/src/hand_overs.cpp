@@ -92,7 +92,7 @@ Status HandOvers::ask(std::uint64_t step, RobotId robot, DriverSet to, const Aut
   twin->state.to = to;
   twin->heard.reset();
   begin_stage(*twin, Twin::Stage::kOpening);
-  // Nobody else shall wait for hardware. A stepped run waits.
+  // In a live run no other robot waits for this hardware. A stepped run waits.
   const bool beside = spec_.live_clock != nullptr && has_hardware(spec_.types[twin->type_of(to)]);
   // The set may still be closing after an earlier hand-over; it must be closed before it is opened.
   auto open = [this, twin, before = std::move(twin->work)] {
@@ -107,7 +107,7 @@ void HandOvers::begin_stage(Twin& twin, Twin::Stage stage) {
   twin.stage = stage;
   twin.since = now_;
   twin.moved_at = twin.since;
-  // Only from here on does the robot stand. While devices are being opened it goes on with its
+  // Only from here on does the robot stand. While devices are being opened it continues with its
   // task.
   guards_[twin.robot.value()].hold(stage == Twin::Stage::kStanding);
 }
@@ -125,7 +125,7 @@ void HandOvers::advance(std::uint64_t step) {
 void HandOvers::close_late(Twin& twin) {
   if (!twin.work.ready()) return;
   twin.given_up = false;
-  // Who could not be opened has been closed by whoever tried.
+  // A driver that could not be opened was closed by the task that tried.
   if (twin.work.get()) close_other(twin);
 }
 
@@ -208,7 +208,7 @@ bool HandOvers::stands(Twin& twin) {
   if (group.type->simulated) {
     return is_below(truth_.velocity[r], kTrueStill_mps, kTrueStill_radps);
   }
-  // A recording goes its way, whatever it is told.
+  // A recording moves as it did, whatever is commanded.
   const bool obeys = std::any_of(group.actuators.begin(), group.actuators.end(),
                                  [](const ActuatorSlots& slots) { return slots.obeys[0] != 0; });
   if (!obeys) return true;

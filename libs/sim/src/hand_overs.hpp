@@ -48,7 +48,7 @@ class HandOvers {
     virtual void drivers_restored(RobotId robot) = 0;
     /// Real drivers get guards with threads of their own, where the run has such.
     [[nodiscard]] virtual Status start_guards(RobotGroup& group) = 0;
-    /// Drivers are about to be closed: what they did wrong is told.
+    /// Drivers are about to be closed: their errors are reported.
     virtual void before_closing(const RobotGroup& group) const = 0;
     /// False: some do not come to an end.
     [[nodiscard]] virtual bool close_all(std::vector<ToClose> drivers) = 0;
@@ -85,7 +85,7 @@ class HandOvers {
 
   /// Begins one. Errors: as Engine::hand_over().
   Status ask(std::uint64_t step, RobotId robot, DriverSet to, const Author& author);
-  /// Begins what the scenario has for this step, and brings those under way further.
+  /// Begins what the scenario has for this step, and advances those in progress.
   void advance(std::uint64_t step);
   /// The time until then is none in which a hand-over came to nothing.
   void skip_to(std::uint64_t step);
@@ -99,13 +99,13 @@ class HandOvers {
   /// The type of the set that does not serve; null if there is none.
   [[nodiscard]] const RobotType* other_type(RobotId robot) const noexcept;
 
-  /// The first sets serve again, and nothing is under way. Error: kState (drivers that do not come
-  /// to an end).
+  /// The first sets serve again, and no hand-over is in progress. Error: kState (drivers that do
+  /// not come to an end).
   Status restore();
-  /// Ends what is under way and closes the other sets. Those whose drivers are not done in time
-  /// stay as they are, and the log is told which; then false.
+  /// Ends hand-overs in progress and closes the other sets. Those whose drivers are not done in
+  /// time stay as they are, and the log names them; then false.
   [[nodiscard]] bool close() noexcept;
-  /// Lets those go on alone, which are not done. `keep` is told which types they use.
+  /// Abandons those that are not done. `keep` receives the types that they use.
   void leave_behind(const std::function<void(const RobotType&)>& keep) noexcept;
 
  private:

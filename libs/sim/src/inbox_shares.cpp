@@ -45,7 +45,7 @@ void InboxShares::add(std::uint32_t from) {
 
 std::uint32_t InboxShares::make_room(Mailbox& box, std::uint32_t from, std::size_t bytes) {
   if (bytes > box.max_bytes || fits(box, bytes)) return 0;
-  // Nobody goes for one that would not fit even then.
+  // No message is dropped for one that would not fit even then.
   const std::uint32_t mine = count_of(from);
   // Tried on a copy: if there is no room even then, nothing has been taken out.
   std::vector<Share> left = shares_;

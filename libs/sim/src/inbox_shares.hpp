@@ -8,7 +8,7 @@
 
 namespace rave::sim {
 
-/// How many messages of whom are in one inbox. In a live run nobody can say which robots of other
+/// How many messages of whom are in one inbox. In a live run it is unknown which robots of other
 /// processes behave; so when the inbox is full, who has most in it makes room for who has less.
 /// One owner thread.
 class InboxShares {

@@ -29,7 +29,7 @@ class InputLog {
   const std::string& note_obstacle(std::uint64_t step, const ObstacleChange& change,
                                    std::string_view also, const Author& author);
   void note_order(std::uint64_t step, const WorldInput& input, EventKind kind);
-  /// One that only goes on, as that of a stick does many times a second: no event.
+  /// An input that only continues, as a joystick repeats it many times a second: no event.
   void count_order(std::uint64_t step, const WorldInput& input, EventKind kind);
   /// Something was asked for; what came of it is noted later.
   void count(const Author& author) { by_hand_ += author.by_hand ? 1 : 0; }

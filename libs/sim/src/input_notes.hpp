@@ -8,7 +8,7 @@
 #include "rave/sim/engine.hpp"
 #include "rave/sim/obstacle_change.hpp"
 
-/// How inputs of a run are written down, the same whoever carries them out.
+/// How inputs of a run are written down, the same for engine and authority.
 namespace rave::sim {
 
 /// The event of an input that counts from `step` on; adds it to the hash.

@@ -77,7 +77,7 @@ void LiveGuard::look_at_sensors() {
   }
 }
 
-/// Others have gone on since the world that they stand in, or have stopped there.
+/// Others have moved on since that world, or have stopped where it has them.
 void LiveGuard::look_around(const GuardOrder& order, double world_age_s) {
   neighbours_ = order.neighbours;
   // Beyond the timeout `world_lost` decides what the robot does.

@@ -33,7 +33,7 @@ struct GuardOrder {
   ReportedPose reported;  ///< For a robot whose pose does not come from a live sensor.
   double radius_m = 0;
   std::shared_ptr<const world::Body> body;  ///< Shared with the engine, which may replace its own.
-  bool sees_others = true;                  ///< False: nobody knows who its neighbours are.
+  bool sees_others = true;                  ///< False: its neighbours are unknown.
   std::vector<GuardNeighbour> neighbours;   ///< As of `world_time`.
   std::vector<std::shared_ptr<const world::Body>> bodies;  ///< Of the neighbours.
 };
@@ -65,7 +65,7 @@ class LiveGuard {
   /// `period`: of calls of limit().
   LiveGuard(GuardSpec limits, LivePose pose, std::vector<LiveSensor> sensors, Duration period);
 
-  /// What the actuators may be told at `now`, by actuator.
+  /// The commands that the actuators may get at `now`, by actuator.
   void limit(const GuardOrder& order, SimTime now, std::span<Command> allowed);
   /// The limits that began to act since the last call, as bits.
   [[nodiscard]] std::uint32_t take_begun() noexcept;

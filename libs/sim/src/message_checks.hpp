@@ -29,9 +29,9 @@ Status check_report(const EngineSpec& spec, const HostRobots& own,
 /// The same of the authority's message.
 Status check_world_step(const EngineSpec& spec, const WorldStep& world);
 
-/// The same of what somebody takes over who was not there before. `needs_obstacles`: those of the
-/// state have to lead from the start to the world; otherwise neither they nor those of the world
-/// are looked at.
+/// The same for a state that a process takes over that was not present before. `needs_obstacles`:
+/// those of the state have to lead from the start to the world; otherwise neither they nor those of
+/// the world are looked at.
 Status check_taken_over(const EngineSpec& spec, const WorldStep& world, const AuthorityState& state,
                         bool needs_obstacles);
 

@@ -140,7 +140,7 @@ MotionPhase::Way MotionPhase::try_to_go(const Step& step, std::uint32_t robot,
   if (!mover.simulated) return kStands;
   step.robots.touch[robot] = {};
   const Twist2& twist = step.robots.proposal[robot];
-  // A robot that stands meets nothing by its own motion; whoever comes near it stops at it.
+  // A robot that stands meets nothing by its own motion; a robot that comes near stops at it.
   if (twist == Twist2{}) {
     step.robots.velocity[robot] = {};
     step.robots.limited[robot] = 0;
@@ -148,7 +148,7 @@ MotionPhase::Way MotionPhase::try_to_go(const Step& step, std::uint32_t robot,
   }
   const bool free = lists != nullptr ? is_free(step, robot, *lists) : is_free(step, robot);
   if (!free) return kToResolve;
-  // Nobody else reads or writes this mover here: of others the snapshot is asked.
+  // No other thread reads or writes this mover here: others are read from the snapshot.
   mover.X_WR = integrate(mover.X_WR, step.snapshot.turn_WR(RobotId(robot)), twist, step.dt_s);
   step.robots.velocity[robot] = twist;
   step.robots.limited[robot] = 0;
@@ -226,7 +226,7 @@ void MotionPhase::resolve(const Step& step, std::uint32_t robot, std::vector<Con
   const bool limited = notes.size() > first;
   step.robots.limited[robot] = limited ? 1 : 0;
   if (limited) {
-    // advance() adds angles. What the actuator is told is the velocity that leads along the arc
+    // advance() adds angles. The actuator gets the velocity that leads along the arc
     // from the old pose to the new one.
     mover.X_WR.yaw = wrap_angle(mover.X_WR.yaw);
     step.robots.velocity[robot] = twist_between(X_before, mover.X_WR, step.dt_s);

@@ -14,7 +14,7 @@ namespace rave::sim {
 class MotionWatch {
  public:
   /// What no piece of a robot has moved farther than since the last call, in metres; infinite at
-  /// the first call, and if somebody has jumped since.
+  /// the first call, and if a robot has jumped since.
   double look(const world::Snapshot& world) noexcept;
 
  private:
@@ -22,7 +22,7 @@ class MotionWatch {
   double drift_m_ = 0;
 };
 
-/// Who is near whom, found once and kept while nobody has moved far (neighbour lists; L. Verlet,
+/// Who is near whom, found once and kept while no robot has moved far (neighbour lists; L. Verlet,
 /// Physical Review 159, 98, 1967). A block of askers, each at a place of its own, has two lists of
 /// numbers each: what lay within its reach and a margin when they were made. Until askers and
 /// robots together have moved by the margin, nothing else can have come within the reach. When a

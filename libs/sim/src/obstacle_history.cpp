@@ -22,7 +22,7 @@ void ObstacleHistory::add(const ObstacleChange& change) {
       before.X_WB = change.X_WB;
       return;
     }
-    // The number of one that was added stays taken, so that it came has to be told, too.
+    // The number of one that was added stays taken, so its addition has to be reported, too.
     if (before.kind == ChangeKind::kMove) {
       before.kind = ChangeKind::kRemove;
       return;

@@ -36,7 +36,8 @@ void ObstacleJournal::show(world::Snapshot& world, std::uint64_t& shown,
                            std::uint64_t wanted) const {
   if (shown == wanted) return;
   if (shown < first_) {
-    // It has missed what nobody remembers. What stands now is known, and the way back from there.
+    // It has missed changes that are not kept any more. What stands now is known, and the way back
+    // from there.
     const world::WorldModel& model = world.model();
     for (std::size_t i = 0; i < model.obstacle_count(); ++i) {
       const std::uint32_t id = model.obstacle_id(i);

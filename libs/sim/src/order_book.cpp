@@ -150,7 +150,7 @@ void OrderBook::give_to_controller(std::uint64_t step, const WorldInput& input,
   const std::size_t m = roster_.member_of(input.robot);
   const bool drive = input.kind == InputKind::kDrive;
   OrderedRobot& robot = robots_[input.robot.value()];
-  // A stick speaks many times a second: that somebody drives is told once.
+  // A joystick sends many times a second: only the first velocity is an event.
   const bool goes_on = drive && robot.driven && robot.by == input.author.name;
   if (!goes_on) give_back(input.robot, robot);
   if (robot.of_program) tell_cancelled(input, robot);
@@ -279,13 +279,13 @@ void OrderBook::steer(const OrderMoment& moment) {
     const std::size_t m = roster_.member_of(RobotId(r));
     ControllerSlots& own = group.controllers[*robot.controller];
     const auto present = static_cast<std::int64_t>(moment.step);
-    // A program that goes on commanding another controller of the actuator must not win.
+    // A program that keeps commanding another controller of the actuator must not win.
     for (ControllerSlots& slots : group.controllers) {
       // The one that was given a command last speaks to the actuator.
       if (slots.spec->actuator != own.spec->actuator) continue;
       slots.last_step[m] = std::min(slots.last_step[m], present - 1);
     }
-    // Given anew in each step, so that its age is 0: nobody has to repeat an order for the
+    // Given anew in each step, so that its age is 0: no person has to repeat an order for the
     // watchdog.
     own.last[m] = robot.command;
     own.last_step[m] = present;

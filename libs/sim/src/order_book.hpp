@@ -23,10 +23,10 @@ struct OrderedRobot {
   /// The controller that does it in the place of the program; none: the program has the robot.
   std::optional<std::uint32_t> controller;
   Command command;         ///< For that controller, each step.
-  bool driven = false;     ///< `command` is a velocity of somebody.
+  bool driven = false;     ///< `command` is a velocity that a person ordered.
   double tolerance_m = 0;  ///< Of a goal for a controller: nearer than this is there.
   bool reached = false;    ///< It is there, and stays.
-  /// The program does the order under way, or is done with it and was told nothing since.
+  /// The program executes the current order, or has completed it and got no other since.
   bool of_program = false;
   std::string under_way;            ///< For people; empty: nothing.
   std::string by;                   ///< Who asked for it.
@@ -59,7 +59,7 @@ class OrderBook {
   OrderBook(const EngineSpec& spec, Roster& roster, InputLog& log)
       : spec_(spec), roster_(roster), log_(log) {}
 
-  /// A run begins: nobody has asked anything yet.
+  /// A run begins: there are no orders yet.
   void clear() { robots_.clear(); }
   [[nodiscard]] bool empty() const noexcept { return robots_.empty(); }
   /// Which orders a robot that runs here takes now.

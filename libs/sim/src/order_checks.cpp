@@ -19,7 +19,7 @@ using InputKind = WorldInput::Kind;
 constexpr double kFastest_mps = 100;
 constexpr double kFastest_radps = 100;
 constexpr double kMostTurn_rad = 1e6;
-/// So far beyond everything that stands in it a world goes on, at least.
+/// The least distance by which the world extends beyond everything in it.
 constexpr double kWorldMargin_m = 10;
 
 /// What everything of a world is in.
@@ -210,7 +210,7 @@ Status check_order(const EngineSpec& spec, const WorldInput& input) {
                 "the name of the author has {} bytes, or control characters; expected at most {}",
                 name.size(), kMostOrderAuthor);
   }
-  // Only a cancellation may be meant for all robots: nobody can send all of them to one place.
+  // Only a cancellation may be meant for all robots: all of them cannot go to one place.
   const bool for_all = input.kind == InputKind::kCancel && !input.robot.valid();
   if (!for_all && input.robot.value() >= spec.robots.size()) {
     return fail(ErrorCode::kInvalidArgument, "`{}` needs a robot",

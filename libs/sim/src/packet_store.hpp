@@ -32,7 +32,8 @@ struct StoredPacket {
   std::uint32_t users = 0;         ///< Deliveries and queues that still need it.
 };
 
-/// Keeps messages under way. Slots are used again, so that a run in its swing allocates nothing.
+/// Keeps messages that are not delivered yet. Slots are reused, so that a run in steady state
+/// allocates nothing.
 class PacketStore {
  public:
   /// `slot_bytes`: the longest message.

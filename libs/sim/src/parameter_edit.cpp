@@ -144,7 +144,7 @@ Status ParameterEdit::make(const ParameterChange& first, std::span<const Paramet
                   parameter_target(group_, member_, first.part, first.index));
   where_ = target.name;
   RAVE_TRY_ASSIGN(plugin::ParamSet next, with_changes(target.specs, target.present, together));
-  // Before the update, while the old values can still be told.
+  // Before the update, while the old values can still be read.
   std::string text = change_text(target, together);
   RAVE_TRY(target.update(next.values()));
   made_.push_back({std::move(target), std::move(next), std::move(text)});
@@ -167,7 +167,7 @@ std::string ParameterEdit::keep() {
 }
 
 ParameterEdit::~ParameterEdit() {
-  // They had these values before, so there is nobody to tell if one refuses them now.
+  // They had these values before, so a refusal now is not reported.
   for (Made& one : std::views::reverse(made_)) {
     static_cast<void>(one.target.update(one.target.present));
   }

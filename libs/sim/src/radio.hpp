@@ -14,7 +14,7 @@
 
 namespace rave::sim {
 
-/// What the radio is told of a step.
+/// What the radio needs to know of a step.
 struct RadioMoment {
   std::uint64_t step = 0;
   SimTime now;

@@ -13,7 +13,7 @@ namespace {
 
 /// Senders beyond the robots of the scenario that get a number; anybody may send.
 constexpr std::size_t kMaxForeign = 4096;
-/// So many senders are complained of at each transmitter.
+/// The number of senders that the log names per transmitter.
 constexpr std::size_t kMostFlooders = 64;
 
 /// Where the sender says it is; if it does not know, where this host knows it to be.
@@ -205,7 +205,7 @@ void Radio::transmit(const RadioMoment& moment, RadioLine& line, std::uint32_t p
   } else if (out.to == RecipientKind::kTeam && sender.team != kNobody) {
     out.recipient = radio_name_hash(teams_[sender.team]);
   }
-  // A message to nobody is not sent.
+  // A message without receivers is not sent.
   if (out.to != RecipientKind::kEveryone && out.recipient == 0) {
     ++counts_.sent;
     return;

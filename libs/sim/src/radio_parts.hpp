@@ -88,7 +88,7 @@ struct Channel {
   double largest_range_m = 0;             ///< Of those that have a range.
 };
 
-/// The time it takes to send so many bytes; a rate of 0 takes none.
+/// The time that sending `bytes` takes; a rate of 0 takes none.
 [[nodiscard]] std::int64_t sending_ns(std::uint32_t bytes, double byte_rate) noexcept;
 
 /// Sends what a line has, up to (not including) `until_ns`: of the communicators that share it the

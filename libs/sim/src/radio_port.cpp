@@ -65,7 +65,8 @@ void RadioPort::receive(const std::byte* packet, std::uint64_t size) noexcept {
   count_one(held_, sender);
 }
 
-/// Of the sender that has most in the queue the oldest: whoever floods pushes out its own.
+/// The oldest of the sender that has most in the queue: a flooding sender displaces its own
+/// messages.
 void RadioPort::drop_one() {
   const auto most = std::max_element(
       held_.begin(), held_.end(), [](const auto& a, const auto& b) { return a.count < b.count; });

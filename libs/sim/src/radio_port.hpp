@@ -25,10 +25,10 @@ class RadioPort final : public PacketSink {
 
   /// Takes the oldest packet; valid until the next call. False: there is none.
   bool next(std::span<const std::byte>& packet);
-  /// Packets that were lost because nobody took them, or because they were too long.
+  /// Packets that were lost because they were not taken, or because they were too long.
   struct Overruns {
     std::uint64_t count = 0;
-    std::uint32_t sender = 0;  ///< Hash of the name of who sent too many; 0: nobody is known.
+    std::uint32_t sender = 0;  ///< Hash of the name of the sender that sent too many; 0: unknown.
   };
   /// Those since the last call.
   [[nodiscard]] Overruns take_overruns();

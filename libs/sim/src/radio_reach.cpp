@@ -60,7 +60,7 @@ void Radio::find_candidates(const StoredPacket& sent, Reach& reach) const {
   if (range_m == 0) {
     found = channel.members;
   } else if (sent.origin.located) {
-    // A sender with a range and without a place reaches nobody.
+    // A sender with a range and without a position reaches no receiver.
     channel.grid.for_each_near(sent.origin.p_W, range_m,
                                [&](const world::ShapePiece& item) { found.push_back(item.shape); });
     // By endpoint, as without a grid.

@@ -41,7 +41,7 @@ void collect_along(const world::Snapshot& world, Vec2 p_W, Vec2 direction,
                        });
 }
 
-/// What looking for candidates, and trying the rays at them, takes: about so many nanoseconds.
+/// The approximate cost of finding candidates and of testing rays against them, in nanoseconds.
 struct LookCost {
   double around = 0;
   double along = 0;

@@ -192,7 +192,7 @@ void Resolver::probe(std::uint32_t id, const world::Snapshot& snapshot, double s
   const auto obstacles = static_cast<std::uint32_t>(model_->obstacles.size());
   find_near(id, movers[id].X_WR.position(), radius_m_[obstacles + id] + slack_m + within_m,
             snapshot);
-  // The nearest one only: one direction is told, and a contact sensor has no more.
+  // The nearest one only: a contact sensor reports one direction only.
   Separation least;
   least.distance_m = within_m;
   std::uint32_t nearest = BodyId::kNone;

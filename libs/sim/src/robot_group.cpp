@@ -284,7 +284,7 @@ Status start_programs(const GroupContext& context, RobotGroup& group) {
   return {};
 }
 
-// Programs last: what they are told of sensors, controllers and radio must be there, and their
+// Programs last: the sensors, controllers and radio that they look up must exist, and their
 // first decision may command.
 Status start_devices(const GroupContext& context, RobotGroup& group) {
   RAVE_TRY(open_devices(context, group));
@@ -323,7 +323,7 @@ Status open_body(GroupContext context, RobotGroup& group) {
 
 Status make_group(GroupContext context, RobotGroup& group) {
   RAVE_TRY(make_body(context, group));
-  // A copy, which stays when a hand-over exchanges the sensors: a program is told only once.
+  // A copy, which stays when a hand-over exchanges the sensors: a program receives it only once.
   for (const SensorSlots& slots : group.sensors) group.sensor_infos.push_back(slots.info);
   group.controllers.resize(group.type->controllers.size());
   for (std::size_t c = 0; c < group.controllers.size(); ++c) {

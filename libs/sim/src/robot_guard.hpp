@@ -13,7 +13,7 @@ namespace rave::sim {
 
 /// What makes a robot stand, whatever is commanded.
 struct GuardHolds {
-  bool stopped = false;  ///< Somebody stopped it; latched.
+  bool stopped = false;  ///< A stop request stopped it; latched.
   bool armed = true;
   bool held = false;  ///< It is being handed over.
 
@@ -38,11 +38,11 @@ class RobotGuard {
   void set_armed(bool armed) noexcept { holds_.armed = armed; }
   void hold(bool held) noexcept { holds_.held = held; }
 
-  /// Whether a robot without limits does as it is told.
+  /// Whether a robot without limits executes commands.
   [[nodiscard]] bool is_free() const noexcept { return !holds_.held && !holds_.stopped; }
-  /// What a robot without limits is told.
+  /// The command that a robot without limits gets.
   [[nodiscard]] Command limit(const Command& command, CommandKind expected) const noexcept;
-  /// What a robot with limits is told. `stopped` and `armed` of the input do not count.
+  /// The command that a robot with limits gets. `stopped` and `armed` of the input do not count.
   /// `touching` is that of the last motion, `fastest_mps` is known here.
   [[nodiscard]] GuardOutput limit(const GuardSpec& limits, GuardInput input) noexcept;
 

@@ -109,11 +109,11 @@ Status RunInputs::resize(const ResizedRobot& resized) {
   return {};
 }
 
-/// A program that keeps the radius of its robot learns the new one; one that takes no changes goes
-/// on with what it believes.
+/// A program that keeps the radius of its robot learns the new one; one that takes no changes
+/// continues with the old one.
 void RunInputs::tell_program_of_body(RobotId robot) {
   if (!parts_.roster.is_local(robot)) return;
-  // Nobody listens if there is none, or if it has failed.
+  // There is no receiver without a program, or if it has failed.
   const auto target = parameter_target(parts_.roster.group_of(robot),
                                        parts_.roster.member_of(robot), Part::kProgram, 0);
   if (target) static_cast<void>(target->update(target->present));
@@ -135,7 +135,7 @@ void RunInputs::stop(std::uint64_t step, RobotId robot, const Author& author) {
     const std::size_t m = parts_.roster.member_of(one);
     if (group.has_guard(m)) group.guards[m].thread->stand();
     parts_.log.note(step, one, EventKind::kStopped, "", author);
-    // An order does not go on by itself when the robot is released.
+    // An order does not resume by itself when the robot is released.
     parts_.orders.end(one, author);
   });
 }

@@ -31,7 +31,7 @@ class RunInputs {
     const HandOvers& hand_overs;
     InputLog& log;
     /// Told of a body that has another size now, and of a change of an obstacle that was made:
-    /// whoever keeps pictures of the world has to look anew.
+    /// caches of the world must be rebuilt.
     std::function<void(RobotId)> body_changed;
     std::function<void(const ObstacleChange&)> obstacle_changed;
   };
@@ -56,7 +56,7 @@ class RunInputs {
   /// Errors: as Engine::change_obstacle().
   Result<ChangedObstacle> change_obstacle(std::uint64_t step, const ObstacleChange& change,
                                           const Author& author);
-  /// A body has another size, as somebody else has found right.
+  /// A body gets another size, which another process has checked.
   Status resize(const ResizedRobot& resized);
 
  private:

@@ -23,7 +23,7 @@ namespace rave::sim::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::CappedTag<float, kRayPadding>;
 using Words = hn::RebindToUnsigned<Floats>;
-// The edges of a polygon are looked at in groups of so many.
+// The edges of a polygon are tested in groups of this size.
 using Quads = hn::CappedTag<double, world::kVertexPadding + 1>;
 using QuadFloats = hn::Rebind<float, Quads>;
 

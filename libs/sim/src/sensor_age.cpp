@@ -10,7 +10,7 @@
 namespace rave::sim {
 namespace {
 
-/// So many periods without a sample are no accident of a line.
+/// This number of periods without a sample is no accident of a line.
 constexpr double kPeriods = 3;
 /// A computer that is busy delays a sample by so much.
 constexpr double kLeast_s = 0.2;

@@ -26,7 +26,7 @@ inline constexpr std::int64_t kNeverHeard_ns = INT64_MIN;
                                                       const HardwareDeclaration& declaration,
                                                       bool is_pose_source);
 
-/// What a program is told of it (SensorInfo::max_age_s): by half more, so that the guard has
+/// The limit that a program gets (SensorInfo::max_age_s): half as much again, so that the guard has
 /// stopped the robot, and said why, when its program sees that the sample is old. The latency of
 /// the file comes on top.
 [[nodiscard]] double told_max_age_s(const SensorSlots& slots) noexcept;

@@ -10,8 +10,8 @@
 
 namespace rave::sim {
 
-/// Something that is done in a thread of its own, or later by whoever asks for its result. Belongs
-/// to one thread. Its end waits for what was begun, unless that was left alone.
+/// Something that is done in a thread of its own, or later by the caller that asks for its result.
+/// Belongs to one thread. Its end waits for what was begun, unless that was left alone.
 class SideTask {
  public:
   SideTask() = default;
@@ -46,7 +46,7 @@ class SideTask {
   }
   /// Waits; once.
   [[nodiscard]] Status get() { return result_.get(); }
-  /// Nobody waits for it any more. Whatever it uses must stay.
+  /// No thread waits for it any more. Whatever it uses must stay.
   void leave_alone() {
     if (thread_.joinable()) thread_.detach();
   }

@@ -31,7 +31,7 @@ Status check_world(const EngineSpec& spec) {
   for (const RobotSpec& robot : spec.robots) {
     RAVE_CHECK(robot.type < spec.types.size());
     const RobotType& type = spec.types[robot.type];
-    // Nobody else knows where a real robot is.
+    // Without a pose source the place of a real robot is unknown.
     if (!type.simulated && !type.pose_from) {
       return fail(ErrorCode::kInvalidArgument,
                   "robot `{}` is real, so it needs a source of its pose: `pose_from`", robot.name);

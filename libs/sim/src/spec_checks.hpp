@@ -13,7 +13,7 @@ namespace rave::sim {
   return change.part == ParameterChange::Part::kBody;
 }
 
-/// What must hold of a spec whoever runs its robots. Errors: kInvalidArgument.
+/// What must hold for a spec on every host. Errors: kInvalidArgument.
 Status check_world(const EngineSpec& spec);
 /// What must hold of it, too, if several hosts share the world. Errors: kInvalidArgument.
 Status check_shared(const EngineSpec& spec);

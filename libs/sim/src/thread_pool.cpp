@@ -87,7 +87,7 @@ void ThreadPool::for_each_block(std::size_t blocks, Effort& effort,
 }
 
 void ThreadPool::share(std::size_t blocks, const std::function<void(std::size_t, unsigned)>& work) {
-  // Nobody reads these before the next round begins: all are done with the last one.
+  // No thread reads these before the next round begins: all are done with the last one.
   work_ = &work;
   const std::size_t workers = threads();
   for (std::size_t worker = 0; worker < workers; ++worker) {

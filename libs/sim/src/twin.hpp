@@ -31,15 +31,15 @@ struct Twin {
   RobotId robot;
   std::array<std::uint32_t, 2> types{};  ///< By DriverSet.
   RobotGroup other;                      ///< The set that does not serve: type, devices, sensors
-                     ///< and actuators. While `work` goes on it belongs to that.
-  bool made = false;  ///< `other` has instances.
+                                         ///< and actuators. While `work` runs it belongs to that.
+  bool made = false;                     ///< `other` has instances.
   Stage stage = Stage::kIdle;
   SimTime since;  ///< When the stage began.
   SideTask work;
   OpeningNote opening;             ///< What `work` opens now.
   std::atomic<bool> left = false;  ///< The run is over, and `work` is not.
   bool given_up = false;           ///< `work` still opens the set for a hand-over that was refused.
-  Author author = Author::kRun;    ///< Of the hand-over that is under way.
+  Author author = Author::kRun;    ///< Of the hand-over in progress.
   std::optional<PoseReading> heard;  ///< By the pose source of the other set, in its frame.
   SimTime heard_at;
   SimTime moved_at;  ///< When the robot was seen to move last, or could not be seen.

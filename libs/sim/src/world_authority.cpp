@@ -218,8 +218,8 @@ Status WorldAuthority::step(std::span<const HostReport* const> reports, WorldSte
   authority.make_changes(world);
   authority.last_obstacles = world.obstacles;
   authority.place_real_robots();
-  // Before make_way(): a robot without a pose source is told where it was before it was pushed. The
-  // places after that are in `pushed`.
+  // Before make_way(): the reported pose of a robot without a pose source is that before it was
+  // pushed. The places after that are in `pushed`.
   authority.write_poses(world);
   truth.make_way();
   authority.seen.clear();

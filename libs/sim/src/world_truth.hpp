@@ -17,7 +17,7 @@
 namespace rave::sim {
 
 /// What holds for all robots of a world at once: where they are, how they move, what they touch,
-/// how large they are, and the snapshot that shows it. Whoever is the authority of a world calls
+/// how large they are, and the snapshot that shows it. The authority of a world calls
 /// all phases, in the order in which they stand here: an Engine that is alone, or a WorldAuthority.
 /// An Engine with a part of the robots fills in what its authority says, and calls show() alone.
 /// Vectors are by robot. Belongs to one thread; uses the pool inside its phases.
@@ -28,7 +28,7 @@ struct WorldTruth {
   WorldTruth(const WorldTruth&) = delete;
   WorldTruth& operator=(const WorldTruth&) = delete;
 
-  /// Everybody where the spec says, nobody moves.
+  /// All robots at their poses in the spec, none moving.
   void begin();
 
   /// Pushes simulated robots out of the real ones, which have just been put in their places, and
@@ -55,7 +55,7 @@ struct WorldTruth {
   /// kInvalidArgument (a real robot, a scale that no body can have, it would overlap something);
   /// then everything is as it was.
   Status resize(RobotId robot, double scale);
-  /// The same without a look at what is around: somebody else has looked.
+  /// The same without a check for overlaps: another process has checked.
   Status put_scale(RobotId robot, double scale);
   [[nodiscard]] double scale_of(RobotId robot) const;
   /// A robot is from now on a simulated or a real one, and stands there; between resolve() and
@@ -74,9 +74,9 @@ struct WorldTruth {
   /// telling. Errors: kInvalidArgument (what check_obstacle_change() says, a name that is taken,
   /// too many, it would overlap a simulated robot), kNotFound; then everything is as it was.
   Result<ObstacleChange> change_obstacle(ObstacleChange change, SimTime from, std::string& note);
-  /// The same without a look at what is around: somebody else has looked, and given the id.
+  /// The same without a check for overlaps: another process has checked, and given the id.
   void put_obstacle(const ObstacleChange& change, SimTime from);
-  /// The same of many, one after the other; `placed`, which may be empty, is told after each.
+  /// The same of many, one after the other; `placed`, which may be empty, is called after each.
   void put_obstacles(std::span<const ObstacleChange> changes, SimTime from,
                      const std::function<void(const ObstacleChange&)>& placed = {});
   /// Puts the obstacles of the start back, and forgets all others; false if nothing had changed.
@@ -133,7 +133,7 @@ struct WorldTruth {
   std::map<std::uint32_t, Pose2> original_places_;        ///< Of obstacles that have changed.
 };
 
-/// Puts the events of a step in order, whoever noted them first, and adds them to the hash.
+/// Sorts the events of a step, so that their order of arrival does not matter, and hashes them.
 void finish_events(std::uint64_t step, std::vector<Event>& events, RunHash& hash);
 
 }  // namespace rave::sim

@@ -26,7 +26,7 @@ Error unknown_obstacle(const world::WorldModel& world, const std::string& name) 
   for_each_standing(world, [&](std::uint32_t, const world::Obstacle& obstacle) {
     names.emplace_back(obstacle.body.name);
   });
-  // Of a map with thousands of walls nobody wants them all.
+  // A message with all of the thousands of walls of a map helps no user.
   constexpr std::size_t kMany = 12;
   const bool list = names.size() <= kMany || !nearest_name(name, names).empty();
   return {ErrorCode::kNotFound,
@@ -55,8 +55,8 @@ Result<BodyId> WorldTruth::find_obstacle(const ObstacleChange& change) const {
   });
   if (count == 0) return tl::unexpected(unknown_obstacle(world, change.name));
   if (count == 1) return found;
-  return fail(ErrorCode::kInvalidArgument, "{1} obstacles have the name `{0}`; expected a number",
-              change.name, count);
+  return fail(ErrorCode::kInvalidArgument,
+              "{1} obstacles are named `{0}`; give the number of one instead", change.name, count);
 }
 
 Status WorldTruth::check_new_obstacle(const ObstacleChange& change) const {
@@ -76,7 +76,8 @@ Status WorldTruth::check_new_obstacle(const ObstacleChange& change) const {
                 "there already is an obstacle `{}` (number {}); move it, or choose another name",
                 change.name, same.value());
   }
-  // Sensors tell landmarks by their codes alone, so two of the same code could not be told apart.
+  // Sensors tell landmarks by their codes alone, so two of the same code could not be
+  // distinguished.
   if (change.body.code && same_code != nullptr) {
     return fail(ErrorCode::kInvalidArgument,
                 "`{}` already carries the code {}; expected another code for the obstacle `{}`",

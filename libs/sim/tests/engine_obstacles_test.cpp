@@ -177,7 +177,7 @@ TEST(EngineObstacles, WhatHasGoneCannotBeChangedAndWhatHasTwoNamesNeedsANumber) 
   spec.world.obstacles.push_back(box({9, 9, 0}, 0.2, 1, 1, "post"));
   const auto engine = make_engine(std::move(spec));
   EXPECT_EQ(engine->change_obstacle(take_away("post")).error().text(),
-            "2 obstacles have the name `post`; expected a number");
+            "2 obstacles are named `post`; give the number of one instead");
   ObstacleChange change = take_away("");
   change.id = BodyId(0);
   ASSERT_TRUE(engine->change_obstacle(change));

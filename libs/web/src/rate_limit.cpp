@@ -57,7 +57,7 @@ std::string network_of(const std::string& address) {
   if (inet_pton(AF_INET6, address.substr(0, address.find('%')).c_str(), bytes.data()) != 1) {
     return address;
   }
-  // A customer of a provider has at least a /64 of IPv6, so limits by address would limit nobody.
+  // A customer of a provider has at least a /64 of IPv6, so limits by address would have no effect.
   std::fill(bytes.begin() + 8, bytes.end(), static_cast<unsigned char>(0));
   std::array<char, INET6_ADDRSTRLEN> text{};
   inet_ntop(AF_INET6, bytes.data(), text.data(), text.size());

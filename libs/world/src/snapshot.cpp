@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bodies of a step, placed and indexed. Obstacles are placed when they change, robots in each
-// step. Queries from many threads read it; nobody writes meanwhile.
+// step. Queries from many threads read it; no thread writes meanwhile.
 #include "rave/world/snapshot.hpp"
 
 #include <algorithm>

@@ -87,7 +87,7 @@ class Judge {
       add("version", same ? Verdict::kAdvice : Verdict::kProblem,
           fmt::format("it has RAVE {}{}, and this machine {}", there_.version,
                       same ? "" : " with other interfaces", here_.version),
-          "git pull && ./run --help    # on both, so that both have one build");
+          "install the same version on both machines");
     } else {
       good("version", fmt::format("{} on both", here_.version));
     }

@@ -125,7 +125,7 @@ void Listener::Impl::answer(const Socket& socket, bool by_multicast,
   reply.received_ns = options.clock();
   reply.sent_ns = reply.received_ns;
   const std::string text = write_probe(reply, std::min<std::size_t>(probe->want, got.size));
-  // Nobody can use this process to multiply packets.
+  // An attacker cannot use this process to multiply packets.
   if (text.size() > got.size) return;
   // What came by multicast is answered from a port of its own.
   const Socket& from = by_multicast ? sockets.front() : socket;

@@ -239,8 +239,8 @@ constexpr const char* kWebLab = "RAVE pages";
 Result<Credential> make_web_authority(const std::vector<std::string>& names,
                                       const Validity& validity) {
   ERR_clear_error();
-  // Browsers that trust this authority trust it for these names only. So with a stolen key nobody
-  // can make a certificate that they accept for another name.
+  // Browsers that trust this authority trust it for these names only. So the thief of a key
+  // cannot make a certificate that they accept for another name.
   const std::vector<Extra> extras = {{NID_name_constraints, constraints_for(names)},
                                      {NID_ext_key_usage, "serverAuth"}};
   const Name name = make_name("Authority for " + names.front().substr(0, 50), kWebLab);

@@ -82,7 +82,7 @@ tl::unexpected<Error> taken(const fs::path& folder) {
   return fail(kBad,
               "`{0}` already exists, with keys for {1}; nothing was changed; `rave keys add {0} "
               "MEMBER` adds a member",
-              folder.string(), names.empty() ? "nobody" : names);
+              folder.string(), names.empty() ? "no members" : names);
 }
 
 /// Reads the authority of a set and checks that it can create members.

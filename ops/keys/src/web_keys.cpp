@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr ErrorCode kBadWeb = ErrorCode::kInvalidArgument;
 constexpr std::size_t kMostNames = 50;
-/// The authority is valid for ten years, so that browsers must be told only once.
+/// The authority is valid for ten years, so that people add it to their browsers only once.
 constexpr std::int64_t kAuthorityDays = 3650;
 /// Validity before the creation, for machines whose clock is slow; counts as part of the days.
 constexpr std::int64_t kEarly_s = 3600;

@@ -36,7 +36,7 @@ std::string constraints_for(const std::vector<std::string>& names) {
   }
   // A constraint holds only for the kinds of names that it mentions (RFC 5280, 4.2.1.10). So a kind
   // without a name of its own gets one that no machine can have; `.invalid` is reserved (RFC 2606).
-  if (!has_host) text += ",permitted;DNS:nobody.invalid";
+  if (!has_host) text += ",permitted;DNS:none.invalid";
   if (!has_address) text += ",permitted;IP:0.0.0.0/255.255.255.255";
   return text;
 }

@@ -13,7 +13,7 @@ Answer hold(runtime::RunControl& control, const Request& request) {
   if (status.follows) {
     return {false, "this host follows its environment manager: send the request there", {}};
   }
-  if (status.live) return {false, "a live run cannot be paused: the real world goes on", {}};
+  if (status.live) return {false, "a live run cannot be paused: the real world continues", {}};
   const std::string waits =
       status.waits_for.empty() ? "" : fmt::format("; the run waits for {}", status.waits_for);
   if (request.what == What::kPause) {

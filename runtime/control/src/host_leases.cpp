@@ -98,7 +98,7 @@ Result<std::string> HostLeases::give(const std::string& robot, const Person& per
   // A page that goes has asked for many robots perhaps, and takes none with that.
   const bool to_oneself = to == name_of(person);
   if (lease == nullptr && (to.empty() || to_oneself)) {
-    return fail(ErrorCode::kInvalidArgument, "nobody drives {}", robot);
+    return fail(ErrorCode::kInvalidArgument, "no person drives {}", robot);
   }
   if (lease != nullptr && !owns(*lease, person) && (!rights || to_oneself)) {
     return refusal(robot, *lease, person);
@@ -113,7 +113,7 @@ Result<std::string> HostLeases::give(const std::string& robot, const Person& per
   }
   changes_.push_back({robot, lease->holder, "", lease->driven, false});
   leases_.erase(robot);
-  return fmt::format("nobody drives {} now", robot);
+  return fmt::format("no person drives {} now", robot);
 }
 
 void HostLeases::drive_ended(const std::string& robot, Time now) {

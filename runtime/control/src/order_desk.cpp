@@ -83,7 +83,7 @@ Result<std::string> OrderDesk::serve(const RunRequest& request, const Give& give
   }
   const bool of_lease =
       request.kind == RunRequest::Kind::kTake || request.kind == RunRequest::Kind::kGive;
-  // What others send to a robot that somebody drives must not use up what its driver may send.
+  // What others send to a robot that a person drives must not use up what its driver may send.
   if (!of_lease && !request.robot.empty()) {
     RAVE_TRY(leases_.use(request.robot, person_of(request), HostLeases::Use::kLook, now));
   }

@@ -177,7 +177,7 @@ void LineBook::take(std::uint64_t /*id*/, Line& line, const RenewMessage& renew)
   if (!ticket) return refuse_line(line, ticket.error().message);
   // The challenge was answered for this page and this person only.
   if (ticket->page_key != line.ticket->page_key || ticket->user != line.ticket->user) {
-    return refuse_line(line, "showed the ticket of another page");
+    return refuse_line(line, "the ticket belongs to another page or person");
   }
   line.ticket = *std::move(ticket);
   line.send(dumped({{"type", "renewed"}, {"until", line.ticket->expires_s}}));
@@ -224,7 +224,7 @@ void LineBook::take(std::uint64_t id, Line& line, const OrderMessage& order) {
   const bool takes_lease = order.request.kind != Kind::kStop &&
                            order.request.kind != Kind::kRelease &&
                            order.request.kind != Kind::kGive;
-  // More than a page commands at once are named by somebody who wants to fill the memory.
+  // Only an attacker who wants to fill the memory names more robots than a page commands at once.
   if (takes_lease && line.ordered.size() < kMostRemembered) {
     line.ordered.insert(order.request.robot);
   }

@@ -39,7 +39,8 @@ Result<std::vector<Vec2>> points_of(JsonMembers& members, bool path) {
     }
     const Vec2 point{pair[0].get<double>(), pair[1].get<double>()};
     const bool near = std::abs(point.x) <= kFarthest_m && std::abs(point.y) <= kFarthest_m;
-    if (!near) return fail(ErrorCode::kParse, "`points`: expected at most {} m", kFarthest_m);
+    if (!near)
+      return fail(ErrorCode::kParse, "`points`: expected coordinates within ±{} m", kFarthest_m);
     points.push_back(point);
   }
   return points;

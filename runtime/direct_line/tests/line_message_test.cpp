@@ -69,7 +69,8 @@ TEST(LineMessage, RefusesWhatIsNoOrder) {
   EXPECT_EQ(refused(R"("kind":"goal","points":[])"), "`points`: expected one point");
   EXPECT_EQ(refused(R"("kind":"goal","points":[[1]])"),
             "`points`: expected pairs of x and y in metres");
-  EXPECT_EQ(refused(R"("kind":"goal","points":[[1,1e7]])"), "`points`: expected at most 1000000 m");
+  EXPECT_EQ(refused(R"("kind":"goal","points":[[1,1e7]])"),
+            "`points`: expected coordinates within ±1000000 m");
   EXPECT_EQ(refused(R"("kind":"path","points":[[1,1]])"),
             "a path has 1 points; expected 2 to 1000");
   EXPECT_EQ(refused(R"("kind":"text","text":"")"), "`text`: expected text");

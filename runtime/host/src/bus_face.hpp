@@ -10,10 +10,10 @@
 namespace rave::runtime {
 
 /// Shows one of several hosts to those who look on at the run over its bus. It changes nothing of
-/// the run, and waits for nobody.
+/// the run, and waits for no process.
 class BusFace final : public RunObserver {
  public:
-  /// `obstacles`: nobody else tells of them on the bus for this host. `catalogue`: where
+  /// `obstacles`: no other process publishes them on the bus for this host. `catalogue`: where
   /// the drivers of probes are found; null: none. Errors: those of onlook::Teller::create().
   [[nodiscard]] static Result<std::unique_ptr<BusFace>> open(bus::Bus& bus, std::uint32_t host,
                                                              bool obstacles,
@@ -23,7 +23,7 @@ class BusFace final : public RunObserver {
   void after_step(const StepView& step) override;
   void held(const sim::Engine& engine) override;
 
-  /// Whether somebody wants to know what robots report.
+  /// Whether a monitor asks for the readings of robots.
   [[nodiscard]] bool robots_asked() const noexcept { return teller_->robots_asked(); }
 
  private:

@@ -102,7 +102,7 @@ Status SteppedExchange::propose() {
   return status;
 }
 
-/// Somebody may have asked for something, or fallen silent.
+/// A process may have made a request, or fallen silent.
 void SteppedExchange::serve() {
   serve_requests(run_);
   post_.put(report_);
@@ -125,7 +125,7 @@ Result<HostPort::Answer> SteppedExchange::exchange() {
   return port_.exchange(report_, run_.engine.hash().value(), world_, meanwhile, look);
 }
 
-/// The run went on without this host.
+/// The run continued without this host.
 void SteppedExchange::note_gap() {
   std::string text =
       fmt::format("was not there from step {} to step {}", report_.step, world_.step);
@@ -187,7 +187,7 @@ Result<HostOutcome> run_stepped_host(const HostSetup& host, BuiltScenario& built
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
   const config::ScenarioFile& file = host.scenario.scenario;
   HostPort::Patience patience{options.manager_patience, {}};
-  // Under the others a run may have gone on, and ended, while this process stood still.
+  // The others may have continued the run, and ended it, while this process stood still.
   if (file.on_lost_host != config::LostHost::kWait) patience.after_standstill = kAfterStandstill;
   RAVE_TRY_ASSIGN(const auto port,
                   HostPort::open(options.bus, std::move(self), &host.console, patience,

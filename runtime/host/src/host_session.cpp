@@ -54,8 +54,8 @@ Status write_results(const RunSession& run, const std::string& host, const HostE
       json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
-/// Leaves what this host knows in its folder, and sends it to the environment manager; the log is
-/// told if it does not get there. Errors: kIo (it could not be left; it was sent).
+/// Leaves what this host knows in its folder, and sends it to the environment manager; the log
+/// says so if it does not get there. Errors: kIo (it could not be left; it was sent).
 Status leave_facts(const RunSession& run, const HostSetup& host, HostExchange& exchange,
                    RunFacts facts) {
   // In lock-step what concerns no robot is for the manager to note.
@@ -155,7 +155,7 @@ Result<HostOutcome> run_session(const HostSetup& host, sim::Engine& engine, bus:
   const bool live = !host.built.live_reason.empty();
   RunOptions options = host.options.run;
   options.run_id = host.options.bus.run.text();
-  // In real time a manager tells of obstacles itself.
+  // In real time the manager publishes obstacles itself.
   RAVE_TRY_ASSIGN(
       const auto face,
       BusFace::open(bus, host.slot.number, !live || !needs_manager(host.built), &host.catalogue));

@@ -57,12 +57,12 @@ using MakeExchange =
 [[nodiscard]] std::uint32_t real_robots(const sim::EngineSpec& spec,
                                         std::span<const RobotId> robots);
 
-/// Describes robots that nothing runs yet, as their files have them, to whoever looks on. Nobody
+/// Describes robots that nothing runs yet, as their files have them, to monitors. No monitor
 /// waits for that, and what is wrong with it is a warning in `log`.
 void introduce_robots(lock_step::Roster& roster, const sim::EngineSpec& spec,
                       std::span<const RobotId> robots, LogSink& log);
 
-/// Whoever looks on is told what robots have become in the last step. `resized`: who has another
+/// Monitors get what robots have become in the last step. `resized`: who has another
 /// size in it, robots of other hosts too.
 void keep_roster(lock_step::Roster& roster, const sim::Engine& engine, ObserverList& observers,
                  std::span<const sim::ResizedRobot> resized, LogSink& log);

@@ -23,7 +23,7 @@ namespace {
 using Kind = RunRequest::Kind;
 using InputKind = sim::WorldInput::Kind;
 
-/// Who asks is told that it will take a while after this.
+/// After this time the caller gets the answer that it will take a while.
 constexpr std::chrono::seconds kAskedPatience{1};
 
 /// A report with anything else would be void for those that read it.
@@ -112,7 +112,8 @@ Result<std::string> InputPost::give(const RunRequest& request) {
   return is_order(request.kind) ? give_order(request) : give_hold(request);
 }
 
-/// A stop, a release or an arming, for each robot by itself: of other hosts nobody asks here.
+/// A stop, a release or an arming, for each robot by itself: requests for other hosts do not come
+/// here.
 Result<std::string> InputPost::give_hold(const RunRequest& request) {
   RAVE_TRY_ASSIGN(const std::vector<RobotId> robots, meant(request));
   std::vector<RobotId> stopped;

@@ -47,10 +47,10 @@ class InputPost final : public InputForwarder {
   void put(sim::HostReport& report) const;
   /// A world has come: what it answers waits no longer.
   void take(const sim::WorldStep& world);
-  /// Its step is done, but for what this host `refused`. Whether somebody was answered.
+  /// Its step is done, but for what this host `refused`. Returns whether a request was answered.
   bool settle(const std::vector<sim::InputRefusal>& refused);
-  /// The run stands, and `why`: who has waited for a while is told what will be. Whether somebody
-  /// was. `step` comes next.
+  /// The run stands, and `why`: requests that have waited for a while get an interim answer.
+  /// Returns whether one was. `step` comes next.
   bool put_off(std::string_view why, std::uint64_t step, Clock::time_point now);
   /// Nothing of what waits is done, and `why`.
   void drop(std::string_view why);

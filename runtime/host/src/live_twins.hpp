@@ -10,7 +10,7 @@
 namespace rave::runtime {
 
 /// Robots with two sets of drivers in a run in real time over several hosts: a hand-over is the
-/// matter of the engine that runs the robot, and all others are told what the robot is now. Belongs
+/// matter of the engine that runs the robot, and all others receive what the robot is now. Belongs
 /// to one thread.
 class LiveTwins {
  public:

@@ -144,7 +144,7 @@ Result<std::string> ObserverList::serve_order(sim::Engine& engine, const RunRequ
   had_orders_ = true;
   auto answer = desk_.serve(
       request,
-      // The desk also ends orders of others, which nobody asked for with this.
+      // The desk also ends orders of others, which this request did not ask for.
       [&](const RunRequest& asked) { return make_input(engine, asked, &asked == &request); },
       [&](const std::string& robot) {
         return forwarder_ != nullptr ? forwarder_->is_driven(robot) : is_driven(engine, robot);

@@ -44,7 +44,7 @@ bool LoneExchange::wait() {
   const SimTime due{static_cast<std::int64_t>(run_.step) * run_.engine.spec().step.ns};
   if (control != nullptr) {
     const auto asked = RunSession::Clock::now();
-    // The world outside a live run goes on, so that is not held.
+    // The world outside a live run continues, so such a run is not held.
     const bool held = !run_.live && control->paused();
     const auto show = [this] { look_on_while_held(run_); };
     if (held ? !control->wait_for_turn(serve, show) : control->stopping()) return false;

@@ -14,7 +14,7 @@ using Clock = RunSession::Clock;
 
 /// How old what others see of hand-overs, shadows and orders may be.
 constexpr auto kStatusInterval = std::chrono::milliseconds(50);
-/// So many times as old while steps come late.
+/// The factor on that age while steps come late.
 constexpr int kLateFactor = 10;
 
 bool any_twin(const sim::Engine& engine) {
@@ -32,7 +32,7 @@ void refresh(const RunSession& run, RunStatus& status) {
   if (const Shadows* const shadows = run.observers.shadows()) shadows->refresh(status);
 }
 
-/// Whether something has changed that people are told of each robot, whoever asked for it and
+/// Whether something has changed that people see of each robot, whatever caused it and
 /// where.
 bool changes_status(std::span<const sim::Event> events) {
   return std::ranges::any_of(events, [](const sim::Event& event) {
@@ -193,7 +193,7 @@ void look_back(RunSession& run, std::span<const sim::Event> beside, Duration wor
 }
 
 RunFacts end_run(RunSession& run) {
-  // Writing the results takes a while; nobody drives on meanwhile.
+  // Writing the results takes a while; robots must not keep driving meanwhile.
   run.engine.halt();
   const auto hash = run.live ? std::nullopt : std::optional(run.engine.hash().value());
   const std::string record_problem = run.observers.end_record(hash);

@@ -22,13 +22,13 @@ namespace rave::runtime {
 /// How many steps the run has.
 [[nodiscard]] std::uint64_t steps_of(const config::ScenarioFile& scenario);
 
-/// A run under way in this process, alone or as one of several hosts: what the loop needs, and what
-/// it leaves. Others can control the run while it exists. Owns none of what it refers to. Belongs
-/// to the thread of the run.
+/// A run in progress in this process, alone or as one of several hosts: what the loop needs, and
+/// what it leaves. Others can control the run while it exists. Owns none of what it refers to.
+/// Belongs to the thread of the run.
 struct RunSession {
   using Clock = std::chrono::steady_clock;
 
-  /// `clock`: of the wall; its pace is known. `in_real_time`: the world outside goes on.
+  /// `clock`: of the wall; its pace is known. `in_real_time`: the world outside continues.
   RunSession(sim::Engine& of, ObserverList& all, WallPace& clock, const config::ScenarioFile& run,
              const RunOptions& how, ConsoleTee& log, bool in_real_time);
   RunSession(const RunSession&) = delete;
@@ -47,13 +47,13 @@ struct RunSession {
   const std::uint64_t steps;  ///< Of the run.
   /// Where another process numbers the inputs: set by the exchange, which owns it; else null.
   InputForwarder* forwarder = nullptr;
-  const bool has_twins;  ///< Its status changes though nobody asks for anything.
+  const bool has_twins;  ///< Its status changes without a request.
   LateWatch late;
   StallWatch watch;
   std::uint64_t first = 0;  ///< The step with which this process began.
   std::uint64_t step = 0;   ///< That comes next.
   double wall_s = 0;
-  bool stopped = false;  ///< By somebody here,
+  bool stopped = false;  ///< By a request here,
   bool ended = false;    ///< or by the environment manager.
   std::vector<sim::Event> events{};
   std::vector<std::string> losses{};    ///< Of programs and drivers, which are events, too.
@@ -70,18 +70,18 @@ struct RunSession {
 /// is none any more. Errors: those of `exchange`.
 Status go_through(RunSession& run, WorldExchange& exchange);
 
-/// Does what somebody has asked for since the last step.
+/// Does what was requested since the last step.
 void serve_requests(RunSession& run);
 
 /// Shows a held run to its observers. Drivers are watched by wall time, which continues while a run
 /// is held: a driver that falls silent stops driving.
 void look_on_while_held(RunSession& run);
 
-/// A step is done: all look at it, it is recorded, its events are told, and those that `beside` the
-/// engine has. `world_age`: of the world of others in which robots drive.
+/// A step is done: all look at it, it is recorded, its events are published, and those that
+/// `beside` the engine has. `world_age`: of the world of others in which robots drive.
 void look_back(RunSession& run, std::span<const sim::Event> beside = {}, Duration world_age = {});
 
-/// The run is over: nobody drives on, the recording ends. What is known of it; `problems` has all.
+/// The run is over: robots stop, the recording ends. Returns the results; `problems` has all.
 [[nodiscard]] RunFacts end_run(RunSession& run);
 
 }  // namespace rave::runtime

@@ -13,7 +13,7 @@ namespace {
 /// Who has more to tell keeps the latest: no host shall carry the contacts of a whole day.
 constexpr std::size_t kMostEvents = 100'000;
 
-/// Whether the scenario changes this body so in this step; nobody else does but by hand.
+/// Whether the scenario changes this body so in this step; otherwise only requests do.
 bool is_scheduled(const sim::EngineSpec& spec, std::uint64_t step,
                   const sim::ResizedRobot& resized) {
   return std::ranges::any_of(spec.changes, [&](const sim::ScheduledChange& scheduled) {
@@ -52,7 +52,7 @@ void WorldAccount::take(const sim::WorldStep& world, const sim::AuthorityState& 
   if (!begun_ || world.step != told_.next_step + 1) begin_at(world.step);
   told_.next_step = world.step;
   if (world.step > told_.first_step) note(authority.done);
-  // The step after the last world is done by nobody.
+  // The step after the last world is not computed.
   if (world.last) return;
   take_sizes(world);
   if (!world.obstacles.empty()) note(obstacle_events(world));

@@ -14,7 +14,7 @@ class WorldExchange {
   /// Before the first step. False: there is none for this process.
   [[nodiscard]] virtual Result<bool> begin() { return true; }
   /// Waits until the next step may be done, serves requests meanwhile, and sets RunSession::step.
-  /// False: there is none; RunSession::stopped and `ended` say whether somebody wanted that.
+  /// False: there is none; RunSession::stopped and `ended` say whether that was requested.
   [[nodiscard]] virtual Result<bool> await_turn() = 0;
   /// Does that step, with one look_back() at what is done.
   virtual Status step() = 0;

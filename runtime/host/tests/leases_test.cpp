@@ -93,7 +93,7 @@ TEST(HostLeases, IsHandedOverByItsHolderAndGivenBack) {
   EXPECT_FALSE(leases.give("r1", kBert, "bert", kStart));
   EXPECT_EQ(leases.give("r1", kAnna, "bert", kStart).value(), "r1 is given to `bert`");
   EXPECT_EQ(leases.holder("r1"), "bert");
-  EXPECT_EQ(leases.give("r1", kRoot, "", kStart).value(), "nobody drives r1 now");
+  EXPECT_EQ(leases.give("r1", kRoot, "", kStart).value(), "no person drives r1 now");
   EXPECT_EQ(leases.holder("r1"), "");
 }
 
@@ -151,7 +151,7 @@ TEST(HostLeases, WhatAPageLeavesTheNextPageOfThePersonHas) {
   EXPECT_NE(why(leases.use("r1", {"bert", false, 9}, Use::kDrive, kStart + 3s)), "");
   // A page that goes takes nothing, not even that of a super-user.
   EXPECT_EQ(why(leases.give("r1", kRoot, "root", kStart + 4s)), "`bert` drives r1");
-  EXPECT_EQ(why(leases.give("r2", first, "anna", kStart + 4s)), "nobody drives r2");
+  EXPECT_EQ(why(leases.give("r2", first, "anna", kStart + 4s)), "no person drives r2");
   EXPECT_EQ(leases.holder("r2"), "");
   // A page that goes keeps nobody longer from the robot than it would have.
   HostLeases left;

@@ -190,7 +190,7 @@ TEST(OrderDesk, ALeaseThatIsGivenBackGivesTheRobotToItsProgram) {
   Office office;
   office.serve(goal("anna"));
   office.take();
-  EXPECT_EQ(office.serve(request(Kind::kGive, "anna")), "nobody drives r1 now");
+  EXPECT_EQ(office.serve(request(Kind::kGive, "anna")), "no person drives r1 now");
   EXPECT_EQ(office.take(), Lines{"cancel r1 anna"});
 }
 

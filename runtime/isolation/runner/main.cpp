@@ -15,7 +15,7 @@
 #include "message.hpp"
 #include "program_host.hpp"
 
-// Sanitizers leave the signals to crash_report.cpp, which tells the host. Nobody calls these
+// Sanitizers leave the signals to crash_report.cpp, which tells the host. Nothing calls these
 // functions in a build without sanitizers.
 // The sanitizers give the names. NOLINTBEGIN(readability-identifier-naming)
 extern "C" __attribute__((visibility("default"))) const char* __asan_default_options();
@@ -33,7 +33,7 @@ namespace {
 
 pid_t host_id;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): for a handler.
 
-// A loop that calls nothing: see kWhereSignal. Of a pipe that is shut nobody here needs to hear.
+// A loop that calls nothing: see kWhereSignal. This process ignores a closed pipe (SIGPIPE).
 #if defined(__SANITIZE_THREAD__)
 constexpr int kHostEndSignal = SIGPIPE;
 #else

@@ -26,8 +26,8 @@ namespace rave::manager {
 /// The endpoint of a manager whose run is on the bus. Belongs to one thread.
 class BusEndpoint final : public ManagerEndpoint {
  public:
-  /// `begin_request` may be empty; then nobody on the bus can make requests. `log` is not owned and
-  /// may be null. Errors: those of bus::Bus::open().
+  /// `begin_request` may be empty; then no process on the bus can make requests. `log` is not owned
+  /// and may be null. Errors: those of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<BusEndpoint>> open(const bus::BusConfig& config,
                                                                  lock_step::Identity identity,
                                                                  LogSink* log,

@@ -19,8 +19,8 @@ struct DrainLimits {
   std::chrono::steady_clock::duration owing = kLongFarewell;
 };
 
-/// Ends a run: hosts are told before the manager leaves, and send what they know of the run. Waits
-/// until all hosts are gone or the limits have passed. `slots`: by host, each with `name` and
+/// Ends a run: hosts are notified before the manager leaves, and send what they know of the run.
+/// Waits until all hosts are gone or the limits have passed. `slots`: by host, each with `name` and
 /// `writer`. `owes_host_results`: whether a process has yet to send its results. `turn` waits a
 /// little and receives what has arrived; false: the bus is no longer usable.
 template <class Slots, class Owes, class Turn>

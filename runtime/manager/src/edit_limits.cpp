@@ -27,7 +27,7 @@ Status EditLimits::take(const sim::ObstacleChange& change, Clock::time_point now
                 "MB; try again later",
                 kPerSecond, kBytesPerSecond * 1e-6);
   }
-  // A removal is permitted even at the limit. Otherwise nobody could make room.
+  // A removal is permitted even at the limit. Otherwise no room could be made.
   const bool grows = change.kind != sim::ObstacleChange::Kind::kRemove;
   if (grows && (entries_ >= kMostEntries ||
                 all_bytes_ + static_cast<std::size_t>(bytes) > lock_step::kMostObstacleBytes)) {

@@ -49,7 +49,7 @@ class LiveOnBus final : public LiveEndpoint {
   }
   Status send(bus::Obstacle& obstacle) override { return parts_.obstacles.write(obstacle); }
   Status ask_for_handed() override {
-    // A new reader is told all that hosts keep, also what came before they were known.
+    // A new reader receives all that hosts keep, also what came before they were known.
     parts_.handed.reset();
     RAVE_TRY_ASSIGN(auto reader, bus::Reader<bus::LastObstacle>::create(parts_.endpoint->bus()));
     parts_.handed.emplace(std::move(reader));

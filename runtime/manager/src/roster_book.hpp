@@ -45,7 +45,7 @@ class RosterBook {
   [[nodiscard]] bool simulated(std::size_t robot, std::uint64_t serving) const;
   /// The orders that it accepts, according to that process; none before its entry.
   [[nodiscard]] OrderSet takes(std::size_t robot, std::uint64_t serving) const;
-  /// Who has its command lease, as that process says, and the page; empty: nobody.
+  /// Who has its command lease, as that process says, and the page; empty: no person.
   [[nodiscard]] std::pair<std::string, std::uint64_t> driver(std::size_t robot,
                                                              std::uint64_t serving) const;
   [[nodiscard]] std::size_t robots() const noexcept { return robots_.size(); }

@@ -27,7 +27,7 @@ class SteppedEndpoint {
  public:
   using Visit = std::function<void(const bus::HostReport&)>;
 
-  /// `begin_request` may be empty; then nobody on the bus can make requests. Errors: those of
+  /// `begin_request` may be empty; then no process on the bus can make requests. Errors: those of
   /// bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<SteppedEndpoint>> open(
       const bus::BusConfig& config, lock_step::Identity identity, LogSink* log,

@@ -130,7 +130,7 @@ Status SteppedRun::hear(const bus::HostReport& message) {
     }
     return {};
   }
-  // It was sent twice, or once more with what somebody has asked of the host since.
+  // It was sent twice, or once more with requests that the host received since.
   const bool again = slot.reported && begun_;
   if (again && message.inputs._length <= slot.report.inputs.size()) return {};
   if (const Status was_read = lock_step::read(message, heard_); !was_read) {
@@ -184,7 +184,8 @@ void SteppedRun::miss(std::uint64_t writer) {
   if (!begun_) count_newest();
 }
 
-/// Of what hosts say now: nobody waits for a step that one has said before and does not any more.
+/// Of what hosts say now: no process waits for a step that a host reported before and does not
+/// report any more.
 void SteppedRun::count_newest() {
   newest_report_ = 0;
   for (const HostSlot& slot : slots_) newest_report_ = std::max(newest_report_, slot.last_step);

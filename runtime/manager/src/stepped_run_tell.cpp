@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run tells of itself.
+// What a run publishes about itself.
 
 #include "rave/base/names.hpp"
 #include "rave/protocol/run_state.hpp"
@@ -27,7 +27,7 @@ void SteppedRun::tell_state(rave_wire_RunPhase phase, std::string_view text) {
   const double speed = wall_s > 0 ? static_cast<double>(step_ - first_step_) * step_s / wall_s : 0;
   std::vector<rave_wire_HostSight> hosts;
   for (const HostSlot& slot : slots_) {
-    // Nobody asks for the time here.
+    // The time of the run is not requested here.
     hosts.push_back(lock_step::process_sight(static_cast<std::uint32_t>(hosts.size()), slot.name,
                                              static_cast<rave_wire_HostPhase>(slot.state),
                                              slot.last_step, slot.robots));

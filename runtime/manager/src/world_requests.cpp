@@ -16,7 +16,7 @@ namespace {
 
 using runtime::RunRequest;
 
-/// Who asks is told that it will take a while after this.
+/// After this time the caller gets the answer that it will take a while.
 constexpr std::chrono::seconds kRequestPatience{1};
 
 std::string from_step(const sim::WorldAuthority& authority, std::uint64_t step) {
@@ -137,7 +137,7 @@ Status WorldRequests::check_for_hosts(const RunRequest& request,
                                       const sim::WorldAuthority& authority) const {
   using Kind = RunRequest::Kind;
   const bool of_lease = request.kind == Kind::kTake || request.kind == Kind::kGive;
-  // The terminal and super-users release a robot whoever drives it.
+  // The terminal and super-users may release a robot that another person drives.
   const bool releases = request.kind == Kind::kRelease && !request.by.empty() && !request.overrides;
   if (!runtime::is_order(request.kind) && !of_lease && !releases) return {};
   if (request.robot.empty()) {

@@ -34,11 +34,11 @@ class WorldRequests {
 
   /// Takes in what was asked, for the step that comes next.
   void listen(sim::WorldAuthority& authority);
-  /// The step that it was for is not made for a while, and `why`: who asked is told what will be.
+  /// The step that it was for is not made for a while, and `why`: callers get an interim answer.
   void put_off(std::string_view why);
   /// A step was made.
   void after_step(const sim::WorldAuthority& authority, const sim::WorldStep& world);
-  /// Whether a step may be made now: nobody holds the run.
+  /// Whether a step may be made now: no request holds the run.
   [[nodiscard]] bool may_step() const { return control_ == nullptr || control_->may_step(); }
 
  private:

@@ -26,7 +26,7 @@ void HostLink::Impl::meet(const bus::HostInfo& info) {
       // A manager of another scenario must not end this run by its words.
       words.shut_out(info.writer);
       if (started) tell_foreign(LogLevel::kError, "refused: " + fits.error().message);
-      // Before the start this ends await_start(). Afterwards nobody reads it, and the run
+      // Before the start this ends await_start(). Afterwards it is not read, and the run
       // continues.
       unfit = std::move(fits).error();
       return;

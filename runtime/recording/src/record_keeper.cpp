@@ -69,7 +69,7 @@ RecordKeeper::RecordKeeper(record::RunRecorder recorder, const sim::Engine& engi
   const sim::EngineSpec& spec = engine.spec();
   for (const sim::RobotSpec& robot : spec.robots) {
     const sim::RobotType& type = spec.types[robot.type];
-    // A simulated robot without a pose source is told its true pose, so its two poses are equal and
+    // A simulated robot without a pose source reports its true pose, so its two poses are equal and
     // it has no variances.
     told_truth_.push_back(type.simulated && !type.pose_from ? 1 : 0);
     with_real_ = with_real_ || !type.simulated;

@@ -25,7 +25,7 @@ void VarianceKeeper::keep(const sim::Engine& engine, const std::vector<std::uint
   // Repeated while unchanged, so that a reader that begins in the middle of a recording finds them.
   const bool again = !now_.empty() && time_ns - told_ns_ >= record::kVariancesHold_ns;
   if (now_ == told_ && !again) return;
-  // A failed write is told by the end of the step.
+  // A failed write is reported at the end of the step.
   static_cast<void>(recorder.variances(now_));
   told_.swap(now_);
   told_ns_ = time_ns;

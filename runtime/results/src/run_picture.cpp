@@ -28,7 +28,7 @@ report::PictureInstant shown(const InstantFacts& facts) {
 }
 
 /// Few simulated robots get the colours of real ones where there are none: grey lines that cross
-/// cannot be told apart.
+/// cannot be distinguished.
 void colour_few(report::Picture& picture) {
   constexpr std::size_t kColours = 5;
   if (picture.tracks.empty() || picture.tracks.size() > kColours) return;

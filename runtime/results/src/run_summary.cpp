@@ -40,7 +40,7 @@ void add_capture_rows(const RunResults& results, Table& table) {
   }
   if (!capture.captures.empty()) return;
   const double closest_m = capture.closest_m.value_or(std::numeric_limits<double>::infinity());
-  table.rows.push_back({"captured", fmt::format("nobody; nearest {:.2f} m", closest_m)});
+  table.rows.push_back({"captured", fmt::format("none; nearest {:.2f} m", closest_m)});
 }
 
 void add_sighting_row(const RunResults& results, Table& table) {
@@ -98,7 +98,7 @@ void add_hit_rows(const RunResults& results, Table& table) {
   }
 }
 
-/// What somebody has to know beside the results, the hash and the problems.
+/// What users have to know beside the results, the hash and the problems.
 void add_notes(const RunResults& results, const RunOutcome& outcome, Table& table) {
   const std::string deaf = disobedient(results);
   if (!deaf.empty()) {

@@ -246,7 +246,7 @@ Result<std::string> Accounts::join(std::string_view secret, const std::string& n
   constexpr const char* kUnknown =
       "this invitation is used up, has expired, or is not from this server";
   RAVE_TRY(check_user_name(name));
-  // Whoever only guesses gets no slow work done.
+  // A guess does not cause slow work.
   if (!knows_invitation(secret)) return fail(ErrorCode::kState, "{}", kUnknown);
   std::string hash;
   if (!password.empty()) {

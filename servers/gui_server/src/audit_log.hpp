@@ -28,7 +28,7 @@ class AuditLog {
       : folder_(std::move(folder)), most_bytes_(most_bytes) {}
 
   /// `what`: `login`, `refused`, `stop`, `right`, ...; a field that is empty is left out. What
-  /// cannot be written, as on a full disk, is lost: a server goes on without it, and counts it.
+  /// cannot be written, as on a full disk, is lost: the server continues without it, and counts it.
   void note(std::string_view what, Fields fields);
   [[nodiscard]] std::uint64_t lost() const;
   /// Lines that this process has written.

@@ -13,7 +13,7 @@
 namespace rave::gui_server {
 namespace {
 
-/// Between two states: as fast as pages draw, or seldom while nobody looks.
+/// Between two states: as fast as pages draw, or seldom while no page looks.
 constexpr Duration kWatched = from_seconds(0.033);
 constexpr Duration kUnwatched = from_seconds(0.25);
 constexpr auto kHostsInterval = std::chrono::seconds(1);
@@ -121,7 +121,7 @@ RobotState state_of(const watch::RobotView& robot) {
   return state;
 }
 
-/// What hosts resolve of a simulated robot is where it truly is; of a real one nobody knows.
+/// What hosts resolve of a simulated robot is where it truly is; of a real one it is unknown.
 RobotState truth_of(const watch::RobotView& robot) {
   const bool simulated = robot.report ? !robot.report->real : robot.simulated == true;
   if (!simulated || !robot.x_m || !robot.y_m || !robot.yaw_rad) return {};
@@ -237,7 +237,7 @@ void BusFeed::draw(const watch::RunView& view) {
     RobotState& state = picture.poses.robots[robot.number];
     state = state_of(robot);
     if (truth) picture.poses.truth[robot.number] = truth_of(robot);
-    // Of a process that is lost nobody hears any more.
+    // A lost process publishes nothing more.
     if (gone.contains(robot.host)) state.flags = static_cast<std::uint16_t>(state.flags | kStale);
   }
   draw_readings(picture);

@@ -18,7 +18,7 @@ constexpr Duration kStatusPatience = from_seconds(1);
 constexpr auto kAskDriver = std::chrono::seconds(1);
 constexpr Duration kHostPatience = from_seconds(2);
 
-/// Whether the host of a robot is asked, and nobody else: it keeps the lease.
+/// Whether the host of a robot is asked, and no other process: it keeps the lease.
 bool is_for_host(runtime::RunRequest::Kind kind) {
   using Kind = runtime::RunRequest::Kind;
   return runtime::OrderDesk::is_for(kind) || kind == Kind::kStop || kind == Kind::kArm ||

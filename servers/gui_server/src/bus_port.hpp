@@ -48,7 +48,7 @@ class BusPort final : public RunPort {
   [[nodiscard]] Answer ask(const runtime::RunRequest& request);
   /// What only the host of the robot can do.
   [[nodiscard]] Answer ask_host(const std::string& host, const control::Request& request);
-  /// A drive goes at once, by the topic that nobody answers; now and then its robot is asked
+  /// A drive goes at once, by the topic without answers; now and then its robot is asked
   /// whether it listens to this driver.
   [[nodiscard]] Result<std::future<Answer>> drive(const runtime::RunRequest& request);
   [[nodiscard]] Result<std::future<Answer>> queue(runtime::RunRequest request);

@@ -76,7 +76,7 @@ void ChatRoom::begin(std::span<const ChatText> recorded, const Cast& cast) {
     if (!known) all.push_back(std::move(line));
   }
   while (all.size() > kMostLines) all.pop_front();
-  // Numbers go on, so that no page takes a new line for one that it has.
+  // Numbers continue, so that no page takes a new line for one that it has.
   for (Line& line : all) line.number = ++numbered_;
   lines_ = std::move(all);
 }

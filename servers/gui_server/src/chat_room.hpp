@@ -48,7 +48,7 @@ class ChatRoom {
   /// A line as a record has it; and back, with the robots that it is for. Nothing: it is none.
   [[nodiscard]] static ChatText text_of(const Line& line);
   [[nodiscard]] static std::optional<Line> line_of(const ChatText& text, const Cast& cast);
-  /// The message `chat` with the lines after `number` that somebody may hear; empty: there are
+  /// The message `chat` with the lines after `number` that a person may read; empty: there are
   /// none. `all`: the page forgets those that it had.
   [[nodiscard]] std::string text_for(const Listener& listener, std::uint64_t number,
                                      bool all) const;

@@ -7,7 +7,7 @@ namespace rave::gui_server {
 
 Result<std::unique_ptr<CommandLine>> CommandLine::open(bus::BusConfig config,
                                                        const std::vector<std::string>& robots) {
-  // Nobody in the run shall take it for a part of it.
+  // No process of the run may take it for a part of the run.
   config.anonymous = true;
   RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
   RAVE_TRY_ASSIGN(auto commands, bus::Writer<bus::Command>::create(*bus));

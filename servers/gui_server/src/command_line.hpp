@@ -15,7 +15,7 @@
 namespace rave::gui_server {
 
 /// Sends what people say many times a second to the robots of a run (topic rave/command). One owner
-/// thread; waits for nobody, and hears no answer.
+/// thread; waits for no process, and receives no answer.
 class CommandLine {
  public:
   /// `robots`: the names of all, by id. Errors: those of bus::Bus::open().

@@ -85,7 +85,7 @@ Status take_speed(Members& members, CommandMessage& command) {
 }
 
 Status take_path(Members& members, CommandMessage& command) {
-  // What is too long for any run is told so in the words of the run.
+  // A path too long for any run gets the error message that a run would give.
   constexpr std::size_t kMostRead = 100'000;
   RAVE_TRY_ASSIGN(command.points, points_of(members, "points", kMostRead));
   RAVE_TRY(runtime::check_path_size(command.points.size()));

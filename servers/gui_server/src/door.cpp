@@ -12,8 +12,8 @@ namespace {
 
 using Fields = std::map<std::string, std::string>;
 
-// Ten tries at once, then one in half a minute: nobody who mistypes notices it. Of one name, from
-// wherever, more: else a stranger could lock somebody out.
+// Ten tries at once, then one in half a minute: a person who mistypes does not notice it. Of one
+// name, from wherever, more: else a stranger could lock the owner out.
 constexpr double kTries = 10;
 constexpr double kTriesPerSecond = 1.0 / 30;
 constexpr double kTriesOfName = 50;
@@ -126,7 +126,7 @@ web::Response Door::leave(const web::Request& request) {
   const std::string session = session_of(request);
   const auto person = whose(session);
   entrance_.leave(session);
-  // Writing takes a moment; whoever leaves need not wait for it.
+  // Writing takes a moment; a person who leaves need not wait for it.
   if (options_.accounts && person) {
     const bool posted = work_.post([accounts = options_.accounts, session] {
       static_cast<void>(accounts->sign_out(session));

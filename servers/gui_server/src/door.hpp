@@ -33,14 +33,14 @@ class Door {
   /// For a link that lets a super-user in, once. Any thread.
   [[nodiscard]] std::string new_key() { return entrance_.new_key(); }
 
-  /// The secret of a session of a super-user, which nobody has entered by a link. Any thread.
+  /// The secret of a session of a super-user, which was not opened by a link. Any thread.
   [[nodiscard]] std::string new_session();
 
-  /// Answers what is about coming in and going; nothing: it is for somebody else.
+  /// Answers what is about coming in and going; nothing: another handler answers it.
   [[nodiscard]] std::optional<web::Response> serve(const web::Request& request);
   /// The same of what takes time. False: it takes none.
   [[nodiscard]] bool serve_later(const web::Request& request, const web::Reply& reply);
-  /// Nothing: nobody who is signed in.
+  /// Nothing: not signed in.
   [[nodiscard]] std::optional<Person> who(const web::Request& request) const;
   /// The secret of a session, to ask again who it is. Empty: there is none.
   [[nodiscard]] std::string session_of(const web::Request& request) const;

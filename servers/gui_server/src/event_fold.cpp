@@ -8,7 +8,7 @@
 namespace rave::gui_server {
 namespace {
 
-/// What repeats within this time is one event that goes on.
+/// What repeats within this time is one event that continues.
 constexpr double kFold_s = 5;
 
 LogEvent::Level level_of(std::string_view kind) {

@@ -13,8 +13,8 @@ namespace rave::gui_server {
 /// Makes the log of a run: sentences for people, repetitions folded into one row with a count.
 class EventFold {
  public:
-  /// So many rows are kept. What is of less weight than a warning is left out beyond the first, and
-  /// everything beyond the second; a row says how much.
+  /// The number of rows that are kept. What is of less weight than a warning is left out beyond the
+  /// first, and everything beyond the second; a row says how much.
   static constexpr std::size_t kMostEvents = 20'000;
   static constexpr std::size_t kMostInAll = 40'000;
 
@@ -41,7 +41,7 @@ class EventFold {
   std::uint64_t revision_ = 0;
   std::uint64_t left_out_ = 0;
   std::size_t full_ = 0;                     ///< The row that says so, if any was.
-  std::map<std::string, std::size_t> last_;  ///< By sentence: the event that may go on.
+  std::map<std::string, std::size_t> last_;  ///< By sentence: the event that may continue.
 };
 
 }  // namespace rave::gui_server

@@ -22,7 +22,7 @@ class FoxgloveGuests {
 
   /// The visitors see another run now.
   void show();
-  /// Somebody came with a token for this session.
+  /// A client came with a token for this session.
   void opened(std::uint64_t id, web::Socket& socket, const std::string& session);
   [[nodiscard]] bool has(std::uint64_t id) const { return guests_.contains(id); }
   void received(std::uint64_t id, std::string_view text);

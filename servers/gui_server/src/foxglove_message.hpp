@@ -12,7 +12,7 @@
 // What a Foxglove client says: text messages of its WebSocket protocol. Plain values.
 namespace rave::gui_server {
 
-/// So many subscriptions are meant by one message, at most.
+/// The most subscriptions that one message may name.
 inline constexpr std::size_t kMostSubscriptions = 2000;
 
 struct FoxgloveSubscription {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr auto kFoxgloveSpacing = std::chrono::microseconds(33'333);
 constexpr auto kFoxgloveClock = std::chrono::seconds(1);
-/// Of what has happened before somebody subscribes.
+/// Limit of earlier events for a client that subscribes.
 constexpr std::size_t kMostPastEvents = 200;
 /// Who sends so much nonsense is no Foxglove client.
 constexpr unsigned kMostFoxgloveRefusals = 100;
@@ -230,7 +230,7 @@ void FoxgloveSession::send_robots() {
     const std::uint16_t flags = poses.robots[slot].flags;
     std::optional<std::uint16_t> shown;
     if ((flags & kKnown) != 0) shown = static_cast<std::uint16_t>(flags & kShownFlags);
-    // Clients keep entities and move them with the transforms; only colour and presence are told.
+    // Clients keep entities and move them with the transforms; only colour and presence are sent.
     if (shown == told_robots_[slot]) continue;
     told_robots_[slot] = shown;
     if (shown) {

@@ -63,7 +63,7 @@ class FoxgloveSession {
   void send_scans();
   void send_robots();
   void send_scene();
-  /// How many events may be told of at a time of the run.
+  /// How many events may be sent for one time of the run.
   [[nodiscard]] std::size_t events_until(double time_s) const;
   void send_log(double now_s);
   void send_data(Kind kind, double time_s, std::string_view message);

@@ -13,11 +13,11 @@
 
 namespace rave::gui_server {
 
-/// So many sensors have a topic, at most.
+/// The most sensors that have a topic.
 inline constexpr std::size_t kMostScans = 500;
 
 /// What a Foxglove client can subscribe to of one source, and the messages of it in JSON. A source
-/// that leaves out what somebody may not see has neither topics nor messages of it. Immutable; any
+/// that leaves out what a user may not see has neither topics nor messages of it. Immutable; any
 /// thread.
 class FoxgloveTopics {
  public:

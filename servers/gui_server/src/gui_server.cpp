@@ -213,7 +213,7 @@ class GuiServer::Impl final : public web::Handler {
     return "ws" + origin.substr(std::string_view("http").size()) + "/foxglove?token=" + token;
   }
 
-  /// Where somebody who is signed in gets their address.
+  /// Where a person who is signed in gets their address.
   web::Response foxglove_page(const web::Request& request) {
     const auto person = door_.who(request);
     if (!person) return web::text_response(401, "sign in at / first\n");
@@ -264,7 +264,7 @@ class GuiServer::Impl final : public web::Handler {
         request, {Visitors::known(*person), session, view, visitors_.source()->about().relay});
   }
 
-  /// What somebody may not have is, for them, not there.
+  /// What a user may not have does not exist for them (404).
   web::Response component(const web::Request& request) {
     const auto person = door_.who(request);
     if (!person) return web::text_response(401, "not signed in\n");

@@ -109,7 +109,7 @@ void LiveSource::halt(const HaltMessage& halt, const Author& author, Reply reply
 }
 
 void LiveSource::keep_chat(const ChatText& said) {
-  // Nobody is told whether there is a record; its writer says if it has trouble.
+  // The answer does not depend on the recording; its writer reports its own errors.
   static_cast<void>(port_->post(
       runtime::chat_request({said.number, said.from, said.role, said.to, said.name, said.text})));
 }

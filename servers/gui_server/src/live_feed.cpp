@@ -11,11 +11,12 @@ namespace rave::gui_server {
 namespace {
 
 constexpr auto kWatchedInterval = std::chrono::microseconds(16'000);
-/// Somebody who comes sees the present at once, even if the run is held then.
+/// A new page sees the present at once, even if the run is held then.
 constexpr auto kUnwatchedInterval = std::chrono::milliseconds(250);
-/// So many times rarer while steps come late: pages get thinner before anything else does.
+/// The factor by which pictures become rarer while steps come late: pages get thinner before
+/// anything else does.
 constexpr int kLateFactor = 10;
-/// A crowd may touch thousands of times in a step, and nobody reads that.
+/// A crowd may touch thousands of times in a step, which is unreadable.
 constexpr std::size_t kMostEvents = 100;
 
 void put_reading(LivePicture& picture, const LookedAt& looked, std::uint8_t part, ReadingKind kind,
@@ -71,7 +72,7 @@ void LiveFeed::after_step(const runtime::StepView& step) {
 }
 
 void LiveFeed::held(const sim::Engine& engine) {
-  // The last step before a hold may have been left out, and somebody may look elsewhere now.
+  // The last step before a hold may have been left out, and a page may look elsewhere now.
   draw(engine, 1);
 }
 
@@ -161,7 +162,7 @@ void LiveFeed::draw_poses(const sim::Engine& engine, PosesAt& poses) const {
   }
 }
 
-/// Where a real robot truly is nobody knows.
+/// The true pose of a real robot is unknown.
 void LiveFeed::draw_truth(const sim::Engine& engine, bool wanted, PosesAt& poses) {
   poses.truth.clear();
   if (!wanted) return;

@@ -14,7 +14,7 @@
 
 namespace rave::gui_server {
 
-/// Hands copies of a run to the server's thread: pictures at most 60 times a second while somebody
+/// Hands copies of a run to the server's thread: pictures at most 60 times a second while a page
 /// looks, and four times otherwise; events always. The thread of the run, which never waits here.
 class LiveFeed final : public runtime::RunObserver {
  public:

@@ -12,7 +12,7 @@ namespace rave::gui_server {
 namespace {
 
 const char* const kHeldByNobody =
-    "A run with real robots cannot be paused: the real world goes on.";
+    "A run with real robots cannot be paused: the real world continues.";
 
 }  // namespace
 

@@ -15,7 +15,7 @@ namespace rave::gui_server {
 /// The maps of a run as far as they are known: of each place the newest tile. One thread.
 class MapBook {
  public:
-  /// Somebody who makes up maps gets no further: some 70 MB.
+  /// The limit for a sender that invents maps: some 70 MB.
   static constexpr std::size_t kMostTiles = 16'384;
   static constexpr std::size_t kMostGlobals = 64;
 

@@ -13,7 +13,7 @@ namespace rave::gui_server {
 
 using PageJson = nlohmann::json;
 
-/// Takes members out of an object, so that what nobody knows is left over and refused.
+/// Takes members out of an object, so that unknown members are left over and refused.
 class Members {
  public:
   explicit Members(const PageJson& object) : object_(object) {}
@@ -46,7 +46,7 @@ class Members {
     }
     return value;
   }
-  /// A string of at most so many bytes, without control characters but line breaks if `lines`.
+  /// A string of limited length in bytes, without control characters but line breaks if `lines`.
   Result<std::string> text(const char* name, std::size_t most, bool lines = false) {
     RAVE_TRY_ASSIGN(std::string text, word(name));
     const bool plain = std::none_of(text.begin(), text.end(), [lines](char c) {

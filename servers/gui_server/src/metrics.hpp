@@ -10,7 +10,7 @@
 
 namespace rave::gui_server {
 
-/// What Prometheus is told, in its text format. It names nobody.
+/// The metrics in the text format of Prometheus, without names of users.
 [[nodiscard]] std::string metrics_text(const web::ServerCounts& counts, std::size_t pages,
                                        std::uint64_t lost_audit_lines);
 
@@ -19,7 +19,7 @@ namespace rave::gui_server {
 [[nodiscard]] Result<std::string> metrics_token(const std::filesystem::path& folder);
 
 /// Whether a request may read it: it comes from this machine, or brings the token. An empty token
-/// is nobody's.
+/// permits nothing from elsewhere.
 [[nodiscard]] bool may_read_metrics(const web::Request& request, const std::string& token);
 
 }  // namespace rave::gui_server

@@ -9,10 +9,10 @@ namespace rave::gui_server {
 namespace {
 
 /// The run lets a robot stand whose driver is silent for 200 ms. To say so once more would take the
-/// robot from its program, or from whoever drives it since.
+/// robot from its program, or from the person who drives it since.
 constexpr std::chrono::seconds kStandsAnyway{1};
 
-/// Whoever orders it has the lease then.
+/// The person who orders it has the lease then.
 bool takes_lease(CommandMessage::Kind kind) {
   using Kind = CommandMessage::Kind;
   return kind == Kind::kDrive || kind == Kind::kGoal || kind == Kind::kPath ||
@@ -37,7 +37,7 @@ void PageCommands::begin(std::shared_ptr<Source> source, Author author) {
   author_ = std::move(author);
   waiting_ = 0;
   newest_.reset();
-  // Answers of the run before are nobody's business any more.
+  // Answers of the previous run have no receiver any more.
   alive_ = std::make_shared<bool>(true);
 }
 

@@ -37,7 +37,7 @@ class PageCommands {
   /// The page has gone: what it drives stands, and what it has ordered is left.
   void let_go();
   /// What the page has ordered is any page's of the same person from now on, so one that is loaded
-  /// anew need not take anything from itself. What the run tells of leases does not suffice for
+  /// anew need not take anything from itself. The leases that the run publishes do not suffice for
   /// that: it may be older than the last order.
   void leave();
 

@@ -42,7 +42,7 @@ struct SetRightMessage {
   RightChange change;
 };
 
-/// A super-user sees what somebody gets.
+/// A super-user sees what another user gets.
 struct SeeAsMessage {
   std::optional<Role> role{};
   std::string user{};  ///< Both empty: with their own eyes again.
@@ -54,7 +54,7 @@ struct PageKeyMessage {
   std::string key;  ///< 65 bytes.
 };
 
-/// Somebody says something to people, or to robots and the people who see them.
+/// A person sends a text to people, or to robots and the people who see them.
 struct ChatMessage {
   enum class To : std::uint8_t { kAll, kRole, kUser, kTeam, kRobot } to = To::kAll;
   std::string name;        ///< Of the role, the user or the team.

@@ -8,8 +8,8 @@
 namespace rave::gui_server {
 
 /// The array `robots` of a roster with the parameters of each robot that can be changed while it
-/// runs, and what its second set of drivers is. Of more than 256 robots none are told: a page would
-/// get megabytes that nobody reads.
+/// runs, and what its second set of drivers is. Of more than 256 robots none are sent: a page would
+/// get megabytes without use.
 [[nodiscard]] std::string with_parameters(const std::string& robots_json,
                                           const sim::EngineSpec& spec);
 

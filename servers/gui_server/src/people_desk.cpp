@@ -39,7 +39,7 @@ PeopleDesk::Outcome done(const PeopleMessage& message, std::string text) {
 Result<std::string> do_account(Accounts& accounts, const AccountMessage& asked) {
   using Do = AccountMessage::Do;
   if (asked.what == Do::kChange) {
-    // For the audit log: nobody could find it out later.
+    // For the audit log: it cannot be found out later.
     std::string before;
     for (const Account& account : accounts.state().accounts) {
       if (account.person.name != asked.name) continue;
@@ -66,7 +66,7 @@ PeopleDesk::Outcome account_outcome(const PeopleDesk::Options& at, const Account
   return done(asked, *text);
 }
 
-/// The secret goes to the page that asked, and to nobody else, once.
+/// The secret goes to the page that asked, and to no other page, once.
 PeopleDesk::Outcome invitation_outcome(const PeopleDesk::Options& at,
                                        const InvitationMessage& asked, const std::string& by) {
   if (!asked.make) {
@@ -114,7 +114,7 @@ PeopleDesk::Outcome audit_outcome(const AuditLog& audit, const AuditMessage& ask
   return outcome;
 }
 
-/// Who acts on themselves so would need somebody else to take it back.
+/// A person who did this to themselves would need another one to take it back.
 bool locks_out(const AccountMessage& asked, const std::string& by) {
   using Do = AccountMessage::Do;
   if (asked.name != by) return false;

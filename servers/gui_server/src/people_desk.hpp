@@ -14,8 +14,8 @@
 
 namespace rave::gui_server {
 
-/// What super-users ask about accounts, invitations and the audit log, and what they are told of
-/// them. Whoever calls has seen that it is a super-user who asks. The thread of the server; the
+/// What super-users ask about accounts, invitations and the audit log, and what they receive about
+/// them. The caller has checked that a super-user asks. The thread of the server; the
 /// disk is waited for on another one.
 class PeopleDesk {
  public:
@@ -48,7 +48,7 @@ class PeopleDesk {
                                     unsigned links) const;
   /// Another number whenever that message may be another one for the same pages.
   [[nodiscard]] std::uint64_t revision() const;
-  /// The last page of somebody went.
+  /// The last page of a person was closed.
   void note_gone(const std::string& name);
 
  private:

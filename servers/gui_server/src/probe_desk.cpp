@@ -29,7 +29,7 @@ std::string dumped(const ProbeJson& json) {
 
 /// What a file has in each line of the entry, from its name on.
 std::vector<std::string> lines_of(const ProbeRequest& request) {
-  // Degrees as somebody typed them, although they came in radians.
+  // Degrees as the person typed them, although they came in radians.
   const double yaw_deg = std::round(rad_to_deg(request.X_RS.yaw) * 1e6) / 1e6;
   std::vector<std::string> lines = {
       "name: " + request.name, "driver: " + request.driver,

@@ -10,8 +10,8 @@
 
 namespace rave::gui_server {
 
-/// What pages are told of virtual sensors, and makes probes of what they request: the sensor as
-/// hosts will make it, so that whoever asks learns at once what is wrong. The thread of the server.
+/// What pages receive about virtual sensors, and makes probes of what they request: the sensor as
+/// hosts will make it, so that the person learns at once what is wrong. The thread of the server.
 class ProbeDesk {
  public:
   /// `catalogue`: of this thread alone. `step_s`: of the run.

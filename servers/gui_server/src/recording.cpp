@@ -45,7 +45,7 @@ class Recording final : public Source {
         {"play", "seek", "pace", "step", "readings", "hybrid_parts", "obstacles", "log",
          "recording", "chat", "maps"},
         {{"stop", kNoStop}, {"release", kNoStop}, {"command", kNoOrders}, {"edit", kNoOrders}}};
-    // Where real robots truly were nobody knows.
+    // The true poses of real robots are unknown.
     if (std::ranges::find(real_, 0) != real_.end()) {
       powers.may.emplace_back("true_pose");
     } else {

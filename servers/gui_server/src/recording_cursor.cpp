@@ -13,7 +13,7 @@ namespace {
 
 /// Farther ahead than this it is quicker to begin anew than to read what lies between.
 constexpr double kFar_s = 3;
-/// Sensors that are slower than this are found by going on, not by looking back.
+/// Sensors that are slower than this are found by reading on, not by looking back.
 constexpr double kMostBack_s = 2;
 
 std::uint64_t ns_of(double time_s) {
@@ -174,7 +174,7 @@ std::vector<ReadingAt> RecordingCursor::readings(std::span<const LookedAt> senso
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t>, ReadingAt> newest;
   for (const auto& [at_s, bytes] : percepts_) {
     const auto step = record::decode_percepts(bytes);
-    // A damaged piece is told by who verifies the file; here its readings are missing.
+    // `rave verify` reports a damaged piece; here its readings are missing.
     if (!step) continue;
     for (const record::Percept& percept : step->items) {
       const LookedAt key{percept.robot.value(), percept.sensor.value()};

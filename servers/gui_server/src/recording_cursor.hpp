@@ -20,7 +20,7 @@ struct FlagChange {
 };
 using FlagHistory = std::vector<std::vector<FlagChange>>;
 
-/// A viewer's place in a recording. Going on reads the file in order; going back, or far ahead,
+/// A viewer's place in a recording. Forward it reads the file in order; going back, or far ahead,
 /// begins anew near the moment.
 class RecordingCursor final : public Cursor {
  public:
@@ -40,7 +40,7 @@ class RecordingCursor final : public Cursor {
   using Bytes = std::vector<std::byte>;
   void begin_at(double time_s);
   [[nodiscard]] Status read_until(double time_s);
-  /// What is told of variances before `until_ns`, beyond where the cursor begins.
+  /// What is known of variances before `until_ns`, beyond where the cursor begins.
   [[nodiscard]] Status find_variances(std::uint64_t until_ns);
   [[nodiscard]] Status show(const Bytes& poses);
   [[nodiscard]] Status show_variances();

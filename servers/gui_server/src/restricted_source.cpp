@@ -52,7 +52,7 @@ class RestrictedCursor final : public Cursor {
   PosesAt poses_;
 };
 
-/// Of a run that goes on: its time belongs to all, so not everybody moves it.
+/// Of a run in progress: its time belongs to all, so not every user may move it.
 class WatchedPlayhead final : public Playhead {
  public:
   explicit WatchedPlayhead(std::unique_ptr<Playhead> all) : all_(std::move(all)) {}

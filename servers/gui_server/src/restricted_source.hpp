@@ -36,7 +36,7 @@ class RestrictedSource final : public Source {
   /// Hosts say how many robots they have, so they are shown to who sees all robots.
   [[nodiscard]] std::uint64_t hosts_revision() const noexcept override;
   [[nodiscard]] const std::string& hosts_json() const noexcept override;
-  /// Global maps go to whoever gets the map of some robot.
+  /// Global maps go to users who get the map of any robot.
   [[nodiscard]] std::vector<MapName> map_names() const override;
   [[nodiscard]] std::uint64_t map_names_revision() const noexcept override {
     return all_->map_names_revision();
@@ -54,7 +54,7 @@ class RestrictedSource final : public Source {
   [[nodiscard]] std::uint64_t leases_revision() const noexcept override {
     return all_->leases_revision();
   }
-  /// Whoever sees a robot sees who drives it; where it is sent and what it takes are rights.
+  /// A user who sees a robot sees who drives it; where it is sent and what it takes are rights.
   [[nodiscard]] std::vector<DriveState> leases_changed_since(std::uint64_t revision) const override;
 
   /// A picture that several pages share is cut down once.
@@ -79,7 +79,7 @@ class RestrictedSource final : public Source {
   mutable std::string bodies_json_;
   mutable std::uint64_t bodies_revision_ = 0;
   mutable bool has_bodies_ = false;
-  mutable std::set<std::int64_t> shown_bodies_;  ///< That somebody was told of, as the run counts.
+  mutable std::set<std::int64_t> shown_bodies_;  ///< That were sent to a page, as the run counts.
 };
 
 }  // namespace rave::gui_server

@@ -74,7 +74,7 @@ Status RightsDesk::change(const RightChange& change) {
   });
   // Of a user without a reach the line stays: the scenario may have given one, which is taken back.
   if (change.reach || !change.role) kept_.push_back({run_, change});
-  // The oldest goes: probably of a run that nobody shows any more.
+  // The oldest goes: probably of a run that is not shown any more.
   if (kept_.size() > kMostKept) kept_.erase(kept_.begin());
   renew();
   if (folder_.empty()) return {};

@@ -23,7 +23,7 @@ class RunPort {
   virtual void set_pace(double factor) = 0;
   /// Which robots are stopped or wait to be armed, by name; nothing if that is not known here.
   [[nodiscard]] virtual std::vector<runtime::RunStatus::Robot> robots() const = 0;
-  /// kStop and kRelease. The answer comes later. Error: kState (no run is under way).
+  /// kStop and kRelease. The answer comes later. Error: kState (no run is in progress).
   [[nodiscard]] virtual Result<std::future<Result<std::string>>> post(
       runtime::RunRequest request) = 0;
 };

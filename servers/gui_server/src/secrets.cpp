@@ -51,7 +51,7 @@ std::string password_hash(std::string_view password) {
 
 bool password_fits(std::string_view password, const std::string& hash) {
   if (hash.empty()) {
-    // Who has no account must not be told apart by how long the answer takes.
+    // The time of the answer must not reveal whether an account exists.
     static_cast<void>(password_hash(password));
     return false;
   }

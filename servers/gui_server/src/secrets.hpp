@@ -15,7 +15,7 @@ namespace rave::gui_server {
 
 /// Argon2id; takes 64 MiB and a tenth of a second. Empty: there is not enough memory.
 [[nodiscard]] std::string password_hash(std::string_view password);
-/// As slow as password_hash(), also if `hash` is empty, of nobody.
+/// As slow as password_hash(), also if `hash` is empty, for an unknown name.
 [[nodiscard]] bool password_fits(std::string_view password, const std::string& hash);
 /// Whether a text is such a hash.
 [[nodiscard]] bool is_password_hash(std::string_view text);

@@ -17,7 +17,7 @@ constexpr std::size_t kMostOnTheirWay = 2;
 constexpr auto kQuick = std::chrono::milliseconds(100);
 /// Time of the server for the past of one page in one tick.
 constexpr auto kPastTime = std::chrono::milliseconds(4);
-/// How often a page is told what happened, and what came and went.
+/// How often a page receives events and changes of the scene.
 constexpr auto kNewsInterval = std::chrono::milliseconds(100);
 /// Who sends so much nonsense is not our page.
 constexpr unsigned kMostRefusals = 20;

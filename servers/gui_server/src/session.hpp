@@ -31,11 +31,11 @@ namespace rave::gui_server {
 /// whether it has true poses.
 using SharedFrames = std::map<std::tuple<const Source*, std::uint32_t, bool>, web::Payload>;
 
-/// What a session asks of its server: each returns a sentence, or an error that the page is told.
+/// What a session asks of its server: each returns a sentence, or an error that the page receives.
 struct SessionCalls {
   std::function<Result<std::string>(const RightChange&)> set_right;
   std::function<Result<std::string>(const SeeAsMessage&)> see_as;
-  /// Before an answer to stop or release is told.
+  /// Before an answer to stop or release is sent.
   std::function<void(const HaltMessage&, bool good)> halted;
   /// Once it is known what became of it.
   PageCommands::Told commanded;
@@ -56,7 +56,7 @@ struct ProbeShown {
 
 /// The past of a page, as far as it has not been sent.
 struct Past {
-  std::unique_ptr<Cursor> cursor;  ///< Its own, so that of the page goes on at the present.
+  std::unique_ptr<Cursor> cursor;  ///< Its own, so that that of the page continues at the present.
   double next_s = 0;
   double until_s = 0;
 };

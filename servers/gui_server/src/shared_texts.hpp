@@ -12,7 +12,7 @@ namespace rave::gui_server {
 
 /// The large messages that open a page: scene, roster and log. All pages with the same source, so
 /// with the same rights, get the same bytes: each message exists once, as long as it is on its way
-/// to somebody. The thread of the server.
+/// to a page. The thread of the server.
 class SharedTexts {
  public:
   [[nodiscard]] web::Payload scene(const std::shared_ptr<Source>& source);

@@ -10,7 +10,7 @@
 namespace rave::gui_server {
 
 /// A thread for what must not hold up that of the server: passwords. Few calls wait; more are
-/// refused, so that nobody can pile them up. Destruction drops those that have not begun.
+/// refused, so that they cannot pile up. Destruction drops those that have not begun.
 class SlowWork {
  public:
   SlowWork();

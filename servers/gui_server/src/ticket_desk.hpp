@@ -23,8 +23,8 @@ class TicketDesk {
  public:
   explicit TicketDesk(std::shared_ptr<AuditLog> audit);
 
-  /// The hosts of the run, and the key that they know. Before that pages are told that there are
-  /// no lines.
+  /// The hosts of the run, and the key that they know. Before that pages get the answer that there
+  /// are no lines.
   void offer(std::shared_ptr<direct_line::Lines> lines, const direct_line::SigningKey& key);
 
   /// Who asks, and what they get of the run.

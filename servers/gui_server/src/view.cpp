@@ -22,7 +22,8 @@ bool is_name_letter(char c) {
          c == '_';
 }
 
-/// A key of this process, so that nobody can reckon back from the number of a body to its place.
+/// A key of this process, so that a page cannot compute back from the number of a body to its
+/// place.
 const std::array<unsigned char, crypto_shorthash_KEYBYTES>& body_key() {
   static const auto kKey = [] {
     RAVE_CHECK(sodium_init() >= 0);

@@ -14,7 +14,7 @@
 #include "rave/gui_server/rights.hpp"
 #include "rave/gui_server/source.hpp"
 
-// What somebody gets of a run. Whatever is withheld is left out here, before anything is encoded.
+// What a user gets of a run. Whatever is withheld is left out here, before anything is encoded.
 namespace rave::gui_server {
 
 /// Who and what a run has, as far as rights depend on it. Made from the arrays of `roster` and
@@ -30,8 +30,8 @@ struct Cast {
 /// `robots_json`, `bodies_json`: as a Source gives them.
 [[nodiscard]] Cast cast_of(const std::string& robots_json, const std::string& bodies_json);
 
-/// The part of a run that somebody may see. Its robots have numbers of their own, slots without
-/// gaps, so that not even the number of the others can be told. Immutable; any thread.
+/// The part of a run that a user may see. Its robots have numbers of their own, slots without
+/// gaps, so that not even the number of the others can be inferred. Immutable; any thread.
 class View {
  public:
   View(const Rights& rights, const Person& person, std::shared_ptr<const Cast> cast);
@@ -52,7 +52,7 @@ class View {
   [[nodiscard]] std::optional<std::uint32_t> slot_of(std::uint32_t robot) const;
   /// Whether a class is given of one robot, which has to be seen at all.
   [[nodiscard]] bool may(InfoClass what, std::uint32_t robot) const;
-  /// Whether readings of a sensor of a robot are given: of velocities that it is told, `goals`; of
+  /// Whether readings of a sensor of a robot are given: of commanded velocities, `goals`; of
   /// a probe, `probe` as well.
   [[nodiscard]] bool may_read_sensor(std::uint32_t robot, std::uint32_t sensor) const;
   /// Of any robot; of what belongs to no robot at all.
@@ -66,7 +66,7 @@ class View {
   [[nodiscard]] PosesAt poses(const PosesAt& all) const;
   /// In slots; false: it is withheld.
   [[nodiscard]] bool reading(ReadingAt& reading) const;
-  /// In slots; nothing: it is withheld, or names somebody who is.
+  /// In slots; nothing: it is withheld, or names a robot that is.
   [[nodiscard]] std::optional<LogEvent> event(const LogEvent& event) const;
   /// Robots whose readings are withheld have no sensors.
   [[nodiscard]] std::string robots_json(const std::string& all) const;
@@ -75,7 +75,7 @@ class View {
   [[nodiscard]] std::int64_t body_id(std::int64_t id) const;
   /// Whether bodies of a kind are given.
   [[nodiscard]] bool sees_body(std::string_view kind) const;
-  /// Whether a text names nobody who is withheld.
+  /// Whether a text names no robot that is withheld.
   [[nodiscard]] bool may_read(std::string_view text) const { return !names_hidden(text); }
 
  private:

@@ -334,7 +334,7 @@ Result<std::string> Visitors::set_right(std::uint64_t id, const RightChange& cha
   if (!source_) return fail(ErrorCode::kState, "No run is in progress.");
   const Status changed = desk_.change(change);
   // A change that could not be written holds all the same, until the server ends: it is noted and
-  // shown before the error is told.
+  // shown before the error is sent.
   if (!changed && changed.error().code != ErrorCode::kIo) return tl::unexpected(changed.error());
   audit_->note("right", {{"user", visitor.person.name}, {"detail", right_text(change)}});
   show_again_if_other();

@@ -26,11 +26,11 @@ class Visitors {
   Visitors(Door& door, RightsDesk desk, std::shared_ptr<Accounts> accounts,
            std::shared_ptr<AuditLog> audit, PeopleDesk::Post post);
 
-  /// Whether pages are told that Foxglove clients may connect; before anybody comes.
+  /// Whether pages learn that Foxglove clients may connect; before the first page.
   void offer_foxglove(bool offered) noexcept { foxglove_ = offered; }
   /// All see this run from now on.
   void show(std::shared_ptr<Source> source);
-  /// Somebody came whose session the door knows.
+  /// A page came whose session the door knows.
   void opened(std::uint64_t id, web::Socket& socket, const std::string& session);
   void received(std::uint64_t id, std::string_view text);
   void closed(std::uint64_t id);
@@ -40,14 +40,14 @@ class Visitors {
   /// rights, and super-users know of it.
   void check();
 
-  /// What somebody gets, as for the recording; null: there is no run.
+  /// What a user gets, as for the recording; null: there is no run.
   [[nodiscard]] std::shared_ptr<const View> view_of(const Person& person);
   /// The run as a view has it; one for all who have that view.
   [[nodiscard]] std::shared_ptr<Source> source_for(const std::shared_ptr<const View>& view);
   [[nodiscard]] const std::shared_ptr<Source>& source() const noexcept { return source_; }
-  /// As the run and other people call somebody.
+  /// The name of a person for the run and other people.
   [[nodiscard]] static Person known(const Person& person);
-  /// Whether a page of this session looks with the eyes of somebody else.
+  /// Whether a page of this session looks as another user.
   [[nodiscard]] bool sees_as_other(std::string_view session) const;
   [[nodiscard]] std::size_t count() const noexcept { return visitors_.size(); }
 

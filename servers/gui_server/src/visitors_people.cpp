@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What super-users ask and are told of people.
+// What super-users ask about people, and the answers.
 #include <algorithm>
 
 #include "visitors.hpp"
@@ -28,7 +28,7 @@ void Visitors::take_people(std::uint64_t id, const PeopleMessage& message) {
 }
 
 void Visitors::told_of_people(std::uint64_t id, const PeopleDesk::Outcome& outcome) {
-  // In force before it is told.
+  // It takes effect before it is sent.
   if (outcome.changed) check();
   const auto found = visitors_.find(id);
   if (found == visitors_.end()) return;

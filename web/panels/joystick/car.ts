@@ -6,7 +6,7 @@ export const kGears: readonly {gear: Gear; letter: string; name: string}[] = [
   {gear: 1, letter: 'F', name: 'Forward'}, {gear: 0, letter: 'N', name: 'Neutral'}, {gear: -1, letter: 'R', name: 'Reverse'},
 ];
 
-/** A full brake takes full speed away in so many seconds, half a brake in twice as many. */
+/** A full brake takes full speed away in this number of seconds, half a brake in twice as many. */
 export const kFullBrake_s = 0.5;
 /** Pedals and sticks that are let go are not quite at zero. */
 const kSlack = 0.05;
@@ -40,12 +40,12 @@ export class Car {
     return true;
   }
 
-  /** Whether somebody is at the pedals. In neutral there is nothing to hold: the robot stands. */
+  /** Whether a person is at the pedals. In neutral there is nothing to hold: the robot stands. */
   held({steering, throttle, brake}: Pedals): boolean {
     return this.gear !== 0 && (throttle > kSlack || (brake > kSlack && this.speed > 0) || Math.abs(steering) > kSlack);
   }
 
-  /** After so many seconds with the pedals so. The throttle is followed at once; the brake goes before it. */
+  /** After `seconds` with the pedals as they are. The throttle is followed at once; the brake goes before it. */
   step(pedals: Pedals, dt_s: number): void {
     const throttle = pedals.throttle > kSlack ? Math.min(pedals.throttle, 1) : 0;
     const brake = pedals.brake > kSlack ? Math.min(pedals.brake, 1) : 0;
@@ -53,7 +53,7 @@ export class Car {
     this.speed = brake > 0 ? Math.max(0, this.speed - (brake * dt_s) / kFullBrake_s) : throttle;
   }
 
-  /** The dead-man: nobody holds anything. */
+  /** The dead-man: no control is held. */
   release(): void {
     this.speed = 0;
     this.steering = 0;

@@ -4,7 +4,7 @@ import type {DriveLoop} from './drive_loop';
 import type {DriveKeys} from './keys';
 import {readCarPad} from './pad';
 
-/** The four controls, whoever moves them, as what the loop sends. */
+/** The four controls, from whatever input, as what the loop sends. */
 export class CarDesk {
   readonly car = new Car();
   /** Of the gamepad; empty: there is none. */
@@ -41,7 +41,7 @@ export class CarDesk {
     this.shift(Math.max(-1, Math.min(1, this.car.gear + step)) as Gear);
   }
 
-  /** Some 60 times a second. A pedal that nobody holds any more lets the robot stand at once. */
+  /** Some 60 times a second. A pedal that is released lets the robot stand at once. */
   tick(now_ms: number): void {
     const dt_s = Math.min(0.1, (now_ms - this.last_ms) / 1000);
     this.last_ms = now_ms;

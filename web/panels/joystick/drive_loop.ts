@@ -13,7 +13,7 @@ export class DriveLoop {
   /** Share of full speed: right and up positive, each from -1 to 1. */
   x = 0;
   y = 0;
-  /** What holds the stick; null: nobody. */
+  /** What holds the stick; null: nothing. */
   held: StickSource | null = null;
   /** From sending to the answer, milliseconds; 0: not known. */
   delay_ms = 0;
@@ -37,7 +37,7 @@ export class DriveLoop {
     return [this.y * this.v_mps || 0, -this.x * this.w_radps || 0];
   }
 
-  /** Whoever is driven is let go first: a stick never moves from one robot to the next. */
+  /** The driven robot is let go first: a stick never moves from one robot to the next. */
   choose(slot: number | null): void {
     if (slot === this.slot) return;
     this.release();

@@ -49,7 +49,7 @@ export class JoystickPanel extends LitElement {
     choose();
     this.ends.push(selection.changed.on(choose), model.drivesChanged.on(choose), model.runChanged.on(choose));
     this.ends.push(link.changed.on(() => !link.reaches && this.letGo()));
-    // The dead-man: whoever does not look at the page does not drive.
+    // The dead-man: a page that is not visible does not drive.
     this.ends.push(windows.left.on(() => this.letGo()));
     this.timers = [window.setInterval(() => this.requestUpdate(), kRefresh_ms), window.setInterval(() => this.readPad(), kPad_ms)];
   }

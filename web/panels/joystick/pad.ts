@@ -3,7 +3,7 @@
 /** Sticks that are let go are not quite at zero. */
 const kDead = 0.12;
 
-/** The left stick of the first gamepad, or its cross; null: there is none, or nobody moves it. */
+/** The left stick of the first gamepad, or its cross; null: there is none, or it is at rest. */
 export function readPad(): {name: string; x: number; y: number; held: boolean} | null {
   for (const pad of navigator.getGamepads?.() ?? []) {
     if (pad === null || !pad.connected) continue;

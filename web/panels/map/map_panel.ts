@@ -59,7 +59,7 @@ export class MapPanel extends LookingPanel {
     const {model, palette, selection} = this.context;
     this.robots ??= new RobotLayer(palette, selection);
     this.robots.refresh(model.robots);
-    // It stays with its source, whoever is selected later.
+    // It stays with its source, whatever is selected later.
     this.chosen ??= this.source;
     this.context.link.lookAtMap(this, this.key);
   }

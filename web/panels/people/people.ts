@@ -37,7 +37,7 @@ function spanText(span_s: number): string {
   return `${Math.max(1, Math.floor(span_s / 60))} min`;
 }
 
-/** Whether somebody is here, when they were, or that they cannot come. */
+/** Whether a person is here, when they were, or that they cannot come. */
 export function seenText(person: KnownPerson, now_s: number): string {
   if (person.disabled) return 'disabled';
   return person.pages > 0 ? 'now' : agoText(person.seen_s, now_s);

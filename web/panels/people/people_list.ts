@@ -59,7 +59,7 @@ export class PeopleList extends LitElement {
           ${accounts.links === 0 ? nothing : html`<tr><th scope="row"><span class="who"><i class="face">${icon('keyRound', 13)}</i><span>The operator<small>by the link of the terminal</small></span></span></th>
             <td>super-user</td><td class="teams">all teams</td><td class="number">${accounts.links}</td><td class="number here">now</td><td></td></tr>`}</tbody></table>
         ${people.length > kMostShown ? html`<p>${people.length - kMostShown} more: filter to see them.</p>` : nothing}
-        ${people.length === 0 ? html`<p>${accounts.people.length === 0 ? 'Nobody has an account yet. Invite somebody.' : 'Nobody matches the filter.'}</p>` : nothing}</div>`;
+        ${people.length === 0 ? html`<p>${accounts.people.length === 0 ? 'There are no accounts yet. Create an invitation.' : 'No account matches the filter.'}</p>` : nothing}</div>`;
   }
 
   private renderPerson(person: KnownPerson, now_s: number): TemplateResult {
@@ -89,7 +89,7 @@ export class PeopleList extends LitElement {
       <button class="main">Change</button><span class="space"></span>
       <button type="button" class="plain" ?disabled=${sessions === 0} title=${guest ? 'A guest goes with the session' : 'They can sign in again'}
         @click=${() => void this.ask({type: 'account', do: 'end_sessions', name})}>${guest ? `End ${count} and the guest` : `End ${count}`}</button>
-      <button type="button" class="plain ${disabled ? '' : 'bad'}" ?disabled=${mine && !disabled} title=${disabled ? 'They can sign in again' : 'Keeps the name, ends the sessions, lets nobody in'}
+      <button type="button" class="plain ${disabled ? '' : 'bad'}" ?disabled=${mine && !disabled} title=${disabled ? 'They can sign in again' : 'Keeps the name, ends the sessions, refuses to let the person in'}
         @click=${() => void this.ask({type: 'account', do: disabled ? 'enable' : 'disable', name})}>${disabled ? 'Enable' : 'Disable'}</button></form>`;
   }
 

@@ -25,7 +25,7 @@ export function lastAct(model: RunModel, slot: number): {ago_s: number; why: str
   return null;
 }
 
-/** What the guard of a robot did last, if that was a moment ago. `asked_mps`: null if nobody drives it. */
+/** What the guard of a robot did last, if that was a moment ago. `asked_mps`: null if no person drives it. */
 export function guardOf(model: RunModel, slot: number, asked_mps: number | null): GuardAct | null {
   const now_s = model.poses.newest?.time_s ?? 0;
   const told = toldOf(model, slot);

@@ -11,7 +11,7 @@ export interface ToldVelocity {
 /** What is older says nothing of now. */
 const kFresh_s = 1;
 
-/** Null: nobody told the page, or there is no velocity. */
+/** Null: the page has not received it, or there is no velocity. */
 export function toldOf(model: RunModel, slot: number): ToldVelocity | null {
   const reading = model.readings.of(slot, kCommandsOf);
   const now_s = model.poses.newest?.time_s ?? 0;

@@ -78,7 +78,7 @@ export class TwinSection extends LitElement {
         ${this.sure === this.robot
           ? html`<button class="main" @click=${() => void this.ask('hand_over', to)}>Hand over now</button><button class="plain" @click=${() => { this.sure = null; this.requestUpdate(); }}>Keep</button>`
           : html`<button class="plain" @click=${() => { this.sure = this.robot; this.requestUpdate(); }}>${icon('refresh', 14)} Hand over to ${word} …</button>`}</div>
-      ${this.sure === this.robot ? html`<p class="faint">${to === 'real' ? 'Put the real robot where this one is, with the same heading. Its program drives on with the hardware; a stop holds.' : 'The robot is told to stand for the change; its program goes on.'}</p>` : nothing}
+      ${this.sure === this.robot ? html`<p class="faint">${to === 'real' ? 'Put the real robot where this one is, with the same heading. Its program drives on with the hardware; a stop holds.' : 'The robot stops for the change; its program continues.'}</p>` : nothing}
       ${note !== undefined ? html`<p class="bad" role="alert">${note}</p>` : twin.last === '' ? nothing : html`<p class=${refused ? 'bad' : 'faint'} role="status">${refused ? 'Refused: ' : 'Last: '}${twin.last}</p>`}`}`;
   }
 

@@ -12,7 +12,7 @@ export function stateOf(robot: Robot, flags: number): string {
   return '';
 }
 
-/** Robots of a team that obey a stop: recorded ones obey nobody. */
+/** Robots of a team that obey a stop: recorded ones obey no orders. */
 export function stoppable(robots: readonly Robot[], team: string): number[] {
   return robots.flatMap((robot, slot) => (robot.team === team && !robot.recorded ? [slot] : []));
 }

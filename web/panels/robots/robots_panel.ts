@@ -9,7 +9,7 @@ import {RobotFlag} from '../../protocol/frames';
 import {parseFilter, type Filter} from './filter';
 import {stateOf, stoppable} from './robot_state';
 
-/** Beyond so many robots a team is a histogram, and its rows come on demand. */
+/** Beyond this number of robots a team is a histogram, and its rows come on demand. */
 const kMany = 200;
 const kRefresh_ms = 250;
 const kRows = 400;
@@ -170,7 +170,7 @@ export class RobotsPanel extends LitElement {
       ${this.renderSparkline(slot, marked ? hue.ink : palette.token('text-3'))}
       ${state === '' ? html`<span class="value">${speedText(this.speed(slot))}</span>` : html`<span class="state">${state}</span>`}
       ${this.renderDriver(slot)}
-      <span class="mark" title=${robot.recorded ? 'Recorded: it obeys nobody' : ''}>${robot.recorded ? icon('lock', 13) : (this.flags(slot) & RobotFlag.touching) !== 0 ? icon('zap', 13) : nothing}</span>
+      <span class="mark" title=${robot.recorded ? 'Recorded: it obeys no orders' : ''}>${robot.recorded ? icon('lock', 13) : (this.flags(slot) & RobotFlag.touching) !== 0 ? icon('zap', 13) : nothing}</span>
     </div>`;
   }
 

@@ -65,7 +65,7 @@ export class Camera {
     this.goal = {...to, begin: now_ms, from: [this.x, this.y, this.scale]};
   }
 
-  /** Goes on with a movement; true as long as there is one. */
+  /** Continues a movement; true as long as there is one. */
   advance(now_ms: number, duration_ms = 280): boolean {
     const goal = this.goal;
     if (goal === null) return false;

@@ -8,11 +8,11 @@ import type {Camera} from './camera';
 import {kFont, type LabelPlacer} from './labels';
 
 const kMostTags = 6;
-/** An event may be told a little later than the pose in which robots part. */
+/** An event may arrive a little later than the pose in which robots part. */
 const kSlack_s = 0.3;
 const kHeight = 20;
 
-/** The contacts that go on at this moment, each with a robot that is in it. */
+/** The contacts at this moment, each with a robot that is in it. */
 export function contactsNow(events: readonly Event[], placed: Placed): {event: Event; slot: number}[] {
   const found: {event: Event; slot: number}[] = [];
   for (const event of events) {

@@ -5,7 +5,7 @@ import type {Camera} from './camera';
 import {bytesOf} from './ramp';
 
 const kCell_px = 14;
-/** So many robots in a cell are as dense as the shade gets. */
+/** The number of robots in a cell at which the shade is densest. */
 const kFull = 2.5;
 const kDarkest = 46;
 

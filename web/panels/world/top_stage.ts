@@ -98,7 +98,7 @@ export class TopStage implements Stage {
     return going;
   }
 
-  /** What a component draws. Its error is shown where its panel is, and the picture goes on. */
+  /** What a component draws. Its error is shown where its panel is, and the picture continues. */
   private drawForeign(ctx: CanvasRenderingContext2D, layer: WorldLayer): void {
     ctx.save();
     try {
@@ -189,7 +189,7 @@ export class TopStage implements Stage {
       // One robot alone would fill the picture: what is around it belongs to it.
       if (bounds.x0 <= bounds.x1) add((bounds.x0 + bounds.x1) / 2, (bounds.y0 + bounds.y1) / 2, kAround * largest);
       for (const body of model.bodies.values()) {
-        // A building is larger than what goes on in it.
+        // A building is larger than what happens in it.
         if (body.kind !== 'wall' || placed.count === 0) add(body.pose[0], body.pose[1], radiusOf(body.shapes));
       }
     }

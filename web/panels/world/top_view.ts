@@ -25,7 +25,7 @@ import {drawShadows} from './shadow_layer';
 import {drawTruth} from './truth_layer';
 import {drawVariances} from './variance_layer';
 
-/** Below this many pixels per metre, or beyond so many robots in the picture, simulated ones are arrowheads. */
+/** Below this many pixels per metre, or beyond this number of robots in the picture, simulated ones are arrowheads. */
 const kFar_px = 30;
 const kMany = 400;
 /** Tails of more robots have fewer parts. */

@@ -19,7 +19,7 @@ export function renderCard({model, selection, palette}: PanelContext, placed: Pl
   return html`<section class="card" aria-label="Selected robot">
     <h3><i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i>
       <span style="color:${hue.ink}">${robot.name}</span><span class="chip">${robot.kind}${robot.recorded ? ', recorded' : ''}</span>
-      <button class="icon-button" title="Select nobody (Esc)" aria-label="Select nobody" @click=${() => selection.set([])}>${icon('x', 14)}</button></h3>
+      <button class="icon-button" title="Clear the selection (Esc)" aria-label="Clear the selection" @click=${() => selection.set([])}>${icon('x', 14)}</button></h3>
     <dl><dt>Pose</dt><dd>${known ? `${placed.x[slot].toFixed(2)}, ${placed.y[slot].toFixed(2)} m · ${degrees}°`.replaceAll('-', '−') : 'not known'}</dd>
       <dt>Speed</dt><dd>${speed.toFixed(2)} m/s</dd>
       ${state === '' ? nothing : html`<dt>State</dt><dd class="care">${state}</dd>`}

@@ -20,7 +20,7 @@ import {worldPanelStyles} from './world_panel_styles';
 
 const kKept = 'rave.world';
 const kKeptMode = 'rave.world.mode';
-/** From so many robots on the colours are at hand without the menu. */
+/** From this number of robots on the colours are at hand without the menu. */
 const kCrowd = 100;
 /** From this share of the page on it is the only panel. */
 const kAlone = 0.9;

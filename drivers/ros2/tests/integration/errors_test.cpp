@@ -17,12 +17,12 @@ TEST(Ros2Errors, WhoIsNotThereIsLookedForAndNamed) {
             "no message came on `/cart/front` within 2 s: no participant writes `/cart/front`; the "
             "type sensor_msgs/msg/LaserScan is at /cart/scan");
   EXPECT_EQ(laser.configure({{"topic", "imu"}}, bench.device.base()),
-            "no message came on `/cart/imu` within 2 s: `/cart/imu` is there with the type "
-            "sensor_msgs/msg/Imu instead of sensor_msgs/msg/LaserScan");
+            "no message came on `/cart/imu` within 2 s: topic `/cart/imu` has the type "
+            "sensor_msgs/msg/Imu; expected sensor_msgs/msg/LaserScan");
   LiveActuator drive(bench.plugin, "ros2_velocity");
   EXPECT_EQ(drive.open({{"message", "twist_stamped"}}, bench.device.base()),
-            "no robot to drive was found within 2 s: `/cart/cmd_vel` is there with the type "
-            "geometry_msgs/msg/Twist instead of geometry_msgs/msg/TwistStamped");
+            "no robot to drive was found within 2 s: topic `/cart/cmd_vel` has the type "
+            "geometry_msgs/msg/Twist; expected geometry_msgs/msg/TwistStamped");
   LiveSensor tf(bench.plugin, "ros2_tf_pose");
   EXPECT_EQ(tf.configure({{"base_frame", "gripper"}}, bench.device.base()),
             "`/tf` has no pose of the robot: no transform leads from `map` to `gripper`: `gripper` "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "line/address.hpp"
+#include "rave/line/address.hpp"
 
 #include <gtest/gtest.h>
 

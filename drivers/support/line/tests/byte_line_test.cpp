@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Against a pseudo-terminal and a TCP server of the test's own.
-#include "line/byte_line.hpp"
+#include "rave/line/byte_line.hpp"
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -144,7 +144,7 @@ TEST(ByteLine, TcpBytesGoThroughUntilTheServerCloses) {
   EXPECT_EQ(take(*line, 4), "pong");
   ::close(peer);
   EXPECT_EQ(line->read(got, kLong, nullptr).end, ReadEnd::kLost);
-  EXPECT_EQ(line->lost(), "the other end closed it");
+  EXPECT_EQ(line->lost(), "the other end closed the connection");
 }
 
 TEST(ByteLine, ARefusedConnectionIsAnError) {

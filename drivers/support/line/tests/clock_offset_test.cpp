@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "line/clock_offset.hpp"
+#include "rave/line/clock_offset.hpp"
 
 #include <gtest/gtest.h>
 

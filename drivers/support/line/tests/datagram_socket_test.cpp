@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "line/datagram_socket.hpp"
+#include "rave/line/datagram_socket.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@ export interface Arrow {
   angle: number;
 }
 
-/** Arrows along a line of the picture, so many pixels from each other; the ends stay free for their rings. */
+/** Arrows along a line of the picture, at a distance in pixels from each other; the ends stay free for their rings. */
 export function arrowsAlong(points: readonly (readonly [number, number])[], every: number, free: number): Arrow[] {
   const lengths = points.slice(1).map(([x, y], i) => Math.hypot(x - points[i][0], y - points[i][1]));
   const whole = lengths.reduce((sum, length) => sum + length, 0);

@@ -118,7 +118,7 @@ export class OrderDesk {
     if (points.length < 2) return;
     const along = this.slotsFor('path');
     const end = points[points.length - 1];
-    // Whoever knows goals alone goes to the end of the line.
+    // A program that takes only goals is sent to the end of the line.
     if (along.length === 0) return this.slotsFor('goal').length > 0 ? this.sendGoal(end) : this.say(this.whyNot('path'), false, end);
     await this.context.commands.path(along, points);
   }

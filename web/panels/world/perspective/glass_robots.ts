@@ -9,7 +9,7 @@ import {addPrism, topOf, type Solid} from './prism';
 const kFine = 24;
 const kCoarse = 8;
 const kCoarseFrom = 150;
-/** So many robots have edges only: faces would cost more than they tell. */
+/** From this number of robots on they have edges only: faces would cost more than they show. */
 const kFacesUpTo = 2000;
 const kFill = 0.16;
 const kGhostEdge = 60;

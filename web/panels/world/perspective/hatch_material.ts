@@ -27,7 +27,7 @@ export function hatchMaterial(colour: string, light: boolean): ShaderMaterial {
   });
 }
 
-/** Gives the hatch its width for so many pixels of the picture to one of the screen. */
+/** Gives the hatch its width for the given number of pixels of the picture to one of the screen. */
 export function scaleHatch(material: ShaderMaterial, ratio: number): void {
   material.uniforms['step_px'].value = kStep_px * Math.SQRT2 * ratio;
   material.uniforms['width_px'].value = kWidth_px * Math.SQRT2 * ratio;

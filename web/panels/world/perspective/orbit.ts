@@ -73,7 +73,7 @@ export class Orbit {
     if (!animate) this.eye = to;
   }
 
-  /** Goes on with a movement and places the camera; true as long as there is one. */
+  /** Continues a movement and places the camera; true as long as there is one. */
   advance(now_ms: number, duration_ms = 280): boolean {
     const {goal} = this;
     if (goal !== null) {

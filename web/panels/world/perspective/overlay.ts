@@ -61,7 +61,7 @@ export class Overlay {
   private robotLabels(ctx: CanvasRenderingContext2D, shown: (slot: number) => boolean): Label[] {
     const {model, placed, selection, palette} = this.context;
     const labels: Label[] = [];
-    // So many robots are named only as far as they matter.
+    // Of many robots only those that matter are named.
     const all = model.robots.length <= kMostNames;
     model.robots.forEach((robot, slot) => {
       if (slot >= placed.count || (placed.flags[slot] & RobotFlag.known) === 0 || !shown(slot)) return;

@@ -33,7 +33,7 @@ inline constexpr QosProfile kPast{.durable = true, .depth = 256};
 /// Reliable; keeps the last 8 samples of each instance. What one instance lost is in another.
 inline constexpr QosProfile kLately{.depth = 8};
 /// Reliable; keeps the last 256 samples of each instance. Bursts are delivered; a stuck reader
-/// blocks nobody.
+/// blocks no sender.
 inline constexpr QosProfile kRecent{.depth = 256};
 /// Like kRecent, for one writer that serves all robots of a host. If a reader is stuck, the oldest
 /// samples beyond this depth are lost.

@@ -16,7 +16,7 @@ namespace rave::bus {
 /// Size limit of an answer, all parts together (bytes).
 inline constexpr std::size_t kMostAnswerBytes = std::size_t{8} << 20U;
 
-/// The message with the part of an answer from byte `from`. Empty: the answer has no such byte.
+/// The message that carries the answer from byte `from` on. Empty: the answer has no such byte.
 [[nodiscard]] std::optional<std::string> answer_part(std::string_view answer, std::size_t from);
 
 /// The request for the rest of an answer, and its inverse: the byte that such a request names; 0

@@ -73,7 +73,7 @@ struct SightingsCheckFile {
   double bearing_deg = 5;
   double min_within_pct = 99;
   int min_compared = 100;  ///< The check fails with fewer sightings than this.
-  int max_unknown = 10;  ///< Codes that nobody carries: up to this many are taken for misread ones.
+  int max_unknown = 10;    ///< Codes that no body has: up to this many count as misread ones.
   bool operator==(const SightingsCheckFile&) const = default;
 };
 

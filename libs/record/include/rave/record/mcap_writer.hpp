@@ -39,8 +39,8 @@ struct McapWriterOptions {
 /// (A power failure is not covered: nothing is synchronised to the disk.)
 ///
 /// One thread at a time. If a write to the disk fails, the file is truncated after its last
-/// complete chunk and the sink is told once. This call and all later ones return the error and drop
-/// their data; close() still tries to write the index.
+/// complete chunk and the sink gets the error once. This call and all later ones return the error
+/// and drop their data; close() still tries to write the index.
 class McapWriter {
  public:
   /// Creates or replaces the file. `sink` may be null; otherwise it must outlive the writer and is

@@ -31,7 +31,7 @@ class VirtualActuator {
   /// an exact arc.
   virtual Twist2 propose(const MotionInput& input) = 0;
   /// New parameter values while the robot runs, called between two steps with all parameters. An
-  /// error refuses the change; the old values stay in force.
+  /// error refuses the change; the old values remain.
   virtual Status parameters_changed(const Params& /*params*/) {
     return fail(ErrorCode::kInvalidArgument, "it takes no new parameters while it runs");
   }

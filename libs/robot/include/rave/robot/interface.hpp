@@ -61,7 +61,7 @@ struct RobotInfo {
 };
 
 /// Passes new values of all parameters to a running instance. Returns 0, or 1 with `error` set; the
-/// old values then stay in force.
+/// old values then remain.
 using UpdateFunction = int (*)(void* instance, const ParamValue* params, std::uint64_t count,
                                ErrorText* error);
 

@@ -23,7 +23,7 @@ class DecisionProcess {
   virtual Status start(const Setup& setup) = 0;
   virtual void decide(const Percepts& percepts, Commands& commands) = 0;
   /// New parameter values while the robot runs, called between two decisions with all parameters.
-  /// An error refuses the change; the old values stay in force.
+  /// An error refuses the change; the old values remain.
   virtual Status parameters_changed(const Params& /*params*/) {
     return fail(ErrorCode::kInvalidArgument, "it takes no new parameters while it runs");
   }

@@ -82,9 +82,9 @@ class Participant {
   }
   /// The number of other participants.
   [[nodiscard]] std::size_t others_here() const;
-  /// A message for users: why nothing comes from a topic (or, with `writers` false, nobody receives
-  /// it): the topic has another type, another topic has the type, or there is no other end. `type`
-  /// is the wire name.
+  /// A message for users: why nothing comes from a topic (or, with `writers` false, no participant
+  /// receives it): the topic has another type, another topic has the type, or there is no other
+  /// end. `type` is the wire name.
   [[nodiscard]] std::string explain_silence(std::string_view topic, std::string_view type,
                                             bool writers) const;
 

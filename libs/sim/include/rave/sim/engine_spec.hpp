@@ -40,7 +40,7 @@ class ProgramProcess {
   virtual Status begin(const DecideItem& item) = 0;
   virtual Status end(const DecideItem& item) = 0;
   /// New values of all parameters and a new radius of the body, between two decisions. An error
-  /// refuses the change; the old values stay in force.
+  /// refuses the change; the old values remain.
   virtual Status update(std::span<const ParamValue> /*params*/, double /*radius_m*/) {
     return fail(ErrorCode::kInvalidArgument, "it takes no new parameters while it runs");
   }

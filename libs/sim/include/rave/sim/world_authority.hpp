@@ -47,8 +47,8 @@ class WorldAuthority {
   /// the reports of the step after `world` come next. Errors: kInvalidArgument (a world of another
   /// spec); nothing has changed then.
   Status resume(const WorldStep& world, const AuthorityState& state);
-  /// Call it after resume() if nobody has made the changes of the scenario that were due earlier;
-  /// they are then made in the next step.
+  /// Call it after resume() if the changes of the scenario that were due earlier have not been
+  /// made; they are then made in the next step.
   void repeat_schedule() noexcept;
 
   /// Adds an input for robots or obstacles that takes effect with the next step; returns its

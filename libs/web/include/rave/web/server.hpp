@@ -41,7 +41,7 @@ using Reply = std::function<void(Response)>;
 class Handler {
  public:
   virtual ~Handler() = default;
-  /// Whether the response follows later through `reply`; if false, serve() is called.
+  /// Returns true if the response follows through `reply`; if false, serve() is called.
   [[nodiscard]] virtual bool serve_later(const Request& /*request*/, const Reply& /*reply*/) {
     return false;
   }

@@ -11,7 +11,7 @@
 
 // Certificates for DDS Security, as a folder:
 //
-//     lab-keys/ca/     authority.pem, authority_key.pem: whoever has these can add members
+//     lab-keys/ca/     authority.pem, authority_key.pem: a holder of these can add members
 //     lab-keys/left/   the six files for `BusConfig::security` and `--security`
 //     lab-keys/right/  the same for another process or machine
 //

@@ -12,7 +12,7 @@
 // Certificates of the GUI Server for browsers, as a folder:
 //
 //     web-keys/authority.pem      to be installed in browsers
-//     web-keys/authority_key.pem  secret: whoever has it can impersonate the server
+//     web-keys/authority_key.pem  secret: a holder can impersonate the server
 //     web-keys/server.pem, server_key.pem   for `rave gui --certificate ... --key ...`
 //
 // This authority is unrelated to that of a key set, which signs DDS permissions for years and must

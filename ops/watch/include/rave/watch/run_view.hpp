@@ -80,7 +80,7 @@ struct RobotView {
   std::string name;    ///< Empty if unknown.
   std::string team;    ///< Empty if unknown or without a team.
   std::string host;    ///< Empty if unknown.
-  std::string driver;  ///< Who has its command lease; empty if nobody does.
+  std::string driver;  ///< Who has its command lease; empty if no person does.
   std::optional<bool> simulated;
   bool stale = false;
   std::optional<double> age_s;

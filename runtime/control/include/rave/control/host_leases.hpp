@@ -57,7 +57,7 @@ class HostLeases {
   /// Passes the lease to `to`, or returns it if that is empty. If passed to a user, the first of
   /// their pages that uses it gets it. A page that closes passes its leases to its own user, so
   /// that its orders continue; leases of other pages stay, whatever rights the user has. Errors:
-  /// kState (another holds it), kInvalidArgument (nobody holds it, so it cannot be returned).
+  /// kState (another holds it), kInvalidArgument (no person holds it, so it cannot be returned).
   Result<std::string> give(const std::string& robot, const Person& person, const std::string& to,
                            Time now);
   /// The robot is no longer driven, so the lease lasts for kAfterOrder.

@@ -34,7 +34,7 @@ class OrderDesk {
   /// Executes or refuses such a request. The robot that it names must exist.
   Result<std::string> serve(const RunRequest& request, const Give& give, const IsDriven& is_driven,
                             Time now);
-  /// Ends orders that were not renewed, by inputs through `give`. No cost while nobody drives.
+  /// Ends orders that were not renewed, by inputs through `give`. No cost while no person drives.
   void tick(const Give& give, Time now);
   /// Whether anything may expire.
   [[nodiscard]] bool waits() const noexcept { return leases_.any() || watch_.any(); }

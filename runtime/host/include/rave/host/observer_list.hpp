@@ -59,7 +59,7 @@ class ObserverList {
   [[nodiscard]] const Observers& results() const noexcept { return results_; }
   [[nodiscard]] Shadows* shadows() const noexcept { return shadows_.get(); }
 
-  /// Does what somebody asks of the run between two steps, or of a shadow, and notes it in the
+  /// Does what a request asks of the run between two steps, or of a shadow, and notes it in the
   /// recording: orders of people if they have the lease of the robot. Returns what was done, for
   /// people.
   Result<std::string> serve(sim::Engine& engine, const RunRequest& request);
@@ -73,7 +73,7 @@ class ObserverList {
   void forward_to(InputForwarder* forwarder) noexcept { forwarder_ = forwarder; }
   /// Of the last serve(): what was passed on and is not done yet.
   [[nodiscard]] std::optional<std::uint64_t> take_given() { return std::exchange(given_, {}); }
-  /// Whether somebody drives a robot, so that tick() is due often.
+  /// Whether a person drives a robot, so that tick() is due often.
   [[nodiscard]] bool drives() const noexcept { return desk_.drives(); }
   /// Robots whose lease has changed since the last call.
   [[nodiscard]] std::set<RobotId> take_leased() { return std::exchange(leased_, {}); }
@@ -81,7 +81,7 @@ class ObserverList {
   [[nodiscard]] std::pair<std::string, std::uint64_t> holder(const std::string& robot) const {
     return {desk_.holder(robot), desk_.page(robot)};
   }
-  /// Whether the status of the run changes though nobody asks for anything.
+  /// Whether the status of the run changes without a request.
   [[nodiscard]] bool has_orders() const noexcept { return had_orders_; }
   /// Puts into the status who drives whom.
   void refresh(RunStatus& status) const;
@@ -93,7 +93,7 @@ class ObserverList {
 
  private:
   Result<std::string> place(const sim::Engine& engine, const RunRequest& request);
-  /// `awaited`: somebody waits for what comes of it.
+  /// `awaited`: a caller waits for the result.
   Result<std::string> make_input(sim::Engine& engine, const RunRequest& request, bool awaited);
   Result<std::string> serve_order(sim::Engine& engine, const RunRequest& request);
   void note_leases(const sim::Engine& engine);
@@ -112,8 +112,8 @@ class ObserverList {
   std::optional<std::uint64_t> given_;
   std::set<RobotId> leased_;
   bool had_orders_ = false;
-  std::vector<sim::Event> new_leases_;  ///< Since the last step.
-  std::vector<sim::Event> leases_;      ///< As events of the last step.
+  std::vector<sim::Event> new_leases_;  ///< Lease changes since the last step.
+  std::vector<sim::Event> leases_;      ///< Lease changes of the last step, as events.
 };
 
 }  // namespace rave::runtime

@@ -33,7 +33,8 @@ struct RunOptions {
   std::vector<RunObserver*> observers{};
   /// Pauses, steps and ends the run from elsewhere; may be null. Not owned.
   RunControl* control = nullptr;
-  /// Arm all robots when the run starts; without it those that must be armed wait for somebody.
+  /// Arm all robots when the run starts; without it those that must be armed wait for a person to
+  /// do so.
   bool arm = false;
   /// Name of the run for who controls it from elsewhere; only for messages.
   std::string run_name;

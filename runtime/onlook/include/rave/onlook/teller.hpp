@@ -34,7 +34,7 @@ class Teller {
 
   struct Options {
     std::uint32_t host = 0;  ///< Number of the host in the scenario.
-    /// Whether to publish obstacles: nobody else on this bus does it for this host.
+    /// Whether to publish obstacles: no other process on this bus does it for this host.
     bool obstacles = true;
     /// The description of an event, after the name of its kind. Empty: its text.
     std::function<std::string(const sim::Event&)> words = {};

@@ -66,8 +66,8 @@ class HostLink {
   /// The roster of this host's robots; nothing in the run waits for it.
   [[nodiscard]] lock_step::Roster& roster() noexcept;
 
-  /// Waits until the run has a time, all obstacles are known and, with `sees`, a first world has
-  /// arrived; zero() is then constant. `stopping` is called ten times a second. False: `stopping`
+  /// Waits for the time of the run and all obstacles; with `sees`, also for the first world. From
+  /// then on zero() is constant. `stopping` is called ten times a second. False: `stopping`
   /// returned true. Logs what it waits for. Errors: kState (another process serves this host, or
   /// the manager is incompatible).
   [[nodiscard]] Result<bool> await_start(const std::function<bool()>& stopping);
@@ -96,7 +96,7 @@ class HostLink {
   void note_lateness(lock_step::Pulse::Lateness lateness);
 
   /// The last step showed local robots the obstacles up to LiveWorld::shown_revision(). The manager
-  /// is told if that has increased.
+  /// is notified if that has increased.
   void obstacles_shown();
 
   /// Sends the results of this host to the Environment Manager once, at the end of the run,

@@ -76,7 +76,7 @@ class HostPort {
   /// Answers requests of others that have been handled since exchange(), without waiting for it.
   void serve();
   /// Publishes the states of this host's robots for monitors: at most 30 times a second, and only
-  /// while somebody reads it. No process of the run does.
+  /// while a process reads it. No process of the run does.
   void show(const sim::Engine& engine, std::span<const RobotId> robots);
   /// The state of the run for monitors; not published before its scenario was set.
   [[nodiscard]] HostWord& word() noexcept;
@@ -84,7 +84,7 @@ class HostPort {
   [[nodiscard]] bus::Bus& bus() noexcept;
   /// The roster of this host's robots; nothing in the run waits for it.
   [[nodiscard]] Roster& roster() noexcept;
-  /// What the run waits for, as its manager says it; empty: it goes on, or nobody knows.
+  /// What the run waits for, as its manager says it; empty: it continues, or the reason is unknown.
   [[nodiscard]] const std::string& waits_for() const noexcept;
   /// The state of the authority for the last world. It includes earlier obstacle changes only if
   /// this host had missed some.

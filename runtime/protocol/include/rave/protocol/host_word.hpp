@@ -12,7 +12,7 @@
 namespace rave::lock_step {
 
 /// Publishes the state of the run as this host knows it (topic rave/host_run), five times a second
-/// while somebody reads it. Only monitors do. Destroy it before its bus; thread: that of the bus.
+/// while a process reads it. Only monitors do. Destroy it before its bus; thread: that of the bus.
 class HostWord {
  public:
   using Clock = std::chrono::steady_clock;

@@ -55,7 +55,7 @@ class Roster {
 
   /// Who has the command lease of a robot.
   struct Driver {
-    std::string name;        ///< Empty: nobody.
+    std::string name;        ///< Empty: no person.
     std::uint64_t page = 0;  ///< 0: no particular one.
   };
   /// Publishes the marked robots in their present state. Does not block: a robot whose sample is

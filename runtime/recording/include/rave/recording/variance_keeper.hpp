@@ -14,7 +14,7 @@ namespace rave::runtime {
 /// a moment in the second before it. Used by one thread.
 class VarianceKeeper {
  public:
-  /// `told_truth`: by robot, whether it is told its true pose, which has no variance.
+  /// `told_truth`: by robot, whether its reported pose is the true one, which has no variance.
   void keep(const sim::Engine& engine, const std::vector<std::uint8_t>& told_truth,
             record::RunRecorder& recorder);
 

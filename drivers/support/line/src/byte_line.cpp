@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "line/byte_line.hpp"
+#include "rave/line/byte_line.hpp"
 
 #include <poll.h>
 #include <sys/socket.h>
@@ -57,7 +57,7 @@ ReadResult ByteLine::read(std::span<char> room, Wait limit, const Wake* wake) no
     if (ready == 0) return {ReadEnd::kTimeout, 0};
     const ssize_t size = ::read(fd_, room.data(), room.size());
     if (size > 0) return {ReadEnd::kBytes, static_cast<std::size_t>(size)};
-    if (size == 0) return lose("the other end closed it");
+    if (size == 0) return lose("the other end closed the connection");
     if (errno != EAGAIN && errno != EINTR) return lose(std::strerror(errno));
   }
 }

@@ -13,7 +13,7 @@
 #include <memory>
 #include <utility>
 
-#include "line/byte_line.hpp"
+#include "rave/line/byte_line.hpp"
 
 namespace rave::line {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "line/backoff.hpp"
+#include "rave/line/backoff.hpp"
 
 #include <algorithm>
 

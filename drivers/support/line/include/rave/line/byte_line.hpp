@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "line/address.hpp"
-#include "line/host_clock.hpp"
-#include "line/wake.hpp"
+#include "rave/line/address.hpp"
+#include "rave/line/host_clock.hpp"
+#include "rave/line/wake.hpp"
 
 namespace rave::line {
 

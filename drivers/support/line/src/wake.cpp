@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "line/wake.hpp"
+#include "rave/line/wake.hpp"
 
 #include <poll.h>
 #include <sys/eventfd.h>
@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "line/host_clock.hpp"
+#include "rave/line/host_clock.hpp"
 
 namespace rave::line {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "line/byte_line.hpp"
+#include "rave/line/byte_line.hpp"
 
 namespace rave::line {
 

@@ -9,7 +9,7 @@
 #include "onlooker.hpp"
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/writer.hpp"
-#include "recorded_run.hpp"
+#include "rave/run_testing/recorded_run.hpp"
 #include "shared_world.hpp"
 
 namespace rave::cli_test {

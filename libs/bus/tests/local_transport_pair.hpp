@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "peer_process.hpp"
 #include "rave/bus/local_transport.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/bus_testing/messages.hpp"
+#include "rave/bus_testing/peer_process.hpp"
 
 namespace rave::bus::testing {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "peer_roles.hpp"
+#include "rave/bus_testing/peer_roles.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "peer_console.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
-#include "sample_messages.hpp"
+#include "rave/bus_testing/peer_console.hpp"
+#include "rave/bus_testing/sample_messages.hpp"
 
 namespace rave::bus::testing {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "rave/bus/sequence.hpp"
-#include "sample_messages.hpp"
+#include "rave/bus_testing/sample_messages.hpp"
 
 namespace rave::bus {
 namespace {

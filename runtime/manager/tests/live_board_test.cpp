@@ -6,8 +6,8 @@
 
 #include <chrono>
 
-#include "engine_fixture.hpp"
 #include "own_corner.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 #include "speaking_host.hpp"
 
 namespace rave::manager {

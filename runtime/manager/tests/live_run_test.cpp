@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "engine_fixture.hpp"
 #include "fake_live_endpoint.hpp"
 #include "own_corner.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::manager {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "../src/live_board.hpp"
 #include "../src/live_edits.hpp"
-#include "engine_fixture.hpp"
 #include "own_corner.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::manager {
 namespace {

@@ -66,7 +66,6 @@ Status LiveBoard::look_at_processes(bool goes) {
 // A slot keeps its name and the poses of its robots: others still sense them where they were, until
 // they become stale.
 void LiveBoard::lose(std::uint64_t writer, bool goes) {
-  endpoint().forget(writer);
   refused_.erase(writer);
   wrong_hands_.erase(writer);
   // The place becomes free for another process of the same host.
@@ -209,7 +208,6 @@ void LiveBoard::send_world(std::uint64_t number, SimTime now, std::span<const st
     if (stale[r] != 0) stale_.push_back(r);
   }
   bus::World world{};
-  world.epoch = endpoint().writer();
   world.step = number;
   world.time_ns = now.ns;
   columns_.lend(world.robots);

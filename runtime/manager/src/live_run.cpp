@@ -105,7 +105,6 @@ void LiveRun::hear(const bus::ClockPing& ping) {
   }
   bus::ClockPong pong{};
   pong.target = ping.writer;
-  pong.number = ping.number;
   pong.ping_sent_ns = ping.sent_ns;
   pong.ping_received_ns = received_ns;
   pong.begun = begun_;

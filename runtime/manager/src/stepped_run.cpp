@@ -132,9 +132,6 @@ Status SteppedRun::make_step() {
   resolved_.ns[static_cast<std::size_t>(sim::Phase::kResolve)] +=
       std::chrono::duration_cast<std::chrono::nanoseconds>(now - begin).count();
   lateness_.worked(resolved_, now);
-  for (const sim::Event& event : authority_->events()) {
-    contacts_ += event.kind == sim::EventKind::kContact ? 1U : 0U;
-  }
   // Hosts end with the last world. The flag is set before sending, because nothing is sent
   // afterwards.
   world_.last = world_.last || ending_ || step_ >= options_.steps;
@@ -274,7 +271,6 @@ ManagerOutcome SteppedRun::outcome() {
   requests_.end();
   ManagerOutcome outcome;
   outcome.steps = authority_->steps_done();
-  outcome.contacts = contacts_;
   outcome.wall_s = begun_ ? seconds(ended_ - began_) : 0;
   for (HostSlot& slot : slots_) {
     if (slot.state == SlotState::kLost && begun_) miss_steps(slot);

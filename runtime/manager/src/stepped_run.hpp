@@ -96,7 +96,6 @@ class SteppedRun {
   bool handed_over_ = false;  ///< `world_` and `state_` are those of the previous manager.
   std::uint64_t newest_report_ = 0;
   std::string waits_for_;  ///< What status requests were told that the run waits for.
-  std::uint64_t contacts_ = 0;
   std::vector<std::string> problems_;
   std::chrono::steady_clock::time_point began_;
   std::chrono::steady_clock::time_point ended_;

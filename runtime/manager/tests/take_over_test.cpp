@@ -46,7 +46,6 @@ class Host {
   void ping(std::uint64_t manager, std::uint64_t shown) {
     bus::ClockPing ping{};
     ping.target = manager;
-    ping.number = ++pings_sent_;
     ping.bound_ns = -1;
     ping.run_ns = 0;
     ping.obstacle_revision = shown;
@@ -72,7 +71,6 @@ class Host {
   std::optional<bus::Writer<bus::HostInfo>> info_;
   std::optional<bus::Writer<bus::ClockPing>> pings_;
   std::optional<bus::Writer<bus::LastObstacle>> last_;
-  std::uint64_t pings_sent_ = 0;
 };
 
 class TakeOver : public ::testing::Test {

@@ -56,7 +56,6 @@ class BusEndpoint final : public ManagerEndpoint {
   Result<std::vector<std::uint64_t>> look_at_processes(bool begun) override;
   bool is_second() const override { return second_; }
   std::optional<std::uint32_t> host_of(std::uint64_t writer) const override;
-  void forget(std::uint64_t writer) override { host_of_.erase(writer); }
   void take_roster(RosterBook& book, const Serving& serving) override {
     read_roster(roster_, book, serving);
   }

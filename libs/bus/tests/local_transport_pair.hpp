@@ -124,7 +124,7 @@ struct Followed {
     });
   }
   /// Sends until something comes by the local transport to all of them.
-  [[nodiscard]] bool goes_short(const std::vector<std::uint32_t>& hosts) {
+  [[nodiscard]] bool goes_locally(const std::vector<std::uint32_t>& hosts) {
     last.clear();
     return eventually([&] {
       send();

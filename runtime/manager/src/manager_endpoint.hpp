@@ -34,9 +34,10 @@ class ManagerEndpoint {
   [[nodiscard]] virtual std::optional<std::uint32_t> host_of(std::uint64_t writer) const = 0;
   /// Receives the rosters of hosts.
   virtual void take_roster(RosterBook& book, const Serving& serving) = 0;
-  /// Receives the results of hosts at the end, from processes that have `sat` in the slot of their
+  /// Receives the results of hosts at the end, from processes that have `served` the slot of their
   /// host.
-  virtual void take_host_results(const std::function<bool(std::uint64_t, std::uint32_t)>& sat) = 0;
+  virtual void take_host_results(
+      const std::function<bool(std::uint64_t, std::uint32_t)>& served) = 0;
   /// Whether a process has not sent its results yet.
   [[nodiscard]] virtual bool owes_host_results(std::uint64_t writer) const = 0;
   /// All results that were received; each is returned once.

@@ -27,7 +27,7 @@ class SteppedRun {
  public:
   /// `options` are not owned.
   SteppedRun(const ManagerOptions& options, std::unique_ptr<sim::WorldAuthority> authority,
-             std::unique_ptr<SteppedEndpoint> board);
+             std::unique_ptr<SteppedEndpoint> bus);
 
   [[nodiscard]] Result<ManagerOutcome> go();
   /// Ends a run that cannot continue: tells all processes why, unless another manager has it.
@@ -78,7 +78,7 @@ class SteppedRun {
 
   const ManagerOptions& options_;
   std::unique_ptr<sim::WorldAuthority> authority_;
-  std::unique_ptr<SteppedEndpoint> board_;
+  std::unique_ptr<SteppedEndpoint> bus_;
   std::vector<HostSlot> slots_;
   sim::HostReport heard_;  ///< The report being read, before it is accepted.
   WorldRequests requests_;

@@ -30,7 +30,7 @@ class FakeEndpoint final : public ManagerEndpoint {
   }
   void take_roster(RosterBook& /*book*/, const Serving& /*serving*/) override {}
   void take_host_results(
-      const std::function<bool(std::uint64_t, std::uint32_t)>& /*sat*/) override {}
+      const std::function<bool(std::uint64_t, std::uint32_t)>& /*served*/) override {}
   bool owes_host_results(std::uint64_t /*writer*/) const override { return false; }
   std::vector<lock_step::HostResults> hand_out_host_results() override { return {}; }
   void publish(bus::RunState& state) override {

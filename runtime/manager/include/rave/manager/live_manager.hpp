@@ -90,9 +90,9 @@ struct LiveManagerOutcome {
   std::vector<sim::Event> refused;    ///< Changes of the scenario that could not be made.
   std::vector<std::string> problems;  ///< Other problems, one sentence each.
   /// Results that processes of hosts have sent. Those of all hosts that were present at the end are
-  /// complete if `saw_off`: this manager stayed until the hosts had left.
+  /// complete if `drained`: this manager stayed until the hosts had left.
   std::vector<lock_step::HostResults> host_results;
-  bool saw_off = false;
+  bool drained = false;
 };
 
 /// Manages a run in real time, in the calling thread. Its time 0 is when all hosts are present, by

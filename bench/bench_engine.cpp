@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <benchmark/benchmark.h>
 
-#include "engine_drivers.hpp"
 #include "rave/sim/engine.hpp"
 #include "rave/sim/world_authority.hpp"
+#include "rave/sim_testing/engine_drivers.hpp"
 
 namespace {
 

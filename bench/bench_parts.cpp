@@ -7,10 +7,10 @@
 #include <memory>
 
 #include "contact_arena.hpp"
-#include "engine_drivers.hpp"
 #include "instances.hpp"
 #include "listed_fan.hpp"
 #include "rave/sim/range_engine.hpp"
+#include "rave/sim_testing/engine_drivers.hpp"
 
 namespace {
 

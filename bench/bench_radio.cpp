@@ -3,7 +3,7 @@
 // which `range_m` decides how many hear it.
 #include <benchmark/benchmark.h>
 
-#include "radio_fixture.hpp"
+#include "rave/sim_testing/radio_fixture.hpp"
 
 namespace {
 

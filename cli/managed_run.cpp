@@ -140,7 +140,7 @@ void note_outcome(LiveManagerOutcome outcome, ManagedEnd& end) {
   for (runtime::SharedHost& host : end.end.hosts) {
     for (const LiveManagerOutcome::Host& met : outcome.hosts) {
       if (met.name != host.name) continue;
-      host.awaited = outcome.saw_off && met.heard;
+      host.awaited = outcome.drained && met.heard;
       host.heard = met.heard;
       host.losses = met.losses;
       if (met.bound_s < 0) continue;

@@ -96,10 +96,10 @@ Result<LogFile> Folder::read(std::string_view stem, std::span<const Column> colu
   file.unchanged = expected->second == file.sha256;
   // Checked last, so that a syntax error is reported with its line instead.
   if (!*file.unchanged && options.require_unchanged && !accepted_as_cut(file.log)) {
-    return fail_at({file.path, 0, 0}, ErrorCode::kParse,
-                   "the file differs from the one that {} lists (SHA-256 {}, listed {}); restore "
-                   "it, or set require_unchanged to false",
-                   kStretchFile, file.sha256, expected->second);
+    return fail_at(
+        {file.path, 0, 0}, ErrorCode::kParse,
+        "the file differs from the one that {} lists (SHA-256 {}, listed {}); restore it",
+        kStretchFile, file.sha256, expected->second);
   }
   return file;
 }

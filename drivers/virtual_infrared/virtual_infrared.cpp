@@ -26,7 +26,6 @@ class VirtualInfrared final : public VirtualSensor {
     return {};
   }
 
-  void sample(const WorldView& /*world*/, const SampleItem& /*item*/) const override {}
 
  private:
   static constexpr double kAxis_rad = 0;

@@ -41,8 +41,6 @@ class VirtualLaser final : public VirtualSensor {
     return {};
   }
 
-  // Empty: the engine casts declared fans itself, for all robots of a block together.
-  void sample(const WorldView& /*world*/, const SampleItem& /*item*/) const override {}
 
  private:
   Status spread(std::size_t rays, double fov_deg) {

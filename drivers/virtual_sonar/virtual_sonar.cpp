@@ -38,7 +38,6 @@ class VirtualSonar final : public VirtualSensor {
     return {};
   }
 
-  void sample(const WorldView& /*world*/, const SampleItem& /*item*/) const override {}
 
  private:
   /// An even number of gaps, so that both edges and the axis of the cone have a ray.

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "process.hpp"
-#include "recorded_run.hpp"
+#include "rave/run_testing/recorded_run.hpp"
 
 namespace rave::cli_test {
 namespace {

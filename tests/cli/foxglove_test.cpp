@@ -9,8 +9,8 @@
 #include <fstream>
 #include <thread>
 
-#include "foxglove_client.hpp"
 #include "process.hpp"
+#include "rave/gui_testing/foxglove_client.hpp"
 
 namespace rave::cli_test {
 namespace {
@@ -51,7 +51,7 @@ class FoxgloveRun : public ::testing::Test {
   /// The whole answer of the server to one request.
   [[nodiscard]] std::string ask(const std::string& method, const std::string& path,
                                 const std::string& headers, const std::string& body) const {
-    gui_server::testing::RawClient client(port_, {});
+    web::testing::RawClient client(port_, {});
     client.send(
         fmt::format("{} {} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\nContent-Length: "
                     "{}\r\n{}\r\n{}",

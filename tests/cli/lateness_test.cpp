@@ -96,7 +96,7 @@ TEST_F(LateRun, OnTheWallClockShowsTheSpeedOfItsSlowestHost) {
   wait_until(
       [&] {
         seen = top({});
-        return seen.is_object() && seen["phase"] == "goes" && seen["speed"].is_number() &&
+        return seen.is_object() && seen["phase"] == "running" && seen["speed"].is_number() &&
                seen["speed"] > 0 && host(seen, "slow").value("missed_pct", Json()).is_number();
       },
       "the speed is known");

@@ -12,12 +12,12 @@
 #include <thread>
 
 #include "page_key.hpp"
-#include "page_of_test.hpp"
 #include "process.hpp"
 #include "rave/bus/run_id.hpp"
 #include "rave/direct_line/key_files.hpp"
 #include "rave/direct_line/line_server.hpp"
-#include "raw_client.hpp"
+#include "rave/direct_line_testing/page_of_test.hpp"
+#include "rave/web_testing/raw_client.hpp"
 #include "signed_text.hpp"
 
 namespace rave::cli_test {
@@ -25,7 +25,7 @@ namespace {
 
 using direct_line::Ticket;
 using direct_line::testing::PageKey;
-using gui_server::testing::RawSocket;
+using web::testing::RawSocket;
 using Words = std::vector<std::string>;
 constexpr const char* kHost = "host-2";  // with bert
 

@@ -9,7 +9,7 @@
 #include "onlooker.hpp"
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/writer.hpp"
-#include "recorded_run.hpp"
+#include "rave/run_testing/recorded_run.hpp"
 #include "shared_world.hpp"
 
 namespace rave::cli_test {
@@ -305,17 +305,11 @@ TEST_F(LiveHosts, ARobotThatIsThereAlreadyIsRefusedWithOneLine) {
   ASSERT_TRUE(stranger) << stranger.error().text();
   auto roster = bus::Writer<bus::RosterEntry>::create(**stranger);
   ASSERT_TRUE(roster) << roster.error().text();
-  std::vector<double> x_m = {0, 1, 0};
-  std::vector<double> y_m = {0, 0, 1};
-  std::vector<rave_wire_Prism> body(1);
-  bus::borrow(body[0].x_m, x_m);
-  bus::borrow(body[0].y_m, y_m);
   for (const std::uint32_t robot : {kLeft, kRight}) {
     bus::RosterEntry entry{};
     entry.robot = robot;
     entry.host = robot;
     bus::put_text(entry.name, robot == kLeft ? "left" : "right");
-    bus::borrow(entry.body, body);
     ASSERT_TRUE(roster->write(entry));
   }
   wait_for_line("env", ": its host `");

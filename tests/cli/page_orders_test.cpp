@@ -9,13 +9,13 @@
 #include "rave/record/merge.hpp"
 #include "rave/record/run_messages.hpp"
 #include "rave/record/run_reader.hpp"
-#include "raw_client.hpp"
+#include "rave/web_testing/raw_client.hpp"
 
 namespace rave::cli_test {
 namespace {
 
-using gui_server::testing::RawClient;
-using gui_server::testing::RawSocket;
+using web::testing::RawClient;
+using web::testing::RawSocket;
 
 class PageOrders : public HeldRun {
  protected:

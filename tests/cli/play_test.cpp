@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "process.hpp"
-#include "recorded_run.hpp"
+#include "rave/run_testing/recorded_run.hpp"
 
 namespace rave::cli_test {
 namespace {

@@ -11,16 +11,16 @@
 #include <thread>
 
 #include "page_key.hpp"
-#include "page_of_test.hpp"
 #include "rave/direct_line/key_files.hpp"
 #include "rave/direct_line/line_server.hpp"
-#include "raw_client.hpp"
+#include "rave/direct_line_testing/page_of_test.hpp"
+#include "rave/web_testing/raw_client.hpp"
 #include "signed_text.hpp"
 
 namespace rave::direct_line {
 namespace {
 
-using gui_server::testing::RawSocket;
+using web::testing::RawSocket;
 
 /// As a page sends them.
 constexpr std::chrono::milliseconds kAgain{33};

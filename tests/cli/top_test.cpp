@@ -85,7 +85,7 @@ TEST_F(Top, HostsOfARunInRealTimeAndTheDeathOfOne) {
   const Json seen = last_of("watched");
   EXPECT_EQ(seen["scenario"], "live");
   EXPECT_EQ(seen["timing"], "real_time");
-  EXPECT_EQ(seen["phase"], "goes");
+  EXPECT_EQ(seen["phase"], "running");
   EXPECT_EQ(host(seen, "environment manager")["state"], "here");
   const Json one = host(seen, "one");
   EXPECT_EQ(one["process"], id_of("one")) << one.dump();
@@ -139,7 +139,7 @@ TEST_F(Top, ARunOfOneProcess) {
         const Ended ended = look({"--once", "--json", "--interval", "0.3"});
         if (ended.exit_code != 0) return false;
         seen = Json::parse(ended.out, nullptr, false);
-        return seen["phase"] == "goes" && seen["hosts"][0]["cores"].is_number();
+        return seen["phase"] == "running" && seen["hosts"][0]["cores"].is_number();
       },
       "the run is seen");
   EXPECT_EQ(seen["timing"], "one_process");

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <optional>
 
-#include "create_run.hpp"
-#include "recorded_run.hpp"
+#include "rave/run_testing/create_run.hpp"
+#include "rave/run_testing/recorded_run.hpp"
 
 namespace rave::tests {
 namespace {

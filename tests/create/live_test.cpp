@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "create_run.hpp"
-#include "recorded_run.hpp"
+#include "rave/run_testing/create_run.hpp"
+#include "rave/run_testing/recorded_run.hpp"
 
 namespace rave::tests {
 namespace {

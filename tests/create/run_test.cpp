@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "create_run.hpp"
+#include "rave/run_testing/create_run.hpp"
 
 namespace rave::tests {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "create_run.hpp"
 #include "rave/record/mcap_reader.hpp"
 #include "rave/record/run_messages.hpp"
 #include "rave/record/run_reader.hpp"
+#include "rave/run_testing/create_run.hpp"
 
 namespace rave::tests {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "create_run.hpp"
-#include "ros2_run.hpp"
+#include "rave/run_testing/create_run.hpp"
+#include "rave/run_testing/ros2_run.hpp"
 
 namespace rave::tests {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ros2_run.hpp"
+#include "rave/run_testing/ros2_run.hpp"
 
 namespace rave::tests {
 namespace {

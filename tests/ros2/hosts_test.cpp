@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "ros2_run.hpp"
+#include "rave/run_testing/ros2_run.hpp"
 
 namespace rave::tests {
 namespace {

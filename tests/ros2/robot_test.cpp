@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A robot of ROS 2 as a real robot of ours.
 
-#include "ros2_run.hpp"
+#include "rave/run_testing/ros2_run.hpp"
 
 namespace rave::tests {
 namespace {

@@ -4,7 +4,7 @@
 
 A licence line on top of sources and scripts; no path of one machine; nothing left to do; file names
 in lower case; libraries that neither print nor exit; no large files. Each library and room has a
-README and is made by rave_library(). Headers that grow beyond 250 lines are named, without being an
+README, and what is linked is made by rave_library() or rave_part(). Headers that grow beyond 250 lines are named, without being an
 error.
 """
 import re
@@ -32,6 +32,8 @@ LARGEST_BYTES = 1_000_000
 # A folder in one of these is a library.
 LIBRARY_FOLDERS = ("libs", "runtime", "ops", "servers")
 BY_HAND = re.compile(r"\badd_library\(\s*\w+\s+(?:STATIC|SHARED|OBJECT)\b")
+# A path into the tests of another folder; data files may lie there.
+OTHERS_TESTS = re.compile(r"(?:CMAKE_SOURCE_DIR\}|\.\.)/[\w./]*\btests(?:/[\w./]*\.[ch]pp|[/\w]*\"?\)|/\w+\"?\s)")
 LONG_HEADER_LINES = 250
 
 
@@ -100,9 +102,14 @@ def check_libraries(tree):
         folder = "/".join(parts[:2])
         if f"{folder}/README.md" not in tree.files:
             yield f"{folder}: a library has a README.md of some ten lines"
+    for name in tree.cmake_files:
+        if name.startswith("cmake/"):
+            continue
         for number, line in common.numbered(tree.read(name)):
             if BY_HAND.search(line):
-                yield f"{name}:{number}: a library is made by rave_library()"
+                yield f"{name}:{number}: a library is made by rave_library() or rave_part()"
+            if OTHERS_TESTS.search(line):
+                yield f"{name}:{number}: what several folders test with is in a folder `testing`"
 
 
 def long_headers(tree):
@@ -143,6 +150,11 @@ BREACHES = [
     ("runtime/a: a library has a README", {"runtime/a/CMakeLists.txt": f"# {LICENCE}\n"}),
     ("made by rave_library", {"ops/a/CMakeLists.txt": f"# {LICENCE}\nadd_library(a STATIC a.cpp)\n",
                               "ops/a/README.md": "# a\n"}),
+    ("rave_part", {"drivers/a/CMakeLists.txt": f"# {LICENCE}\nadd_library(a STATIC a.cpp)\n"}),
+    ("folder `testing`", {"bench/CMakeLists.txt": f"# {LICENCE}\ntarget_include_directories(a PRIVATE "
+                                                 '"${CMAKE_SOURCE_DIR}/libs/a/tests")\n'}),
+    ("folder `testing`", {"bench/CMakeLists.txt": f"# {LICENCE}\n"
+                                                 "rave_test(a SOURCES ../libs/a/tests/b.cpp)\n"}),
     ("bytes; more", {"docs/a.bin": "x" * (LARGEST_BYTES + 1)}),
 ]
 

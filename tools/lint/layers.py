@@ -148,7 +148,9 @@ def links_of(text):
         first = words[0] if words else ""
         if function == "target_link_libraries" and not first.startswith(("test_", "bench_")):
             linked = words[1:]
-        elif function in ("rave_library", "rave_plugin", "rave_driver", "rave_program",
+        elif function == "rave_part" and first.endswith("_testing"):
+            continue
+        elif function in ("rave_library", "rave_part", "rave_plugin", "rave_driver", "rave_program",
                           "rave_executable"):
             starts = [i for i, w in enumerate(words) if w in ("DEPS", "PRIVATE_DEPS")]
             linked = words[starts[0]:] if starts else []
@@ -162,7 +164,9 @@ def check_links(tree, rules, known):
     findings, driver_targets = [], set()
     for name in tree.cmake_files:
         if name.startswith("drivers/"):
-            driver_targets |= set(re.findall(r"\badd_library\(\s*(\w+)", tree.read(name)))
+            driver_targets |= {f"{start}{part}"
+                               for part in re.findall(r"\brave_part\(\s*(\w+)", tree.read(name))
+                               for start in ("rave_", "rave::")}
     for name in tree.cmake_files:
         owner = owner_of(tree, name)
         if owner is None or common.is_support(name):
@@ -242,8 +246,8 @@ BREACHES = [
            program_cmake="rave_program(p SOURCES p.cpp)\n"
                          "target_link_libraries(rave_plugin_p PRIVATE rave_sim)\n"),
     broken("never linked", cli_cmake="rave_executable(rave DEPS rave_plugin_x)\n"),
-    broken("never linked", driver_cmake="add_library(y_data STATIC y.cpp)\n",
-           cli_cmake="rave_executable(rave DEPS y_data)\n"),
+    broken("never linked", driver_cmake="rave_part(y_data SOURCES y.cpp)\n",
+           cli_cmake="rave_executable(rave DEPS rave_y_data)\n"),
     broken("include by the name", math='#include "../../sim/a.hpp"\n'),
     broken("there is no library", math='#include "rave/smi/a.hpp"\n'),
     broken("no row for `extra`", new="int x;\n"),

@@ -86,11 +86,6 @@ export class RunModel {
     return robot !== undefined && this.live && this.may('command') && robot.yours !== false;
   }
 
-  /** The sensor that a reading is of: one of the robot, or one that is tried on it. */
-  sensorOf(slot: number, index: number): Sensor | undefined {
-    return this.robots[slot]?.sensors[index] ?? this.probes.sensor(index);
-  }
-
   /** Why a robot does not take something from this person, in words; empty if it does. */
   whyNotTaken(slot: number, what: string): string {
     const robot = this.robots[slot];

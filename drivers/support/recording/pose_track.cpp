@@ -72,34 +72,13 @@ std::optional<Pose2> PoseTrack::interpolate(std::int64_t t_ns) const noexcept {
   const std::size_t next = after(t_ns);
   if (next == 0) return std::nullopt;
   const PoseSample& a = samples_[next - 1];
-  // After the last sample the pose is held; age_ns() tells how old it is.
+  // After the last sample the pose is held.
   if (next == samples_.size() || a.t_ns == t_ns) return a.pose;
   const PoseSample& b = samples_[next];
   const double part = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
   const double turn = wrap_angle(b.pose.yaw - a.pose.yaw);
   return Pose2{a.pose.x + part * (b.pose.x - a.pose.x), a.pose.y + part * (b.pose.y - a.pose.y),
                wrap_angle(a.pose.yaw + part * turn)};
-}
-
-std::optional<std::int64_t> PoseTrack::last_stamp_ns(std::int64_t t_ns) const noexcept {
-  const std::size_t next = after(t_ns);
-  if (next == 0) return std::nullopt;
-  return samples_[next - 1].t_ns;
-}
-
-std::optional<std::int64_t> PoseTrack::age_ns(std::int64_t t_ns) const noexcept {
-  const auto stamp = last_stamp_ns(t_ns);
-  if (!stamp) return std::nullopt;
-  return t_ns - *stamp;
-}
-
-bool PoseTrack::in_gap(std::int64_t t_ns, std::int64_t limit_ns) const noexcept {
-  const std::size_t next = after(t_ns);
-  if (next == 0) return true;
-  const std::int64_t last = samples_[next - 1].t_ns;
-  if (last == t_ns) return false;
-  if (next == samples_.size()) return t_ns - last > limit_ns;
-  return samples_[next].t_ns - last > limit_ns;
 }
 
 std::optional<WorldVelocity> PoseTrack::velocity(std::int64_t t_ns,

@@ -35,19 +35,9 @@ class PoseTrack {
   [[nodiscard]] std::span<const PoseSample> samples() const noexcept { return samples_; }
 
   /// The pose at a time: linear interpolation between the neighbouring samples, heading by the
-  /// shorter turn. After the last sample it is the last pose, because the body is still there; see
-  /// age_ns(). Empty before the first sample.
+  /// shorter turn. After the last sample it is the last pose, because the body is still there.
+  /// Empty before the first sample.
   [[nodiscard]] std::optional<Pose2> interpolate(std::int64_t t_ns) const noexcept;
-
-  /// The stamp of the latest sample at or before a time; empty before the first.
-  [[nodiscard]] std::optional<std::int64_t> last_stamp_ns(std::int64_t t_ns) const noexcept;
-
-  /// The age of the latest sample at a time; empty before the first.
-  [[nodiscard]] std::optional<std::int64_t> age_ns(std::int64_t t_ns) const noexcept;
-
-  /// Whether a time is between two samples that are more than `limit_ns` apart, more than that
-  /// after the last sample, or before the first. The time of a sample is in no gap.
-  [[nodiscard]] bool in_gap(std::int64_t t_ns, std::int64_t limit_ns) const noexcept;
 
   /// The velocity at a time: the slope of a least-squares line through the samples within
   /// `half_window_ns`. Differences of neighbouring samples would be too noisy: stamps jitter, and

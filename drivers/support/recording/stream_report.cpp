@@ -104,10 +104,7 @@ void describe_timing(StreamReport& report, std::span<const std::int64_t> stamps_
     }
     const std::int64_t length = row[1] - row[0];
     add_gap(GapKind::kInside, *row, length);
-    if (length > report.largest_gap_ns) {
-      report.largest_gap_ns = length;
-      report.largest_gap_start_ns = *row;
-    }
+    report.largest_gap_ns = std::max(report.largest_gap_ns, length);
     // At most to the end of the window, because the sample is not read later.
     report.largest_age_ns = std::max(report.largest_age_ns, std::min(row[1], end_ns) - *row);
   }

@@ -66,9 +66,8 @@ struct StreamReport {
   std::int64_t gap_limit_ns = 0;
   /// Gaps above the limit, in order of time, with their full lengths even if the window cuts them.
   std::vector<Gap> gaps;
-  /// The largest gap between two rows, also below the limit, and its start.
+  /// The largest gap between two rows, also below the limit.
   std::int64_t largest_gap_ns = 0;
-  std::int64_t largest_gap_start_ns = 0;
   /// The largest age of the latest row within the window, its end included.
   std::int64_t largest_age_ns = 0;
 

@@ -25,8 +25,4 @@ void HostClaims::release(std::uint64_t writer) {
   std::ranges::replace(writers_, writer, std::uint64_t{0});
 }
 
-std::uint64_t HostClaims::writer_of(std::uint32_t host) const {
-  return host < writers_.size() ? writers_[host] : 0;
-}
-
 }  // namespace rave::bus

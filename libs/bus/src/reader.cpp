@@ -11,7 +11,7 @@ namespace rave::bus {
 Result<ReaderCore> ReaderCore::create(Bus& bus, const TopicSpec& topic) {
   ReaderCore core(bus, topic.name);
   RAVE_TRY_ASSIGN(core.reader_, bus.add_endpoint(topic, true));
-  core.short_ = bus.endpoint(core.reader_)->receiver.get();
+  core.local_ = bus.endpoint(core.reader_)->receiver.get();
   return core;
 }
 
@@ -19,34 +19,34 @@ ReaderCore::ReaderCore(ReaderCore&& other) noexcept
     : bus_(other.bus_),
       topic_(other.topic_),
       reader_(std::exchange(other.reader_, 0)),
-      short_(other.short_) {}
+      local_(other.local_) {}
 
 ReaderCore::~ReaderCore() {
   if (reader_ > 0) bus_->remove_endpoint(reader_);
 }
 
 std::size_t ReaderCore::begin_take() {
-  return short_ == nullptr ? 0 : short_->begin_take(kMostAtOnce);
+  return local_ == nullptr ? 0 : local_->begin_take(kMostAtOnce);
 }
 
-bool ReaderCore::leaves_dds(bool got) { return short_ != nullptr && short_->leaves_dds(got); }
+bool ReaderCore::leaves_dds(bool got) { return local_ != nullptr && local_->leaves_dds(got); }
 
-const void* ReaderCore::take_short(std::size_t& budget) {
+const void* ReaderCore::take_local(std::size_t& budget) {
   // A budget, so that a peer that sends without end cannot keep this process from its other work.
   for (; budget > 0; --budget) {
-    auto datagram = short_->receive();
+    auto datagram = local_->receive();
     if (!datagram) return nullptr;
-    if (datagram->writer == 0 && short_->may_meet()) {
+    if (datagram->writer == 0 && local_->may_meet()) {
       // The writer may have matched after the last check.
       bus_->meet(*bus_->endpoint(reader_));
-      datagram->writer = short_->sender();
+      datagram->writer = local_->sender();
     }
     if (datagram->writer == 0) {
       bus_->note_stranger();
       continue;
     }
     // The sample lies in the memory of the decoder until the next one.
-    if (const void* const sample = short_->decoder().decode(datagram->bytes)) {
+    if (const void* const sample = local_->decoder().decode(datagram->bytes)) {
       --budget;
       sender_ = datagram->writer;
       return sample;

@@ -44,57 +44,6 @@ Status check_reports(std::string_view list, const rave_wire_RobotReports& report
       fmt::format("{}.flags has {} entries for {} robots", list, reports.flags._length, size));
 }
 
-/// Every vertex is to the left of every edge: convex, counter-clockwise, and wound once.
-bool convex(std::span<const double> x, std::span<const double> y) {
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const std::size_t next = (i + 1) % x.size();
-    const double ex = x[next] - x[i];
-    const double ey = y[next] - y[i];
-    if (ex == 0 && ey == 0) return false;
-    bool inside = false;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      const double side = ex * (y[k] - y[i]) - ey * (x[k] - x[i]);
-      // Corners on a line are allowed within rounding, but not a polygon without area.
-      if (side < -1e-9) return false;
-      inside |= side > 1e-12;
-    }
-    if (!inside) return false;
-  }
-  return true;
-}
-
-Status check_prism(std::size_t index, const rave_wire_Prism& prism) {
-  const auto x = elements(prism.x_m);
-  const auto y = elements(prism.y_m);
-  const std::string name = fmt::format("body[{}]", index);
-  if (x.size() < 3 || x.size() != y.size()) {
-    return invalid(fmt::format("{} has {} x and {} y; a polygon has 3 corners or more", name,
-                               x.size(), y.size()));
-  }
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    RAVE_TRY(check_number(name + ".x_m", x[i], kMaxPosition_m));
-    RAVE_TRY(check_number(name + ".y_m", y[i], kMaxPosition_m));
-  }
-  RAVE_TRY(check_number(name + ".z_min_m", prism.z_min_m, kMaxPosition_m));
-  RAVE_TRY(check_number(name + ".z_max_m", prism.z_max_m, kMaxPosition_m));
-  if (prism.z_min_m > prism.z_max_m) {
-    return invalid(
-        fmt::format("{}: z_min_m {} is above z_max_m {}", name, prism.z_min_m, prism.z_max_m));
-  }
-  if (!convex(x, y)) {
-    return invalid(fmt::format("{} is not convex and counterclockwise", name));
-  }
-  return {};
-}
-
-template <class Sequence>
-Status check_body(const Sequence& body, bool needed) {
-  const auto prisms = elements(body);
-  if (needed && prisms.empty()) return invalid("body is empty");
-  for (std::size_t i = 0; i < prisms.size(); ++i) RAVE_TRY(check_prism(i, prisms[i]));
-  return {};
-}
-
 /// Checks the address of a request or answer.
 template <class Message>
 Status check_address(const Message& sample) {
@@ -148,17 +97,6 @@ Status validate(const RosterEntry& sample) {
   RAVE_TRY(check_label("team", sample.team, false));
   RAVE_TRY(check_label("driver", sample.driver, false));
   if (sample.kind > rave_wire_ROBOT_SHADOW) return invalid("kind is unknown");
-  RAVE_TRY(check_body(sample.body, true));
-  for (const auto& sensor : elements(sample.sensors)) {
-    RAVE_TRY(check_label("sensors.name", sensor.name, true));
-    RAVE_TRY(check_label("sensors.type", sensor.type, true));
-    RAVE_TRY(check_pose(sensor));
-    RAVE_TRY(check_number("sensors.z_m", sensor.z_m, kMaxPosition_m));
-  }
-  for (const auto& parameter : elements(sample.parameters)) {
-    RAVE_TRY(check_label("parameters.name", parameter.name, true));
-    RAVE_TRY(check_label("parameters.value", parameter.value, false));
-  }
   return {};
 }
 

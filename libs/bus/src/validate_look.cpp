@@ -17,7 +17,6 @@ Status check_reading(std::size_t index, const rave_wire_Reading& reading) {
   if (reading.part >= kParts) {
     return invalid(fmt::format("entries[{}].part is {}, above 2", index, reading.part));
   }
-  if (reading.kind == 0) return invalid(fmt::format("entries[{}].kind is 0", index));
   if (reading.fields > kMostFields) {
     return invalid(
         fmt::format("entries[{}].fields is {}, more than {}", index, reading.fields, kMostFields));

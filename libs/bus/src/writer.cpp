@@ -10,7 +10,7 @@ namespace rave::bus {
 Result<WriterCore> WriterCore::create(Bus& bus, const TopicSpec& topic) {
   WriterCore core(bus, topic.name);
   RAVE_TRY_ASSIGN(core.writer_, bus.add_endpoint(topic, false));
-  core.short_ = bus.endpoint(core.writer_)->sender.get();
+  core.local_ = bus.endpoint(core.writer_)->sender.get();
   return core;
 }
 
@@ -18,27 +18,27 @@ WriterCore::WriterCore(WriterCore&& other) noexcept
     : bus_(other.bus_),
       topic_(other.topic_),
       writer_(std::exchange(other.writer_, 0)),
-      short_(other.short_) {}
+      local_(other.local_) {}
 
 WriterCore::~WriterCore() {
   if (writer_ > 0) bus_->remove_endpoint(writer_);
 }
 
-bool WriterCore::goes_short(const void* sample) {
-  if (short_ == nullptr) return false;
+bool WriterCore::goes_locally(const void* sample) {
+  if (local_ == nullptr) return false;
   // The transport knows the readers by address and DDS by discovery. If the numbers differ, a
   // reader is on another machine or has just come, and the sample goes by DDS, which reaches all.
-  if (short_->due()) {
+  if (local_->due()) {
     const std::size_t count = readers();
-    if (short_->readers() != count) bus_->meet(*bus_->endpoint(writer_));
-    if (short_->readers() != count) return false;
-    short_->counted();
+    if (local_->readers() != count) bus_->meet(*bus_->endpoint(writer_));
+    if (local_->readers() != count) return false;
+    local_->counted();
   }
-  return short_->send(sample);
+  return local_->send(sample);
 }
 
 Status WriterCore::write(const void* sample) {
-  if (goes_short(sample)) return {};
+  if (goes_locally(sample)) return {};
   const dds_return_t code = dds_write(writer_, sample);
   if (code == DDS_RETCODE_OK) return {};
   if (code == DDS_RETCODE_TIMEOUT) {

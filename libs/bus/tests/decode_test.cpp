@@ -5,7 +5,7 @@
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/validate.hpp"
 #include "rave/bus_testing/messages.hpp"
-#include "sample_messages.hpp"
+#include "rave/bus_testing/sample_messages.hpp"
 
 namespace rave::bus::testing {
 namespace {

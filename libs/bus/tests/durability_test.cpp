@@ -5,10 +5,10 @@
 #include <set>
 #include <string>
 
-#include "peer_process.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/wait_set.hpp"
+#include "rave/bus_testing/peer_process.hpp"
 
 namespace rave::bus::testing {
 namespace {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "peer_process.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/writer.hpp"
+#include "rave/bus_testing/peer_process.hpp"
 
 namespace rave::bus::testing {
 namespace {

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "peer_process.hpp"
 #include "rave/bus/local_transport.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/bus_testing/messages.hpp"
+#include "rave/bus_testing/peer_process.hpp"
 
 namespace rave::bus::testing {
 
@@ -124,7 +124,7 @@ struct Followed {
     });
   }
   /// Sends until something comes by the local transport to all of them.
-  [[nodiscard]] bool goes_short(const std::vector<std::uint32_t>& hosts) {
+  [[nodiscard]] bool goes_locally(const std::vector<std::uint32_t>& hosts) {
     last.clear();
     return eventually([&] {
       send();

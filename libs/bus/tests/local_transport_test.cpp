@@ -212,13 +212,13 @@ TEST(LocalTransport, WhenAReaderIsKilledTheOthersMissNothing) {
   PeerProcess other(run.domain, "follow", "other", {"host=2", "lease_s=20"});
   ASSERT_EQ(victim.line(), "ready");
   ASSERT_EQ(other.line(), "ready");
-  ASSERT_TRUE(run.goes_short({1, 2}));
+  ASSERT_TRUE(run.goes_locally({1, 2}));
   victim.kill();
   // Once, and not again until it has come: its death is not known yet.
   run.send();
   EXPECT_TRUE(eventually([&] { return run.listen(), run.last[2].step == run.step; }));
   // When it is missed, all that are left are near.
-  EXPECT_TRUE(run.goes_short({2}));
+  EXPECT_TRUE(run.goes_locally({2}));
   EXPECT_EQ(other.end(), 0);
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "peer_roles.hpp"
+#include "rave/bus_testing/peer_roles.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "peer_console.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
-#include "sample_messages.hpp"
+#include "rave/bus_testing/peer_console.hpp"
+#include "rave/bus_testing/sample_messages.hpp"
 
 namespace rave::bus::testing {
 namespace {
@@ -54,14 +54,12 @@ void echo(Bus& bus) {
 void furnish(Bus& bus, const Arguments& arguments) {
   auto obstacles = Writer<Obstacle>::create(bus);
   auto roster = Writer<RosterEntry>::create(bus);
-  Box box;
   for (std::uint32_t i = 0; i < number(arguments, "count"); ++i) {
     NewBox obstacle(i);
     static_cast<void>(obstacles->write(obstacle.sample));
     RosterEntry entry{};
     entry.robot = i;
     put_text(entry.name, "robot" + std::to_string(i));
-    box.lend(entry.body);
     static_cast<void>(roster->write(entry));
   }
   say("ready");
@@ -101,7 +99,6 @@ void world(Bus& bus, const Arguments& arguments) {
     RobotArrays robots(number(arguments, "robots"), step);
     if (arguments.contains("nan")) robots.x[1] = std::numeric_limits<double>::quiet_NaN();
     World sample{};
-    sample.epoch = 1;
     sample.step = step;
     robots.lend(sample.robots);
     static_cast<void>(writer->write(sample));

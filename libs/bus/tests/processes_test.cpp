@@ -7,12 +7,12 @@
 #include <map>
 #include <thread>
 
-#include "peer_process.hpp"
 #include "rave/bus/host_claims.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
+#include "rave/bus_testing/peer_process.hpp"
 
 namespace rave::bus::testing {
 namespace {

@@ -12,10 +12,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "peer_process.hpp"
 #include "rave/bus/local_transport.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/writer.hpp"
+#include "rave/bus_testing/peer_process.hpp"
 #include "rave/keys/key_set.hpp"
 
 namespace rave::bus::testing {

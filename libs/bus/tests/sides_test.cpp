@@ -7,9 +7,9 @@
 #include <set>
 #include <string>
 
-#include "peer_process.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/writer.hpp"
+#include "rave/bus_testing/peer_process.hpp"
 
 namespace rave::bus::testing {
 namespace {

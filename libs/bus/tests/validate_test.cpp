@@ -7,12 +7,11 @@
 #include <limits>
 
 #include "rave/bus/sequence.hpp"
-#include "sample_messages.hpp"
+#include "rave/bus_testing/sample_messages.hpp"
 
 namespace rave::bus {
 namespace {
 
-using testing::Box;
 using testing::NewBox;
 using testing::RobotArrays;
 
@@ -106,58 +105,6 @@ TEST(Validate, LooksAtTheRobotsOfAHost) {
   EXPECT_EQ(reason(state), "host is none");
 }
 
-/// Roster entries with the body that a test makes.
-std::string judge_body(Box& box) {
-  RosterEntry entry{};
-  entry.writer = 1;
-  put_text(entry.name, "anna");
-  box.lend(entry.body);
-  return reason(entry);
-}
-
-TEST(Validate, WantsBodiesConvexAndCounterclockwise) {
-  Box box;
-  EXPECT_EQ(judge_body(box), "accepted");
-  std::swap(box.x[1], box.x[3]);
-  std::swap(box.y[1], box.y[3]);
-  EXPECT_EQ(judge_body(box), "body[0] is not convex and counterclockwise");
-  Box dent;
-  dent.x[2] = 0.1;
-  dent.y[2] = 0.1;
-  EXPECT_EQ(judge_body(dent), "body[0] is not convex and counterclockwise");
-  Box point;
-  point.x = {1, 1, 1, 1};
-  point.y = point.x;
-  borrow(point.prisms[0].x_m, point.x);
-  borrow(point.prisms[0].y_m, point.y);
-  EXPECT_EQ(judge_body(point), "body[0] is not convex and counterclockwise");
-}
-
-TEST(Validate, AStarIsNotConvexAlthoughEveryCornerTurnsLeft) {
-  Box star;
-  star.x.clear();
-  star.y.clear();
-  for (int i = 0; i < 5; ++i) {
-    star.x.push_back(std::cos(i * 4 * 3.14159265 / 5));
-    star.y.push_back(std::sin(i * 4 * 3.14159265 / 5));
-  }
-  borrow(star.prisms[0].x_m, star.x);
-  borrow(star.prisms[0].y_m, star.y);
-  EXPECT_EQ(judge_body(star), "body[0] is not convex and counterclockwise");
-}
-
-TEST(Validate, WantsBodiesWithHeightAndCorners) {
-  Box box;
-  box.prisms[0].z_min_m = 2;
-  EXPECT_EQ(judge_body(box), "body[0]: z_min_m 2 is above z_max_m 1");
-  Box line;
-  line.prisms[0].x_m._length = 2;
-  EXPECT_EQ(judge_body(line), "body[0] has 2 x and 4 y; a polygon has 3 corners or more");
-  Box infinite;
-  infinite.x[0] = kInfinity;
-  EXPECT_TRUE(judge_body(infinite).starts_with("body[0].x_m is inf"));
-}
-
 template <class Spoil>
 std::string judge_obstacle(Spoil&& spoil) {
   NewBox box(3);
@@ -200,9 +147,7 @@ TEST(Validate, AnObstacleThatMovedHasNoBody) {
 }
 
 TEST(Validate, RosterEntriesHaveNamesThatCanBeShown) {
-  Box box;
   auto entry = written<RosterEntry>();
-  box.lend(entry.body);
   EXPECT_EQ(reason(entry), "name is empty");
   put_text(entry.name, "ann\x1b[2J");
   EXPECT_EQ(reason(entry), "name has control characters");

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "each_target.hpp"
+#include "rave/math_testing/each_target.hpp"
 
 namespace rave {
 namespace {

@@ -118,7 +118,9 @@ std::string error_of_percepts(std::uint32_t version, std::uint32_t robots, std::
   PackedPercept element{};
   element.size = size;
   element.robots = robots;
-  writer.put_packed(std::span<const PackedPercept>(&element, 1));
+  for (const std::byte byte : std::as_bytes(std::span(&element, 1))) {
+    writer.put(static_cast<std::uint8_t>(byte));
+  }
   writer.put_count(12);
   for (int i = 0; i < 12; ++i) writer.put(std::uint8_t{1});
   std::vector<std::byte> bytes(writer.bytes().begin(), writer.bytes().end());

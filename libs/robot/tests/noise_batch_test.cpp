@@ -6,10 +6,10 @@
 #include <cstring>
 #include <limits>
 
-#include "each_target.hpp"
 #include "processing_support.hpp"
 #include "rave/math/random_batch.hpp"
 #include "rave/math/scalar.hpp"
+#include "rave/math_testing/each_target.hpp"
 
 namespace rave {
 namespace {

@@ -7,9 +7,9 @@
 #include <deque>
 #include <limits>
 
-#include "each_target.hpp"
 #include "processing_support.hpp"
 #include "rave/math/scalar.hpp"
+#include "rave/math_testing/each_target.hpp"
 
 namespace rave {
 namespace {

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "engine_fixture.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::sim::testing {
 namespace {

@@ -2,8 +2,8 @@
 // Robots with several controllers: which of them drives.
 #include <array>
 
-#include "given.hpp"
 #include "obedient.hpp"
+#include "rave/sim_testing/given.hpp"
 
 namespace rave::sim::testing {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
 
-#include "engine_fixture.hpp"
-#include "given.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
+#include "rave/sim_testing/given.hpp"
 
 namespace rave::sim::testing {
 namespace {

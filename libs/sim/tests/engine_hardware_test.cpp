@@ -2,7 +2,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "engine_fixture.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::sim::testing {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <thread>
 
-#include "engine_fixture.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::sim::testing {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine_fixture.hpp"
-#include "given.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
+#include "rave/sim_testing/given.hpp"
 
 namespace rave::sim::testing {
 namespace {

@@ -2,8 +2,8 @@
 // Real robots of live runs: what protects them does not wait for steps.
 #include <algorithm>
 
-#include "engine_fixture.hpp"
 #include "live_fixture.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::sim::testing {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine_fixture.hpp"
 #include "rave/math/transform.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::sim::testing {
 namespace {

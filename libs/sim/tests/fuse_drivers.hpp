@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "engine_fixture.hpp"
-#include "given.hpp"
 #include "rave/robot/hybrid_sensor.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
+#include "rave/sim_testing/given.hpp"
 
 /// Drivers for tests of hybrid sensors in the engine.
 namespace rave::sim::testing {

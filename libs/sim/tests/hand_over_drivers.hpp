@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-#include "engine_fixture.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 /// Robots with two sets of drivers, for tests of hand-overs.
 namespace rave::sim::testing {

@@ -6,7 +6,7 @@
 #include "../src/radio.hpp"
 #include "../src/run_inputs.hpp"
 #include "../src/spec_checks.hpp"
-#include "engine_fixture.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::sim::testing {
 

@@ -9,9 +9,9 @@
 #include <limits>
 
 #include "../src/listed_fan.hpp"
-#include "each_target.hpp"
 #include "rave/base/random.hpp"
 #include "rave/math/scalar.hpp"
+#include "rave/math_testing/each_target.hpp"
 
 namespace rave::sim::testing {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine_fixture.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 /// Real robots that do what they are told, for tests of what they are told.
 namespace rave::sim::testing {

@@ -2,8 +2,8 @@
 // An authority over obstacles alone, as a run in real time has one, and one that follows another.
 #include <gtest/gtest.h>
 
-#include "engine_fixture.hpp"
 #include "rave/sim/world_authority.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::sim::testing {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "input_parts.hpp"
-#include "order_programs.hpp"
+#include "rave/sim_testing/order_programs.hpp"
 
 namespace rave::sim::testing {
 namespace {

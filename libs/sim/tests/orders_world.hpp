@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "order_programs.hpp"
+#include "rave/sim_testing/order_programs.hpp"
 
 /// A small world in which orders are given.
 namespace rave::sim::testing {

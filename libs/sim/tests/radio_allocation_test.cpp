@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program of its own, since it counts what all of it allocates.
 #include "counted_allocations.hpp"
-#include "radio_fixture.hpp"
+#include "rave/sim_testing/radio_fixture.hpp"
 
 namespace rave::sim::testing {
 namespace {

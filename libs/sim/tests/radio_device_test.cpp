@@ -4,8 +4,8 @@
 #include <optional>
 #include <tuple>
 
-#include "given.hpp"
-#include "radio_fixture.hpp"
+#include "rave/sim_testing/given.hpp"
+#include "rave/sim_testing/radio_fixture.hpp"
 
 namespace rave::sim::testing {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "radio_fixture.hpp"
+#include "rave/sim_testing/radio_fixture.hpp"
 
 namespace rave::sim::testing {
 namespace {

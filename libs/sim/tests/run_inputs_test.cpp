@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "given.hpp"
 #include "input_parts.hpp"
-#include "order_programs.hpp"
+#include "rave/sim_testing/given.hpp"
+#include "rave/sim_testing/order_programs.hpp"
 
 namespace rave::sim::testing {
 namespace {

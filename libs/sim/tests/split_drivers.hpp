@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "fuse_drivers.hpp"
-#include "given.hpp"
-#include "radio_fixture.hpp"
+#include "rave/sim_testing/given.hpp"
+#include "rave/sim_testing/radio_fixture.hpp"
 
 /// Drivers and a program that let all that passes between hosts show, for tests of split worlds.
 namespace rave::sim::testing {

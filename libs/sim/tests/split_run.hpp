@@ -5,8 +5,8 @@
 #include <functional>
 #include <tuple>
 
-#include "engine_fixture.hpp"
 #include "rave/sim/world_authority.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 /// Worlds that several engines and one authority share, in one process, for tests.
 namespace rave::sim::testing {

@@ -58,7 +58,7 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   Connection(Core& core, Tcp::socket socket, const std::string& peer)
       : core_(core),
         stream_(std::move(socket), core.tls ? &core.tls->context() : nullptr),
-        seat_(std::make_shared<Seat>(core, network_of(peer))),
+        slot_(std::make_shared<ConnectionSlot>(core, network_of(peer))),
         peer_(peer) {
     core_.connections.insert(this);
   }
@@ -88,7 +88,7 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
 
   Core& core_;
   Stream stream_;
-  std::shared_ptr<Seat> seat_;  ///< Passed on if the connection becomes a WebSocket.
+  std::shared_ptr<ConnectionSlot> slot_;  ///< Passed on if the connection becomes a WebSocket.
   std::string peer_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
@@ -180,7 +180,7 @@ void Connection::dispatch(const Request& request) {
 }
 
 std::optional<Response> Connection::refusal(Request& request) {
-  if (!core_.requests.take(seat_->network(), RateLimit::Clock::now())) {
+  if (!core_.requests.take(slot_->network(), RateLimit::Clock::now())) {
     Response response = text_response(429, "too many requests; try again in a few seconds\n");
     response.headers.emplace_back("Retry-After", "5");
     return response;
@@ -219,7 +219,7 @@ void Connection::upgrade(Request request) {
   stream_.set_send_buffer(core_.options().send_buffer_bytes);
   // From here on the socket belongs to the WebSocket, and cut() must not close it.
   handed_over_ = true;
-  serve_websocket(core_, std::move(stream_), std::move(seat_), std::move(request),
+  serve_websocket(core_, std::move(stream_), std::move(slot_), std::move(request),
                   std::move(subprotocol), message_);
 }
 

@@ -51,7 +51,7 @@ class Core {
   bool stopping = false;
   std::set<SocketLink*> sockets;
   std::set<Link*> connections;
-  std::map<std::string, std::size_t> seats;  ///< Number of connections and sockets by network.
+  std::map<std::string, std::size_t> slots;  ///< Number of connections and sockets by network.
 
  private:
   ServerOptions options_;
@@ -61,15 +61,15 @@ class Core {
 };
 
 /// Counts a connection for its network during its lifetime.
-class Seat {
+class ConnectionSlot {
  public:
-  Seat(Core& core, std::string network) : core_(core), network_(std::move(network)) {
-    ++core_.seats[network_];
+  ConnectionSlot(Core& core, std::string network) : core_(core), network_(std::move(network)) {
+    ++core_.slots[network_];
   }
-  Seat(const Seat&) = delete;
-  Seat& operator=(const Seat&) = delete;
-  ~Seat() {
-    if (--core_.seats[network_] == 0) core_.seats.erase(network_);
+  ConnectionSlot(const ConnectionSlot&) = delete;
+  ConnectionSlot& operator=(const ConnectionSlot&) = delete;
+  ~ConnectionSlot() {
+    if (--core_.slots[network_] == 0) core_.slots.erase(network_);
   }
   [[nodiscard]] const std::string& network() const noexcept { return network_; }
 

@@ -28,8 +28,8 @@ bool Core::is_own_host(std::string_view host) const {
 bool Core::has_room(const std::string& network) const {
   if (connections.size() + sockets.size() >= options_.connections) return false;
   // One network may not take all places from the others.
-  const auto found = seats.find(network);
-  return found == seats.end() || found->second < options_.connections_per_network;
+  const auto found = slots.find(network);
+  return found == slots.end() || found->second < options_.connections_per_network;
 }
 
 namespace {

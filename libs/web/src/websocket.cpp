@@ -20,11 +20,11 @@ constexpr std::uint16_t kTooMany = 4429;
 /// A WebSocket with its own queue. Lives as long as one of its operations is pending.
 class WebSocket final : public SocketLink, public std::enable_shared_from_this<WebSocket> {
  public:
-  WebSocket(Core& core, Stream stream, std::shared_ptr<Seat> seat, Request request,
+  WebSocket(Core& core, Stream stream, std::shared_ptr<ConnectionSlot> slot, Request request,
             std::string subprotocol)
       : core_(core),
         stream_(std::move(stream)),
-        seat_(std::move(seat)),
+        slot_(std::move(slot)),
         request_(std::move(request)),
         subprotocol_(std::move(subprotocol)),
         rate_(core.options().messages_per_s, core.options().message_burst) {}
@@ -54,7 +54,7 @@ class WebSocket final : public SocketLink, public std::enable_shared_from_this<W
 
   Core& core_;
   websocket::stream<Stream> stream_;
-  std::shared_ptr<Seat> seat_;  ///< Passed on by the connection.
+  std::shared_ptr<ConnectionSlot> slot_;  ///< Passed on by the connection.
   Request request_;
   std::string subprotocol_;
   RateLimit rate_;
@@ -187,9 +187,10 @@ void WebSocket::end() {
 
 }  // namespace
 
-void serve_websocket(Core& core, Stream stream, std::shared_ptr<Seat> seat, Request request,
-                     std::string subprotocol, const http::request<http::string_body>& upgrade) {
-  std::make_shared<WebSocket>(core, std::move(stream), std::move(seat), std::move(request),
+void serve_websocket(Core& core, Stream stream, std::shared_ptr<ConnectionSlot> slot,
+                     Request request, std::string subprotocol,
+                     const http::request<http::string_body>& upgrade) {
+  std::make_shared<WebSocket>(core, std::move(stream), std::move(slot), std::move(request),
                               std::move(subprotocol))
       ->accept(upgrade);
 }

@@ -8,10 +8,10 @@
 
 namespace rave::web {
 
-/// Converts a connection to a WebSocket after its upgrade request. `seat` must have no other owner.
+/// Converts a connection to a WebSocket after its upgrade request. `slot` must have no other owner.
 /// `subprotocol`: the negotiated one; empty: none.
-void serve_websocket(Core& core, Stream stream, std::shared_ptr<Seat> seat, Request request,
-                     std::string subprotocol,
+void serve_websocket(Core& core, Stream stream, std::shared_ptr<ConnectionSlot> slot,
+                     Request request, std::string subprotocol,
                      const beast::http::request<beast::http::string_body>& upgrade);
 
 }  // namespace rave::web

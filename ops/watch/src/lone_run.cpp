@@ -32,7 +32,7 @@ RunView view_of(const std::string& name, const runtime::RunStatus& status, bool 
   // Before the run begins the process answers without a scenario.
   view.phase = status.scenario.empty() ? Phase::kUnknown
                : status.paused         ? Phase::kPaused
-                                       : Phase::kGoes;
+                                       : Phase::kRunning;
   view.time_s = status.sim_s;
   view.duration_s = status.duration_s;
   HostView& host = view.hosts.emplace_back();

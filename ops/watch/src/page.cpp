@@ -36,7 +36,7 @@ Tone tone_of(Standing standing) {
 
 Tone tone_of(Phase phase) {
   switch (phase) {
-    case Phase::kGoes:
+    case Phase::kRunning:
     case Phase::kEnded:
       return Tone::kGood;
     case Phase::kFailed:

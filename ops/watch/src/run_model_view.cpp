@@ -288,7 +288,7 @@ void RunModel::tell_run(RunView& view, std::int64_t now_ns) const {
   }
   if (!state_) return tell_words(view);
   view.scenario = state_->scenario;
-  constexpr Phase kPhases[] = {Phase::kGathers, Phase::kGoes, Phase::kWaits, Phase::kEnded,
+  constexpr Phase kPhases[] = {Phase::kGathering, Phase::kRunning, Phase::kWaits, Phase::kEnded,
                                Phase::kFailed};
   view.phase = kPhases[static_cast<std::size_t>(state_->phase)];
   view.text = state_->text;
@@ -331,7 +331,7 @@ RunModel::Words RunModel::words() const {
     }
     if (!here) continue;
     words.here = true;
-    if (word.phase != rave_wire_RUN_GOES) words.waiting = &word;
+    if (word.phase != rave_wire_RUN_RUNNING) words.waiting = &word;
     const auto manager = word.hosts.find(rave_wire_kNone);
     words.manager_lost |=
         manager != word.hosts.end() && manager->second.phase != rave_wire_HOST_RUNS;
@@ -358,10 +358,10 @@ void RunModel::tell_words(RunView& view) const {
     view.text = failed ? words.over->text : (done ? "" : "no process of the run was found");
     return;
   }
-  view.phase = Phase::kGoes;
+  view.phase = Phase::kRunning;
   if (words.waiting != nullptr) {
-    const bool gathers = words.waiting->phase == rave_wire_RUN_GATHERS;
-    view.phase = gathers ? Phase::kGathers : Phase::kWaits;
+    const bool gathers = words.waiting->phase == rave_wire_RUN_GATHERING;
+    view.phase = gathers ? Phase::kGathering : Phase::kWaits;
     view.text = words.waiting->text;
   }
   if (!words.manager_lost || view.timing != Timing::kLockStep) return;

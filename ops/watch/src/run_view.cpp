@@ -71,8 +71,8 @@ std::string_view to_string(Standing standing) noexcept {
 }
 
 std::string_view to_string(Phase phase) noexcept {
-  constexpr std::string_view kWords[] = {"unknown", "gathers", "goes",  "waits",
-                                         "paused",  "ended",   "failed"};
+  constexpr std::string_view kWords[] = {"unknown", "gathering", "running", "waits",
+                                         "paused",  "ended",     "failed"};
   return kWords[static_cast<std::size_t>(phase)];
 }
 

@@ -55,9 +55,9 @@ class HostWordsTest : public ::testing::Test {
 };
 
 TEST_F(HostWordsTest, TellWhereTheRunIs) {
-  say(2, 100, rave_wire_RUN_GOES);
-  say(3, 102, rave_wire_RUN_GOES);
-  EXPECT_EQ(view().phase, Phase::kGoes);
+  say(2, 100, rave_wire_RUN_RUNNING);
+  say(3, 102, rave_wire_RUN_RUNNING);
+  EXPECT_EQ(view().phase, Phase::kRunning);
   EXPECT_EQ(view().scenario, "flock");
   EXPECT_EQ(view().step, 102U);
   EXPECT_DOUBLE_EQ(view().time_s.value_or(0), 1.02);
@@ -68,15 +68,15 @@ TEST_F(HostWordsTest, TellWhereTheRunIs) {
 }
 
 TEST_F(HostWordsTest, OneThatWaitsCountsForAll) {
-  say(2, 100, rave_wire_RUN_GOES);
+  say(2, 100, rave_wire_RUN_RUNNING);
   say(3, 100, rave_wire_RUN_WAITS, "waits for left");
   EXPECT_EQ(view().phase, Phase::kWaits);
   EXPECT_EQ(view().text, "waits for left");
 }
 
 TEST_F(HostWordsTest, AManagerThatIsGoneIsWaitedFor) {
-  say(2, 100, rave_wire_RUN_GOES, "", false);
-  say(3, 100, rave_wire_RUN_GOES, "", false);
+  say(2, 100, rave_wire_RUN_RUNNING, "", false);
+  say(3, 100, rave_wire_RUN_RUNNING, "", false);
   EXPECT_EQ(view().phase, Phase::kWaits);
   EXPECT_EQ(view().text, "the environment manager is lost");
   EXPECT_EQ(view().hosts[0].standing, Standing::kGone);
@@ -84,8 +84,8 @@ TEST_F(HostWordsTest, AManagerThatIsGoneIsWaitedFor) {
 
 TEST_F(HostWordsTest, TheRunIsOverWhenAllHaveEnded) {
   say(2, 5999, rave_wire_RUN_ENDED);
-  say(3, 5998, rave_wire_RUN_GOES);
-  EXPECT_EQ(view().phase, Phase::kGoes);
+  say(3, 5998, rave_wire_RUN_RUNNING);
+  EXPECT_EQ(view().phase, Phase::kRunning);
   say(3, 5999, rave_wire_RUN_FAILED, "a driver failed");
   EXPECT_EQ(view().phase, Phase::kFailed);
   EXPECT_EQ(view().text, "a driver failed");
@@ -97,15 +97,15 @@ TEST_F(HostWordsTest, AnotherRunOfTheNameCountsFromItsBeginning) {
   model_.lose(2);
   model_.lose(3);
   EXPECT_EQ(view().phase, Phase::kEnded);
-  say(4, 7, rave_wire_RUN_GOES);
-  EXPECT_EQ(view().phase, Phase::kGoes);
+  say(4, 7, rave_wire_RUN_RUNNING);
+  EXPECT_EQ(view().phase, Phase::kRunning);
   EXPECT_EQ(view().step, 7U);
 }
 
 TEST_F(HostWordsTest, WhatAManagerSaysCountsMore) {
   bus::RunState told{};
   told.writer = 1;
-  told.phase = rave_wire_RUN_GOES;
+  told.phase = rave_wire_RUN_RUNNING;
   told.step = 50;
   told.step_s = 0.01;
   model_.hear(told, kMoment);

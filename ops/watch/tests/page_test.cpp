@@ -14,7 +14,7 @@ RunView example() {
   view.run = "1a2b3c4d00000000";
   view.scenario = "flock";
   view.timing = Timing::kRealTime;
-  view.phase = Phase::kGoes;
+  view.phase = Phase::kRunning;
   view.time_s = 12.34;
   view.duration_s = 60;
   view.speed = 1;

@@ -62,7 +62,7 @@ class RunModelTest : public ::testing::Test {
     tell(0, 0);
   }
   void tell(std::uint64_t step, std::int64_t now_ns,
-            rave_wire_RunPhase phase = rave_wire_RUN_GOES) {
+            rave_wire_RunPhase phase = rave_wire_RUN_RUNNING) {
     bus::RunState state{};
     state.writer = kManager;
     bus::put_text(state.scenario, "flock");
@@ -92,7 +92,7 @@ TEST_F(RunModelTest, TheManagerComesFirstThenTheHostsByNumber) {
   EXPECT_EQ(view.hosts[2].name, "right");
   EXPECT_EQ(view.scenario, "flock");
   EXPECT_EQ(view.timing, Timing::kLockStep);
-  EXPECT_EQ(view.phase, Phase::kGoes);
+  EXPECT_EQ(view.phase, Phase::kRunning);
   EXPECT_DOUBLE_EQ(*view.duration_s, 60);
   EXPECT_EQ(view.hosts[1].standing, Standing::kHere);
   EXPECT_EQ(view.hosts[2].standing, Standing::kWaiting);
@@ -207,11 +207,11 @@ TEST_F(RunModelTest, TheNextManagerIsListenedTo) {
   model_.hear(info_of(7, rave_wire_kNone, "environment manager", false));
   bus::RunState state{};
   state.writer = 7;
-  state.phase = rave_wire_RUN_GATHERS;
+  state.phase = rave_wire_RUN_GATHERING;
   model_.hear(state, kSecond);
   tell(50, kSecond);  // from the dead one; it came late
   const RunView view = model_.view(kSecond, false);
-  EXPECT_EQ(view.phase, Phase::kGathers);
+  EXPECT_EQ(view.phase, Phase::kGathering);
   EXPECT_EQ(view.hosts[0].standing, Standing::kHere);
 }
 

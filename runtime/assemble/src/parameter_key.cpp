@@ -148,15 +148,4 @@ std::vector<std::pair<std::string, std::string>> first_values(const sim::RobotTy
   return texts;
 }
 
-std::vector<std::pair<std::string, std::string>> present_values(const sim::Engine& engine,
-                                                                RobotId robot) {
-  std::vector<std::pair<std::string, std::string>> texts;
-  const sim::EngineSpec& spec = engine.spec();
-  for (const Known& known : known_parameters(spec.types[spec.robots[robot.value()].type])) {
-    texts.emplace_back(known.key,
-                       engine.parameter(robot, known.part, known.index, known.spec->name));
-  }
-  return texts;
-}
-
 }  // namespace rave::runtime

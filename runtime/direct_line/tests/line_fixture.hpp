@@ -15,16 +15,16 @@
 #include <vector>
 
 #include "page_key.hpp"
-#include "page_of_test.hpp"
 #include "rave/direct_line/line_server.hpp"
+#include "rave/direct_line_testing/page_of_test.hpp"
 #include "rave/keys/web_keys.hpp"
-#include "raw_client.hpp"
+#include "rave/web_testing/raw_client.hpp"
 #include "signed_text.hpp"
 
 namespace rave::direct_line::testing {
 
 namespace fs = std::filesystem;
-using gui_server::testing::RawSocket;
+using web::testing::RawSocket;
 
 inline constexpr const char* kOrigin = "https://gui.example:8080";
 

@@ -11,7 +11,7 @@ namespace rave::direct_line {
 namespace {
 
 using namespace testing;
-using gui_server::testing::RawSocket;
+using web::testing::RawSocket;
 using Kind = runtime::RunRequest::Kind;
 
 TEST_F(DirectLine, OrdersOfATicketReachTheRunWithItsName) {

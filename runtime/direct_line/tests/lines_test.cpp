@@ -9,14 +9,14 @@
 #include <thread>
 
 #include "page_key.hpp"
-#include "page_of_test.hpp"
-#include "raw_client.hpp"
+#include "rave/direct_line_testing/page_of_test.hpp"
+#include "rave/web_testing/raw_client.hpp"
 #include "signed_text.hpp"
 
 namespace rave::direct_line {
 namespace {
 
-using gui_server::testing::RawSocket;
+using web::testing::RawSocket;
 using Clock = std::chrono::steady_clock;
 
 bool comes_true(const std::function<bool()>& what) {

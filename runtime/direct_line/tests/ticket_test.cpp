@@ -9,8 +9,8 @@
 #include <fstream>
 
 #include "page_key.hpp"
-#include "page_of_test.hpp"
 #include "rave/direct_line/key_files.hpp"
+#include "rave/direct_line_testing/page_of_test.hpp"
 #include "signed_text.hpp"
 
 namespace rave::direct_line {

@@ -60,7 +60,7 @@ class SteppedExchange final : public HostExchange {
   }
   void step_done() override {
     look_back(run_, obstacle_events(world_));
-    keep_roster(port_.roster(), run_.engine, run_.observers, world_.resized, run_.console);
+    keep_roster(port_.roster(), run_.engine, run_.observers, run_.console);
     account_.after_step(run_.engine);
     port_.show(run_.engine, host_.slot.robots);
   }

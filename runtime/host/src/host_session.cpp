@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "rave/assemble/parameter_key.hpp"
 #include "rave/base/file.hpp"
 #include "rave/base/names.hpp"
 #include "rave/protocol/agreement.hpp"
@@ -118,22 +117,15 @@ std::uint32_t real_robots(const sim::EngineSpec& spec, std::span<const RobotId> 
 void introduce_robots(lock_step::Roster& roster, const sim::EngineSpec& spec,
                       std::span<const RobotId> robots, LogSink& log) {
   roster.note(robots);
-  warn(log, roster.tell(spec, [&](RobotId robot) {
-    return first_values(spec.types[spec.robots[robot.value()].type]);
-  }));
+  warn(log, roster.tell(spec));
 }
 
 void keep_roster(lock_step::Roster& roster, const sim::Engine& engine, ObserverList& observers,
-                 std::span<const sim::ResizedRobot> resized, LogSink& log) {
-  const auto note = [&](RobotId robot) {
-    if (robot.valid() && engine.is_local(robot)) roster.note(robot);
-  };
+                 LogSink& log) {
   for (const sim::Event& event : engine.events()) {
-    if (event.kind == sim::EventKind::kHandedOver || event.kind == sim::EventKind::kChanged) {
-      note(event.robot);
-    }
+    const bool ours = event.robot.valid() && engine.is_local(event.robot);
+    if (ours && event.kind == sim::EventKind::kHandedOver) roster.note(event.robot);
   }
-  for (const sim::ResizedRobot& robot : resized) note(robot.robot);
   tell_roster(roster, engine, observers, log);
 }
 
@@ -145,9 +137,7 @@ void tell_roster(lock_step::Roster& roster, const sim::Engine& engine, ObserverL
     const auto [name, page] = observers.holder(engine.spec().robots[robot.value()].name);
     return {name, page};
   };
-  warn(log,
-       roster.tell(
-           engine.spec(), [&](RobotId robot) { return present_values(engine, robot); }, driver));
+  warn(log, roster.tell(engine.spec(), driver));
 }
 
 Result<HostOutcome> run_session(const HostSetup& host, sim::Engine& engine, bus::Bus& bus,

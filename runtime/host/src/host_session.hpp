@@ -62,10 +62,9 @@ using MakeExchange =
 void introduce_robots(lock_step::Roster& roster, const sim::EngineSpec& spec,
                       std::span<const RobotId> robots, LogSink& log);
 
-/// Monitors get what robots have become in the last step. `resized`: who has another
-/// size in it, robots of other hosts too.
+/// Monitors get what robots have become in the last step.
 void keep_roster(lock_step::Roster& roster, const sim::Engine& engine, ObserverList& observers,
-                 std::span<const sim::ResizedRobot> resized, LogSink& log);
+                 LogSink& log);
 /// The same of who drives them, at any time.
 void tell_roster(lock_step::Roster& roster, const sim::Engine& engine, ObserverList& observers,
                  LogSink& log);

@@ -62,7 +62,7 @@ class LiveExchange final : public HostExchange {
   Status step() override;
   void step_done() override {
     look_back(run_, live_.events(), link_.world_age());
-    keep_roster(link_.roster(), run_.engine, run_.observers, world_.resized, run_.console);
+    keep_roster(link_.roster(), run_.engine, run_.observers, run_.console);
   }
   Ending ending() const override {
     const auto& ending = link_.ending();

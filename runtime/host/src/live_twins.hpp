@@ -20,8 +20,6 @@ class LiveTwins {
   /// Between propose() of the engine and the step of the world: what has changed here is the
   /// world's, too, and what others say is the engine's. Errors: those of LiveWorld::serve().
   Status follow(sim::Engine& engine, real_time::LiveWorld& live, real_time::HostLink& link);
-  /// Whether a robot of this host has two sets.
-  [[nodiscard]] bool any() const noexcept { return !own_.empty(); }
 
  private:
   struct Own {

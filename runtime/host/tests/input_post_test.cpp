@@ -7,8 +7,8 @@
 
 #include <future>
 
-#include "order_programs.hpp"
 #include "rave/sim/world_authority.hpp"
+#include "rave/sim_testing/order_programs.hpp"
 
 namespace rave::runtime {
 namespace {

@@ -81,23 +81,25 @@ void BusEndpoint::meet(const bus::HostInfo& info, bool begun) {
 }
 
 Result<std::vector<std::uint64_t>> BusEndpoint::look_at_processes(bool begun) {
-  infos_.take([&](const bus::HostInfo& info) { meet(info, begun); });
-  if (second_) {
-    return fail(ErrorCode::kState,
-                "this run has an environment manager already; to start a second run of the same "
-                "scenario, give each its own name with --run");
-  }
   std::vector<std::uint64_t> gone;
   for (const bus::BusEvent& event : bus_->take_events()) {
     using enum bus::EventKind;
     if (event.kind == kParticipantLost && event.writer != 0) {
-      // Returned and not handled here: what a loss means differs between lock-step and real time.
+      // What else a loss means differs between lock-step and real time.
+      host_of_.erase(event.writer);
       gone.push_back(event.writer);
       continue;
     }
     // Before the start a standstill costs nothing, because no host depends on worlds yet.
     if (event.kind == kStoodStill && begun) ++standstills_;
     foreign_.note(event);
+  }
+  // After the losses: a process that was cut off and is there again introduces itself anew.
+  infos_.take([&](const bus::HostInfo& info) { meet(info, begun); });
+  if (second_) {
+    return fail(ErrorCode::kState,
+                "this run has an environment manager already; to start a second run of the same "
+                "scenario, give each its own name with --run");
   }
   return gone;
 }

@@ -56,12 +56,11 @@ class BusEndpoint final : public ManagerEndpoint {
   Result<std::vector<std::uint64_t>> look_at_processes(bool begun) override;
   bool is_second() const override { return second_; }
   std::optional<std::uint32_t> host_of(std::uint64_t writer) const override;
-  void forget(std::uint64_t writer) override { host_of_.erase(writer); }
   void take_roster(RosterBook& book, const Serving& serving) override {
     read_roster(roster_, book, serving);
   }
-  void take_host_results(const std::function<bool(std::uint64_t, std::uint32_t)>& sat) override {
-    host_results_.take(sat);
+  void take_host_results(const std::function<bool(std::uint64_t, std::uint32_t)>& served) override {
+    host_results_.take(served);
   }
   bool owes_host_results(std::uint64_t writer) const override {
     return !host_results_.done_with(writer);

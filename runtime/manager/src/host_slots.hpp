@@ -28,7 +28,7 @@ struct HostSlot {
   std::uint64_t writer = 0;       ///< The process that serves it; 0: none.
   std::uint64_t last_writer = 0;  ///< The last process that was lost.
   std::vector<std::uint64_t>
-      sat;              ///< All processes that have served it, in the order of their first time.
+      served_by;        ///< All processes that have served it, in the order of their first time.
   std::string loss;     ///< How it was lost; empty if that had no consequence.
   std::string command;  ///< Command that restarts it; empty: none is needed.
   std::uint64_t last_step = 0;  ///< Step of its last report.

@@ -50,7 +50,7 @@ std::uint64_t newest_of(const std::map<std::uint32_t, real_time::ObstacleSight>&
 
 Result<std::unique_ptr<LiveEdits>> LiveEdits::create(sim::EngineSpec spec,
                                                      const LiveManagerOptions& options,
-                                                     LiveBoard& board) {
+                                                     LiveHosts& hosts) {
   RAVE_TRY(check_scheduled(spec));
   // Live drivers and transmitters of the scenario are permitted, as in the engines of the hosts;
   // this authority runs none of them.
@@ -58,7 +58,7 @@ Result<std::unique_ptr<LiveEdits>> LiveEdits::create(sim::EngineSpec spec,
   spec.live_clock = nullptr;
   std::vector<std::uint32_t> host_of(spec.robots.size(), 0);
   RAVE_TRY_ASSIGN(auto authority, sim::WorldAuthority::create(std::move(spec), std::move(host_of)));
-  return std::unique_ptr<LiveEdits>(new LiveEdits(options, board, std::move(authority)));
+  return std::unique_ptr<LiveEdits>(new LiveEdits(options, hosts, std::move(authority)));
 }
 
 void LiveEdits::begin(bool takes_over) {
@@ -84,7 +84,7 @@ void LiveEdits::end() {
 }
 
 bool LiveEdits::all_may_be_there() const {
-  const bool all = std::all_of(board_.slots().begin(), board_.slots().end(),
+  const bool all = std::all_of(hosts_.slots().begin(), hosts_.slots().end(),
                                [](const LiveSlot& slot) { return slot.writer != 0; });
   // A host that is gone for good must not keep the others without edits.
   return all || std::chrono::steady_clock::now() - began_ >= kComing;
@@ -93,8 +93,8 @@ bool LiveEdits::all_may_be_there() const {
 /// Receives the obstacles that hosts hand over, once they are present.
 Status LiveEdits::gather_handed() {
   if (!all_may_be_there()) return {};
-  RAVE_TRY(board_.ask_for_handed());
-  board_.take_handed([this](const real_time::ObstacleSight& sight) {
+  RAVE_TRY(hosts_.ask_for_handed());
+  hosts_.take_handed([this](const real_time::ObstacleSight& sight) {
     return real_time::check_sight(sight, authority_->world());
   });
   return {};
@@ -106,7 +106,7 @@ bool LiveEdits::handed_over() const {
   const auto since = std::chrono::steady_clock::now() - began_;
   // Hosts say with each ping up to which revision they have shown the obstacles. When that one has
   // arrived, nothing newer exists.
-  return newest_of(board_.handed_obstacles()) >= board_.shown_revision() || since >= kHandingOver;
+  return newest_of(hosts_.handed_obstacles()) >= hosts_.shown_revision() || since >= kHandingOver;
 }
 
 /// Added obstacles have consecutive ids, and no host can show one whose predecessor is missing.
@@ -127,15 +127,15 @@ void LiveEdits::drop_orphans() {
 
 /// Restores what the previous manager had published; only the copies of the hosts are left.
 Status LiveEdits::take_over(SimTime now) {
-  obstacles_ = board_.handed_obstacles();
-  board_.end_handing();
+  obstacles_ = hosts_.handed_obstacles();
+  hosts_.end_handing();
   revision_ = newest_of(obstacles_);
-  if (revision_ < board_.shown_revision() && options_.log != nullptr) {
+  if (revision_ < hosts_.shown_revision() && options_.log != nullptr) {
     options_.log->error(kSource, "hosts have obstacles up to change {}, but sent only {}",
-                        board_.shown_revision(), revision_);
+                        hosts_.shown_revision(), revision_);
   }
   // Revisions must not be used twice: hosts would take a new change for an old one and ignore it.
-  revision_ = std::max(revision_, board_.shown_revision());
+  revision_ = std::max(revision_, hosts_.shown_revision());
   drop_orphans();
   const std::vector<sim::ObstacleChange> changes = changes_of(obstacles_);
   if (auto put = authority_->put_obstacles(changes, now); !put) {
@@ -164,7 +164,7 @@ Status LiveEdits::take_over(SimTime now) {
 }
 
 Status LiveEdits::publish(const real_time::ObstacleSight& sight) {
-  RAVE_TRY(board_.publish(sight));
+  RAVE_TRY(hosts_.publish(sight));
   published_ = std::max(published_, sight.revision);
   return {};
 }
@@ -208,7 +208,7 @@ void LiveEdits::make_scheduled(SimTime now) {
 
 /// Obstacles may be put where real robots are.
 void LiveEdits::follow_hand_overs() {
-  for (const real_time::RobotReality& said : board_.take_realities()) {
+  for (const real_time::RobotReality& said : hosts_.take_realities()) {
     const std::uint32_t r = said.robot.value();
     const sim::EngineSpec& spec = authority_->spec();
     const sim::RobotSpec& its = spec.robots[r];
@@ -218,17 +218,17 @@ void LiveEdits::follow_hand_overs() {
     const Status changed =
         authority_->change_type(said.robot, *its.twin, authority_->pose(said.robot));
     if (!changed) continue;
-    authority_->place(said.robot, authority_->pose(said.robot), board_.sight_of(r) != nullptr);
+    authority_->place(said.robot, authority_->pose(said.robot), hosts_.sight_of(r) != nullptr);
   }
 }
 
 /// Where robots should be by now, as far as their hosts have said.
 void LiveEdits::place_robots(SimTime now) {
   for (std::uint32_t r = 0; r < options_.robots.size(); ++r) {
-    const real_time::RobotSight* const sight = board_.sight_of(r);
+    const real_time::RobotSight* const sight = hosts_.sight_of(r);
     if (sight == nullptr) continue;
     const std::int64_t age_ns =
-        std::clamp<std::int64_t>((now - sight->stamp).ns, 0, board_.staleness(r).ns);
+        std::clamp<std::int64_t>((now - sight->stamp).ns, 0, hosts_.staleness(r).ns);
     authority_->place(RobotId(r),
                       integrate(sight->X_WR, sight->velocity, Duration{age_ns}.seconds()), true);
   }
@@ -302,7 +302,7 @@ void LiveEdits::serve(runtime::RunControl::Asked asked, SimTime now) {
 
 std::vector<std::string_view> LiveEdits::hosts_without(std::uint64_t revision) const {
   std::vector<std::string_view> names;
-  for (const LiveSlot& slot : board_.slots()) {
+  for (const LiveSlot& slot : hosts_.slots()) {
     if (slot.writer != 0 && slot.obstacle_revision < revision) names.emplace_back(slot.name);
   }
   return names;
@@ -316,7 +316,7 @@ void LiveEdits::answer_waiting(SimTime now) {
     if (!missing.empty() && now - one.since < kConfirmation) return false;
     std::int64_t last_ns = one.since.ns;
     std::size_t hosts = 0;
-    for (const LiveSlot& slot : board_.slots()) {
+    for (const LiveSlot& slot : hosts_.slots()) {
       if (slot.writer == 0) continue;
       ++hosts;
       last_ns = std::max(last_ns, slot.obstacles_ns);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "edit_limits.hpp"
-#include "live_board.hpp"
+#include "live_hosts.hpp"
 #include "rave/manager/live_manager.hpp"
 #include "rave/sim/world_authority.hpp"
 
@@ -20,10 +20,10 @@ namespace rave::manager {
 /// them. Belongs to one thread.
 class LiveEdits {
  public:
-  /// Neither `options` nor `board` is owned. Errors: kInvalidArgument (the scenario).
+  /// Neither `options` nor `hosts` is owned. Errors: kInvalidArgument (the scenario).
   [[nodiscard]] static Result<std::unique_ptr<LiveEdits>> create(sim::EngineSpec spec,
                                                                  const LiveManagerOptions& options,
-                                                                 LiveBoard& board);
+                                                                 LiveHosts& hosts);
   LiveEdits(const LiveEdits&) = delete;
   LiveEdits& operator=(const LiveEdits&) = delete;
   ~LiveEdits() { end(); }
@@ -40,7 +40,7 @@ class LiveEdits {
   /// The last revision that hosts must have received before they begin; while this manager takes
   /// over, the newest that any host has.
   [[nodiscard]] std::uint64_t revision() const noexcept {
-    return takes_over_ ? board_.shown_revision() : published_;
+    return takes_over_ ? hosts_.shown_revision() : published_;
   }
   /// Changes of the scenario that could not be made.
   [[nodiscard]] const std::vector<sim::Event>& refused() const noexcept { return refused_; }
@@ -55,9 +55,9 @@ class LiveEdits {
     std::string text;
   };
 
-  LiveEdits(const LiveManagerOptions& options, LiveBoard& board,
+  LiveEdits(const LiveManagerOptions& options, LiveHosts& hosts,
             std::unique_ptr<sim::WorldAuthority> authority)
-      : options_(options), board_(board), authority_(std::move(authority)) {}
+      : options_(options), hosts_(hosts), authority_(std::move(authority)) {}
   Status gather_handed();
   [[nodiscard]] bool all_may_be_there() const;
   [[nodiscard]] bool handed_over() const;
@@ -75,7 +75,7 @@ class LiveEdits {
   [[nodiscard]] std::vector<std::string_view> hosts_without(std::uint64_t revision) const;
 
   const LiveManagerOptions& options_;
-  LiveBoard& board_;
+  LiveHosts& hosts_;
   std::unique_ptr<sim::WorldAuthority> authority_;
   bool begun_ = false;
   bool serves_ = false;

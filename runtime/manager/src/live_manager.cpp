@@ -6,9 +6,9 @@
 namespace rave::manager {
 
 Result<LiveManagerOutcome> manage_live(sim::EngineSpec spec, const LiveManagerOptions& options) {
-  RAVE_TRY_ASSIGN(auto board, LiveBoard::open(options));
-  RAVE_TRY_ASSIGN(auto edits, LiveEdits::create(std::move(spec), options, *board));
-  LiveRun run(options, std::move(board), std::move(edits));
+  RAVE_TRY_ASSIGN(auto hosts, LiveHosts::open(options));
+  RAVE_TRY_ASSIGN(auto edits, LiveEdits::create(std::move(spec), options, *hosts));
+  LiveRun run(options, std::move(hosts), std::move(edits));
   return run.go();
 }
 

@@ -6,7 +6,7 @@
 
 #include "drain.hpp"
 #include "rave/base/names.hpp"
-#include "sat.hpp"
+#include "served.hpp"
 
 namespace rave::manager {
 namespace {
@@ -33,7 +33,7 @@ SimTime LiveRun::now() const { return {ns_of(Clock::now()) - zero_ns_}; }
 
 std::string LiveRun::missing() const {
   std::vector<std::string_view> names;
-  for (const LiveSlot& slot : board_->slots()) {
+  for (const LiveSlot& slot : hosts_->slots()) {
     if (slot.writer == 0) names.emplace_back(slot.name);
   }
   return names.empty() ? std::string() : join_names(names);
@@ -56,7 +56,7 @@ void LiveRun::take_over(std::int64_t run_ns) {
 
 void LiveRun::begin_if_ready() {
   if (begun_) return;
-  const bool any = std::any_of(board_->slots().begin(), board_->slots().end(),
+  const bool any = std::any_of(hosts_->slots().begin(), hosts_->slots().end(),
                                [](const LiveSlot& slot) { return slot.writer != 0; });
   if (!any) {
     first_host_ = {};
@@ -71,7 +71,7 @@ void LiveRun::begin_if_ready() {
     begin_in(kLead);
     edits_->begin(false);
     log(LogLevel::kInfo, "all hosts have joined: the run begins");
-  } else if (Clock::now() - std::max(first_host_, board_->endpoint().silence_counts_from()) >
+  } else if (Clock::now() - std::max(first_host_, hosts_->endpoint().silence_counts_from()) >
              std::chrono::nanoseconds(options_.host_timeout.ns)) {
     begin_in(kLead);
     edits_->begin(false);
@@ -94,7 +94,7 @@ void LiveRun::hear(const bus::ClockPing& ping) {
   // Read first: the time until the answer is subtracted by the host, so it does not matter how long
   // this process takes.
   const std::int64_t received_ns = ns_of(Clock::now());
-  if (!board_->claim_slot(ping)) {
+  if (!hosts_->claim_slot(ping)) {
     next_look_ = {};  // it may have introduced itself just now
     return;
   }
@@ -105,7 +105,6 @@ void LiveRun::hear(const bus::ClockPing& ping) {
   }
   bus::ClockPong pong{};
   pong.target = ping.writer;
-  pong.number = ping.number;
   pong.ping_sent_ns = ping.sent_ns;
   pong.ping_received_ns = received_ns;
   pong.begun = begun_;
@@ -113,24 +112,24 @@ void LiveRun::hear(const bus::ClockPing& ping) {
   pong.obstacle_revision = edits_->revision();
   // Read last, for the same reason.
   pong.pong_sent_ns = ns_of(Clock::now());
-  board_->answer(pong);
+  hosts_->answer(pong);
 }
 
 Status LiveRun::listen() {
   // Pings first, because their time of reception is measured when they are taken.
-  board_->take_pings([this](const bus::ClockPing& ping) { hear(ping); });
+  hosts_->take_pings([this](const bus::ClockPing& ping) { hear(ping); });
   if (left_alone_) return tl::unexpected(*left_alone_);
-  board_->take_states();
-  board_->take_host_results();
-  board_->endpoint().serve_requests();
+  hosts_->take_states();
+  hosts_->take_host_results();
+  hosts_->endpoint().serve_requests();
   // The rest is not urgent, and in a large run it costs more than a world.
   if (Clock::now() < next_look_) return {};
   next_look_ = Clock::now() + kLook;
   // Near the end hosts leave one by one as they finish; that is no loss.
   const bool over = ended_ || (begun_ && options_.duration - Duration{now().ns} < kDeparture);
-  RAVE_TRY(board_->look_at_processes(begun_ && !over));
-  board_->take_roster(begun_ && !ended_ ? options_.control : nullptr);
-  if (board_->take_news()) next_tell_ = {};
+  RAVE_TRY(hosts_->look_at_processes(begun_ && !over));
+  hosts_->take_roster(begun_ && !ended_ ? options_.control : nullptr);
+  if (hosts_->take_news()) next_tell_ = {};
   return {};
 }
 
@@ -148,9 +147,9 @@ void LiveRun::look_for_stale(SimTime now) {
   std::vector<std::string_view> back;
   stale_.resize(options_.robots.size());
   for (std::size_t r = 0; r < stale_.size(); ++r) {
-    const auto stamp = board_->stamp_of(r);
+    const auto stamp = hosts_->stamp_of(r);
     if (!stamp) continue;
-    const bool stale = now - *stamp > board_->staleness(r);
+    const bool stale = now - *stamp > hosts_->staleness(r);
     if (stale == (stale_[r] != 0)) continue;
     stale_[r] = stale ? 1 : 0;
     (stale ? silent : back).push_back(options_.robots[r].name);
@@ -162,7 +161,7 @@ void LiveRun::look_for_stale(SimTime now) {
 void LiveRun::send_world() {
   const SimTime time = now();
   look_for_stale(time);
-  board_->send_world(++worlds_, time, stale_);
+  hosts_->send_world(++worlds_, time, stale_);
   // On a grid of deadlines, so that lateness does not add up; what was missed is left out.
   const auto period = std::chrono::nanoseconds(options_.world_period.ns);
   const auto late = std::max<std::int64_t>(0, (Clock::now() - next_world_) / period);
@@ -172,28 +171,28 @@ void LiveRun::send_world() {
 void LiveRun::tell_state(rave_wire_RunPhase phase, const std::string& text) {
   const std::int64_t now_ns = begun_ ? std::max<std::int64_t>(0, now().ns) : 0;
   // The time of the run follows the clock; the steps of its robots may fall behind.
-  board_->publish({options_.scenario, phase, static_cast<std::uint64_t>(now_ns / options_.step.ns),
+  hosts_->publish({options_.scenario, phase, static_cast<std::uint64_t>(now_ns / options_.step.ns),
                    static_cast<std::uint64_t>(options_.duration.ns / options_.step.ns),
-                   options_.step.seconds(), begun_ ? board_->slowest_speed() : 0, text});
+                   options_.step.seconds(), begun_ ? hosts_->slowest_speed() : 0, text});
   next_tell_ = Clock::now() + kTell;
 }
 
 void LiveRun::tell_progress() {
   if (!options_.on_progress) return;
-  options_.on_progress(begun_ ? now() : SimTime{}, board_->slowest_speed(), missing());
+  options_.on_progress(begun_ ? now() : SimTime{}, hosts_->slowest_speed(), missing());
 }
 
 /// Tells hosts that the run has ended, before this process leaves.
 void LiveRun::drain_hosts() {
   const auto owes = [this](std::uint64_t writer) {
-    return begun_ && board_->endpoint().owes_host_results(writer);
+    return begun_ && hosts_->endpoint().owes_host_results(writer);
   };
-  drain(board_->slots(), options_.log, owes, [this] {
-    board_->wait(Duration{std::chrono::nanoseconds(kLook).count()});
+  drain(hosts_->slots(), options_.log, owes, [this] {
+    hosts_->wait(Duration{std::chrono::nanoseconds(kLook).count()});
     return listen().has_value();
   });
   // Messages that a process sent before it left have arrived by now.
-  board_->take_host_results();
+  hosts_->take_host_results();
 }
 
 Result<LiveManagerOutcome> LiveRun::go() {
@@ -205,7 +204,7 @@ Result<LiveManagerOutcome> LiveRun::go() {
         std::chrono::duration_cast<std::chrono::nanoseconds>(wake - Clock::now()).count();
     // A message of a host or a request ends the wait; otherwise it ends for the next world or the
     // next look.
-    board_->wait(Duration{std::max<std::int64_t>(0, left)},
+    hosts_->wait(Duration{std::max<std::int64_t>(0, left)},
                  options_.control != nullptr ? options_.control->asked() : std::stop_token());
     RAVE_TRY(listen());
     begin_if_ready();
@@ -214,7 +213,7 @@ Result<LiveManagerOutcome> LiveRun::go() {
     if (begun_ && Clock::now() >= next_world_) send_world();
     if (Clock::now() >= next_tell_) {
       const std::string waits_for = missing();
-      tell_state(begun_ ? rave_wire_RUN_GOES : rave_wire_RUN_GATHERS,
+      tell_state(begun_ ? rave_wire_RUN_RUNNING : rave_wire_RUN_GATHERING,
                  waits_for.empty() ? waits_for : fmt::format("waiting for {}", waits_for));
     }
     if (Clock::now() < next_ask) continue;
@@ -237,8 +236,8 @@ LiveManagerOutcome LiveRun::outcome() {
   outcome.refused = edits_->refused();
   if (begun_) outcome.end = now();
   outcome.worlds = worlds_;
-  outcome.states = board_->states();
-  for (const LiveSlot& slot : board_->slots()) {
+  outcome.states = hosts_->states();
+  for (const LiveSlot& slot : hosts_->slots()) {
     outcome.hosts.push_back({slot.name, slot.heard, static_cast<double>(slot.offset_ns) * 1e-9,
                              slot.bound_ns < 0 ? -1 : static_cast<double>(slot.bound_ns) * 1e-9,
                              slot.losses});
@@ -250,13 +249,13 @@ LiveManagerOutcome LiveRun::outcome() {
                       slot.losses == 1 ? "once" : fmt::format("{} times", slot.losses)));
     }
   }
-  if (board_->endpoint().standstills() > 0) {
+  if (hosts_->endpoint().standstills() > 0) {
     problems_.push_back(
         fmt::format("the environment manager stood still for so long that hosts may have "
                     "considered it lost{}: it sent no worlds meanwhile",
-                    board_->endpoint().standstills() == 1
+                    hosts_->endpoint().standstills() == 1
                         ? ""
-                        : fmt::format(" ({} times)", board_->endpoint().standstills())));
+                        : fmt::format(" ({} times)", hosts_->endpoint().standstills())));
   }
   // The run is judged before the farewell, during which time passes, too.
   const bool over = begun_ && now().ns >= options_.duration.ns;
@@ -266,17 +265,17 @@ LiveManagerOutcome LiveRun::outcome() {
   const bool ends =
       options_.ends_hosts || (options_.control != nullptr && options_.control->ends_everybody());
   if (!over && !ends) {
-    board_->take_host_results();
-    outcome.host_results = board_->endpoint().hand_out_host_results();
-    order_by_sitting(board_->slots(), outcome.host_results);
+    hosts_->take_host_results();
+    outcome.host_results = hosts_->endpoint().hand_out_host_results();
+    order_by_service(hosts_->slots(), outcome.host_results);
     return outcome;
   }
   tell_state(over ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
              over || problems_.empty() ? std::string() : problems_.front());
   drain_hosts();
-  outcome.saw_off = true;
-  outcome.host_results = board_->endpoint().hand_out_host_results();
-  order_by_sitting(board_->slots(), outcome.host_results);
+  outcome.drained = true;
+  outcome.host_results = hosts_->endpoint().hand_out_host_results();
+  order_by_service(hosts_->slots(), outcome.host_results);
   return outcome;
 }
 

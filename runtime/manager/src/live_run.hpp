@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "live_board.hpp"
 #include "live_edits.hpp"
+#include "live_hosts.hpp"
 #include "manager_habits.hpp"
 #include "rave/manager/live_manager.hpp"
 
@@ -22,9 +22,9 @@ namespace rave::manager {
 class LiveRun {
  public:
   /// `options` are not owned.
-  LiveRun(const LiveManagerOptions& options, std::unique_ptr<LiveBoard> board,
+  LiveRun(const LiveManagerOptions& options, std::unique_ptr<LiveHosts> hosts,
           std::unique_ptr<LiveEdits> edits)
-      : options_(options), board_(std::move(board)), edits_(std::move(edits)) {}
+      : options_(options), hosts_(std::move(hosts)), edits_(std::move(edits)) {}
 
   [[nodiscard]] Result<LiveManagerOutcome> go();
 
@@ -53,8 +53,8 @@ class LiveRun {
   }
 
   const LiveManagerOptions& options_;
-  std::unique_ptr<LiveBoard> board_;
-  std::unique_ptr<LiveEdits> edits_;  ///< Declared after the board, which it uses.
+  std::unique_ptr<LiveHosts> hosts_;
+  std::unique_ptr<LiveEdits> edits_;  ///< Declared after the hosts, which it uses.
   bool begun_ = false;
   std::int64_t zero_ns_ =
       0;  ///< Time 0 of the run by the clock of this machine; valid once the run has begun.

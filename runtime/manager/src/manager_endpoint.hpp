@@ -24,20 +24,20 @@ class ManagerEndpoint {
 
   /// Begins the requests that arrived on the bus, and answers those that are complete.
   virtual void serve_requests() = 0;
-  /// Updates the present processes and returns those that have left. Before the run has `begun`,
-  /// this manager gives way to one that started earlier. Errors: kState (there is one).
+  /// Updates the present processes and returns those that have left; such a process is unknown
+  /// until it introduces itself again. Before the run has `begun`, this manager gives way to one
+  /// that started earlier. Errors: kState (there is one).
   [[nodiscard]] virtual Result<std::vector<std::uint64_t>> look_at_processes(bool begun) = 0;
   /// Whether the error was that the run belongs to another manager.
   [[nodiscard]] virtual bool is_second() const = 0;
   /// The host that a process serves; empty: it has not introduced itself, or does not fit.
   [[nodiscard]] virtual std::optional<std::uint32_t> host_of(std::uint64_t writer) const = 0;
-  /// Forgets a process: it must introduce itself again.
-  virtual void forget(std::uint64_t writer) = 0;
   /// Receives the rosters of hosts.
   virtual void take_roster(RosterBook& book, const Serving& serving) = 0;
-  /// Receives the results of hosts at the end, from processes that have `sat` in the slot of their
+  /// Receives the results of hosts at the end, from processes that have `served` the slot of their
   /// host.
-  virtual void take_host_results(const std::function<bool(std::uint64_t, std::uint32_t)>& sat) = 0;
+  virtual void take_host_results(
+      const std::function<bool(std::uint64_t, std::uint32_t)>& served) = 0;
   /// Whether a process has not sent its results yet.
   [[nodiscard]] virtual bool owes_host_results(std::uint64_t writer) const = 0;
   /// All results that were received; each is returned once.

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "rave/base/names.hpp"
-#include "sat.hpp"
+#include "served.hpp"
 
 namespace rave::manager {
 namespace {
@@ -31,10 +31,10 @@ std::vector<RosterBook::Robot> planned_robots(const sim::EngineSpec& spec) {
 
 SteppedRun::SteppedRun(const ManagerOptions& options,
                        std::unique_ptr<sim::WorldAuthority> authority,
-                       std::unique_ptr<SteppedEndpoint> board)
+                       std::unique_ptr<SteppedEndpoint> bus)
     : options_(options),
       authority_(std::move(authority)),
-      board_(std::move(board)),
+      bus_(std::move(bus)),
       slots_(make_slots(options.hosts)),
       requests_(options.control, options.log, options.hosts),
       claims_(static_cast<std::uint32_t>(options.hosts.size())),
@@ -59,7 +59,7 @@ Result<SteppedRun::Gathered> SteppedRun::gather() {
   const auto since = Clock::now();
   RAVE_TRY(listen());
   while (!complete()) {
-    board_->wait(Duration{std::chrono::nanoseconds(kLook).count()}, asked());
+    bus_->wait(Duration{std::chrono::nanoseconds(kLook).count()}, asked());
     RAVE_TRY(listen());
     requests_.listen(*authority_);
     if (complete()) break;
@@ -70,7 +70,7 @@ Result<SteppedRun::Gathered> SteppedRun::gather() {
     look_at_clock(since);
     note_waiting(waited_for());
     if (now >= next_tell_) {
-      tell_state(begun_ ? rave_wire_RUN_WAITS : rave_wire_RUN_GATHERS,
+      tell_state(begun_ ? rave_wire_RUN_WAITS : rave_wire_RUN_GATHERING,
                  fmt::format("waiting for {}", waited_for()));
     }
     tell_progress(waited_for());
@@ -112,7 +112,7 @@ Status SteppedRun::take_over() {
     slot.reported = false;
     slot.report = {};
   }
-  return board_->send(world_, state_, slots_);
+  return bus_->send(world_, state_, slots_);
 }
 
 Status SteppedRun::make_step() {
@@ -132,16 +132,13 @@ Status SteppedRun::make_step() {
   resolved_.ns[static_cast<std::size_t>(sim::Phase::kResolve)] +=
       std::chrono::duration_cast<std::chrono::nanoseconds>(now - begin).count();
   lateness_.worked(resolved_, now);
-  for (const sim::Event& event : authority_->events()) {
-    contacts_ += event.kind == sim::EventKind::kContact ? 1U : 0U;
-  }
   // Hosts end with the last world. The flag is set before sending, because nothing is sent
   // afterwards.
   world_.last = world_.last || ending_ || step_ >= options_.steps;
   if (options_.on_world && options_.on_world(*authority_)) ending_ = true;
   // A next manager needs this state beside the world, so each host keeps both. Newcomers also need
   // the changes of obstacles since the start.
-  RAVE_TRY(board_->send(world_, authority_->state(std::exchange(newcomer_, false)), slots_));
+  RAVE_TRY(bus_->send(world_, authority_->state(std::exchange(newcomer_, false)), slots_));
   // After sending: hosts compute the next step while requests are answered here.
   requests_.after_step(*authority_, world_);
   for (HostSlot& slot : slots_) slot.reported = false;
@@ -162,8 +159,8 @@ void SteppedRun::wait_for_turn() {
   lateness_.did(runtime::Lateness::Part::kExchange, Clock::now());
   for (auto now = Clock::now(); now < due; now = Clock::now()) {
     const auto left = std::min<Clock::duration>(due - now, kLook);
-    board_->wait(Duration{std::chrono::duration_cast<std::chrono::nanoseconds>(left).count()},
-                 asked());
+    bus_->wait(Duration{std::chrono::duration_cast<std::chrono::nanoseconds>(left).count()},
+               asked());
     auto status = listen();
     if (status) status = look();
     if (!status) failure_ = std::move(status).error();
@@ -178,7 +175,7 @@ void SteppedRun::hold() {
   constexpr std::chrono::milliseconds kHeld{20};
   const auto since = Clock::now();
   while (!requests_.may_step() && !stopping()) {
-    board_->wait(Duration{std::chrono::nanoseconds(kHeld).count()}, {});
+    bus_->wait(Duration{std::chrono::nanoseconds(kHeld).count()}, {});
     auto status = listen();
     if (status) status = look();
     if (!status) failure_ = std::move(status).error();
@@ -201,10 +198,10 @@ void SteppedRun::hold() {
 /// Sends the last world again to hosts that have not received it.
 Status SteppedRun::resend() {
   if (!std::exchange(newcomer_, false)) {
-    board_->resend(slots_);
+    bus_->resend(slots_);
     return {};
   }
-  return board_->send(world_, authority_->state(true), slots_);
+  return bus_->send(world_, authority_->state(true), slots_);
 }
 
 runtime::RunStatus SteppedRun::first_status() const {
@@ -221,7 +218,7 @@ runtime::RunStatus SteppedRun::first_status() const {
 /// and get the world again. All of it is on one thread, and requests are served between the
 /// messages.
 Result<ManagerOutcome> SteppedRun::go() {
-  tell_state(rave_wire_RUN_GATHERS, fmt::format("waiting for {}", waited_for()));
+  tell_state(rave_wire_RUN_GATHERING, fmt::format("waiting for {}", waited_for()));
   // The first reports are those of step 0, or of a later step if these hosts come from a lost
   // manager.
   RAVE_TRY_ASSIGN(Gathered gathered, gather());
@@ -254,7 +251,7 @@ Result<ManagerOutcome> SteppedRun::go() {
     RAVE_TRY(make_step());
     lateness_.done(Clock::now());
     tell_progress({});
-    if (Clock::now() >= next_tell_) tell_state(rave_wire_RUN_GOES, {});
+    if (Clock::now() >= next_tell_) tell_state(rave_wire_RUN_RUNNING, {});
     if (world_.last) break;
   }
   return outcome();
@@ -263,7 +260,7 @@ Result<ManagerOutcome> SteppedRun::go() {
 void SteppedRun::give_up(const Error& error) {
   over_ = true;
   // The hosts belong to another manager, or wait for theirs.
-  if (board_->endpoint().is_second() || left_alone_) return;
+  if (bus_->endpoint().is_second() || left_alone_) return;
   tell_state(rave_wire_RUN_FAILED, error.message);
   drain_hosts(false);
 }
@@ -274,7 +271,6 @@ ManagerOutcome SteppedRun::outcome() {
   requests_.end();
   ManagerOutcome outcome;
   outcome.steps = authority_->steps_done();
-  outcome.contacts = contacts_;
   outcome.wall_s = begun_ ? seconds(ended_ - began_) : 0;
   for (HostSlot& slot : slots_) {
     if (slot.state == SlotState::kLost && begun_) miss_steps(slot);
@@ -297,8 +293,8 @@ ManagerOutcome SteppedRun::outcome() {
   tell_state(outcome.whole ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
              problems_.empty() ? std::string() : problems_.back());
   drain_hosts(begun_);
-  outcome.host_results = board_->endpoint().hand_out_host_results();
-  order_by_sitting(slots_, outcome.host_results);
+  outcome.host_results = bus_->endpoint().hand_out_host_results();
+  order_by_service(slots_, outcome.host_results);
   return outcome;
 }
 

@@ -27,7 +27,7 @@ class SteppedRun {
  public:
   /// `options` are not owned.
   SteppedRun(const ManagerOptions& options, std::unique_ptr<sim::WorldAuthority> authority,
-             std::unique_ptr<SteppedEndpoint> board);
+             std::unique_ptr<SteppedEndpoint> bus);
 
   [[nodiscard]] Result<ManagerOutcome> go();
   /// Ends a run that cannot continue: tells all processes why, unless another manager has it.
@@ -78,7 +78,7 @@ class SteppedRun {
 
   const ManagerOptions& options_;
   std::unique_ptr<sim::WorldAuthority> authority_;
-  std::unique_ptr<SteppedEndpoint> board_;
+  std::unique_ptr<SteppedEndpoint> bus_;
   std::vector<HostSlot> slots_;
   sim::HostReport heard_;  ///< The report being read, before it is accepted.
   WorldRequests requests_;
@@ -96,7 +96,6 @@ class SteppedRun {
   bool handed_over_ = false;  ///< `world_` and `state_` are those of the previous manager.
   std::uint64_t newest_report_ = 0;
   std::string waits_for_;  ///< What status requests were told that the run waits for.
-  std::uint64_t contacts_ = 0;
   std::vector<std::string> problems_;
   std::chrono::steady_clock::time_point began_;
   std::chrono::steady_clock::time_point ended_;

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "drain.hpp"
-#include "sat.hpp"
+#include "served.hpp"
 #include "stepped_run.hpp"
 
 namespace rave::manager {
@@ -66,7 +66,7 @@ Status SteppedRun::claim_slot(HostSlot& slot, const bus::HostReport& message) {
   slot.writer = message.writer;
   slot.last_step = 0;
   roster_.stir();
-  note_sitting(slot.sat, message.writer);
+  note_service(slot.served_by, message.writer);
   slot.state = SlotState::kRuns;
   slot.reported = false;
   next_tell_ = {};
@@ -85,7 +85,7 @@ Status SteppedRun::refuse_ahead(const HostSlot& slot, const bus::HostReport& mes
                 slot.name, why);
   }
   // The others continue without it after it has been silent for long enough.
-  board_->refuse(message, why);
+  bus_->refuse(message, why);
   return {};
 }
 
@@ -102,11 +102,11 @@ Status SteppedRun::leave_alone(const bus::HostReport& message) {
 }
 
 Status SteppedRun::hear(const bus::HostReport& message) {
-  if (message.host >= slots_.size() || !board_->knows(message.writer)) return {};
+  if (message.host >= slots_.size() || !bus_->knows(message.writer)) return {};
   RAVE_TRY(leave_alone(message));
   HostSlot& slot = slots_[message.host];
   if (const Status sits = claim_slot(slot, message); !sits) {
-    board_->refuse(message, sits.error().message);
+    bus_->refuse(message, sits.error().message);
     return {};
   }
   if (begun_ && message.writer == slot.writer && message.step < slot.last_step) {
@@ -134,14 +134,14 @@ Status SteppedRun::hear(const bus::HostReport& message) {
   const bool again = slot.reported && begun_;
   if (again && message.inputs._length <= slot.report.inputs.size()) return {};
   if (const Status was_read = lock_step::read(message, heard_); !was_read) {
-    board_->refuse(message, was_read.error().message);
+    bus_->refuse(message, was_read.error().message);
     return {};
   }
   // What the authority cannot use is no reason to end the run of the others. Before the run begins
   // it does not know yet which step comes next.
   if (const Status usable = begun_ || message.step == 0 ? authority_->check(heard_) : Status{};
       !usable) {
-    board_->refuse(message, usable.error().text());
+    bus_->refuse(message, usable.error().text());
     return {};
   }
   if (again) {
@@ -156,10 +156,10 @@ Status SteppedRun::hear(const bus::HostReport& message) {
 
 Status SteppedRun::listen() {
   Status status;
-  board_->take_reports([&](const bus::HostReport& message) {
+  bus_->take_reports([&](const bus::HostReport& message) {
     if (status) status = hear(message);
   });
-  board_->endpoint().serve_requests();
+  bus_->endpoint().serve_requests();
   return status;
 }
 
@@ -192,15 +192,16 @@ void SteppedRun::count_newest() {
 }
 
 void SteppedRun::take_host_results() {
-  board_->endpoint().take_host_results(
-      [this](std::uint64_t writer, std::uint32_t host) { return has_sat(slots_, writer, host); });
+  bus_->endpoint().take_host_results([this](std::uint64_t writer, std::uint32_t host) {
+    return has_served(slots_, writer, host);
+  });
 }
 
 /// What can wait until nothing else is to be done.
 Status SteppedRun::look() {
   take_host_results();
-  RAVE_TRY_ASSIGN(const auto gone, board_->endpoint().look_at_processes(begun_));
-  if (!begun_) handed_over_ = board_->take_last_world(world_, state_, handed_over_) || handed_over_;
+  RAVE_TRY_ASSIGN(const auto gone, bus_->endpoint().look_at_processes(begun_));
+  if (!begun_) handed_over_ = bus_->take_last_world(world_, state_, handed_over_) || handed_over_;
   for (const std::uint64_t writer : gone) {
     miss(writer);
     roster_.lose(writer);
@@ -221,7 +222,7 @@ void SteppedRun::look_at_roster() {
   const auto serving = [this](std::uint32_t host) {
     return host < slots_.size() ? slots_[host].writer : 0;
   };
-  board_->endpoint().take_roster(roster_, serving);
+  bus_->endpoint().take_roster(roster_, serving);
   if (begun_ && !over_) show_kinds(roster_, serving, options_.control);
 }
 
@@ -229,7 +230,7 @@ void SteppedRun::look_at_roster() {
 void SteppedRun::look_at_clock(Clock::time_point since) {
   const auto patience = std::chrono::nanoseconds(options_.host_timeout.ns);
   // They may have answered while this process stood still.
-  since = std::max(since, board_->endpoint().silence_counts_from());
+  since = std::max(since, bus_->endpoint().silence_counts_from());
   if (!begun_ || Clock::now() - since < patience) return;
   for (HostSlot& slot : slots_) {
     if (slot.reported || slot.state != SlotState::kRuns) continue;
@@ -248,10 +249,10 @@ void SteppedRun::look_at_clock(Clock::time_point since) {
 /// The last step reaches everybody before this process goes.
 void SteppedRun::drain_hosts(bool awaits_host_results) {
   const auto owes = [&](std::uint64_t writer) {
-    return awaits_host_results && board_->endpoint().owes_host_results(writer);
+    return awaits_host_results && bus_->endpoint().owes_host_results(writer);
   };
   drain(slots_, options_.log, owes, [this] {
-    board_->wait(Duration{std::chrono::nanoseconds(kLook).count()}, {});
+    bus_->wait(Duration{std::chrono::nanoseconds(kLook).count()}, {});
     return listen() && look();
   });
   // What a process sent before it went is here.

@@ -19,6 +19,7 @@ class FakeEndpoint final : public ManagerEndpoint {
 
   void serve_requests() override {}
   Result<std::vector<std::uint64_t>> look_at_processes(bool /*begun*/) override {
+    for (const std::uint64_t writer : gone) hosts.erase(writer);
     return std::exchange(gone, {});
   }
   bool is_second() const override { return false; }
@@ -27,10 +28,9 @@ class FakeEndpoint final : public ManagerEndpoint {
     if (found == hosts.end()) return std::nullopt;
     return found->second;
   }
-  void forget(std::uint64_t writer) override { hosts.erase(writer); }
   void take_roster(RosterBook& /*book*/, const Serving& /*serving*/) override {}
   void take_host_results(
-      const std::function<bool(std::uint64_t, std::uint32_t)>& /*sat*/) override {}
+      const std::function<bool(std::uint64_t, std::uint32_t)>& /*served*/) override {}
   bool owes_host_results(std::uint64_t /*writer*/) const override { return false; }
   std::vector<lock_step::HostResults> hand_out_host_results() override { return {}; }
   void publish(bus::RunState& state) override {

@@ -44,7 +44,6 @@ class FakeLiveEndpoint final : public LiveEndpoint {
     bus::ClockPing& ping = pings_.emplace_back();
     ping.writer = writer;
     ping.target = FakeEndpoint::kManager;
-    ping.number = ++pinged_;
     ping.bound_ns = -1;
     ping.run_ns = run_ns;
   }
@@ -57,7 +56,6 @@ class FakeLiveEndpoint final : public LiveEndpoint {
  private:
   FakeEndpoint common_;
   std::vector<bus::ClockPing> pings_;
-  std::uint64_t pinged_ = 0;
 };
 
 }  // namespace rave::manager

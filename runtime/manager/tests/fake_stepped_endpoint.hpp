@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "../src/stepped_endpoint.hpp"
-#include "engine_fixture.hpp"
 #include "fake_endpoint.hpp"
 #include "rave/protocol/step_messages.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::manager {
 

@@ -12,8 +12,8 @@
 #include <optional>
 #include <thread>
 
-#include "engine_fixture.hpp"
 #include "own_corner.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 #include "speaking_host.hpp"
 
 namespace rave::manager {

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "engine_fixture.hpp"
 #include "fake_live_endpoint.hpp"
 #include "own_corner.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::manager {
 namespace {
@@ -34,7 +34,7 @@ class LiveRunTest : public ::testing::Test {
     options_.stopping = [this] { return stop_ || std::chrono::steady_clock::now() > end_; };
     auto endpoint = std::make_unique<FakeLiveEndpoint>();
     bus_ = endpoint.get();
-    board_ = std::make_unique<LiveBoard>(options_, std::move(endpoint));
+    hosts_ = std::make_unique<LiveHosts>(options_, std::move(endpoint));
     // Until a test says otherwise both hosts are there all the time.
     bus_->meanwhile = [this] {
       bus_->ping(kOne, 0);
@@ -45,8 +45,8 @@ class LiveRunTest : public ::testing::Test {
     sim::EngineSpec spec;
     add_robot(spec, simulated_type());
     add_twin(spec, {3, 0, 0});
-    auto edits = LiveEdits::create(std::move(spec), options_, *board_).value();
-    run_.emplace(options_, std::move(board_), std::move(edits));
+    auto edits = LiveEdits::create(std::move(spec), options_, *hosts_).value();
+    run_.emplace(options_, std::move(hosts_), std::move(edits));
     return run_->go();
   }
   LiveManagerOutcome go() {
@@ -63,7 +63,7 @@ class LiveRunTest : public ::testing::Test {
   FakeLiveEndpoint* bus_ = nullptr;
 
  private:
-  std::unique_ptr<LiveBoard> board_;
+  std::unique_ptr<LiveHosts> hosts_;
   std::optional<LiveRun> run_;
   const std::chrono::steady_clock::time_point end_ =
       std::chrono::steady_clock::now() + std::chrono::seconds(60);
@@ -72,7 +72,7 @@ class LiveRunTest : public ::testing::Test {
 TEST_F(LiveRunTest, EndsWhenItsTimeIsOverAndTellsEverybody) {
   const LiveManagerOutcome outcome = go();
   EXPECT_TRUE(outcome.whole) << lines_.said();
-  EXPECT_TRUE(outcome.saw_off);
+  EXPECT_TRUE(outcome.drained);
   EXPECT_GE(outcome.end.ns, options_.duration.ns);
   EXPECT_EQ(outcome.worlds, bus_->worlds.size());
   EXPECT_EQ(bus_->endpoint().phases.back(), rave_wire_RUN_ENDED);
@@ -141,7 +141,7 @@ TEST_F(LiveRunTest, WhoStopsManagingLeavesHostsToTheirRun) {
   ASSERT_EQ(outcome.problems.size(), 1U);
   EXPECT_EQ(outcome.problems[0].rfind("stopped at ", 0), 0U) << outcome.problems[0];
   EXPECT_FALSE(outcome.whole);
-  EXPECT_FALSE(outcome.saw_off);
+  EXPECT_FALSE(outcome.drained);
   EXPECT_FALSE(bus_->endpoint().over()) << "nobody is told to end";
 }
 
@@ -152,7 +152,7 @@ TEST_F(LiveRunTest, WhoOwnsItsHostsEndsThemWhenItIsStopped) {
     bus_->ping(kTwo, 1);
     stop_ = begun();
   };
-  EXPECT_TRUE(go().saw_off);
+  EXPECT_TRUE(go().drained);
   EXPECT_EQ(bus_->endpoint().phases.back(), rave_wire_RUN_FAILED);
 }
 

@@ -7,10 +7,10 @@
 #include <chrono>
 #include <thread>
 
-#include "engine_fixture.hpp"
 #include "own_corner.hpp"
 #include "rave/manager/manager.hpp"
 #include "rave/protocol/host_port.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::manager {
 namespace {

@@ -30,7 +30,6 @@ class SpeakingHost {
   void ping(std::uint64_t manager, std::int64_t run_ns = 0) {
     bus::ClockPing ping{};
     ping.target = manager;
-    ping.number = ++pings_sent_;
     ping.bound_ns = -1;
     ping.run_ns = run_ns;
     EXPECT_TRUE(pings_->write(ping));
@@ -63,7 +62,6 @@ class SpeakingHost {
   std::optional<bus::Writer<bus::ClockPing>> pings_;
   std::optional<bus::Writer<bus::HostState>> states_;
   real_time::RobotColumns columns_;
-  std::uint64_t pings_sent_ = 0;
 };
 
 }  // namespace rave::manager

@@ -113,6 +113,29 @@ TEST_F(SteppedRunTest, WithoutALostHostItIsAnotherRun) {
   EXPECT_EQ(outcome.problems[0], "host `two` is gone in step 7; its robots stop from this step on");
 }
 
+TEST_F(SteppedRunTest, WhoWasCutOffIsHeardAgainOnceItHasIntroducedItself) {
+  bool cut = false;
+  hosts_[1].says = [&](std::uint64_t step) {
+    if (step == kMoment && !std::exchange(cut, true)) {
+      bus_->common.gone.push_back(hosts_[1].writer);
+      return false;
+    }
+    // It goes on speaking; the manager has not heard yet who that is.
+    if (cut && hosts_[1].spoken > 3) bus_->common.hosts[hosts_[1].writer] = 1;
+    return true;
+  };
+  bool back_unknown = false;
+  bus_->meanwhile = [&] {
+    const bool known = bus_->common.hosts.contains(hosts_[1].writer);
+    back_unknown = back_unknown || (!known && lines_.has("host `two` is back"));
+  };
+  expect_that_of_one_process(go());
+  EXPECT_TRUE(lines_.has("host `two` is gone in step 7; all hosts wait until it is back"))
+      << lines_.said();
+  EXPECT_TRUE(lines_.has("host `two` is back in step 7")) << lines_.said();
+  EXPECT_FALSE(back_unknown);
+}
+
 TEST_F(SteppedRunTest, GoesOnWhereAnotherManagerEnded) {
   begin_with_another_manager();
   options_.resume = true;

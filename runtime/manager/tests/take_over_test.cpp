@@ -5,10 +5,10 @@
 
 #include <chrono>
 
-#include "../src/live_board.hpp"
 #include "../src/live_edits.hpp"
-#include "engine_fixture.hpp"
+#include "../src/live_hosts.hpp"
 #include "own_corner.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::manager {
 namespace {
@@ -46,7 +46,6 @@ class Host {
   void ping(std::uint64_t manager, std::uint64_t shown) {
     bus::ClockPing ping{};
     ping.target = manager;
-    ping.number = ++pings_sent_;
     ping.bound_ns = -1;
     ping.run_ns = 0;
     ping.obstacle_revision = shown;
@@ -72,7 +71,6 @@ class Host {
   std::optional<bus::Writer<bus::HostInfo>> info_;
   std::optional<bus::Writer<bus::ClockPing>> pings_;
   std::optional<bus::Writer<bus::LastObstacle>> last_;
-  std::uint64_t pings_sent_ = 0;
 };
 
 class TakeOver : public ::testing::Test {
@@ -84,17 +82,17 @@ class TakeOver : public ::testing::Test {
     options_.robots.push_back({"robot", from_seconds(1)});
     options_.log = &ears_;
     host_.emplace(options_.bus);
-    board_ = LiveBoard::open(options_).value();
-    edits_ = LiveEdits::create(a_robot_and_a_post(), options_, *board_).value();
+    hosts_ = LiveHosts::open(options_).value();
+    edits_ = LiveEdits::create(a_robot_and_a_post(), options_, *hosts_).value();
   }
   /// The manager goes on until it is so.
   void go_until(const std::function<bool()>& so, const char* what) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (!so() && std::chrono::steady_clock::now() < end) {
       host_->ping(board_writer_, shown_);
-      board_->wait(Duration{10'000'000});
-      ASSERT_TRUE(board_->look_at_processes(true));
-      board_->take_pings([this](const bus::ClockPing& ping) { board_->claim_slot(ping); });
+      hosts_->wait(Duration{10'000'000});
+      ASSERT_TRUE(hosts_->look_at_processes(true));
+      hosts_->take_pings([this](const bus::ClockPing& ping) { hosts_->claim_slot(ping); });
       ASSERT_TRUE(edits_->look(SimTime{}));
     }
     EXPECT_TRUE(so()) << what << "\n" << ears_.heard;
@@ -102,9 +100,9 @@ class TakeOver : public ::testing::Test {
   /// With what the host says that its robots have around them.
   void take_over(std::uint64_t shown, std::uint64_t published) {
     shown_ = shown;
-    board_writer_ = board_->endpoint().writer();
-    go_until([this] { return board_->slots()[0].writer != 0; }, "the host is here");
-    go_until([this] { return board_->shown_revision() == shown_; }, "it says what it has");
+    board_writer_ = hosts_->endpoint().writer();
+    go_until([this] { return hosts_->slots()[0].writer != 0; }, "the host is here");
+    go_until([this] { return hosts_->shown_revision() == shown_; }, "it says what it has");
     edits_->begin(true);
     EXPECT_EQ(edits_->revision(), shown) << "until it is known who knows what";
     go_until([&] { return edits_->revision() == published; }, "it has taken over");
@@ -114,7 +112,7 @@ class TakeOver : public ::testing::Test {
   LiveManagerOptions options_;
   Ears ears_;
   std::optional<Host> host_;
-  std::unique_ptr<LiveBoard> board_;
+  std::unique_ptr<LiveHosts> hosts_;
   std::unique_ptr<LiveEdits> edits_;
   std::uint64_t board_writer_ = 0;
   std::uint64_t shown_ = 0;
@@ -148,7 +146,7 @@ TEST_F(TakeOver, ObstaclesThatCannotBeSpoilNothing) {
   take_over(6, 6);
   go_until([this] { return has(kFirstAdded); }, "what was handed over is there");
   EXPECT_FALSE(has(kFirstAdded + 1));
-  EXPECT_TRUE(board_->handed_obstacles().empty()) << "nobody needs them any more";
+  EXPECT_TRUE(hosts_->handed_obstacles().empty()) << "nobody needs them any more";
   const std::size_t told = ears_.heard.find("refused the hand-over of obstacles by process");
   ASSERT_NE(told, std::string::npos) << ears_.heard;
   EXPECT_EQ(ears_.heard.find("refused the hand-over of obstacles by process", told + 1),

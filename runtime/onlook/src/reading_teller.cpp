@@ -23,7 +23,6 @@ void ReadingTeller::put_part(const LookedAt& looked, std::uint8_t part, ReadingK
   reading.robot = looked.robot;
   reading.sensor = looked.sensor;
   reading.part = part;
-  reading.kind = static_cast<std::uint8_t>(kind);
   reading.stamp_ns = header->stamp_ns;
   reading.fields = field_count(kind);
   reading.rows = add_rows(
@@ -48,7 +47,6 @@ void ReadingTeller::put_commands(const sim::Engine& engine, const LookedAt& look
   reading.robot = looked.robot;
   reading.sensor = looked.sensor;
   reading.part = 0;
-  reading.kind = static_cast<std::uint8_t>(ReadingKind::kValues);
   reading.stamp_ns = engine.time().ns;
   reading.fields = kCommandFields;
   reading.rows = 1;
@@ -91,7 +89,6 @@ void ReadingTeller::tell(const sim::Engine& engine, const Asked& asked, probe::P
   if (readings_.empty() && left_out_ == 0) return;
   bus::Readings message{};
   message.host = host_;
-  message.number = ++number_;
   message.left_out = left_out_;
   bus::borrow(message.entries, readings_);
   bus::borrow(message.values, values_);

@@ -107,7 +107,6 @@ void Teller::tell_events(const sim::Engine& engine, std::span<const sim::Event> 
   if (told_.empty()) return;
   bus::RunEvents message{};
   message.host = options_.host;
-  message.number = ++number_;
   message.left_out = left_out_;
   bus::borrow(message.events, told_);
   static_cast<void>(events_.write(message));

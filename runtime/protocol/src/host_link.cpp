@@ -94,7 +94,6 @@ void HostLink::Impl::ping() {
   const auto wait = done < kFirstReadings ? kHurry : (knows_it ? kLeisure : kLook);
   bus::ClockPing message{};
   message.target = manager;
-  message.number = ++pings_sent;
   // -1: unknown. The manager publishes offset and bound of each host for monitors.
   message.bound_ns = -1;
   message.run_ns = -1;
@@ -109,6 +108,7 @@ void HostLink::Impl::ping() {
   // Read last, so that filling in the message does not count as travel time.
   message.sent_ns = local_ns();
   static_cast<void>(pings->write(message));
+  ++pings_sent;
   ping_at = Clock::now() + wait;
 }
 

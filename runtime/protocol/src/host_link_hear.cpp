@@ -151,9 +151,9 @@ void HostLink::Impl::take_packets() {
 void HostLink::Impl::hear(const lock_step::RunWord& word) {
   if (manager != 0 && word.writer != manager) return;
   switch (word.phase) {
-    case rave_wire_RUN_GOES:
+    case rave_wire_RUN_RUNNING:
       return;
-    case rave_wire_RUN_GATHERS:
+    case rave_wire_RUN_GATHERING:
     case rave_wire_RUN_WAITS:
       if (!started) tell_foreign(LogLevel::kWarning, word.text);
       return;
@@ -230,11 +230,11 @@ void HostLink::Impl::look() {
 
 /// For monitors.
 void HostLink::Impl::tell_word() {
-  lock_step::HostWord::Facts said{rave_wire_RUN_GOES, facts.step, ""};
+  lock_step::HostWord::Facts said{rave_wire_RUN_RUNNING, facts.step, ""};
   said.managed = options.managed;
   said.manager_here = manager != 0;
   if (!started) {
-    said.phase = rave_wire_RUN_GATHERS;
+    said.phase = rave_wire_RUN_GATHERING;
     said.text = told;
   }
   host_word->tell(said);

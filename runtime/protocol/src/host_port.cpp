@@ -26,8 +26,8 @@ constexpr std::uint64_t kHandedOver = 1;
 /// For monitors.
 void HostPort::Impl::tell_word(std::uint64_t step) {
   const bool stands = manager == 0 || !told.empty();
-  const auto phase = stands ? rave_wire_RUN_WAITS : rave_wire_RUN_GOES;
-  host_word->tell({has_world ? phase : rave_wire_RUN_GATHERS, step, told, true, manager != 0});
+  const auto phase = stands ? rave_wire_RUN_WAITS : rave_wire_RUN_RUNNING;
+  host_word->tell({has_world ? phase : rave_wire_RUN_GATHERING, step, told, true, manager != 0});
 }
 
 void HostPort::Impl::serve() {

@@ -67,10 +67,10 @@ void HostPort::Impl::hear(const RunWord& word) {
     ending = {false, "the run continued without this host, which was late or lost"};
   }
   switch (word.phase) {
-    case rave_wire_RUN_GOES:
+    case rave_wire_RUN_RUNNING:
       told.clear();
       return;
-    case rave_wire_RUN_GATHERS:
+    case rave_wire_RUN_GATHERING:
     case rave_wire_RUN_WAITS:
       tell_foreign(LogLevel::kWarning, word.text);
       return;

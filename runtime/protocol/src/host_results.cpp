@@ -132,9 +132,9 @@ Result<HostResultsCollector> HostResultsCollector::create(bus::Bus& bus) {
   return HostResultsCollector(std::move(reader));
 }
 
-void HostResultsCollector::take(const std::function<bool(std::uint64_t, std::uint32_t)>& sat) {
+void HostResultsCollector::take(const std::function<bool(std::uint64_t, std::uint32_t)>& served) {
   const auto hear = [&](const bus::HostResultsPart& part) {
-    if (!sat(part.writer, part.host)) {
+    if (!served(part.writer, part.host)) {
       reader_.refuse(part, fmt::format("it is not a process of host {} of this run", part.host));
       return;
     }

@@ -15,10 +15,8 @@ Status SharedTime::hear(std::uint64_t manager, const bus::ClockExchange& exchang
     RAVE_TRY(bus::read_clock(exchange));
     offset_ = bus::ClockOffset();
     manager_ = manager;
-    answers_ = 0;
   }
   RAVE_TRY(offset_.add(exchange));
-  ++answers_;
   const auto reading = offset_.at(exchange.heard_ns);
   if (!begun || !reading) return {};
   known_ = true;

@@ -14,8 +14,8 @@
 #include <optional>
 #include <string>
 
-#include "peer_process.hpp"
 #include "rave/bus/writer.hpp"
+#include "rave/bus_testing/peer_process.hpp"
 #include "rave/protocol/step_messages.hpp"
 
 namespace rave::lock_step {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "made_host_results.hpp"
-#include "peer_process.hpp"
+#include "rave/bus_testing/peer_process.hpp"
 #include "rave/protocol/host_results.hpp"
 
 namespace rave::lock_step {

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "engine_fixture.hpp"
 #include "rave/protocol/live_world.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::real_time {
 namespace {

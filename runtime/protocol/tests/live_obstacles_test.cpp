@@ -2,8 +2,8 @@
 // The world of a host in real time, in which obstacles come, move and go.
 #include <gtest/gtest.h>
 
-#include "engine_fixture.hpp"
 #include "rave/protocol/live_world.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::real_time {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "engine_fixture.hpp"
-#include "radio_fixture.hpp"
 #include "rave/math/transform.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
+#include "rave/sim_testing/radio_fixture.hpp"
 
 namespace rave::real_time {
 namespace {

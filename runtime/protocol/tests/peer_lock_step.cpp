@@ -5,10 +5,10 @@
 #include <string>
 
 #include "made_host_results.hpp"
-#include "peer_console.hpp"
-#include "peer_roles.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
+#include "rave/bus_testing/peer_console.hpp"
+#include "rave/bus_testing/peer_roles.hpp"
 #include "rave/protocol/host_results.hpp"
 #include "rave/protocol/pulse.hpp"
 #include "rave/protocol/step_messages.hpp"

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "peer_process.hpp"
 #include "rave/bus/reader.hpp"
+#include "rave/bus_testing/peer_process.hpp"
 
 namespace rave::lock_step {
 namespace {

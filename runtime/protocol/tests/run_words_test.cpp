@@ -32,7 +32,7 @@ TEST(RunWords, OnlyWhoFitsIsListenedTo) {
 
 TEST(RunWords, AWordThatCameBeforeTheIntroductionIsNotLost) {
   RunWords words;
-  words.hear(word(7, rave_wire_RUN_GATHERS));
+  words.hear(word(7, rave_wire_RUN_GATHERING));
   words.hear(word(7, rave_wire_RUN_ENDED));
   EXPECT_TRUE(words.take().empty());
   words.welcome(7);
@@ -47,7 +47,7 @@ TEST(RunWords, ACrowdOfUnknownDoesNotKeepTheManagerFromBeingHeard) {
   for (std::uint64_t writer = 2; writer < 500; ++writer) {
     words.hear(word(writer, rave_wire_RUN_FAILED));
   }
-  words.hear(word(1, rave_wire_RUN_GOES));
+  words.hear(word(1, rave_wire_RUN_RUNNING));
   const auto heard = words.take();
   ASSERT_EQ(heard.size(), 1U);
   EXPECT_EQ(heard[0].writer, 1U);
@@ -61,7 +61,7 @@ TEST(RunWords, SayWhetherTheHostWasDropped) {
   hosts[1].phase = rave_wire_HOST_RUNS;
   bus::RunState state{};
   state.writer = 9;
-  state.phase = rave_wire_RUN_GOES;
+  state.phase = rave_wire_RUN_RUNNING;
   bus::borrow(state.hosts, hosts);
   EXPECT_TRUE(run_word(state, 3).without_us);
   EXPECT_FALSE(run_word(state, 4).without_us);

@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <new>
 
-#include "engine_fixture.hpp"
 #include "rave/recording/record_keeper.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "engine_fixture.hpp"
 #include "rave/record/mcap_reader.hpp"
 #include "rave/record/run_reader.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::runtime::testing {
 namespace {

@@ -23,7 +23,7 @@ PlayState standing_of(const watch::RunView& view) {
   state.reason = view.text;
   state.speed = view.speed.value_or(0);
   switch (view.phase) {
-    case watch::Phase::kGoes:
+    case watch::Phase::kRunning:
       state.kind = PlayState::Kind::kRunning;
       break;
     case watch::Phase::kPaused:
@@ -33,7 +33,7 @@ PlayState standing_of(const watch::RunView& view) {
     case watch::Phase::kFailed:
       state.kind = PlayState::Kind::kEnded;
       break;
-    case watch::Phase::kGathers:
+    case watch::Phase::kGathering:
     case watch::Phase::kWaits:
       state.kind = PlayState::Kind::kWaiting;
       break;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A whole server, and Foxglove clients with and without the rights to what they ask for.
-#include "foxglove_client.hpp"
 #include "hostile_fixture.hpp"
+#include "rave/gui_testing/foxglove_client.hpp"
 
 namespace rave::gui_server::testing {
 namespace {

@@ -14,9 +14,12 @@
 #include "rave/gui_server/accounts.hpp"
 #include "rave/gui_server/gui_server.hpp"
 #include "rave/keys/web_keys.hpp"
-#include "raw_client.hpp"
+#include "rave/web_testing/raw_client.hpp"
 
 namespace rave::gui_server::testing {
+
+using web::testing::RawClient;
+using web::testing::RawSocket;
 
 namespace fs = std::filesystem;
 

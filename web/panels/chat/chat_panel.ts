@@ -44,14 +44,6 @@ export class ChatPanel extends LitElement {
     if (list !== null && this.atEnd) list.scrollTop = list.scrollHeight;
   }
 
-  /** Brings a robot to the front as the one that is spoken to. */
-  speakTo(slot: number): void {
-    this.context.selection.set([slot]);
-    this.chosen = 'robot';
-    this.requestUpdate();
-    void this.updateComplete.then(() => this.renderRoot.querySelector('textarea')?.focus());
-  }
-
   private get targets(): Target[] {
     const {model, selection} = this.context;
     const targets: Target[] = [

@@ -35,8 +35,6 @@ void Wake::clear() noexcept {
   [[maybe_unused]] const auto got = ::read(fd_, &count, sizeof count);
 }
 
-bool Wake::rung() const noexcept { return wait(std::chrono::milliseconds(0)); }
-
 bool Wake::wait(std::chrono::milliseconds limit) const noexcept {
   const HostTime end = host_now() + limit;
   while (true) {

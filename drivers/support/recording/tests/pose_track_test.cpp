@@ -31,23 +31,8 @@ TEST(PoseTrack, InterpolatesByTheShorterTurn) {
 TEST(PoseTrack, HoldsTheLastPoseAndHasNoneBeforeTheFirst) {
   const PoseTrack track = three();
   EXPECT_EQ(track.interpolate(9'000 * kMs), (Pose2{2, 2, -kPi + 0.2}));
-  EXPECT_EQ(track.age_ns(9'000 * kMs), 8'400 * kMs);
   EXPECT_FALSE(track.interpolate(99 * kMs));
-  EXPECT_FALSE(track.last_stamp_ns(99 * kMs));
-  EXPECT_FALSE(track.age_ns(99 * kMs));
-  EXPECT_EQ(track.last_stamp_ns(199 * kMs), 100 * kMs);
   EXPECT_FALSE(PoseTrack().interpolate(0));
-}
-
-TEST(PoseTrack, KnowsItsGaps) {
-  const PoseTrack track = three();
-  EXPECT_FALSE(track.in_gap(150 * kMs, 100 * kMs));
-  EXPECT_FALSE(track.in_gap(200 * kMs, 100 * kMs)) << "a sample is there";
-  EXPECT_TRUE(track.in_gap(201 * kMs, 100 * kMs));
-  EXPECT_FALSE(track.in_gap(201 * kMs, 400 * kMs));
-  EXPECT_TRUE(track.in_gap(99 * kMs, 400 * kMs));
-  EXPECT_FALSE(track.in_gap(700 * kMs, 100 * kMs));
-  EXPECT_TRUE(track.in_gap(701 * kMs, 100 * kMs));
 }
 
 TEST(PoseTrack, FitsTheVelocityThroughJitter) {

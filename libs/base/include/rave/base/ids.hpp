@@ -31,8 +31,6 @@ class Id {
 using RobotId = Id<struct RobotTag>;
 /// A sensor, actuator, controller or program slot of one robot: its index in that robot's file.
 using DeviceId = Id<struct DeviceTag>;
-/// An obstacle: its index in the expanded world.
-using ObstacleId = Id<struct ObstacleTag>;
 
 }  // namespace rave
 

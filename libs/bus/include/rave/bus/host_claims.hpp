@@ -21,8 +21,6 @@ class HostClaims {
   [[nodiscard]] Status claim(std::uint32_t host, std::uint64_t writer);
   /// Frees the hosts of a writer that was lost.
   void release(std::uint64_t writer);
-  /// The writer of the host; 0: none.
-  [[nodiscard]] std::uint64_t writer_of(std::uint32_t host) const;
 
  private:
   std::vector<std::uint64_t> writers_;  ///< By host; 0: free.

@@ -28,7 +28,7 @@ class ReaderCore {
   [[nodiscard]] std::size_t begin_take();
   /// The next sample of the local transport, valid until the next call; null if there is none.
   /// `budget` is the number of datagrams that may still be read; must be above 0; decreased.
-  [[nodiscard]] const void* take_short(std::size_t& budget);
+  [[nodiscard]] const void* take_local(std::size_t& budget);
   /// Whether a take that has (`got`) received a sample by the local transport may skip DDS this
   /// time.
   [[nodiscard]] bool leaves_dds(bool got);
@@ -46,7 +46,7 @@ class ReaderCore {
   Bus* bus_;
   const char* topic_;
   dds_entity_t reader_ = 0;
-  LocalReceiver* short_ = nullptr;  ///< Owned by the bus; null: all samples come through DDS.
+  LocalReceiver* local_ = nullptr;  ///< Owned by the bus; null: all samples come through DDS.
   std::uint64_t sender_ = 0;        ///< The sender of the last sample of the local transport.
 };
 
@@ -81,7 +81,7 @@ class Reader {
   /// DDS may be left for the next call, and end the next wait.
   template <class Visit, class Gone>
   std::size_t take(Visit&& visit, Gone&& gone) {
-    std::size_t visited = take_short(visit, gone);
+    std::size_t visited = take_local(visit, gone);
     if (core_.leaves_dds(visited > 0)) return visited;
     Loan loan;
     for (std::size_t taken = 0; taken < ReaderCore::kMostAtOnce; taken += Loan::kBatch) {
@@ -120,11 +120,11 @@ class Reader {
       std::is_invocable_v<Visit&, const Message&, const dds_sample_info_t&>;
 
   template <class Visit, class Gone>
-  std::size_t take_short(Visit& visit, Gone& gone) {
+  std::size_t take_local(Visit& visit, Gone& gone) {
     std::size_t visited = 0;
     std::size_t budget = core_.begin_take();
     while (budget > 0) {
-      const void* const sample = core_.take_short(budget);
+      const void* const sample = core_.take_local(budget);
       if (sample == nullptr) break;
       dds_sample_info_t info{};
       info.valid_data = true;

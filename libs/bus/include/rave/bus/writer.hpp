@@ -24,12 +24,12 @@ class WriterCore {
 
  private:
   WriterCore(Bus& bus, const char* topic) : bus_(&bus), topic_(topic) {}
-  [[nodiscard]] bool goes_short(const void* sample);
+  [[nodiscard]] bool goes_locally(const void* sample);
 
   Bus* bus_;
   const char* topic_;
   dds_entity_t writer_ = 0;
-  LocalSender* short_ = nullptr;  ///< Owned by the bus; null: all samples use DDS.
+  LocalSender* local_ = nullptr;  ///< Owned by the bus; null: all samples use DDS.
 };
 
 /// Writes one topic. Destroy it before its bus; thread: that of the bus.

@@ -50,13 +50,6 @@ class CdrWriter {
     align(sizeof(T));
     append(values.data(), values.size_bytes());
   }
-  /// Writes elements whose memory layout is their CDR encoding: all members aligned to their size,
-  /// sizeof(T) a multiple of 8. Precondition: position() is a multiple of 8.
-  template <class T>
-    requires(std::is_trivially_copyable_v<T> && sizeof(T) % 8 == 0)
-  void put_packed(std::span<const T> values) {
-    append(values.data(), values.size_bytes());
-  }
   /// The number of bytes after the encapsulation header; alignment is relative to it.
   [[nodiscard]] std::size_t position() const noexcept { return bytes_.size() - 4; }
   [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
@@ -109,7 +102,8 @@ class CdrReader {
   [[nodiscard]] std::span<const std::byte> get_bytes() noexcept {
     return raw(get<std::uint32_t>());
   }
-  /// The inverse of CdrWriter::put_packed().
+  /// Elements whose memory layout is their CDR encoding: all members aligned to their size,
+  /// sizeof(T) a multiple of 8. Precondition: the position is a multiple of 8.
   template <class T>
     requires(std::is_trivially_copyable_v<T> && sizeof(T) % 8 == 0)
   [[nodiscard]] std::vector<T> get_packed(std::uint64_t count) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <type_traits>
 
 #include "rave/base/random.hpp"
 #include "rave/robot/plugin_entry.hpp"
@@ -79,8 +80,9 @@ class VirtualSensor {
  public:
   virtual ~VirtualSensor() = default;
   virtual Status configure(const VirtualSensorSetup& setup, VirtualDeclaration& declaration) = 0;
-  /// Writes the records of one robot. Not called for a sensor with a fan.
-  virtual void sample(const WorldView& world, const SampleItem& item) const = 0;
+  /// Writes the records of one robot. Not called for a sensor with a fan: only a range sensor that
+  /// declares one may leave it out.
+  virtual void sample(const WorldView& /*world*/, const SampleItem& /*item*/) const {}
 };
 
 struct VirtualSensorOps {
@@ -104,15 +106,32 @@ constexpr std::size_t state_size_of() noexcept {
   }
 }
 
+/// Whether T has a sample() of its own.
+template <class T>
+inline constexpr bool samples_itself =
+    !std::is_same_v<decltype(&T::sample), decltype(&VirtualSensor::sample)>;
+
+template <class T>
+Status configure_sensor(T& sensor, const VirtualSensorSetup& setup,
+                        VirtualDeclaration& declaration) {
+  RAVE_TRY(sensor.configure(setup, declaration));
+  if (!samples_itself<T> && declaration.uses_fan == 0) {
+    return fail(ErrorCode::kInvalidArgument, "the sensor declares no fan and has no sample()");
+  }
+  return {};
+}
+
 template <class T>
 constexpr VirtualSensorOps virtual_sensor_ops() noexcept {
+  static_assert(samples_itself<T> || T::kReading == ReadingKind::kRanges,
+                "a virtual sensor whose readings are not ranges has a sample() of its own");
   VirtualSensorOps ops;
   ops.instance = instance_ops<T>();
   ops.state_size = state_size_of<T>();
   ops.configure = [](void* instance, const VirtualSensorSetup* setup,
                      VirtualDeclaration* declaration, ErrorText* error) {
     return guarded(error,
-                   [&] { return static_cast<T*>(instance)->configure(*setup, *declaration); });
+                   [&] { return configure_sensor(*static_cast<T*>(instance), *setup, *declaration); });
   };
   ops.sample = [](const void* instance, const WorldView* world, const SampleItem* items,
                   std::uint64_t count, std::uint8_t* failed, ErrorText* error) {

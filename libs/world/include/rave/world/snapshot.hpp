@@ -75,9 +75,6 @@ class Snapshot final : public WorldView {
   [[nodiscard]] Pose2 obstacle_pose(BodyId obstacle) const noexcept {
     return standing_[place_of(obstacle.value())].X_WB;
   }
-  [[nodiscard]] bool obstacle_present(BodyId obstacle) const noexcept {
-    return standing_[place_of(obstacle.value())].present;
-  }
 
   /// Moves all shapes of robots to their poses and rebuilds their grid.
   void rebuild();

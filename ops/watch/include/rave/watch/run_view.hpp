@@ -18,7 +18,15 @@ enum class Standing : std::uint8_t {
   kDropped,  ///< It has left, and the run continues without it permanently.
 };
 
-enum class Phase : std::uint8_t { kUnknown, kGathers, kGoes, kWaits, kPaused, kEnded, kFailed };
+enum class Phase : std::uint8_t {
+  kUnknown,
+  kGathering,
+  kRunning,
+  kWaits,
+  kPaused,
+  kEnded,
+  kFailed
+};
 
 enum class Timing : std::uint8_t {
   kUnknown,

@@ -34,8 +34,5 @@ struct ChangeableParameter {
 /// The initial values of these parameters as text, by key; equal for all robots of this type.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> first_values(
     const sim::RobotType& type);
-/// The current values for one robot of `engine`.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> present_values(
-    const sim::Engine& engine, RobotId robot);
 
 }  // namespace rave::runtime

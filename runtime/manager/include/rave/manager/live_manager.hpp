@@ -89,10 +89,10 @@ struct LiveManagerOutcome {
   Edits edits;
   std::vector<sim::Event> refused;    ///< Changes of the scenario that could not be made.
   std::vector<std::string> problems;  ///< Other problems, one sentence each.
-  /// Results that hosts have sent. With `saw_off` they include those of every host that was present
+  /// Results that hosts have sent. With `drained` they include those of every host that was present
   /// at the end.
   std::vector<lock_step::HostResults> host_results;
-  bool saw_off = false;  ///< This manager stayed until all hosts had left.
+  bool drained = false;  ///< This manager stayed until all hosts had left.
 };
 
 /// Manages a run in real time, in the calling thread. Its time 0 is when all hosts are present, by

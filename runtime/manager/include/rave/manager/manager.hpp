@@ -63,7 +63,6 @@ struct ManagerOutcome {
   std::uint64_t steps = 0;
   /// The run hash, equal to that of the run in one process; empty if a host was lost.
   std::optional<std::uint64_t> hash;
-  std::uint64_t contacts = 0;         ///< Number of contacts that began.
   runtime::LatenessFacts lateness;    ///< Missed deadlines of a run with a pace.
   double wall_s = 0;                  ///< From the first step to the last.
   std::vector<std::string> problems;  ///< One sentence each; empty if there are none.

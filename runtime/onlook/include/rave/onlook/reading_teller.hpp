@@ -44,7 +44,6 @@ class ReadingTeller {
 
   bus::Writer<bus::Readings> writer_;
   std::uint32_t host_;
-  std::uint64_t number_ = 0;
   Clock::time_point next_{};
   Clock::time_point again_at_{};
   /// By robot, sensor and part: sequence of the last published sample.

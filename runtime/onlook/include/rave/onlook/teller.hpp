@@ -90,7 +90,6 @@ class Teller {
   std::map<std::uint64_t, Look> heard_;  ///< By monitor.
   Asked asked_;                          ///< Union of all requests.
   Clock::time_point next_hearing_{};
-  std::uint64_t number_ = 0;  ///< Number of event samples.
   std::vector<rave_wire_RunEvent> told_;
   std::uint32_t left_out_ = 0;
 };

@@ -88,9 +88,9 @@ class HostResultsCollector {
   [[nodiscard]] static Result<HostResultsCollector> create(bus::Bus& bus);
   [[nodiscard]] Status wake(bus::WaitSet& waits) { return waits.add(reader_); }
 
-  /// Receives parts. Those of a process for which `sat(writer, host)` is false, because it did not
-  /// have the place of this host, are refused.
-  void take(const std::function<bool(std::uint64_t, std::uint32_t)>& sat);
+  /// Receives parts. Those of a process for which `served(writer, host)` is false, because it did
+  /// not have the place of this host, are refused.
+  void take(const std::function<bool(std::uint64_t, std::uint32_t)>& served);
   [[nodiscard]] bool done_with(std::uint64_t writer) const { return parts_.done_with(writer); }
   [[nodiscard]] std::vector<HostResults> hand_out() { return parts_.hand_out(); }
 

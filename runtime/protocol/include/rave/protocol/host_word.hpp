@@ -19,7 +19,7 @@ class HostWord {
 
   /// The state of the run for this host.
   struct Facts {
-    rave_wire_RunPhase phase = rave_wire_RUN_GATHERS;
+    rave_wire_RunPhase phase = rave_wire_RUN_GATHERING;
     std::uint64_t step = 0;
     std::string_view text{};  ///< What it waits for, or how the run ended.
     bool managed = true;      ///< The run has an Environment Manager; manager_here: it is present.

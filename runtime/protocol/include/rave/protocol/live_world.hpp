@@ -96,8 +96,6 @@ class LiveWorld {
   [[nodiscard]] std::uint64_t dropped_packets() const noexcept { return dropped_packets_; }
   /// Robots that exceeded their TalkLimit since the last call; each once per run.
   [[nodiscard]] std::vector<RobotId> take_flooders() { return std::exchange(flooders_, {}); }
-  /// The number of robots of other hosts.
-  [[nodiscard]] std::size_t others() const noexcept { return others_.size(); }
 
   /// Limits of received messages, and of their bytes, in one step.
   static constexpr std::size_t kMostPackets = 65'536;

@@ -12,7 +12,7 @@ namespace rave::lock_step {
 /// How a run goes, as one of its processes knows it (topics rave/run and rave/host_run).
 struct RunReport {
   std::string_view scenario{};
-  rave_wire_RunPhase phase = rave_wire_RUN_GATHERS;
+  rave_wire_RunPhase phase = rave_wire_RUN_GATHERING;
   std::uint64_t step = 0;
   std::uint64_t steps = 0;  ///< Of the run.
   double step_s = 0;

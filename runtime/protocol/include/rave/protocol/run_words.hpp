@@ -14,7 +14,7 @@ namespace rave::lock_step {
 /// The state of a run according to a process, as far as a host needs it.
 struct RunWord {
   std::uint64_t writer = 0;
-  rave_wire_RunPhase phase = rave_wire_RUN_GATHERS;
+  rave_wire_RunPhase phase = rave_wire_RUN_GATHERING;
   std::string text;
   bool without_us = false;  ///< The run continues without the host that receives this.
 };

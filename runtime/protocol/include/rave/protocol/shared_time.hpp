@@ -24,8 +24,6 @@ class SharedTime {
 
   /// Whether the run has begun or its start time is set.
   [[nodiscard]] bool known() const noexcept { return known_; }
-  /// The number of answers of the manager.
-  [[nodiscard]] std::uint64_t answers() const noexcept { return answers_; }
   /// Local time at which the run is at 0; improves slightly with each answer. Precondition:
   /// known().
   [[nodiscard]] std::int64_t zero_ns() const noexcept { return zero_ns_; }
@@ -38,7 +36,6 @@ class SharedTime {
  private:
   bus::ClockOffset offset_;
   std::uint64_t manager_ = 0;
-  std::uint64_t answers_ = 0;
   bool known_ = false;
   std::int64_t zero_ns_ = 0;
 };

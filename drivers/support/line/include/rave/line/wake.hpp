@@ -20,10 +20,9 @@ class Wake {
   [[nodiscard]] Status open();
   void ring() noexcept;
   void clear() noexcept;
-  [[nodiscard]] bool rung() const noexcept;
   /// Waits for the bell; false: it did not ring within `limit`.
   [[nodiscard]] bool wait(std::chrono::milliseconds limit) const noexcept;
-  /// Descriptor for poll(); readable while rung.
+  /// Descriptor for poll(); readable after ring() until clear().
   [[nodiscard]] int fd() const noexcept { return fd_; }
 
  private:

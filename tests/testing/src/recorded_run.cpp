@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "recorded_run.hpp"
+#include "rave/run_testing/recorded_run.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "peer_roles.hpp"
+#include "rave/bus_testing/peer_roles.hpp"
 
 int main(int argc, char** argv) {
   using namespace rave::bus;

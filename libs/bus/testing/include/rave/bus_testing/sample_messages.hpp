@@ -46,28 +46,10 @@ struct RobotArrays {
   }
 };
 
-/// A box of 1 m for bodies.
-struct Box {
-  std::vector<double> x{0, 1, 1, 0};
-  std::vector<double> y{0, 0, 1, 1};
-  std::vector<rave_wire_Prism> prisms = std::vector<rave_wire_Prism>(1);
-
-  Box() {
-    borrow(prisms[0].x_m, x);
-    borrow(prisms[0].y_m, y);
-    prisms[0].z_max_m = 1;
-  }
-  Box(const Box&) = delete;
-  Box& operator=(const Box&) = delete;
-  template <class Sequence>
-  void lend(Sequence& body) {
-    borrow(body, prisms);
-  }
-};
-
 /// An obstacle that came: a box of 1 m.
 struct NewBox {
-  Box box;
+  std::vector<double> x{0, 1, 1, 0};
+  std::vector<double> y{0, 0, 1, 1};
   std::vector<rave_wire_BodyShape> shapes = std::vector<rave_wire_BodyShape>(1);
   Obstacle sample{};
 
@@ -79,11 +61,13 @@ struct NewBox {
     sample.stands.id = id;
     put_text(sample.stands.name, "box" + std::to_string(id));
     shapes[0].kind = rave_wire_SHAPE_POLYGON;
-    borrow(shapes[0].x_m, box.x);
-    borrow(shapes[0].y_m, box.y);
+    borrow(shapes[0].x_m, x);
+    borrow(shapes[0].y_m, y);
     shapes[0].z_max_m = 1;
     borrow(sample.stands.shapes, shapes);
   }
+  NewBox(const NewBox&) = delete;
+  NewBox& operator=(const NewBox&) = delete;
 };
 
 }  // namespace rave::bus::testing

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine_drivers.hpp"
 #include "rave/base/log.hpp"
 #include "rave/sim/engine.hpp"
+#include "rave/sim_testing/engine_drivers.hpp"
 
 /// Builds small worlds for tests of the engine.
 namespace rave::sim::testing {

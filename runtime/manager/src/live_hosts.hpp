@@ -31,7 +31,7 @@ struct LiveSlot {
   std::uint64_t writer = 0;  ///< The process that serves it; 0: none.
   bool heard = false;        ///< A process has served it at some time.
   /// All processes that have served it, in the order of their first time.
-  std::vector<std::uint64_t> sat{};
+  std::vector<std::uint64_t> served_by{};
   std::uint64_t losses = 0;
   std::uint64_t last_step = 0;
   StepRate steps{};
@@ -43,12 +43,12 @@ struct LiveSlot {
 
 /// What a manager in real time knows of hosts and robots, and its endpoint on the bus. Belongs to
 /// one thread.
-class LiveBoard {
+class LiveHosts {
  public:
   /// `options` must outlive it. Errors: those of bus::Bus::open().
-  [[nodiscard]] static Result<std::unique_ptr<LiveBoard>> open(const LiveManagerOptions& options);
+  [[nodiscard]] static Result<std::unique_ptr<LiveHosts>> open(const LiveManagerOptions& options);
   /// The same with an existing endpoint; for tests.
-  LiveBoard(const LiveManagerOptions& options, std::unique_ptr<LiveEndpoint> endpoint);
+  LiveHosts(const LiveManagerOptions& options, std::unique_ptr<LiveEndpoint> endpoint);
 
   /// Sleeps until a message arrives, the time has passed or `stop` is set.
   void wait(Duration timeout, const std::stop_token& stop = {}) { endpoint_->wait(timeout, stop); }

@@ -18,7 +18,7 @@
 #include <string_view>
 #include <utility>
 
-namespace rave::gui_server::testing {
+namespace rave::web::testing {
 
 /// A connection that sends whatever it is told, over TLS if it is given an authority.
 class RawClient {
@@ -192,4 +192,4 @@ class RawSocket {
   std::string heard_;
 };
 
-}  // namespace rave::gui_server::testing
+}  // namespace rave::web::testing

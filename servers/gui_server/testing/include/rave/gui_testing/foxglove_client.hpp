@@ -12,9 +12,12 @@
 #include <string_view>
 #include <utility>
 
-#include "raw_client.hpp"
+#include "rave/web_testing/raw_client.hpp"
 
 namespace rave::gui_server::testing {
+
+using web::testing::RawClient;
+using web::testing::RawSocket;
 
 /// A client of the Foxglove WebSocket protocol, as far as tests need one.
 class FoxgloveClient {

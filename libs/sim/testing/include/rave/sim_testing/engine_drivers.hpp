@@ -8,10 +8,10 @@
 #include <thread>
 #include <vector>
 
-#include "given.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/robot/plugin_entry.hpp"
 #include "rave/sim/virtual_sensor.hpp"
+#include "rave/sim_testing/given.hpp"
 
 /// Tiny drivers and programs for tests of the engine, used through their tables of functions.
 namespace rave::sim::testing {
@@ -183,7 +183,6 @@ class Laser final : public VirtualSensor {
     declaration.fan = {bearings_rad_.data(), rays, 1, 0.01, given(setup.parameters(), "range_m")};
     return {};
   }
-  void sample(const WorldView&, const SampleItem&) const override {}
 
  private:
   std::vector<double> bearings_rad_;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "live_board.hpp"
+#include "live_hosts.hpp"
 
 #include <algorithm>
 #include <chrono>
 
 #include "manager_habits.hpp"
 #include "rave/bus/sequence.hpp"
-#include "sat.hpp"
+#include "served.hpp"
 
 namespace rave::manager {
 namespace {
@@ -25,7 +25,7 @@ std::int64_t steady_ns() {
 
 }  // namespace
 
-LiveBoard::LiveBoard(const LiveManagerOptions& options, std::unique_ptr<LiveEndpoint> endpoint)
+LiveHosts::LiveHosts(const LiveManagerOptions& options, std::unique_ptr<LiveEndpoint> endpoint)
     : options_(options),
       endpoint_(std::move(endpoint)),
       claims_(static_cast<std::uint32_t>(options.hosts.size())),
@@ -52,12 +52,12 @@ LiveBoard::LiveBoard(const LiveManagerOptions& options, std::unique_ptr<LiveEndp
   }
 }
 
-Result<std::unique_ptr<LiveBoard>> LiveBoard::open(const LiveManagerOptions& options) {
+Result<std::unique_ptr<LiveHosts>> LiveHosts::open(const LiveManagerOptions& options) {
   RAVE_TRY_ASSIGN(auto endpoint, LiveEndpoint::open(options));
-  return std::make_unique<LiveBoard>(options, std::move(endpoint));
+  return std::make_unique<LiveHosts>(options, std::move(endpoint));
 }
 
-Status LiveBoard::look_at_processes(bool goes) {
+Status LiveHosts::look_at_processes(bool goes) {
   RAVE_TRY_ASSIGN(const auto gone, endpoint().look_at_processes(goes));
   for (const std::uint64_t writer : gone) lose(writer, goes);
   return {};
@@ -65,8 +65,7 @@ Status LiveBoard::look_at_processes(bool goes) {
 
 // A slot keeps its name and the poses of its robots: others still sense them where they were, until
 // they become stale.
-void LiveBoard::lose(std::uint64_t writer, bool goes) {
-  endpoint().forget(writer);
+void LiveHosts::lose(std::uint64_t writer, bool goes) {
   refused_.erase(writer);
   wrong_hands_.erase(writer);
   // The place becomes free for another process of the same host.
@@ -91,7 +90,7 @@ void LiveBoard::lose(std::uint64_t writer, bool goes) {
 
 // A host takes its place with its first question for the time. Pings, not introductions, decide,
 // because they are addressed to one manager.
-bool LiveBoard::claim_slot(const bus::ClockPing& ping) {
+bool LiveHosts::claim_slot(const bus::ClockPing& ping) {
   if (ping.target != endpoint().writer()) return false;
   // Unknown without an introduction that fits this run. The host asks again until it is known.
   const auto host = endpoint().host_of(ping.writer);
@@ -107,7 +106,7 @@ bool LiveBoard::claim_slot(const bus::ClockPing& ping) {
     }
     slot.writer = ping.writer;
     book_.stir();
-    note_sitting(slot.sat, ping.writer);
+    note_service(slot.served_by, ping.writer);
     news_ = true;
     all_asked_ = false;
     if (options_.log != nullptr) {
@@ -126,7 +125,7 @@ bool LiveBoard::claim_slot(const bus::ClockPing& ping) {
   return true;
 }
 
-void LiveBoard::take_roster(runtime::RunControl* control) {
+void LiveHosts::take_roster(runtime::RunControl* control) {
   const auto serving = [this](std::uint32_t host) {
     return host < slots_.size() ? slots_[host].writer : 0;
   };
@@ -134,16 +133,17 @@ void LiveBoard::take_roster(runtime::RunControl* control) {
   show_kinds(book_, serving, control);
 }
 
-void LiveBoard::take_host_results() {
-  endpoint().take_host_results(
-      [this](std::uint64_t writer, std::uint32_t host) { return has_sat(slots_, writer, host); });
+void LiveHosts::take_host_results() {
+  endpoint().take_host_results([this](std::uint64_t writer, std::uint32_t host) {
+    return has_served(slots_, writer, host);
+  });
 }
 
-void LiveBoard::take_states() {
+void LiveHosts::take_states() {
   endpoint_->take_states([this](const bus::HostState& state) { take_in(state); });
 }
 
-void LiveBoard::take_in(const bus::HostState& state) {
+void LiveHosts::take_in(const bus::HostState& state) {
   if (state.host >= slots_.size() || !endpoint().host_of(state.writer)) return;
   LiveSlot& slot = slots_[state.host];
   // A state may arrive before the first ping of its process; then the slot is still free and the
@@ -171,7 +171,7 @@ void LiveBoard::take_in(const bus::HostState& state) {
   }
 }
 
-double LiveBoard::slowest_speed() const {
+double LiveHosts::slowest_speed() const {
   // The slowest host gives the speed of the run, since the others only seem to be ahead: their
   // robots meet old poses.
   const std::int64_t now_ns = steady_ns();
@@ -186,7 +186,7 @@ double LiveBoard::slowest_speed() const {
   return slowest.value_or(0) * options_.step.seconds();
 }
 
-std::vector<real_time::RobotReality> LiveBoard::take_realities() {
+std::vector<real_time::RobotReality> LiveHosts::take_realities() {
   std::vector<real_time::RobotReality> changed;
   for (real_time::RobotReality& twin : twins_) {
     const std::uint32_t r = twin.robot.value();
@@ -199,7 +199,7 @@ std::vector<real_time::RobotReality> LiveBoard::take_realities() {
   return changed;
 }
 
-void LiveBoard::send_world(std::uint64_t number, SimTime now, std::span<const std::uint8_t> stale) {
+void LiveHosts::send_world(std::uint64_t number, SimTime now, std::span<const std::uint8_t> stale) {
   columns_.clear();
   stale_.clear();
   for (std::uint32_t r = 0; r < robots_.size(); ++r) {
@@ -209,7 +209,6 @@ void LiveBoard::send_world(std::uint64_t number, SimTime now, std::span<const st
     if (stale[r] != 0) stale_.push_back(r);
   }
   bus::World world{};
-  world.epoch = endpoint().writer();
   world.step = number;
   world.time_ns = now.ns;
   columns_.lend(world.robots);
@@ -217,7 +216,7 @@ void LiveBoard::send_world(std::uint64_t number, SimTime now, std::span<const st
   endpoint_->send(world);
 }
 
-Status LiveBoard::publish(const real_time::ObstacleSight& sight) {
+Status LiveHosts::publish(const real_time::ObstacleSight& sight) {
   RAVE_TRY(parts_.fill(std::span(&sight.stands, 1)));
   bus::Obstacle message{};
   message.id = sight.stands.id.value();
@@ -228,13 +227,13 @@ Status LiveBoard::publish(const real_time::ObstacleSight& sight) {
   return endpoint_->send(message);
 }
 
-Status LiveBoard::ask_for_handed() {
+Status LiveHosts::ask_for_handed() {
   // Asked again only when another host has joined, which may know more.
   if (std::exchange(all_asked_, true)) return {};
   return endpoint_->ask_for_handed();
 }
 
-void LiveBoard::take_handed(const std::function<Status(const real_time::ObstacleSight&)>& check) {
+void LiveHosts::take_handed(const std::function<Status(const real_time::ObstacleSight&)>& check) {
   const auto hear = [this, &check](const bus::LastObstacle& sample) {
     if (!endpoint().host_of(sample.writer)) return;
     auto sight = real_time::read_obstacle(sample);
@@ -253,24 +252,24 @@ void LiveBoard::take_handed(const std::function<Status(const real_time::Obstacle
   for (int round = 0; round < kMostRounds && endpoint_->take_handed(hear) > 0; ++round) continue;
 }
 
-void LiveBoard::refuse_handed(std::uint64_t writer, std::string_view why) {
+void LiveHosts::refuse_handed(std::uint64_t writer, std::string_view why) {
   if (!wrong_hands_.insert(writer).second) return;
   endpoint().log_fault(
       fmt::format("refused the hand-over of obstacles by process {:016x}: {}", writer, why));
 }
 
-void LiveBoard::end_handing() {
+void LiveHosts::end_handing() {
   endpoint_->end_handing();
   handed_.clear();
 }
 
-std::uint64_t LiveBoard::shown_revision() const noexcept {
+std::uint64_t LiveHosts::shown_revision() const noexcept {
   std::uint64_t revision = 0;
   for (const LiveSlot& slot : slots_) revision = std::max(revision, slot.obstacle_revision);
   return revision;
 }
 
-void LiveBoard::publish(const lock_step::RunReport& report) {
+void LiveHosts::publish(const lock_step::RunReport& report) {
   std::vector<rave_wire_HostSight> hosts;
   for (const LiveSlot& slot : slots_) {
     const auto phase = slot.writer != 0

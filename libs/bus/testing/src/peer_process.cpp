@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "peer_process.hpp"
+#include "rave/bus_testing/peer_process.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -4,8 +4,8 @@
 #include <map>
 #include <mutex>
 
-#include "engine_fixture.hpp"
-#include "given.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
+#include "rave/sim_testing/given.hpp"
 
 /// Robots that talk, for tests of the radio.
 namespace rave::sim::testing {

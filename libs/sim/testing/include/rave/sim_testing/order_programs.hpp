@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine_fixture.hpp"
 #include "rave/math/trigonometry.hpp"
+#include "rave/sim_testing/engine_fixture.hpp"
 
 /// Programs and controllers that people give orders to, and such orders.
 namespace rave::sim::testing {

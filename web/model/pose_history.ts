@@ -111,7 +111,9 @@ export class PoseHistory {
 
   /** Whether a picture between two frames is still to be drawn. */
   moving(now_ms: number): boolean {
-    return this.recent.length > 1 && now_ms - this.arrived_ms < this.delay_ms;
+    const [last, newest] = this.recent.slice(-2);
+    // Frames of a run that is held are all of one moment.
+    return newest !== undefined && newest.time_s > last.time_s && now_ms - this.arrived_ms < this.delay_ms;
   }
 
   private note(frame: PoseFrame): void {

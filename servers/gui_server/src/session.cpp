@@ -110,7 +110,6 @@ void Session::take(const LookMessage& look) {
   pace_.set_rate(look.max_hz);
   forget_foreign_sensors();
   told_.clear();
-  told_variances_.clear();
   changed_ = true;
 }
 

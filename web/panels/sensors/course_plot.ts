@@ -11,6 +11,8 @@ export interface CourseLine {
   points: readonly CoursePoint[];
   colour: string;
   dashed?: boolean;
+  /** Each value is a dot, as values may stand alone between gaps. */
+  dots?: boolean;
 }
 
 const kFont_px = 10;
@@ -77,16 +79,16 @@ export class CoursePlot {
     const Plot = this.library as typeof uPlot;
     this.plot = new Plot({
       width, height,
-      padding: [8, 10, 0, 0],
+      padding: [8, 16, 0, 0],
       legend: {show: false},
       cursor: {y: false, drag: {x: false, y: false}, points: {size: 6}},
       scales: {x: {time: false, range: [-kCourse_s, 0]}, y: {range: (_, low, high) => spanOf(low, high)}},
       axes: [
-        {...axis, size: 18, gap: 3, splits: () => [-15, -10, -5, 0], values: (_, at) => at.map((t) => (t === 0 ? 'now' : `−${-t} s`))},
+        {...axis, size: 18, gap: 3, splits: () => [-10, -5, 0], values: (_, at) => at.map((t) => (t === 0 ? 'now' : `−${-t} s`))},
         {...axis, size: 40, gap: 4, splits: (_, __, low, high) => ticksOf(low, high, height), values: (_, at) => at.map((value, i) => tickText(value, at.length > 1 ? at[1] - at[0] : 1) + (i === at.length - 1 && field.unit !== '' ? ` ${field.unit}` : ''))},
       ],
-      series: [{}, ...lines.map(({colour, dashed}): uPlot.Series => ({
-        stroke: colour, width: 1.5, points: {show: false}, spanGaps: false, ...(dashed === true ? {dash: [4, 3]} : {}),
+      series: [{}, ...lines.map(({colour, dashed, dots}): uPlot.Series => ({
+        stroke: colour, width: 1.5, points: {show: dots ?? false, size: 4, width: 0, fill: colour}, spanGaps: false, ...(dashed === true ? {dash: [4, 3]} : {}),
       }))],
       hooks: {setCursor: [(plot) => this.point(plot)]},
     }, this.table(lines, field, 0), host);

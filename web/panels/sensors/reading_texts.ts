@@ -48,7 +48,7 @@ export function renderTable(sensor: Sensor, reading: Reading | null): TemplateRe
   const rows = Array.from({length: Math.min(reading.rows, kTableRows)}, (_, row) => row);
   return html`<div class="table" tabindex="0" role="region" aria-label="Numbers of ${sensor.name}"><table>
     <thead><tr>${bearings ? html`<th>bearing [°]</th>` : nothing}${sensor.fields.map((name) => html`<th>${name}</th>`)}</tr></thead>
-    <tbody>${rows.map((row) => html`<tr>${bearings ? html`<td>${((bearings[row] * 180) / Math.PI).toFixed(1)}</td>` : nothing}
+    <tbody>${rows.map((row) => html`<tr>${bearings ? html`<td>${((bearings[row] * 180) / Math.PI).toFixed(1).replace('-', '−')}</td>` : nothing}
       ${sensor.fields.map((_, i) => html`<td>${numberText(reading.values[row * reading.fields + i])}</td>`)}</tr>`)}</tbody></table></div>`;
 }
 

@@ -220,7 +220,7 @@ export class SensorsPanel extends LookingPanel {
     const field = fields[Math.min(this.field, fields.length - 1)];
     if (host === null || field === undefined) return;
     const {model, palette} = this.context;
-    const lines: CourseLine[] = [{points: model.readings.course(slot, index), colour: ink}];
+    const lines: CourseLine[] = [{points: model.readings.course(slot, index), colour: ink, dots: sensor.kind === 'sightings'}];
     const twin = twinOf(model.robots[slot], index);
     if (twin !== null) lines.push({points: model.readings.course(slot, twin), colour: palette.token('virtual-ink'), dashed: true});
     this.course.draw(host, lines, field, this.placed.time_s, palette);

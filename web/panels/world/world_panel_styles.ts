@@ -13,8 +13,10 @@ export const worldPanelStyles = css`
   :host { container-type: inline-size; }
   @container (max-width: 960px) { .colour-by { display: none; } }
   .mode { display: none; font-weight: var(--fw-medium); font-size: var(--fs-12); }
-  @container (max-width: 1150px) { .order-tools ~ .legend { display: none; } .order-tools + .rule { display: none; } }
-  @container (max-width: 700px) { .tool span { display: none; } }
+  /* The legend is the filter: beside tools its words go first, then those of the tools. */
+  @container (max-width: 1150px) { .order-tools ~ .legend .kind i { display: none; } .order-tools ~ .legend .kind { padding: 0 5px; } }
+  @container (max-width: 920px) { .tool span { display: none; } .order-tools + .rule { margin: 0 4px; } }
+  @container (min-width: 521px) and (max-width: 600px) { .order-tools ~ .legend, .order-tools + .rule { display: none; } }
   @container (max-width: 640px) { .kind i { display: none; } .kind { padding: 0 5px; } }
   .stage { position: relative; flex: 1; min-height: 0; }
   .canvas { position: absolute; inset: 0; background: var(--floor); }

@@ -109,9 +109,15 @@ export class PerspectiveStage implements Stage {
   /** Without a graphics card what moves is drawn roughly, and what stands is drawn once more, finely. */
   private chooseRatio(moves: boolean): void {
     if (hasCard() || (!moves && this.ratio === kFine)) return;
-    if (moves) this.setRatio(kRough);
-    clearTimeout(this.sharpen);
+    if (moves) {
+      this.setRatio(kRough);
+      clearTimeout(this.sharpen);
+      this.sharpen = 0;
+    }
+    // Pictures of a run that is held go on, and must not put it off.
+    if (this.sharpen !== 0) return;
     this.sharpen = window.setTimeout(() => {
+      this.sharpen = 0;
       this.setRatio(kFine);
       this.context.redraw();
     }, kStill_ms);

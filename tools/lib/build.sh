@@ -63,10 +63,14 @@ rave_build() {
 }
 
 # rave_build_page PRESET: the page of the GUI Server. A tree that was configured before npm was there
-# does not know it yet.
+# does not know it yet. One whose packages could not be fetched is tried again: its stamp, which
+# keeps other builds from waiting for the registry each time, says nothing of the page.
 rave_build_page() {
   if ! ninja -C "$root/build/$1" -t query rave_page >/dev/null 2>&1; then
     (cd "$root" && cmake --preset "$1") >"$root/build/$1-configure.log" 2>&1 || return
+  fi
+  if [ ! -f "$root/build/$1/share/rave/web/index.html" ]; then
+    rm -f "$root/build/$1/web/page.stamp"
   fi
   rave_build "$1" rave_page
 }

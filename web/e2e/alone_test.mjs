@@ -77,6 +77,17 @@ try {
     await until(page, `[...${newest}.flags].every((flags) => !(flags & 4))`);
     await sendByClick(page, 'ben', 1, 0);
   });
+  await check('a robot whose host is gone takes no goal, and the page says so', async () => {
+    const ben = await slotOf(page, 'ben');
+    children[1].kill('SIGKILL');
+    await until(page, `${app}.link.direct.open.length === 1`);
+    const answer = await page.evaluate((slot) => document.querySelector('rave-app').commands.goal([slot], [[1, 1]]), ben);
+    assert.equal(answer.good, false);
+    const card = page.locator('rave-world .beside.refused');
+    await card.waitFor();
+    assert.match((await card.innerText()).replaceAll('\n', ' '), /Orders need a direct line to the host of the robot, and there is none/);
+    await page.screenshot({path: join(folder, 'gone.png')});
+  });
   report();
 } finally {
   await browser.close();

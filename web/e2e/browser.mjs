@@ -11,8 +11,8 @@ const kChromium = {
   args: ['--no-sandbox', '--enable-unsafe-swiftshader'],
 };
 
-export function launch() {
-  return chromium.launch(kChromium);
+export function launch(...args) {
+  return chromium.launch({...kChromium, args: [...kChromium.args, ...args]});
 }
 
 /** One whose processes, all of one group, can be sent a signal. */

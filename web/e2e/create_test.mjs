@@ -2,6 +2,7 @@
 // The same page drives a simulated robot and a Create behind its serial line:
 // node create_test.mjs RAVE PEER ROBOTS FOLDER
 import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
 import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {launch, startServer} from './browser.mjs';
@@ -19,7 +20,7 @@ mkdirSync(folder, {recursive: true});
 function scenarioOf(file, port) {
   const text = readFileSync(join(robots, `${file}.yaml`), 'utf8');
   const robot = join(folder, `${file}.yaml`);
-  writeFileSync(robot, `${text.slice(0, text.lastIndexOf('program:'))}  - {name: navigate, driver: goal_point, actuator: wheels}\nprogram: {driver: obey, params: {velocity_sensor: "", goal_sensor: ""}}\n`);
+  writeFileSync(robot, `${text.slice(0, text.lastIndexOf('program:'))}  - {name: navigate, driver: goal_point, actuator: wheels}\nprogram: {driver: obey, params: {velocity_sensor: "", goal_sensor: ""}}\n${file === 'create' ? 'guard: {arm: true}\n' : ''}`);
   const walls = [['south', 4.2, 0.1, 2, -0.05], ['north', 4.2, 0.1, 2, 3.05], ['west', 0.1, 3, -0.05, 1.5], ['east', 0.1, 3, 4.05, 1.5]];
   writeFileSync(join(folder, 'world.yaml'), `obstacles:\n${walls.map(([name, w, h, x, y]) => `  - {name: ${name}, box_m: [${w}, ${h}], x_m: ${x}, y_m: ${y}, layer: mapped_real}\n`).join('')}`);
   const scenario = join(folder, `scenario-${file}.yaml`);
@@ -48,6 +49,21 @@ try {
       await page.waitForTimeout(500);
     });
 
+    const refused = async (sentence) => {
+      const answer = await page.evaluate((goal) => document.querySelector('rave-app').commands.goal([0], [goal]), kGoal);
+      assert.equal(answer.good, false, answer.text);
+      const card = page.locator('rave-world .beside.refused');
+      await card.waitFor();
+      assert.match((await card.innerText()).replaceAll('\n', ' '), sentence);
+      await card.getByRole('button', {name: 'Drop'}).click();
+    };
+    if (real) {
+      await check('real: before it is armed it takes no goal, and the page says why', async () => {
+        await refused(/it waits to be armed/);
+        execFileSync(rave, ['arm', String(server.child.pid), '--robot', 'rosie'], {stdio: ['ignore', 'ignore', 'inherit']});
+      });
+    }
+
     await check(`${what}: a goal by click arrives`, async () => {
       await sendByClick(page, 'rosie', ...kGoal);
       if (!real) return;
@@ -71,6 +87,15 @@ try {
       await page.evaluate(() => document.querySelector('rave-app').link.send({type: 'halt', do: 'release', slots: []}));
       await until(page, `(${newest}.flags[0] & 4) === 0`);
     });
+    if (real) {
+      await check('real: where it is not known it stands, and the page says that', async () => {
+        await real.tell('mocap mute');
+        await until(page, `(${newest}.flags[0] & 2) !== 0`);
+        await refused(/its pose is not known at present/);
+        assert.deepEqual([(await real.state()).left_mps, (await real.state()).right_mps], [0, 0]);
+        await real.tell('mocap speak');
+      });
+    }
     await context.close();
     await server.end();
     real?.child.kill('SIGKILL');

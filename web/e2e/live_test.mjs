@@ -51,6 +51,17 @@ try {
     await until(page, `Math.abs(${app}.model.time.speed - 1) < 0.2`);
   });
 
+  await check('the page can be installed as an app', async () => {
+    const client = await context.newCDPSession(page);
+    const {installabilityErrors} = await client.send('Page.getInstallabilityErrors');
+    // Every context of a test is one that keeps nothing.
+    assert.deepEqual(installabilityErrors.filter(({errorId}) => errorId !== 'in-incognito'), []);
+    const {errors: wrong, data} = await client.send('Page.getAppManifest');
+    assert.deepEqual(wrong, []);
+    assert.equal(JSON.parse(data).display, 'standalone');
+    await client.detach();
+  });
+
   await check('it is held, and steps one by one', async () => {
     await say(page, {type: 'transport', do: 'pause'});
     await until(page, `${app}.model.time.state === 'paused'`);

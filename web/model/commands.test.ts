@@ -27,6 +27,7 @@ it('refuses a path that no run takes, in the words of runs', async () => {
   const answer = await commands.path([0], Array.from({length: 10_000}, (_, i) => [i, 0]));
   expect(answer).toMatchObject({good: false, text: 'a path has 10000 points; expected 2 to 1000'});
   expect(link.send).not.toHaveBeenCalled();
+  expect(commands.pending).toMatchObject([{state: 'refused', text: answer.text, points: [[0, 0], [9999, 0]]}]);
 });
 
 it('draws an order until its robot says that nothing is under way', async () => {

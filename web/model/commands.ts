@@ -79,7 +79,10 @@ export class Commands {
 
   path(slots: readonly number[], points: Point[]): Promise<Answer> {
     if (points.length < 2 || points.length > kMostPathPoints) {
-      return Promise.resolve({type: 'answer', to: 'path', good: false, text: `a path has ${points.length} points; expected 2 to ${kMostPathPoints}`});
+      // Only its ends are drawn, with the reason beside them.
+      const order = this.begin('path', slots, [...points.slice(0, 1), ...points.slice(-1)]);
+      ++this.number;
+      return Promise.resolve(this.end(order, {type: 'answer', to: 'path', good: false, text: `a path has ${points.length} points; expected 2 to ${kMostPathPoints}`}));
     }
     return this.track('path', slots, points, {type: 'order', kind: 'path', slots: [...slots], points});
   }
@@ -105,11 +108,20 @@ export class Commands {
   }
 
   private async track(kind: Pending['kind'], slots: readonly number[], points: readonly Point[], request: Request): Promise<Answer> {
+    const order = this.begin(kind, slots, points);
+    return this.end(order, await this.ask(request));
+  }
+
+  private begin(kind: Pending['kind'], slots: readonly number[], points: readonly Point[]): Pending {
     const order: Pending = {number: this.number + 1, kind, slots, points, state: 'sent', text: '', refused: [], at_ms: performance.now()};
     // The newest order of a robot goes before older ones.
     this.pending = [...this.pending.filter((other) => !other.slots.every((slot) => slots.includes(slot))), order];
     this.changed.emit();
-    const answer = await this.ask(request);
+    return order;
+  }
+
+  private end(order: Pending, answer: Answer): Answer {
+    const {kind, slots} = order;
     order.refused = answer.refused?.map(({slot}) => slot) ?? (answer.good ? [] : slots);
     order.state = order.refused.length < slots.length ? 'taken' : 'refused';
     order.text = answer.text;

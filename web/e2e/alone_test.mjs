@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two hosts and a GUI Server, without an environment manager: the page commands all the same.
+// node alone_test.mjs RAVE SCENARIO FOLDER
+import assert from 'node:assert/strict';
+import {execFileSync, spawn} from 'node:child_process';
+import {mkdirSync, rmSync} from 'node:fs';
+import {join} from 'node:path';
+import {knowsHosts, launch, startServer} from './browser.mjs';
+import {app, check, report, showFailures, until} from './checks.mjs';
+import {driveByMouse, newest, placeOf, sendByClick, slotOf} from './commander.mjs';
+import {clickAt} from './hands.mjs';
+
+const [rave, scenario, folder] = process.argv.slice(2);
+rmSync(folder, {recursive: true, force: true});
+mkdirSync(folder, {recursive: true});
+const bus = ['--run', `alone-${process.pid}`];
+const key = join(folder, 'line');
+execFileSync(rave, ['keys', 'line', key]);
+const children = ['left', 'right'].map((host) => spawn(rave, ['robot', scenario, '--host', host, '--web', '127.0.0.1:0', '--web-key', `${key}.pub`, '--quiet', '--no-picture', '--output', join(folder, host), ...bus], {stdio: ['ignore', 'ignore', 'inherit']}));
+const gui = async (...words) => {
+  const server = await startServer(rave, ['gui', scenario, ...words, ...bus]);
+  children.push(server.child);
+  return server;
+};
+const browser = await launch();
+try {
+  const page = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
+  showFailures(page, join(folder, 'failure.png'));
+  const open = async (server) => {
+    await page.goto(server.link);
+    await until(page, `${newest} != null && ${newest}.time_s > 0.5 && [...${newest}.flags].every((flags) => flags & 1)`, 60000);
+    await page.waitForTimeout(500);
+  };
+
+  await check('without a line and without leave to relay, the server refuses an order with a sentence', async () => {
+    const server = await gui();
+    await open(server);
+    const slot = await slotOf(page, 'anna');
+    await page.evaluate((what) => document.querySelector('rave-app').selection.set([what]), slot);
+    const before = await placeOf(page, slot);
+    await page.keyboard.press('g');
+    await clickAt(page, -1, 1);
+    const card = page.locator('rave-world .beside.refused');
+    await card.waitFor();
+    assert.match(await card.innerText(), /Orders need a direct line to the host of the robot, and there is none; with `gui: \{relay: true\}` in the scenario the server forwards them\./);
+    await page.screenshot({path: join(folder, 'no-relay.png')});
+    assert.deepEqual(await placeOf(page, slot), before);
+    // A stop needs no leave.
+    await page.evaluate(() => document.querySelector('rave-app').link.send({type: 'halt', do: 'stop', slots: []}));
+    await until(page, `[...${newest}.flags].every((flags) => flags & 4)`);
+    await page.evaluate(() => document.querySelector('rave-app').link.send({type: 'halt', do: 'release', slots: []}));
+    await until(page, `[...${newest}.flags].every((flags) => !(flags & 4))`);
+    await server.end();
+  });
+
+  await check('goals by click arrive, at both hosts', async () => {
+    const server = await gui('--line-key', key);
+    await knowsHosts(server.link, 2);
+    await open(server);
+    await until(page, `${app}.link.direct.open.length === 2`, 60000);
+    assert.deepEqual(await page.evaluate(`${app}.model.hosts.map(({name}) => name).filter((name) => name === 'left' || name === 'right').sort()`), ['left', 'right']);
+    await sendByClick(page, 'anna', -1, 1);
+    await sendByClick(page, 'ben', 1, -1);
+  });
+
+  await check('the stick drives, and letting go stops', () => driveByMouse(page, 'anna'));
+
+  await check('STOP holds a robot that is under way, ends its order, and the release lets it take another one', async () => {
+    const ben = await slotOf(page, 'ben');
+    const answer = await page.evaluate((slot) => document.querySelector('rave-app').commands.goal([slot], [[1, 1.5]]), ben);
+    assert.equal(answer.good, true, answer.text);
+    await until(page, `${newest}.speed[${ben}] > 0.05`);
+    await page.getByRole('button', {name: /^STOP/}).first().click();
+    await until(page, `[...${newest}.flags].every((flags, slot) => flags & 4 && ${newest}.speed[slot] === 0)`);
+    await page.screenshot({path: join(folder, 'stopped.png')});
+    await page.evaluate(() => document.querySelector('rave-app').link.send({type: 'halt', do: 'release', slots: []}));
+    await until(page, `[...${newest}.flags].every((flags) => !(flags & 4))`);
+    await sendByClick(page, 'ben', 1, 0);
+  });
+  await check('a robot whose host is gone takes no goal, and the page says so', async () => {
+    const ben = await slotOf(page, 'ben');
+    children[1].kill('SIGKILL');
+    await until(page, `${app}.link.direct.open.length === 1`);
+    const answer = await page.evaluate((slot) => document.querySelector('rave-app').commands.goal([slot], [[1, 1]]), ben);
+    assert.equal(answer.good, false);
+    const card = page.locator('rave-world .beside.refused');
+    await card.waitFor();
+    assert.match((await card.innerText()).replaceAll('\n', ' '), /Orders need a direct line to the host of the robot, and there is none/);
+    await page.screenshot({path: join(folder, 'gone.png')});
+  });
+  report();
+} finally {
+  await browser.close();
+  for (const child of children) child.kill('SIGKILL');
+}
+process.exit(0);

@@ -20,6 +20,13 @@ function get(url, headers = {}) {
   });
 }
 
+/** Opens a panel as a person does who knows its name. */
+async function openPanel(page, title) {
+  await page.keyboard.press('Control+k');
+  await page.keyboard.type(title);
+  await page.getByRole('option', {name: new RegExp(`^${title}`)}).first().click();
+}
+
 rmSync(folder, {recursive: true, force: true});
 mkdirSync(folder, {recursive: true});
 const run = join(folder, 'run');
@@ -245,6 +252,43 @@ robots: [{name: r, pose: {x_m: 0, y_m: 0}, robot: {body: {shapes: [{disc_radius_
     await replay.locator('.dv-tab', {hasText: 'Counted'}).click();
     await replay.getByText('1 robot counted').waitFor();
     assert.equal(await replay.locator('.dv-tab', {hasText: 'lost'}).count(), 0);
+    await replay.close();
+    await other.end();
+  });
+
+  await check('what was said in a run is read in its replay, and nothing can be said there', async () => {
+    const home = join(folder, 'chat');
+    mkdirSync(home);
+    writeFileSync(join(home, 'scenario.yaml'), `name: talked
+duration_s: 120
+robots: [{name: r, pose: {x_m: 0, y_m: 0}, robot: {body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}}}]
+`);
+    const live = await startServer(rave, ['run', join(home, 'scenario.yaml'), '--gui', '--quiet', '--no-picture', '--output', join(home, 'run')]);
+    const talking = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
+    await talking.goto(live.link);
+    await until(talking, `${app}?.model?.robots?.length === 1`);
+    const chat = talking.locator('rave-chat');
+    await openPanel(talking, 'Chat');
+    for (const role of ['Commanders', 'Observers', 'Super-users']) await chat.getByRole('radio', {name: role}).waitFor();
+    await chat.getByRole('radio', {name: 'Super-users'}).click();
+    await chat.locator('textarea').fill('Watch the red robot');
+    await chat.locator('textarea').press('Enter');
+    await chat.locator('article', {hasText: 'Watch the red robot'}).waitFor();
+    await chat.getByText('The chat is recorded with the run.').waitFor();
+    await talking.close();
+    await live.end();
+
+    const other = await startServer(rave, ['gui', join(home, 'run')]);
+    const replay = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
+    await replay.goto(other.link);
+    await until(replay, `${app}?.model?.robots?.length === 1`);
+    await openPanel(replay, 'Chat');
+    const shown = replay.locator('rave-chat');
+    await shown.locator('article', {hasText: 'Watch the red robot'}).waitFor();
+    await shown.getByText('to super-users').waitFor();
+    assert.equal(await shown.locator('textarea').count(), 0);
+    assert.equal(await shown.getByRole('radio').count(), 0);
+    await replay.screenshot({path: join(folder, 'chat.png')});
     await replay.close();
     await other.end();
   });

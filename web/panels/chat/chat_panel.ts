@@ -17,6 +17,14 @@ interface Target {
 }
 
 const kShown = 200;
+/** Of a run with more, those of selected robots. */
+const kMostTeams = 6;
+
+const kRoles: readonly Target[] = [
+  {key: 'commanders', label: 'Commanders', hint: 'To all commanders', to: {to: 'role', name: 'commander'}},
+  {key: 'observers', label: 'Observers', hint: 'To all observers', to: {to: 'role', name: 'observer'}},
+  {key: 'super-users', label: 'Super-users', hint: 'To all super-users', to: {to: 'role', name: 'super_user'}},
+];
 
 /** People talk to each other, and to the robots that they command; robots answer. */
 export class ChatPanel extends LitElement {
@@ -46,23 +54,39 @@ export class ChatPanel extends LitElement {
 
   private get targets(): Target[] {
     const {model, selection} = this.context;
-    const targets: Target[] = [
-      {key: 'all', label: 'All', hint: 'To all people', to: {to: 'all'}},
-      {key: 'commanders', label: 'Commanders', hint: 'To all commanders', to: {to: 'role', name: 'commander'}},
-    ];
+    const targets: Target[] = [{key: 'all', label: 'All', hint: 'To all people', to: {to: 'all'}}, ...kRoles];
     const slot = selection.primary;
     const robot = slot === null ? undefined : model.robots[slot];
     if (robot !== undefined && slot !== null) {
-      const count = model.robots.filter((other) => other.team === robot.team).length;
       const commands = model.commands(slot);
-      if (robot.team !== '') targets.push({key: 'team', label: `Team ${robot.team}`, hint: commands ? `To team ${robot.team}: people and ${count} robots` : `To the people of team ${robot.team}`, to: {to: 'team', name: robot.team}});
       targets.push({key: 'robot', label: robot.name, hint: commands ? `To ${robot.name}, and who sees it` : `About ${robot.name}, to who sees it`, to: {to: 'robot', slot}});
     }
+    targets.push(...this.teams());
     const me = model.hello?.user.name ?? '';
     for (const person of model.people) {
       if (person.name !== me) targets.push({key: `user ${person.name}`, label: person.name, hint: `To ${person.name} alone`, to: {to: 'user', name: person.name}});
     }
     return targets;
+  }
+
+  /** Teams of which this person sees a robot; that of the selected robot first. */
+  private teams(): Target[] {
+    const {model, selection} = this.context;
+    const own = selection.primary === null ? '' : (model.robots[selection.primary]?.team ?? '');
+    const robots = new Map<string, number[]>(own === '' ? [] : [[own, []]]);
+    model.robots.forEach(({team}, slot) => {
+      if (team !== '') robots.set(team, [...(robots.get(team) ?? []), slot]);
+    });
+    return [...robots].slice(0, kMostTeams).map(([team, slots]) => {
+      const told = slots.filter((slot) => model.commands(slot)).length;
+      const hint = told > 0 ? `To team ${team}: people and ${told} robots` : `To the people of team ${team}`;
+      return {key: `team ${team}`, label: `Team ${team}`, hint, to: {to: 'team', name: team}};
+    });
+  }
+
+  private get target(): Target {
+    const {targets} = this;
+    return targets.find(({key}) => key === this.chosen) ?? (targets[0] as Target);
   }
 
   private async send(area: HTMLTextAreaElement, target: Target): Promise<void> {
@@ -79,20 +103,29 @@ export class ChatPanel extends LitElement {
 
   override render(): TemplateResult {
     const {model} = this.context;
-    const {targets} = this;
-    const target = targets.find(({key}) => key === this.chosen) ?? targets[0];
     const said = saidIn(model).slice(-kShown);
-    const may = model.may('chat');
     return html`
-      <div class="targets" role="radiogroup" aria-label="To whom">${targets.map((one) => html`<button role="radio" class="to" aria-checked=${one === target} @click=${() => { this.chosen = one.key; this.requestUpdate(); }}>${one.label}</button>`)}</div>
+      ${model.live ? this.renderTargets() : nothing}
       <div class="lines" role="log" aria-label="Chat" tabindex="0" @scroll=${(event: Event) => this.scrolled(event.target as HTMLElement)}>
-        ${said.length === 0 ? html`<p class="none">Nobody has said anything yet.</p>` : said.map((line) => this.renderLine(line))}</div>
+        ${said.length === 0 ? html`<p class="none">${model.live ? 'Nobody has said anything yet.' : 'Nobody said anything.'}</p>` : said.map((line) => this.renderLine(line))}</div>
       ${this.note === '' ? nothing : html`<p class="bad" role="alert">${this.note}</p>`}
-      <form class="field" @submit=${(event: Event) => { event.preventDefault(); void this.send(this.renderRoot.querySelector('textarea') as HTMLTextAreaElement, target); }}>
-        <textarea rows="1" maxlength="900" aria-label=${target.hint} placeholder=${may ? target.hint : model.whyNot('chat')} ?disabled=${!may}
-          @keydown=${(event: KeyboardEvent) => { if (event.key === 'Enter' && !event.shiftKey) { event.preventDefault(); void this.send(event.target as HTMLTextAreaElement, target); } }}></textarea>
-        <button class="icon-button" aria-label="Send" title="Send (Enter)" ?disabled=${!may}>${icon('cornerDownLeft', 15)}</button></form>
-      <p class="kept">${model.live ? 'What is said to robots is recorded; what people say is kept until the server ends.' : 'People talk beside a replay; nothing of it is recorded.'}</p>`;
+      ${model.live ? this.renderField() : nothing}
+      <p class="kept">${model.live ? 'The chat is recorded with the run.' : 'The chat of the recording, to read only.'}</p>`;
+  }
+
+  private renderTargets(): TemplateResult {
+    const target = this.target;
+    return html`<div class="targets" role="radiogroup" aria-label="To whom">${this.targets.map((one) => html`<button role="radio" class="to" aria-checked=${one.key === target.key} @click=${() => { this.chosen = one.key; this.requestUpdate(); }}>${one.label}</button>`)}</div>`;
+  }
+
+  private renderField(): TemplateResult {
+    const {model} = this.context;
+    const target = this.target;
+    const may = model.may('chat');
+    return html`<form class="field" @submit=${(event: Event) => { event.preventDefault(); void this.send(this.renderRoot.querySelector('textarea') as HTMLTextAreaElement, target); }}>
+      <textarea rows="1" maxlength="900" aria-label=${target.hint} placeholder=${may ? target.hint : model.whyNot('chat')} ?disabled=${!may}
+        @keydown=${(event: KeyboardEvent) => { if (event.key === 'Enter' && !event.shiftKey) { event.preventDefault(); void this.send(event.target as HTMLTextAreaElement, target); } }}></textarea>
+      <button class="icon-button" aria-label="Send" title="Send (Enter)" ?disabled=${!may}>${icon('cornerDownLeft', 15)}</button></form>`;
   }
 
   private scrolled(list: HTMLElement): void {

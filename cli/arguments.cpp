@@ -165,6 +165,12 @@ Command parse_arguments(int argc, const char* const* argv) {
       "  rave describe virtual_laser\n\n"
       "Help on one command: `rave SUBCOMMAND --help`, or `man rave-SUBCOMMAND`.");
   group_commands(root);
+  // Not for people: docs_commands checks the command lines of pages with it. Nothing is run.
+  const bool parse_only = argc > 1 && std::string_view(argv[1]) == "--parse-only";
+  if (parse_only) {
+    --argc;
+    ++argv;
+  }
   // Not for people: tools make man pages and shell completion from it.
   if (argc == 2 && std::string_view(argv[1]) == "--command-tree") {
     put(stdout, command_tree(root));
@@ -182,6 +188,7 @@ Command parse_arguments(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& e) {
     return usage_error(root, e);
   }
+  if (parse_only) return Finished{kGood};
   if (version) return VersionCommand{};
   if (root.get_subcommands().empty()) {
     put(stderr, root.help());

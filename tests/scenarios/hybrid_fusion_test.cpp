@@ -29,6 +29,12 @@ struct Tally {
   std::uint64_t through_box = 0;  ///< A box is in the way and the fused ray goes on: never.
 };
 
+/// As pages write it: groups of three digits from five digits on.
+std::string grouped(std::uint64_t number) {
+  if (number < 10'000) return std::to_string(number);
+  return fmt::format("{} {:03}", number / 1000, number % 1000);
+}
+
 class HybridFusion : public ScenarioTest {
  protected:
   void start() {
@@ -147,6 +153,11 @@ TEST_F(HybridFusion, VirtualThingsShortenRealRaysAsGeometrySays) {
   EXPECT_GT(tally_.by_box, 3000U);
   EXPECT_GT(tally_.by_robot, 500U);
   EXPECT_EQ(tally_.kept + tally_.by_box + tally_.by_robot, tally_.rays);
+  expect_on_page("hybrid-laser",
+                 fmt::format("{} and {} of {}, in {} scans", grouped(tally_.by_box),
+                             grouped(tally_.by_robot), grouped(tally_.rays), tally_.scans));
+  expect_on_page("hybrid-laser",
+                 fmt::format("the real range, to the bit ({})", grouped(tally_.kept)));
 }
 
 }  // namespace

@@ -110,6 +110,8 @@ TEST_F(HybridLaser, TheMapPredictsTheRealScans) {
               errors.rays, median_m, q90_m);
   EXPECT_LT(median_m, 0.06);
   EXPECT_LT(q90_m, 0.7);
+  expect_on_page("hybrid-laser",
+                 fmt::format("median {:.3f} m, 90 % within {:.2f} m", median_m, q90_m));
 }
 
 TEST_F(HybridLaser, PredictionsForAnotherInstantAreWorse) {

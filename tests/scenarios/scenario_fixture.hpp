@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -24,6 +26,15 @@ class ScenarioTest : public testing::Test {
     auto scenario = config::expand_scenario(path);
     EXPECT_TRUE(scenario) << (scenario ? "" : scenario.error().text());
     return scenario.value_or(config::ExpandedScenario{});
+  }
+
+  /// Expects that the page of a scenario says `words`, so that its figures are those of the
+  /// program.
+  static void expect_on_page(std::string_view scenario, const std::string& words) {
+    const auto path = std::filesystem::path(RAVE_SOURCE_DIR) / "scenarios" / scenario / "README.md";
+    std::ifstream file(path);
+    const std::string page(std::istreambuf_iterator<char>(file), {});
+    EXPECT_NE(page.find(words), std::string::npos) << path << " does not say: " << words;
   }
 
   static std::unique_ptr<plugin::Catalogue> plugins() {

@@ -20,6 +20,10 @@ class KeepClear final : public rave::DecisionProcess {
 
   void decide(const rave::Percepts& percepts, rave::Commands& commands) override {
     scan_.update(percepts);
+    if (scan_.is_old()) {  // A sensor fell silent: what it showed as free may be occupied.
+      commands.velocity(drive_, 0, 0);
+      return;
+    }
     const double ahead_m = scan_.nearest_m(deg_to_rad(-30), deg_to_rad(30));
     const double left_m = scan_.nearest_m(deg_to_rad(30), deg_to_rad(100));
     const double right_m = scan_.nearest_m(deg_to_rad(-100), deg_to_rad(-30));

@@ -40,6 +40,14 @@ TEST(BusConfig, StaysOnThisMachineByDefault) {
   EXPECT_TRUE(has(xml, "<WhcAdaptive>false</WhcAdaptive>"));
 }
 
+// With the defaults the memory of an idle process grows for an hour: see internals().
+TEST(BusConfig, KeepsReceiveBuffersSmall) {
+  const std::string xml = cyclone_xml(good());
+  EXPECT_TRUE(has(xml, "<Sizing><ReceiveBufferSize>256KiB</ReceiveBufferSize></Sizing>")) << xml;
+  EXPECT_TRUE(has(xml, "<SocketReceiveBufferSize max=\"8MiB\"/>")) << xml;
+  EXPECT_TRUE(has(xml, "<MultipleReceiveThreads>false</MultipleReceiveThreads>")) << xml;
+}
+
 TEST(BusConfig, NamesInterfacesAndPeers) {
   BusConfig config = good();
   config.interface = "eth0";

@@ -12,6 +12,8 @@
 #include <thread>
 #include <utility>
 
+#include "rave/base/crash_note.hpp"
+
 namespace rave::sim {
 namespace {
 
@@ -52,7 +54,11 @@ void close_in_order(Closing& closing, std::size_t turn) {
     closing.changed.notify_all();
     // close() may take any time; the caller has to see `since` meanwhile.
     lock.unlock();
-    driver.close(driver.instance);
+    {
+      const CrashNote whose{driver.kind, driver.driver, driver.robot_name, driver.robot_name};
+      const CrashScope scope(whose);
+      driver.close(driver.instance);
+    }
     lock.lock();
   }
   // It was given up while it closed the last one; another thread continues with the others.

@@ -18,6 +18,7 @@ struct ToClose {
   void* instance = nullptr;
   /// Others of this robot may use it, so it stays open if one of them does not return.
   bool is_shared = false;
+  const char* robot_name = "";  ///< For crashes.
 };
 
 /// Closes drivers in their order, in a thread of its own, and returns those that have not returned

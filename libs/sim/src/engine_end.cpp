@@ -65,6 +65,8 @@ std::vector<ToClose> Engine::Impl::take_open() {
 }
 
 bool Engine::Impl::close_all(std::vector<ToClose> drivers) {
+  for (ToClose& driver : drivers)
+    driver.robot_name = spec.robots[driver.robot.value()].name.c_str();
   for (const ToClose& driver : close_within(std::move(drivers), spec.last_wait, this)) {
     is_in_use = true;
     const std::uint32_t r = driver.robot.value();

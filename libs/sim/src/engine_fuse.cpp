@@ -113,6 +113,8 @@ void Engine::Impl::sample_virtual_half(const SensorSlots& slots, RobotId robot, 
   item.state = fusion.state.data() + sensor.hybrid->virtual_ops->state_size * member;
   std::uint8_t broke = 0;
   const WorldView* const view = &past_world.world;
+  const CrashNote whose = crash_note(robot, robot, "sensor", sensor.hybrid->virtual_driver);
+  const CrashScope scope(whose);
   sensor.hybrid->virtual_ops->sample(fusion.imagined.at(0), view, &item, 1, &broke, &error);
   header.count = std::min(header.count, fusion.capacity);
   failed = broke != 0;
@@ -179,6 +181,8 @@ bool Engine::Impl::fuse(RobotGroup& group, SensorSlots& slots, std::size_t membe
                       fusion.imagined_records_of(member),
                       &result,
                       slots.scratch.data()};
+  const CrashNote whose = crash_note(robot, robot, "sensor", slots.spec->driver);
+  const CrashScope scope(whose);
   if (slots.spec->hybrid->ops->fuse(fusion.driver.at(0), &item, &error) != 0) {
     fail_fusion(slots, robot, member, slots.spec->driver, error);
     return withhold(fusion, member, sample);

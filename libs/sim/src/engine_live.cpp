@@ -98,7 +98,8 @@ Result<std::unique_ptr<GuardThread>> Engine::Impl::start_guard(RobotGroup& group
         {s, slots.queues[member].get(), *slots.max_age_s, is_judged_by_link(*slots.spec)});
   }
   for (const ActuatorSlots& slots : group.actuators) {
-    setup.actuators.push_back({slots.spec->hardware_ops, slots.instances.at(member)});
+    setup.actuators.push_back(
+        {slots.spec->hardware_ops, slots.instances.at(member), slots.spec->driver});
   }
   return GuardThread::start(std::move(setup), spec.robots[robot.value()].name);
 }

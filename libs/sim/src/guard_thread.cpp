@@ -3,12 +3,15 @@
 // swap only, and calls drivers without it.
 #include "guard_thread.hpp"
 
+#include <fmt/format.h>
 #include <pthread.h>
 #include <sched.h>
 
 #include <algorithm>
-#include <system_error>
 #include <utility>
+
+#include "rave/base/crash_note.hpp"
+#include "rave/base/thread.hpp"
 
 namespace rave::sim {
 namespace {
@@ -26,8 +29,10 @@ bool raise_priority(std::thread& thread) {
 
 }  // namespace
 
-GuardThread::GuardThread(Setup setup)
-    : setup_(std::move(setup)), guard_(setup_.limits, setup_.pose, setup_.sensors, setup_.period) {
+GuardThread::GuardThread(Setup setup, std::string_view robot)
+    : setup_(std::move(setup)),
+      robot_(robot),
+      guard_(setup_.limits, setup_.pose, setup_.sensors, setup_.period) {
   const std::size_t count = setup_.actuators.size();
   allowed_.resize(count);
   written_.resize(count);
@@ -35,13 +40,9 @@ GuardThread::GuardThread(Setup setup)
 }
 
 Result<std::unique_ptr<GuardThread>> GuardThread::start(Setup setup, std::string_view robot) {
-  std::unique_ptr<GuardThread> guard(new GuardThread(std::move(setup)));
-  try {
-    guard->thread_ = std::thread([&self = *guard] { self.run(); });
-  } catch (const std::system_error& e) {
-    return fail(ErrorCode::kIo, "cannot start the thread of the guard of robot `{}`: {}", robot,
-                e.what());
-  }
+  std::unique_ptr<GuardThread> guard(new GuardThread(std::move(setup), robot));
+  RAVE_TRY(start_thread(guard->thread_, fmt::format("the guard of robot `{}`", robot),
+                        [&self = *guard] { self.run(); }));
   // A refusal is no error: most systems grant no real-time priority. The engine tells the user.
   guard->has_priority_ = raise_priority(guard->thread_);
   return guard;
@@ -149,6 +150,8 @@ void GuardThread::write(std::size_t actuator, const Command& command, SimTime no
   const GuardedActuator& to = setup_.actuators[actuator];
   if (to.ops == nullptr || command.kind == CommandKind::kNone) return;
   ErrorText error;
+  const CrashNote whose{"actuator", to.driver.c_str(), robot_.c_str(), robot_.c_str()};
+  const CrashScope scope(whose);
   writing_since_ns_ = now.ns;
   const bool failed = to.ops->write(to.instance, &command, now.ns, &error) != 0;
   writing_since_ns_ = kNotWriting;

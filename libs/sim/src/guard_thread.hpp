@@ -23,6 +23,7 @@ namespace rave::sim {
 struct GuardedActuator {
   const HardwareActuatorOps* ops = nullptr;
   void* instance = nullptr;
+  std::string driver{};  ///< Its name, for crashes.
 };
 
 /// What became of the commands for an actuator.
@@ -57,7 +58,7 @@ class GuardThread {
     const RunClock* clock = nullptr;  ///< Not owned.
     Duration period;
   };
-  /// `robot`: its name, for errors. Error kIo: the system has no thread to give.
+  /// `robot`: its name, for errors and crashes. Error kIo: the system has no thread to give.
   [[nodiscard]] static Result<std::unique_ptr<GuardThread>> start(Setup setup,
                                                                   std::string_view robot);
   GuardThread(const GuardThread&) = delete;
@@ -80,12 +81,13 @@ class GuardThread {
   [[nodiscard]] bool has_priority() const noexcept { return has_priority_; }
 
  private:
-  explicit GuardThread(Setup setup);
+  GuardThread(Setup setup, std::string_view robot);
   void run();
   void write_all(bool stands);
   void write(std::size_t actuator, const Command& command, SimTime now);
 
   const Setup setup_;
+  const std::string robot_;
   GuardOrder next_;  ///< The engine's.
 
   std::mutex mutex_;  // held for a swap only; guards what follows

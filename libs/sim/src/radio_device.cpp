@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "radio.hpp"
+#include "rave/base/crash_note.hpp"
 
 namespace rave::sim {
 namespace {
@@ -220,6 +221,9 @@ void Radio::transmit(const RadioMoment& moment, RadioLine& line, std::uint32_t p
   out.payload = packets_.bytes_of(packet);
   const std::size_t size = encode(out, encoded_);
   ErrorText error;
+  const char* const name = spec_.robots[line.robot].name.c_str();
+  const CrashNote whose{"transmitter", line.spec->driver.c_str(), name, name};
+  const CrashScope scope(whose);
   if (size == 0 || line.spec->ops->send(line.instance.at(0), encoded_.data(), size, &error) != 0) {
     ++counts_.lost_device;
     return;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "radio.hpp"
+#include "rave/base/crash_note.hpp"
 
 namespace rave::sim {
 namespace {
@@ -87,6 +88,10 @@ LinkAnswer Radio::ask(std::uint32_t model, const LinkQuery& query, Reach& reach)
   LinkAnswer answer;
   answer.arrives = 0;
   if (asked.failed) return answer;
+  // A model serves all robots.
+  const CrashNote whose{"communicator", asked.spec->driver.c_str(),
+                        spec_.robots.front().name.c_str(), spec_.robots.back().name.c_str()};
+  const CrashScope scope(whose);
   ErrorText error;
   // The ring of arrivals has room for kMaxSteps; rounding and the step of sending need some of it.
   const double max_delay_s = static_cast<double>(Arrivals::kMaxSteps - 4) * spec_.step.seconds();

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "rave/base/crash_note.hpp"
 #include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::sim::testing {
@@ -72,6 +73,21 @@ TEST(CloseWithin, ClosesAllInTheirOrder) {
   for (const char* name : {"a", "b", "c"}) drivers.add(0, name);
   EXPECT_EQ(drivers.close_within(kLong), Names());
   EXPECT_EQ(drivers.closed(), Names({"a", "b", "c"}));
+}
+
+TEST(CloseWithin, ACrashInADriverWouldNameItAndItsRobot) {
+  std::string named;
+  ToClose driver{RobotId(0), "sensor", "laser", "fake"};
+  driver.robot_name = "anna";
+  driver.instance = &named;
+  driver.close = [](void* instance) {
+    const CrashNote* const note = detail::crash_note;
+    if (note == nullptr) return;
+    *static_cast<std::string*>(instance) =
+        std::string(note->part) + " " + note->driver + " of " + note->robot;
+  };
+  EXPECT_TRUE(sim::close_within({driver}, kLong, nullptr).empty());
+  EXPECT_EQ(named, "sensor fake of anna");
 }
 
 TEST(CloseWithin, LeavesWhoDoesNotReturnAndClosesTheOthers) {

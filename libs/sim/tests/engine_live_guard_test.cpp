@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Real robots of live runs: what protects them does not wait for steps.
+#include <pthread.h>
+#include <sched.h>
+
 #include <algorithm>
+#include <thread>
 
 #include "live_fixture.hpp"
 #include "rave/sim_testing/engine_fixture.hpp"
@@ -256,6 +260,17 @@ TEST_F(EngineLiveGuard, WhatTheDriverSaysIsAnEventOnce) {
   EXPECT_EQ(back[0].text, "actuator `wheels`: works again");
 }
 
+/// Whether a thread of this process may have priority in real time.
+bool is_priority_granted() {
+  bool granted = false;
+  std::thread([&granted] {
+    sched_param param{};
+    param.sched_priority = 10;
+    granted = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param) == 0;
+  }).join();
+  return granted;
+}
+
 TEST_F(EngineLiveGuard, NamesTheDevicesThatNobodyStopsWhenTheProcessIsGone) {
   const std::string text =
       "guard: if this process is killed or suspended, only a watchdog of the device stops a robot; "
@@ -263,6 +278,10 @@ TEST_F(EngineLiveGuard, NamesTheDevicesThatNobodyStopsWhenTheProcessIsGone) {
       "`cart_wheels`)\n";
   make_engine(live_spec(cart_type(0.3))).reset();
   EXPECT_NE(ears_.heard.find(text), std::string::npos) << ears_.heard;
+  const bool told =
+      ears_.heard.find("guard: the system grants no real-time priority (SCHED_FIFO,") !=
+      std::string::npos;
+  EXPECT_NE(told, is_priority_granted()) << ears_.heard;
   ears_.heard.clear();
   RobotType without = cart_type(0.3);
   without.actuators[0].params = numbers({{"device_watchdog_s", 0}, {"baud", 9600}});

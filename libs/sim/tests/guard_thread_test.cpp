@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../src/guard_thread.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "live_fixture.hpp"
+#include "rave/base/crash_note.hpp"
 
 namespace rave::sim::testing {
 namespace {
@@ -26,7 +28,7 @@ class Robot {
     GuardThread::Setup setup;
     setup.limits = std::move(limits);
     setup.pose = {&queue_, ReadingKind::kPose, {}, from_seconds(0.5)};
-    setup.actuators = {{&Hand::ops(), &hand}};
+    setup.actuators = {{&Hand::ops(), &hand, "hand"}};
     setup.clock = &clock_;
     setup.period = from_seconds(0.001);
     auto started = GuardThread::start(std::move(setup), "anna");
@@ -81,6 +83,23 @@ TEST(GuardThread, TheWatchdogBitesThoughNoStepComes) {
   EXPECT_EQ(news.written[0].command, kStand);
   robot.order(kDrive);
   EXPECT_TRUE(robot.hand.await(kDrive));
+}
+
+TEST(GuardThread, ACrashInTheDriverWouldNameItAndItsRobot) {
+  HandClock clock;
+  Robot robot(clock);
+  std::string named;
+  robot.hand.on_write = [&named](const Command&) {
+    const CrashNote* const note = detail::crash_note;
+    named = note == nullptr ? "nobody"
+                            : fmt::format("{} {} of {}", note->part, note->driver, note->robot);
+  };
+  robot.begin(watchdog_alone());
+  robot.order(kDrive);
+  ASSERT_TRUE(robot.hand.await(kDrive));
+  robot.guard->retire();
+  robot.guard->join();
+  EXPECT_EQ(named, "actuator hand of anna");
 }
 
 TEST(GuardThread, ADriverThatHangsBlindsNoOtherRobot) {

@@ -17,6 +17,11 @@ rave::Status @CLASS@::start(const rave::Setup& setup) {
 // As it stands the robot drives ahead, and turns on the spot while something is near.
 void @CLASS@::decide(const rave::Percepts& percepts, rave::Commands& commands) {
   const auto ranges_m = percepts[ranges_];
+  // A sensor that fell silent says nothing about the present: the robot waits for it.
+  if (percepts.is_old(ranges_)) {
+    commands.velocity(drive_, 0.0, 0.0);
+    return;
+  }
   if (ranges_m.empty()) return;
   const double nearest_m = *std::min_element(ranges_m.begin(), ranges_m.end());
   if (nearest_m < stop_m_) {

@@ -2,18 +2,21 @@
 // Runs the program on a robot made of plain values: no simulator, no host.
 #include "@NAME@.hpp"
 
+#include <cstdint>
 #include <string>
 
 namespace {
 
-// What the program commands when every ray of its sensor reads `range_m`; `error` if it refuses.
-rave::Command command_at(float range_m, std::string& error) {
+// What the program commands when every ray of its sensor has read `range_m`, so long ago; `error` if
+// it refuses.
+rave::Command command_at(float range_m, double age_s, std::string& error) {
   const double bearings_rad[] = {-0.5, 0.0, 0.5};
   rave::SensorInfo laser;
   laser.name = "laser";
   laser.kind = rave::ReadingKind::kRanges;
   laser.capacity = 3;
   laser.bearings_rad = bearings_rad;
+  laser.max_age_s = 0.3;
   rave::ControllerInfo drive;
   drive.name = "drive";
   drive.accepts = rave::CommandKind::kVelocity;
@@ -38,6 +41,7 @@ rave::Command command_at(float range_m, std::string& error) {
   rave::Command command;
   rave::DecideItem item;
   item.sensors = &view;
+  item.now_ns = static_cast<std::int64_t>(age_s * 1e9);
   item.commands = &command;
 
   @CLASS@ program;
@@ -54,11 +58,13 @@ rave::Command command_at(float range_m, std::string& error) {
 // Empty if the program does what it should.
 std::string problem() {
   std::string error;
-  const rave::Command far = command_at(5.0F, error);
-  const rave::Command near = command_at(0.2F, error);
+  const rave::Command far = command_at(5.0F, 0.0, error);
+  const rave::Command near = command_at(0.2F, 0.0, error);
+  const rave::Command old = command_at(5.0F, 1.0, error);
   if (!error.empty()) return error;
   if (far.value[0] <= 0) return "it does not drive although nothing is near";
   if (near.value[0] != 0) return "it drives although something is near";
+  if (old.value[0] != 0) return "it drives on what it saw a second ago";
   return "";
 }
 

@@ -75,7 +75,7 @@ class Side {
       if (!engine_->step()) std::abort();
       if (!keeper_) continue;
       const double begin_us = thread_now_us();
-      keeper_->after_step(*engine_);
+      keeper_->keep(*engine_);
       keeper_us += thread_now_us() - begin_us;
     }
     const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - wall;

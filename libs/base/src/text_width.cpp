@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "rave/base/control_characters.hpp"
+#include "rave/base/utf8.hpp"
 
 namespace rave {
 namespace {
@@ -21,23 +22,11 @@ struct Range {
   std::uint32_t last;
 };
 
-/// The code point at the start of non-empty `text`.
+/// The code point at the start of non-empty `text`; of what is none, the first byte.
 CodePoint code_point(std::string_view text) noexcept {
-  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
-  const std::uint8_t lead = byte(0);
-  if (lead < 0x80) return {lead, 1, true};
-  const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4 || text.size() < bytes) return {lead, 1, false};
-  std::uint32_t value = lead & (0xFFU >> (bytes + 1));
-  for (std::size_t i = 1; i < bytes; ++i) {
-    if ((byte(i) & 0xC0U) != 0x80U) return {lead, 1, false};
-    value = (value << 6U) | (byte(i) & 0x3FU);
-  }
-  // Longer forms than necessary, surrogates and numbers beyond Unicode are invalid (RFC 3629).
-  static constexpr std::array<std::uint32_t, 5> kLeast = {0, 0, 0x80, 0x800, 0x10000};
-  const bool valid =
-      value >= kLeast[bytes] && value <= 0x10FFFF && !(value >= 0xD800 && value <= 0xDFFF);
-  return valid ? CodePoint{value, bytes, true} : CodePoint{lead, 1, false};
+  const Utf8Character character = utf8_at(text, 0);
+  if (character.length > 0) return {character.code, character.length, true};
+  return {static_cast<std::uint8_t>(text[0]), 1, false};
 }
 
 /// The blocks without width on terminals.
@@ -76,14 +65,7 @@ std::size_t bytes_within(std::string_view text, std::size_t columns) noexcept {
 
 }  // namespace
 
-bool is_utf8(std::string_view text) noexcept {
-  while (!text.empty()) {
-    const CodePoint point = code_point(text);
-    if (!point.valid) return false;
-    text.remove_prefix(point.bytes);
-  }
-  return true;
-}
+bool is_utf8(std::string_view text) noexcept { return first_invalid_utf8(text) == text.size(); }
 
 std::size_t columns_of(std::string_view text) noexcept {
   std::size_t columns = 0;

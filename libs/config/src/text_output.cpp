@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "numbers.hpp"
+#include "rave/base/utf8.hpp"
 #include "rave/config/yaml.hpp"
-#include "utf8.hpp"
 
 namespace rave::config {
 namespace {

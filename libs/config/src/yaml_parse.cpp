@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "rave/base/control_characters.hpp"
+#include "rave/base/utf8.hpp"
 #include "rave/config/yaml.hpp"
-#include "utf8.hpp"
 
 namespace rave::config {
 namespace {

@@ -8,26 +8,15 @@
 #include <cstring>
 
 #include "cdr_time.hpp"
+#include "rave/math/even_angles.hpp"
 #include "rave/math/scalar.hpp"
 
 namespace rave::record {
 namespace {
 
 constexpr std::string_view kWorldFrame = "world";
-constexpr double kEvenSpacing_rad = 1e-6;
 /// Up to this many robots `/tf` has the requested rate; beyond, the rate decreases.
 constexpr std::size_t kFullRateRobots = 100;
-
-/// A LaserScan requires equal angles between rays; other sensors have no standard message.
-[[nodiscard]] bool evenly_spaced(const std::vector<double>& bearings_rad) {
-  if (bearings_rad.size() < 2) return bearings_rad.size() == 1;
-  const double step = bearings_rad[1] - bearings_rad[0];
-  for (std::size_t i = 0; i < bearings_rad.size(); ++i) {
-    const double expected = bearings_rad[0] + static_cast<double>(i) * step;
-    if (!(std::abs(bearings_rad[i] - expected) < kEvenSpacing_rad)) return false;
-  }
-  return true;
-}
 
 }  // namespace
 
@@ -60,7 +49,7 @@ Status StandardViews::open_scans(McapWriter& file, const RunInfo& info) {
   for (const RecordedSensor& sensor : info.sensors) {
     // Others have no standard message; they are in the recording all the same.
     if (sensor.kind != kRangesKind || !sees(sensor.robot) ||
-        sensor.robot.value() >= frames_.size() || !evenly_spaced(sensor.bearings_rad)) {
+        sensor.robot.value() >= frames_.size() || !evenly_spread(sensor.bearings_rad)) {
       continue;
     }
     if (schema == 0) {

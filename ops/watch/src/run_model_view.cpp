@@ -360,8 +360,8 @@ void RunModel::tell_words(RunView& view) const {
   }
   view.phase = Phase::kRunning;
   if (words.waiting != nullptr) {
-    const bool gathers = words.waiting->phase == rave_wire_RUN_GATHERING;
-    view.phase = gathers ? Phase::kGathering : Phase::kWaits;
+    const bool gathering = words.waiting->phase == rave_wire_RUN_GATHERING;
+    view.phase = gathering ? Phase::kGathering : Phase::kWaits;
     view.text = words.waiting->text;
   }
   if (!words.manager_lost || view.timing != Timing::kLockStep) return;

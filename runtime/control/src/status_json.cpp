@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "rave/control/shadow_json.hpp"
+
 namespace rave::control {
 namespace {
 
@@ -13,21 +15,6 @@ Json hand_over_json(const runtime::RunStatus::HandOver& hand_over) {
       {"under_way", hand_over.under_way}, {"made", hand_over.made}, {"refused", hand_over.refused},
       {"last", hand_over.last},           {"x_m", hand_over.x_m},   {"y_m", hand_over.y_m},
       {"yaw_rad", hand_over.yaw_rad}};
-}
-
-Json shadow_json(const runtime::RunStatus::Shadow& shadow) {
-  Json json = {
-      {"running", shadow.running}, {"since_s", shadow.since_s}, {"m", shadow.m},
-      {"rad", shadow.rad},         {"most_m", shadow.most_m},   {"most_rad", shadow.most_rad},
-      {"readings", Json::array()}};
-  if (const auto& offset = shadow.offset_W) json["offset"] = {offset->x, offset->y, offset->yaw};
-  for (const auto& reading : shadow.readings) {
-    json["readings"].push_back({{"sensor", reading.sensor},
-                                {"unit", reading.unit},
-                                {"last", reading.last},
-                                {"most", reading.most}});
-  }
-  return json;
 }
 
 Json lateness_json(const runtime::RunStatus::Lateness& late) {
@@ -143,7 +130,7 @@ Json status_json(const runtime::RunStatus& status) {
                               {"stopped", robot.stopped}});
     Json& last = json["robots"].back();
     if (robot.hand_over) last["hand_over"] = hand_over_json(*robot.hand_over);
-    if (robot.shadow) last["shadow"] = shadow_json(*robot.shadow);
+    if (robot.shadow) last["shadow"] = runtime::shadow_json<Json>(*robot.shadow);
     if (!robot.lease.empty()) last["lease"] = robot.lease;
     if (robot.lease_page != 0) last["lease_page"] = robot.lease_page;
     if (!robot.takes.empty()) last["takes"] = robot.takes;

@@ -44,14 +44,15 @@ Status ObserverList::open_all(const Parts& parts) {
     RAVE_TRY_ASSIGN(shadows_,
                     Shadows::create(parts.scenario, parts.catalogue, parts.engine, &parts.console));
   }
-  if (ros2_) others_.push_back(ros2_.get());
-  if (shadows_) others_.push_back(shadows_.get());
-  others_.insert(others_.end(), options.observers.begin(), options.observers.end());
+  all_ = {&results_, &leases_};
+  if (ros2_) all_.push_back(ros2_.get());
+  if (shadows_) all_.push_back(shadows_.get());
+  all_.insert(all_.end(), options.observers.begin(), options.observers.end());
   if (options.observers.empty() && !options.record) return {};
   record::RunInfo info = info_of(parts.engine, results_.kinds);
   info.scenario = parts.scenario.scenario.name.value;
   const record::StringMap hybrids = PartKeeper::describe(parts.engine.spec());
-  for (RunObserver* const observer : others_) {
+  for (RunObserver* const observer : all_) {
     RAVE_TRY(observer->run_begins({parts.engine, results_.kinds, info, hybrids, parts.live}));
   }
   if (!options.record) return {};
@@ -65,39 +66,25 @@ Status ObserverList::open_all(const Parts& parts) {
   RAVE_TRY_ASSIGN(record_, RecordKeeper::open(options.output / "run.mcap", parts.engine,
                                               results_.kinds, info, about, options.log));
   console_.attach(&record_->recorder());
+  all_.push_back(record_.get());
   return {};
 }
 
 void ObserverList::after_step(const StepView& step) {
-  leases_.swap(new_leases_);
-  new_leases_.clear();
-  results_.after_step(step);
-  for (RunObserver* const observer : others_) observer->after_step(step);
+  for (RunObserver* const observer : all_) observer->after_step(step);
 }
 
 void ObserverList::held(const sim::Engine& engine) {
-  for (RunObserver* const observer : others_) observer->held(engine);
+  for (RunObserver* const observer : all_) observer->held(engine);
 }
 
-void ObserverList::keep(const StepView& step) {
-  if (!record_) return;
-  record_->after_step(step);
-  record_->keep(step.beside);
-  record_->keep(results_.events());
-  record_->keep(leases_);
-  for (const RunObserver* const observer : others_) {
-    record_->keep(observer->events());
-    observer->record(record_->recorder());
-  }
+void ObserverList::after_all(const StepView& step) {
+  for (RunObserver* const observer : all_) observer->after_all(step, all_);
 }
 
 void ObserverList::tell_found(const sim::Engine& engine, LogSink* log,
                               std::vector<sim::Event>& all) const {
-  tell_events(engine, results_.events(), log, all);
-  tell_events(engine, leases_, log, all);
-  for (const RunObserver* const observer : others_) {
-    tell_events(engine, observer->events(), log, all);
-  }
+  for (const RunObserver* const observer : all_) tell_events(engine, observer->events(), log, all);
 }
 
 Result<std::string> ObserverList::place(const sim::Engine& engine, const RunRequest& request) {
@@ -165,7 +152,7 @@ void ObserverList::note_leases(const sim::Engine& engine) {
   for (const HostLeases::Change& change : desk_.take_changes()) {
     const auto robot = find_robot(engine.spec(), change.robot);
     if (!robot) continue;
-    new_leases_.push_back(
+    leases_.add(
         {engine.steps_done(), *robot, sim::EventKind::kLease, BodyId(), lease_text(change)});
     leased_.insert(*robot);
   }

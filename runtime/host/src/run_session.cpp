@@ -182,7 +182,7 @@ void look_back(RunSession& run, std::span<const sim::Event> beside, Duration wor
   const StepView step(engine, beside, run.live && run.late.behind());
   run.observers.after_step(step);
   count.did(Lateness::Part::kOnlookers, Clock::now());
-  run.observers.keep(step);
+  run.observers.after_all(step);
   count.did(Lateness::Part::kRecord, Clock::now());
   if (run.live) run.late.look(engine.spec(), engine.events(), world_age);
   tell_events(engine, engine.events(), &run.console, run.events);

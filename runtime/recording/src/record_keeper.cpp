@@ -93,7 +93,16 @@ Result<std::unique_ptr<RecordKeeper>> RecordKeeper::open(const std::filesystem::
       new RecordKeeper(std::move(recorder), engine, kinds, about.hashed));
 }
 
-void RecordKeeper::after_step(const StepView& step) {
+void RecordKeeper::after_all(const StepView& step, std::span<RunObserver* const> all) {
+  keep(step);
+  keep(step.beside);
+  for (const RunObserver* const observer : all) {
+    keep(observer->events());
+    observer->record(recorder_);
+  }
+}
+
+void RecordKeeper::keep(const StepView& step) {
   const sim::Engine& engine = step.engine;
   recorder_.begin_step(engine.steps_done() - 1, engine.time());
   // First, because a hand-over in this step decides how poses and parts are recorded below.

@@ -74,7 +74,7 @@ TEST(LongRun, KeepsNothingOfItsSteps) {
   const auto window = [&] {
     for (int k = 0; k < kSteps; ++k) {
       EXPECT_TRUE(engine->step());
-      (*keeper)->after_step(*engine);
+      (*keeper)->keep(*engine);
       events += engine->events().size();
       // How much waits for the disk is no matter of how long the run is.
       flushed = (k % 20 != 19 || (*keeper)->recorder().flush()) && flushed;

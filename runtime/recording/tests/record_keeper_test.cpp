@@ -72,7 +72,7 @@ TEST(RecordKeeper, KeepsWhereEachRobotWasAndWasToldToBe) {
   std::size_t unseen = 0;
   for (int step = 0; step < kSteps; ++step) {
     ASSERT_TRUE(engine->step());
-    (*keeper)->after_step(*engine);
+    (*keeper)->keep(*engine);
     expected.push_back(places_in(*engine));
     for (const Place& place : expected.back()) {
       unseen += place.reported ? 0U : 1U;
@@ -140,7 +140,7 @@ TEST(RecordKeeper, KeepsVariancesAsTheyChangeAndOnceASecond) {
   ASSERT_TRUE(keeper) << keeper.error().text();
   while (engine->time().seconds() < 8) {
     ASSERT_TRUE(engine->step());
-    (*keeper)->after_step(*engine);
+    (*keeper)->keep(*engine);
   }
   ASSERT_TRUE((*keeper)->end(engine->hash().value()));
   const auto reader = record::McapReader::open(file);

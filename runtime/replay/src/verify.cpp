@@ -240,7 +240,7 @@ struct SecondRun {
 
   void look_back() {
     kinds.learn(again.engine.spec().world);
-    keeper.after_step(again.engine);
+    keeper.keep(again.engine);
     keeper.keep(again.beside());
     if (!capture) return;
     capture->after_step(again.engine);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "components.hpp"
+#include "rave/control/shadow_json.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -113,25 +114,6 @@ std::string time_text(const PlayState& state, const RunAbout& about) {
   return text_of(time);
 }
 
-namespace {
-
-Json shadow_json(const runtime::RunStatus::Shadow& shadow) {
-  Json json = {
-      {"running", shadow.running}, {"since_s", shadow.since_s}, {"m", shadow.m},
-      {"rad", shadow.rad},         {"most_m", shadow.most_m},   {"most_rad", shadow.most_rad},
-      {"readings", Json::array()}};
-  if (const auto& offset = shadow.offset_W) json["offset"] = {offset->x, offset->y, offset->yaw};
-  for (const auto& reading : shadow.readings) {
-    json["readings"].push_back({{"sensor", reading.sensor},
-                                {"unit", reading.unit},
-                                {"last", reading.last},
-                                {"most", reading.most}});
-  }
-  return json;
-}
-
-}  // namespace
-
 std::string leases_text(std::span<const DriveState> states, const Author& me, bool all) {
   Json message = {{"type", "leases"}, {"reset", all}, {"robots", Json::array()}};
   for (const DriveState& state : states) {
@@ -148,7 +130,7 @@ std::string leases_text(std::span<const DriveState> states, const Author& me, bo
                        {"refused", state.hand_over->refused},
                        {"last", state.hand_over->last}};
     }
-    if (state.shadow) robot["shadow"] = shadow_json(*state.shadow);
+    if (state.shadow) robot["shadow"] = runtime::shadow_json<Json>(*state.shadow);
   }
   return text_of(message);
 }

@@ -23,8 +23,24 @@
 
 namespace rave::runtime {
 
-/// All who look at a run, in the order in which they do: results, ROS 2, shadows, those of the
-/// options; then the recording, which keeps what the others found.
+/// Changes of leases, which come between two steps, as events of the step behind them.
+class LeaseNotes final : public RunObserver {
+ public:
+  void add(sim::Event event) { new_.push_back(std::move(event)); }
+  void after_step(const StepView& /*step*/) override {
+    told_.swap(new_);
+    new_.clear();
+  }
+  [[nodiscard]] std::span<const sim::Event> events() const noexcept override { return told_; }
+
+ private:
+  std::vector<sim::Event> new_;
+  std::vector<sim::Event> told_;
+};
+
+/// All who look at a run, in one list in the order in which they do: results, leases, ROS 2,
+/// shadows, those of the options, and the recording. A new one is a RunObserver and a line in
+/// open_all().
 class ObserverList {
  public:
   /// What the list is made from. Refers to its parts, which outlive the list.
@@ -46,12 +62,11 @@ class ObserverList {
   ObserverList& operator=(const ObserverList&) = delete;
   ~ObserverList();
 
-  /// All but the recording.
   void after_step(const StepView& step);
   /// The run is held.
   void held(const sim::Engine& engine);
-  /// The recording, behind after_step().
-  void keep(const StepView& step);
+  /// Behind after_step(): those that want what the others found.
+  void after_all(const StepView& step);
   /// What they found in the last step goes to the log and to `all`.
   void tell_found(const sim::Engine& engine, LogSink* log, std::vector<sim::Event>& all) const;
 
@@ -104,16 +119,15 @@ class ObserverList {
   Observers results_;
   std::unique_ptr<Ros2Face> ros2_;
   std::unique_ptr<Shadows> shadows_;
-  std::vector<RunObserver*> others_;
+  LeaseNotes leases_;
   std::unique_ptr<RecordKeeper> record_;
+  std::vector<RunObserver*> all_;  ///< These and those of the options.
   OrderDesk desk_;
   std::function<Status(const sim::WorldInput&)> place_;
   InputForwarder* forwarder_ = nullptr;
   std::optional<std::uint64_t> given_;
   std::set<RobotId> leased_;
   bool had_orders_ = false;
-  std::vector<sim::Event> new_leases_;  ///< Lease changes since the last step.
-  std::vector<sim::Event> leases_;      ///< Lease changes of the last step, as events.
 };
 
 }  // namespace rave::runtime

@@ -44,6 +44,9 @@ class RunObserver {
   virtual Status run_begins(const RunView& /*run*/) { return {}; }
   /// Called after each step.
   virtual void after_step(const StepView& step) = 0;
+  /// Called when all observers have seen the step; `all`, in the order of the list, with what they
+  /// found.
+  virtual void after_all(const StepView& /*step*/, std::span<RunObserver* const> /*all*/) {}
   /// Called repeatedly while the run is paused, with the state of the last step.
   virtual void held(const sim::Engine& /*engine*/) {}
   /// Events that the observer found in the last step, for log and recording.

@@ -35,7 +35,12 @@ class RecordKeeper final : public RunObserver {
                                                                   const record::RunInfo& info,
                                                                   const About& about, LogSink* log);
 
-  void after_step(const StepView& step) override;
+  // It records behind the others, because what they found is part of the recording.
+  void after_step(const StepView& /*step*/) override {}
+  void after_all(const StepView& step, std::span<RunObserver* const> all) override;
+
+  /// Records a step without what observers found in it.
+  void keep(const StepView& step);
 
   /// Records events of the last step that observers found.
   void keep(std::span<const sim::Event> events);

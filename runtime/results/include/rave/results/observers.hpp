@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rave/assemble/build.hpp"
+#include "rave/observe/run_observer.hpp"
 #include "rave/results/capture_watch.hpp"
 #include "rave/results/encounters.hpp"
 #include "rave/results/facts.hpp"
@@ -18,7 +19,7 @@
 namespace rave::runtime {
 
 /// All observers that collect the facts of a run.
-struct Observers {
+struct Observers final : RunObserver {
   BodyKinds kinds;
   TrackRecorder tracks;
   Encounters encounters;
@@ -35,9 +36,8 @@ struct Observers {
   Observers(const Observers&) = delete;
   Observers& operator=(const Observers&) = delete;
 
-  void after_step(const StepView& step);
-  /// The events that they found in the last step.
-  [[nodiscard]] std::span<const sim::Event> events() const noexcept {
+  void after_step(const StepView& step) override;
+  [[nodiscard]] std::span<const sim::Event> events() const noexcept override {
     return capture ? capture->events() : std::span<const sim::Event>();
   }
 };

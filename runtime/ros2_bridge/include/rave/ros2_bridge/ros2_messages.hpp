@@ -20,9 +20,6 @@ enum class Ros2Kind : std::uint8_t { kNone, kScan, kRange, kOdometry, kImu, kBat
 /// The usual name of its topic; empty for kNone.
 [[nodiscard]] std::string_view ros2_topic(Ros2Kind kind) noexcept;
 
-/// Whether the rays are at equal angles, as a LaserScan requires.
-[[nodiscard]] bool evenly_spread(std::span<const double> bearings_rad) noexcept;
-
 /// The messages of one sensor of one robot.
 class Ros2Reading {
  public:

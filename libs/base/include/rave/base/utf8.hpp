@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace rave::config {
+namespace rave {
 
 /// One character of a UTF-8 text; length 0 if the bytes at `offset` are invalid (RFC 3629: no
 /// overlong forms, no surrogates, nothing above U+10FFFF).
@@ -43,4 +43,4 @@ struct Utf8Character {
   return i;
 }
 
-}  // namespace rave::config
+}  // namespace rave

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "manager_endpoint.hpp"
@@ -80,8 +81,10 @@ class BusEndpoint final : public ManagerEndpoint {
   }
 
  private:
-  struct Parts;
-  explicit BusEndpoint(Parts parts);
+  BusEndpoint(lock_step::Identity identity, LogSink* log)
+      : identity_(std::move(identity)),
+        foreign_(log),
+        introduced_(lock_step::introduction(identity_)) {}
   void meet(const bus::HostInfo& info, bool begun);
 
   lock_step::Identity identity_;

@@ -110,11 +110,6 @@ bus::RosterEntry& RobotDescription::fill(const sim::EngineSpec& spec, RobotId ro
   return entry_;
 }
 
-Result<Roster> Roster::create(bus::Bus& bus, std::uint32_t host) {
-  RAVE_TRY_ASSIGN(auto writer, bus::Writer<bus::RosterEntry>::create(bus));
-  return Roster(std::move(writer), host);
-}
-
 Status Roster::tell(const sim::EngineSpec& spec,
                     const std::function<NamedValues(RobotId)>& parameters_of,
                     const std::function<Driver(RobotId)>& driver_of) {

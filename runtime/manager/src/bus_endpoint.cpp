@@ -3,20 +3,19 @@
 
 namespace rave::manager {
 
-Result<std::unique_ptr<BusEndpoint>> BusEndpoint::open(const bus::BusConfig& config,
-                                                       lock_step::Identity identity, LogSink* log,
-                                                       bus::BeginRequest begin_request) {
-  bus::BusConfig own = config;
+Result<std::unique_ptr<BusEndpoint>> BusEndpoint::open(const RunOptions& options) {
+  bus::BusConfig own = options.bus;
   // The manager has a partition and reserved ports of its own, so hosts of a large run need to look
   // for it alone.
   own.side = bus::Side::kManager;
-  std::unique_ptr<BusEndpoint> made(new BusEndpoint(std::move(identity), log));
+  std::unique_ptr<BusEndpoint> made(new BusEndpoint(options.identity, options.log));
   RAVE_TRY_ASSIGN(made->bus_, bus::Bus::open(own));
   bus::Bus& bus = *made->bus_;
   RAVE_TRY(bus::open_all(bus, made->states_, made->own_info_, made->infos_, made->roster_,
                          made->host_results_));
   RAVE_TRY(made->pulse_.open(bus, made->identity_));
-  RAVE_TRY_ASSIGN(made->requests_, bus::RequestBox::create(bus, std::move(begin_request), log));
+  RAVE_TRY_ASSIGN(made->requests_,
+                  bus::RequestBox::create(bus, options.begin_request, options.log));
   return made;
 }
 

@@ -134,11 +134,6 @@ void LiveBoard::take_roster(runtime::RunControl* control) {
   show_kinds(book_, serving, control);
 }
 
-void LiveBoard::take_host_results() {
-  endpoint().take_host_results(
-      [this](std::uint64_t writer, std::uint32_t host) { return has_sat(slots_, writer, host); });
-}
-
 void LiveBoard::take_states() {
   endpoint_->take_states([this](const bus::HostState& state) { take_in(state); });
 }

@@ -69,9 +69,8 @@ class LiveOnBus final : public LiveEndpoint {
 
 }  // namespace
 
-Result<std::unique_ptr<LiveEndpoint>> LiveEndpoint::open(const LiveManagerOptions& options) {
-  RAVE_TRY_ASSIGN(auto endpoint, BusEndpoint::open(options.bus, options.identity, options.log,
-                                                   options.begin_request));
+Result<std::unique_ptr<LiveEndpoint>> LiveEndpoint::open(const RunOptions& options) {
+  RAVE_TRY_ASSIGN(auto endpoint, BusEndpoint::open(options));
   auto made = std::make_unique<LiveOnBus>(std::move(endpoint));
   RAVE_TRY(made->open());
   return made;

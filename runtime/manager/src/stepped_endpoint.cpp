@@ -94,12 +94,8 @@ Status SteppedOnBus::write(const std::vector<HostSlot>& slots) {
 
 }  // namespace
 
-Result<std::unique_ptr<SteppedEndpoint>> SteppedEndpoint::open(const bus::BusConfig& config,
-                                                               lock_step::Identity identity,
-                                                               LogSink* log,
-                                                               bus::BeginRequest begin_request) {
-  RAVE_TRY_ASSIGN(auto endpoint,
-                  BusEndpoint::open(config, std::move(identity), log, std::move(begin_request)));
+Result<std::unique_ptr<SteppedEndpoint>> SteppedEndpoint::open(const RunOptions& options) {
+  RAVE_TRY_ASSIGN(auto endpoint, BusEndpoint::open(options));
   auto made = std::make_unique<SteppedOnBus>(std::move(endpoint));
   RAVE_TRY(made->open());
   return made;

@@ -62,6 +62,24 @@ bool resumes(const ManagedRun& run) {
   return run.resume || run.scenario.scenario.on_lost_host == config::LostHost::kRestart;
 }
 
+/// What a manager is told alike in lock-step and in real time.
+manager::RunOptions options_of(const ManagedRun& run, std::vector<config::PlannedHost> hosts,
+                               bool real_time) {
+  manager::RunOptions how;
+  how.bus = run.bus;
+  how.identity = manager_of(run.scenario, real_time);
+  how.scenario = run.scenario.scenario.name.value;
+  how.commands = commands_of(run, hosts);
+  how.hosts = std::move(hosts);
+  how.host_timeout = from_seconds(run.scenario.scenario.host_timeout_s);
+  how.resume = resumes(run);
+  how.log = &run.console;
+  how.stopping = run.stopping;
+  how.control = &run.control;
+  how.begin_request = control::bus_requests_of(run.control);
+  return how;
+}
+
 /// What processes of hosts have sent goes to the host that it is of.
 void take_host_results(std::vector<lock_step::HostResults> host_results, ManagedEnd& end) {
   for (lock_step::HostResults& sent : host_results) {
@@ -76,21 +94,10 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, runtime::BuiltScenario bu
   RAVE_TRY_ASSIGN(end.results, results_of(run, built));
   for (const config::PlannedHost& host : hosts) end.end.hosts.emplace_back().name = host.name;
   const config::ScenarioFile& file = run.scenario.scenario;
-  manager::ManagerOptions how;
-  how.bus = run.bus;
-  how.identity = manager_of(run.scenario, false);
-  how.scenario = file.name.value;
-  how.resume = resumes(run);
-  how.commands = commands_of(run, hosts);
-  how.hosts = std::move(hosts);
+  manager::ManagerOptions how{options_of(run, std::move(hosts), false)};
   how.steps = static_cast<std::uint64_t>(std::llround(file.duration_s / file.step_s.value));
   how.on_lost_host = file.on_lost_host;
-  how.host_timeout = from_seconds(file.host_timeout_s);
   how.pace = file.pace.is_max() ? 0 : file.pace.factor;
-  how.log = &run.console;
-  how.stopping = run.stopping;
-  how.control = &run.control;
-  how.begin_request = control::bus_requests_of(run.control);
   how.on_progress = [&run, &file](const manager::ManagerOptions::Progress& progress) {
     const double sim_s = static_cast<double>(progress.step) * file.step_s.value;
     run.console.show(
@@ -188,9 +195,6 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, runtime::BuiltScenario bui
   if (!runtime::needs_manager(built)) return wait_for_hosts(run, built);
   const config::ScenarioFile& file = run.scenario.scenario;
   run.console.warn("run", "the run is in real time: {}", built.live_reason);
-  manager::LiveManagerOptions how;
-  how.bus = run.bus;
-  how.bus.reach = bus::Reach::kAll;
   if (hosts.size() > kMostLiveHosts) {
     return fail(
         ErrorCode::kInvalidArgument,
@@ -198,11 +202,8 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, runtime::BuiltScenario bui
         "with more robots each",
         hosts.size(), kMostLiveHosts);
   }
-  how.identity = manager_of(run.scenario, true);
-  how.scenario = file.name.value;
-  how.resume = resumes(run);
-  how.commands = commands_of(run, hosts);
-  how.hosts = std::move(hosts);
+  manager::LiveManagerOptions how{options_of(run, std::move(hosts), true)};
+  how.bus.reach = bus::Reach::kAll;
   for (const sim::RobotSpec& robot : built.spec.robots) {
     const sim::RobotType& type = built.spec.types[robot.type];
     // A robot that is handed over during the run has the limits of its other drivers from then on.
@@ -213,12 +214,7 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, runtime::BuiltScenario bui
   how.step = built.spec.step;
   how.duration = from_seconds(file.duration_s);
   how.world_period = from_seconds(file.world_period_s);
-  how.host_timeout = from_seconds(file.host_timeout_s);
   how.ends_hosts = static_cast<bool>(run.hosts_ended);
-  how.log = &run.console;
-  how.stopping = run.stopping;
-  how.control = &run.control;
-  how.begin_request = control::bus_requests_of(run.control);
   how.on_progress = [&run, &file](SimTime now, double speed, const std::string& waiting) {
     run.console.show({now.seconds() / file.duration_s, now.seconds(), file.duration_s, speed,
                       run.scenario.robots.size(),

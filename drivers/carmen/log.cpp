@@ -16,6 +16,9 @@
 namespace rave::carmen {
 namespace {
 
+/// Longer stretches without rows are listed in the reports.
+constexpr std::int64_t kGap_ns = 500'000'000;
+
 using recording::StreamReport;
 using recording::StreamWindow;
 using recording::Stretch;
@@ -116,7 +119,6 @@ void take_odometry(Log& log, ParsedLog& parsed, const StreamWindow& window) {
 
 Status check_options(const LoadOptions& options) {
   RAVE_TRY(recording::check_seconds("clock_offset_s", options.clock_offset_s, -1000, 1000));
-  RAVE_TRY(recording::check_seconds("gap_limit_s", options.gap_limit_s, 0, 1e9));
   if (options.range_max_m > 0 && options.range_max_m <= 1000) return {};
   return fail(ErrorCode::kInvalidArgument, "range_max_m is {}: expected more than 0, at most 1000",
               options.range_max_m);
@@ -160,8 +162,7 @@ Result<Log> load_text(const recording::UnpackedText& text, const std::string& fi
   log.end_ns = window.end_ns;
   log.passed_over = parsed.passed_over;
   log.by_logger = by_logger;
-  log.scan_report.gap_limit_ns = log.odometry_report.gap_limit_ns =
-      from_seconds(options.gap_limit_s).ns;
+  log.scan_report.gap_limit_ns = log.odometry_report.gap_limit_ns = kGap_ns;
   // Moving the origin back is equivalent to adding the offset to all stamps.
   window.origin_ns -= from_seconds(options.clock_offset_s).ns;
   take_scans(log, parsed, window, options.range_max_m);
@@ -175,10 +176,9 @@ Result<Log> load_text(const recording::UnpackedText& text, const std::string& fi
 }
 
 Result<Log> load(const std::filesystem::path& path, const LoadOptions& options) {
-  RAVE_TRY_ASSIGN(const std::string bytes, read_file(path, options.max_unpacked_bytes));
+  RAVE_TRY_ASSIGN(const std::string bytes, read_file(path, recording::kMostLogBytes));
   RAVE_TRY_ASSIGN(const auto stretch, read_stretch(path.parent_path()));
-  RAVE_TRY_ASSIGN(const recording::UnpackedText text,
-                  recording::unpack_text(bytes, path.string(), options.max_unpacked_bytes));
+  RAVE_TRY_ASSIGN(const recording::UnpackedText text, recording::unpack_text(bytes, path.string()));
   RAVE_TRY_ASSIGN(Log log, load_text(text, path.string(), stretch, options));
   StreamReport file;
   file.file = path.filename().string();
@@ -188,7 +188,7 @@ Result<Log> load(const std::filesystem::path& path, const LoadOptions& options) 
     if (listed != stretch->sha256.end()) file.unchanged = listed->second == file.sha256;
     const bool cut = log.scan_report.repaired(recording::RepairKind::kCutLine) > 0;
     // Checked last, so that a syntax error is reported with its line instead.
-    if (file.unchanged == false && options.require_unchanged && !cut) {
+    if (file.unchanged == false && !cut) {
       return fail_at(
           {path.string(), 0, 0}, ErrorCode::kParse,
           "the file differs from the one that {} lists (SHA-256 {}, listed {}); restore it",

@@ -36,13 +36,8 @@ struct LoadOptions {
   recording::WindowOptions window;
   double clock_offset_s = 0;  ///< Added to all stamps, within +-1000.
   bool accept_cut = false;
-  /// Refuse a file whose SHA-256 differs from the one in `stretch.txt`.
-  bool require_unchanged = true;
   /// A range this long or longer is "no return", metres.
   double range_max_m = 80;
-  std::size_t max_unpacked_bytes = std::size_t{256} << 20;
-  /// Longer stretches without rows are listed in the reports, seconds.
-  double gap_limit_s = 0.5;
 };
 
 /// A part of a CARMEN log in memory. A plain value. Scans and odometry ascend in time, extend

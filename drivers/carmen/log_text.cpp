@@ -8,19 +8,17 @@
 #include <string_view>
 
 #include "rave/base/names.hpp"
+#include "recording/line_parser.hpp"
 #include "recording/stamp.hpp"
-#include "recording/tokens.hpp"
 
 namespace rave::carmen {
 namespace {
 
+using recording::add_repair;
 using recording::parse_number;
 using recording::parse_stamp_ns;
-using recording::Repair;
 using recording::RepairKind;
 using recording::shown;
-using recording::split;
-using recording::Token;
 
 constexpr double kLargestReal = 1e6;
 constexpr double kLongestRange_m = 1000;
@@ -36,37 +34,17 @@ constexpr std::array<std::string_view, 20> kMessages{
     "LASER3",    "LASER4",    "ROBOTLASER1", "ROBOTLASER2", "RAWLASER1", "RAWLASER2", "RAWLASER3",
     "RAWLASER4", "RAWLASER5", "BASEODOM",    "SIM_TRUE",    "NMEAGGA",   "NMEARMC"};
 
-/// Walks over the lines of one log.
-class LogParser {
+class LogParser : recording::LineParser {
  public:
-  LogParser(const std::string& file, bool accept_cut) : file_(file), accept_cut_(accept_cut) {}
+  using LineParser::LineParser;
 
   Result<ParsedLog> parse(const recording::UnpackedText& log) {
-    std::string_view rest = log.text;
-    while (!rest.empty()) {
-      ++line_;
-      const std::size_t newline = rest.find('\n');
-      const bool terminated = newline != std::string_view::npos;
-      line_text_ = rest.substr(0, newline);
-      rest.remove_prefix(terminated ? newline + 1 : rest.size());
-      if (terminated) {
-        RAVE_TRY(take_line());
-      } else {
-        RAVE_TRY(take_last_line(log.cut));
-      }
-    }
-    if (log.cut && !cut_reported_) {
-      ++line_;
-      line_text_ = {};
-      RAVE_TRY(take_cut("the gzip stream is truncated after the previous line"));
-    }
+    RAVE_TRY(parse_lines(log));
     return std::move(log_);
   }
 
  private:
-  Status take_line() {
-    words_ = split(line_text_);
-    if (words_.empty() || words_.front().text.front() == '#') return {};
+  Status take_line() override {
     const std::string_view name = words_.front().text;
     // Only the row right behind a scan can be such a leftover, so the flag holds for one line.
     const bool behind_scan = behind_scan_;
@@ -127,7 +105,7 @@ class LogParser {
     RAVE_TRY_ASSIGN(row.v_mps, number(4, "tv [m/s]", -kLargestReal, kLargestReal));
     RAVE_TRY_ASSIGN(row.w_radps, number(5, "rv [rad/s]", -kLargestReal, kLargestReal));
     if (behind_scan && is_junk()) {
-      add_repair(log_.odometry_repairs, RepairKind::kJunkStamp);
+      add_repair(log_.odometry_repairs, RepairKind::kJunkStamp, 1, line_);
       return {};
     }
     RAVE_TRY_ASSIGN(row.stamp_ns, stamp());
@@ -183,44 +161,11 @@ class LogParser {
     return fail_at({file_, line_, words_[word].column}, ErrorCode::kParse, "{}", message);
   }
 
-  Status take_last_line(bool gzip_cut) {
-    if (gzip_cut) return take_cut("the gzip stream ends in the middle of this line");
-    words_ = split(line_text_);
-    if (words_.empty() || words_.front().text.front() == '#') return {};
-    // A shorter last word may be a complete number or a truncated one; there is no way to tell.
-    return take_cut("the log ends in the middle of this line");
-  }
+  std::string whole() const override { return fmt::format("{} whole scans", log_.scans.size()); }
+  std::vector<recording::Repair>& cut_repairs() override { return log_.scan_repairs; }
 
-  Status take_cut(std::string_view what) {
-    cut_reported_ = true;
-    // By default an incomplete log is an error: a download that broke off would otherwise be a
-    // shorter run.
-    if (!accept_cut_) {
-      return fail_at({file_, line_, static_cast<int>(line_text_.size()) + 1}, ErrorCode::kParse,
-                     "{}; fetch the whole file, or set accept_cut to use the {} whole scans", what,
-                     log_.scans.size());
-    }
-    add_repair(log_.scan_repairs, RepairKind::kCutLine);
-    return {};
-  }
-
-  void add_repair(std::vector<Repair>& repairs, RepairKind kind) const {
-    for (Repair& repair : repairs) {
-      if (repair.kind != kind) continue;
-      ++repair.count;
-      return;
-    }
-    repairs.push_back({kind, 1, line_});
-  }
-
-  const std::string& file_;
-  bool accept_cut_;
   ParsedLog log_;
-  int line_ = 0;
-  std::string_view line_text_;
-  std::vector<Token> words_;  ///< Words of the current line.
   bool behind_scan_ = false;
-  bool cut_reported_ = false;
 };
 
 }  // namespace

@@ -26,12 +26,8 @@ struct RobotFiles {
 };
 
 Status check_options(const LoadOptions& options) {
-  constexpr double kLongest_s = 1e9;
   RAVE_TRY(check_seconds("clock_offset_s", options.clock_offset_s, -1000, 1000));
   RAVE_TRY(check_seconds("state_clock_offset_s", options.state_clock_offset_s, -1000, 1000));
-  RAVE_TRY(check_seconds("pose_gap_limit_s", options.pose_gap_limit_s, 0, kLongest_s));
-  RAVE_TRY(check_seconds("odometry_gap_limit_s", options.odometry_gap_limit_s, 0, kLongest_s));
-  RAVE_TRY(check_seconds("sighting_gap_limit_s", options.sighting_gap_limit_s, 0, kLongest_s));
   if (options.robots.empty()) return fail(ErrorCode::kInvalidArgument, "no robot requested");
   for (auto robot = options.robots.begin(); robot != options.robots.end(); ++robot) {
     if (std::find(options.robots.begin(), robot, *robot) == robot) continue;
@@ -60,14 +56,16 @@ Result<RobotFiles> read_robot(const Folder& folder, int robot, const StreamChoic
   // Only the logs that are asked for: a player of poses must not fail because of a damaged log of
   // sightings.
   if (streams.poses) {
-    RAVE_TRY_ASSIGN(files.poses, folder.read(prefix + "Groundtruth", pose_columns(), options));
+    RAVE_TRY_ASSIGN(files.poses,
+                    folder.read(prefix + "Groundtruth", pose_columns(), options.accept_cut));
   }
   if (streams.odometry) {
-    RAVE_TRY_ASSIGN(files.odometry, folder.read(prefix + "Odometry", odometry_columns(), options));
+    RAVE_TRY_ASSIGN(files.odometry,
+                    folder.read(prefix + "Odometry", odometry_columns(), options.accept_cut));
   }
   if (streams.sightings) {
     RAVE_TRY_ASSIGN(files.sightings,
-                    folder.read(prefix + "Measurement", sighting_columns(), options));
+                    folder.read(prefix + "Measurement", sighting_columns(), options.accept_cut));
   }
   return files;
 }
@@ -87,11 +85,9 @@ std::pair<std::int64_t, std::int64_t> stamp_range(const std::map<int, RobotFiles
   return {first, last};
 }
 
-Status add_poses(RobotLog& robot, LogFile file, const StreamWindow& window,
-                 const LoadOptions& options) {
+Status add_poses(RobotLog& robot, LogFile file, const StreamWindow& window) {
   const std::string path = file.path;
-  auto poses =
-      make_poses(std::move(file), robot.subject, window, from_seconds(options.pose_gap_limit_s).ns);
+  auto poses = make_poses(std::move(file), robot.subject, window);
   // A real robot without any pose would never exist in the world.
   if (poses.samples.empty()) {
     return fail_at({path, 0, 0}, ErrorCode::kParse,
@@ -111,18 +107,17 @@ Result<RobotLog> make_robot(int number, RobotFiles files, const StreamWindow& wi
   StreamWindow state_window = window;
   state_window.origin_ns -= from_seconds(options.state_clock_offset_s).ns;
   if (options.streams.poses) {
-    RAVE_TRY(add_poses(robot, std::move(files.poses), state_window, options));
+    RAVE_TRY(add_poses(robot, std::move(files.poses), state_window));
   }
   if (options.streams.odometry) {
-    auto odometry = make_odometry(std::move(files.odometry), number, state_window,
-                                  from_seconds(options.odometry_gap_limit_s).ns);
+    auto odometry = make_odometry(std::move(files.odometry), number, state_window);
     robot.odometry = std::move(odometry.samples);
     robot.odometry_report = std::move(odometry.report);
   }
   if (options.streams.sightings) {
-    auto sightings = make_sightings(
-        std::move(files.sightings), number, window, from_seconds(options.sighting_gap_limit_s).ns,
-        from_seconds(options.clock_offset_s).ns, options.code_meaning, subjects);
+    auto sightings =
+        make_sightings(std::move(files.sightings), number, window,
+                       from_seconds(options.clock_offset_s).ns, options.code_meaning, subjects);
     robot.sightings = SightingLog(std::move(sightings.samples));
     robot.sighting_report = std::move(sightings.report);
   }
@@ -130,9 +125,10 @@ Result<RobotLog> make_robot(int number, RobotFiles files, const StreamWindow& wi
 }
 
 Result<Subjects> read_subjects(const Folder& folder, const LoadOptions& options) {
-  RAVE_TRY_ASSIGN(const LogFile barcodes, folder.read("Barcodes", barcode_columns(), options));
+  RAVE_TRY_ASSIGN(const LogFile barcodes,
+                  folder.read("Barcodes", barcode_columns(), options.accept_cut));
   RAVE_TRY_ASSIGN(const LogFile landmarks,
-                  folder.read("Landmark_Groundtruth", landmark_columns(), options));
+                  folder.read("Landmark_Groundtruth", landmark_columns(), options.accept_cut));
   return Subjects::join(barcodes.log.rows, barcodes.path, landmarks.log.rows, landmarks.path,
                         folder.robots());
 }

@@ -73,7 +73,7 @@ Status Folder::find_robots() {
 }
 
 Result<LogFile> Folder::read(std::string_view stem, std::span<const Column> columns,
-                             const LoadOptions& options) const {
+                             bool accept_cut) const {
   const std::string plain = std::string(stem) + ".dat";
   const std::string packed = plain + ".gz";
   LogFile file;
@@ -85,21 +85,20 @@ Result<LogFile> Folder::read(std::string_view stem, std::span<const Column> colu
     return fail(ErrorCode::kNotFound, "`{}` has neither `{}` nor `{}`", path_.string(), packed,
                 plain);
   }
-  RAVE_TRY_ASSIGN(const std::string bytes, read_file(path, options.max_unpacked_bytes));
+  RAVE_TRY_ASSIGN(const std::string bytes, read_file(path, recording::kMostLogBytes));
   file.sha256 = sha256_hex(bytes);
-  RAVE_TRY_ASSIGN(const UnpackedText text,
-                  unpack_text(bytes, file.path, options.max_unpacked_bytes));
-  RAVE_TRY_ASSIGN(file.log, parse_log(text, file.path, columns, options.parse));
+  RAVE_TRY_ASSIGN(const UnpackedText text, unpack_text(bytes, file.path));
+  RAVE_TRY_ASSIGN(file.log, parse_log(text, file.path, columns, accept_cut));
   if (!stretch_) return file;
   const auto expected = stretch_->sha256.find(file.name);
   if (expected == stretch_->sha256.end()) return file;
   file.unchanged = expected->second == file.sha256;
   // Checked last, so that a syntax error is reported with its line instead.
-  if (!*file.unchanged && options.require_unchanged && !accepted_as_cut(file.log)) {
-    return fail_at(
-        {file.path, 0, 0}, ErrorCode::kParse,
-        "the file differs from the one that {} lists (SHA-256 {}, listed {}); restore it",
-        kStretchFile, file.sha256, expected->second);
+  if (!*file.unchanged && !accepted_as_cut(file.log)) {
+    return fail_at({file.path, 0, 0}, ErrorCode::kParse,
+                   "the file differs from the one that {} lists (SHA-256 {}, listed {}); restore "
+                   "it",
+                   kStretchFile, file.sha256, expected->second);
   }
   return file;
 }

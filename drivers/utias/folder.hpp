@@ -38,7 +38,7 @@ class Folder {
   /// Reads `<stem>.dat.gz` or, if that does not exist, `<stem>.dat`. Errors: kNotFound (names the
   /// file), those of unpack_text and parse_log, and kParse for a file that differs from its digest.
   [[nodiscard]] Result<LogFile> read(std::string_view stem, std::span<const Column> columns,
-                                     const LoadOptions& options) const;
+                                     bool accept_cut) const;
 
  private:
   Status find_robots();

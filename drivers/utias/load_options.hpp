@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
-
-#include "utias/text_log.hpp"
 
 namespace rave::utias {
 
@@ -43,16 +40,8 @@ struct LoadOptions {
   /// The offset for poses and odometry. A stretch made by tools/cut_utias.py has a margin of 1 s.
   double state_clock_offset_s = 0;
 
-  ParsePolicy parse;
-  /// Refuse files whose SHA-256 differs from `stretch.txt`, except logs accepted as truncated.
-  bool require_unchanged = true;
-  /// Largest unpacked size of one file.
-  std::size_t max_unpacked_bytes = std::size_t{256} << 20;
-
-  /// Gaps above this many seconds are listed in the reports.
-  double pose_gap_limit_s = 0.15;
-  double odometry_gap_limit_s = 0.2;
-  double sighting_gap_limit_s = 5.0;
+  /// Keep the complete lines of a truncated log.
+  bool accept_cut = false;
 };
 
 }  // namespace rave::utias

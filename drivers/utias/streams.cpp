@@ -35,6 +35,11 @@ constexpr std::array<Column, 5> kLandmarkColumns{{{"subject", ColumnKind::kCode}
                                                   {"x std-dev [m]", ColumnKind::kNonNegative},
                                                   {"y std-dev [m]", ColumnKind::kNonNegative}}};
 
+// Gaps above these are listed in the reports.
+constexpr std::int64_t kPoseGap_ns = 150'000'000;
+constexpr std::int64_t kOdometryGap_ns = 200'000'000;
+constexpr std::int64_t kSightingGap_ns = 5'000'000'000;
+
 StreamReport begin_report(LogFile& file, int robot, StreamKind kind, std::int64_t gap_limit_ns) {
   StreamReport report;
   report.robot = robot;
@@ -70,10 +75,9 @@ std::span<const Column> sighting_columns() noexcept { return kSightingColumns; }
 std::span<const Column> barcode_columns() noexcept { return kBarcodeColumns; }
 std::span<const Column> landmark_columns() noexcept { return kLandmarkColumns; }
 
-Stream<std::vector<PoseSample>> make_poses(LogFile file, int robot, const StreamWindow& window,
-                                           std::int64_t gap_limit_ns) {
+Stream<std::vector<PoseSample>> make_poses(LogFile file, int robot, const StreamWindow& window) {
   Stream<std::vector<PoseSample>> stream;
-  stream.report = begin_report(file, robot, StreamKind::kPoses, gap_limit_ns);
+  stream.report = begin_report(file, robot, StreamKind::kPoses, kPoseGap_ns);
   // The same steps for poses and odometry: rows in order, one per stamp, described for the report
   // as the log has them, and cut to the window last.
   sort_rows(file.log.rows, stream.report);
@@ -90,10 +94,9 @@ Stream<std::vector<PoseSample>> make_poses(LogFile file, int robot, const Stream
 }
 
 Stream<std::vector<OdometrySample>> make_odometry(LogFile file, int robot,
-                                                  const StreamWindow& window,
-                                                  std::int64_t gap_limit_ns) {
+                                                  const StreamWindow& window) {
   Stream<std::vector<OdometrySample>> stream;
-  stream.report = begin_report(file, robot, StreamKind::kOdometry, gap_limit_ns);
+  stream.report = begin_report(file, robot, StreamKind::kOdometry, kOdometryGap_ns);
   sort_rows(file.log.rows, stream.report);
   drop_duplicates(file.log.rows, window, stream.report);
   stream.samples.reserve(file.log.rows.size());
@@ -106,11 +109,10 @@ Stream<std::vector<OdometrySample>> make_odometry(LogFile file, int robot,
 }
 
 Stream<std::vector<Sighting>> make_sightings(LogFile file, int robot, const StreamWindow& window,
-                                             std::int64_t gap_limit_ns,
                                              std::int64_t clock_offset_ns, CodeMeaning meaning,
                                              const Subjects& subjects) {
   Stream<std::vector<Sighting>> stream;
-  stream.report = begin_report(file, robot, StreamKind::kSightings, gap_limit_ns);
+  stream.report = begin_report(file, robot, StreamKind::kSightings, kSightingGap_ns);
   sort_rows(file.log.rows, stream.report);
   for (const LogRow& row : file.log.rows) {
     const int code = row.codes[0];

@@ -33,15 +33,15 @@ struct Stream {
 
 /// Sorts, removes duplicates, wraps headings, cuts to the window with its margin, and reports it.
 [[nodiscard]] Stream<std::vector<PoseSample>> make_poses(LogFile file, int robot,
-                                                         const StreamWindow& window,
-                                                         std::int64_t gap_limit_ns);
+                                                         const StreamWindow& window);
 [[nodiscard]] Stream<std::vector<OdometrySample>> make_odometry(LogFile file, int robot,
-                                                                const StreamWindow& window,
-                                                                std::int64_t gap_limit_ns);
+                                                                const StreamWindow& window);
 /// Likewise for sightings: equal stamps are kept, the offset is added to the stamps, and there is
 /// no margin.
-[[nodiscard]] Stream<std::vector<Sighting>> make_sightings(
-    LogFile file, int robot, const StreamWindow& window, std::int64_t gap_limit_ns,
-    std::int64_t clock_offset_ns, CodeMeaning meaning, const Subjects& subjects);
+[[nodiscard]] Stream<std::vector<Sighting>> make_sightings(LogFile file, int robot,
+                                                           const StreamWindow& window,
+                                                           std::int64_t clock_offset_ns,
+                                                           CodeMeaning meaning,
+                                                           const Subjects& subjects);
 
 }  // namespace rave::utias

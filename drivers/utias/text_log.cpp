@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "recording/tokens.hpp"
+#include "recording/line_parser.hpp"
 #include "utias/recording_names.hpp"
 
 namespace rave::utias {
@@ -12,7 +12,6 @@ namespace {
 
 using recording::parse_number;
 using recording::shown;
-using recording::split;
 using recording::Token;
 
 constexpr double kLargestReal = 1e6;
@@ -121,103 +120,51 @@ class RowReader {
   std::span<const Column> columns_;
 };
 
-/// Walks over the lines of one log.
-class LogParser {
+class LogParser : recording::LineParser {
  public:
-  LogParser(const std::string& file, std::span<const Column> columns, const ParsePolicy& policy)
-      : file_(file), reader_(columns), policy_(policy) {}
+  LogParser(const std::string& file, std::span<const Column> columns, bool accept_cut)
+      : LineParser(file, accept_cut), reader_(columns) {}
 
   Result<ParsedLog> parse(const UnpackedText& log) {
-    std::string_view rest = log.text;
-    while (!rest.empty()) {
-      ++line_;
-      const std::size_t newline = rest.find('\n');
-      const bool terminated = newline != std::string_view::npos;
-      const std::string_view line = rest.substr(0, newline);
-      rest.remove_prefix(terminated ? newline + 1 : rest.size());
-      if (terminated) {
-        RAVE_TRY(take_line(line));
-      } else {
-        RAVE_TRY(take_last_line(line, log.cut));
-      }
-    }
-    if (log.cut && !cut_reported_) {
-      ++line_;
-      RAVE_TRY(take_cut(1, "the gzip stream is truncated after the previous line"));
-    }
+    RAVE_TRY(parse_lines(log));
     return std::move(parsed_);
   }
 
  private:
-  Status take_line(std::string_view line) {
-    const std::vector<Token> tokens = split(line);
-    if (tokens.empty() || tokens.front().text.front() == '#') return {};
-    auto row = reader_.read(tokens, line.size(), line_);
-    if (row) {
-      parsed_.rows.push_back(*row);
-      last_decimals_ = decimals(tokens.back().text);
-      return {};
+  Status take_line() override {
+    const auto row = reader_.read(words_, line_text_.size(), line_);
+    if (!row) {
+      return fail_at({file_, line_, row.error().column}, ErrorCode::kParse, "{}",
+                     row.error().message);
     }
-    const Fault& fault = row.error();
-    if (policy_.bad_rows == BadRowPolicy::kRefuse) {
-      return fail_at({file_, line_, fault.column}, ErrorCode::kParse, "{}", fault.message);
-    }
-    add_repair(fault.non_finite ? RepairKind::kSkippedNonFinite : RepairKind::kSkippedRow);
+    parsed_.rows.push_back(*row);
+    last_decimals_ = decimals(words_.back().text);
     return {};
   }
 
-  Status take_last_line(std::string_view line, bool gzip_cut) {
-    const std::vector<Token> tokens = split(line);
-    const bool comment = tokens.empty() || tokens.front().text.front() == '#';
-    if (gzip_cut) {
-      return take_cut(static_cast<int>(line.size()) + 1,
-                      "the gzip stream ends in the middle of this line");
-    }
-    if (comment) return {};
-    const auto row = reader_.read(tokens, line.size(), line_);
-    const bool whole = row.has_value() && decimals(tokens.back().text) >= last_decimals_;
+  Status take_last_line() override {
+    const auto row = reader_.read(words_, line_text_.size(), line_);
+    const bool whole = row.has_value() && decimals(words_.back().text) >= last_decimals_;
     // A truncated line explains an invalid value only if it is the last one.
     const bool surplus_or_inner =
-        !row && (row.error().non_finite || row.error().column < tokens.back().column ||
-                 tokens.size() > reader_.column_count());
-    if (whole || surplus_or_inner) return take_line(line);
-    return take_cut(static_cast<int>(line.size()) + 1, "the log ends in the middle of this line");
+        !row && (row.error().non_finite || row.error().column < words_.back().column ||
+                 words_.size() > reader_.column_count());
+    return whole || surplus_or_inner ? take_line() : LineParser::take_last_line();
   }
 
-  Status take_cut(int column, std::string_view what) {
-    cut_reported_ = true;
-    if (!policy_.accept_cut) {
-      return fail_at({file_, line_, column}, ErrorCode::kParse,
-                     "{}; fetch the whole file, or set accept_cut to use the {} whole rows", what,
-                     parsed_.rows.size());
-    }
-    add_repair(RepairKind::kCutLine);
-    return {};
-  }
+  std::string whole() const override { return fmt::format("{} whole rows", parsed_.rows.size()); }
+  std::vector<Repair>& cut_repairs() override { return parsed_.repairs; }
 
-  void add_repair(RepairKind kind) {
-    for (Repair& repair : parsed_.repairs) {
-      if (repair.kind != kind) continue;
-      ++repair.count;
-      return;
-    }
-    parsed_.repairs.push_back({kind, 1, line_});
-  }
-
-  const std::string& file_;
   RowReader reader_;
-  ParsePolicy policy_;
   ParsedLog parsed_;
-  int line_ = 0;
   std::size_t last_decimals_ = 0;
-  bool cut_reported_ = false;
 };
 
 }  // namespace
 
 Result<ParsedLog> parse_log(const UnpackedText& log, const std::string& file,
-                            std::span<const Column> columns, const ParsePolicy& policy) {
-  return LogParser(file, columns, policy).parse(log);
+                            std::span<const Column> columns, bool accept_cut) {
+  return LogParser(file, columns, accept_cut).parse(log);
 }
 
 }  // namespace rave::utias

@@ -34,18 +34,6 @@ struct LogRow {
   std::array<double, 4> reals{};
 };
 
-/// What to do with a malformed row within a log.
-enum class BadRowPolicy : std::uint8_t {
-  kRefuse,  ///< Error with file, line and column.
-  kSkip,    ///< Skip the row and report it.
-};
-
-struct ParsePolicy {
-  BadRowPolicy bad_rows = BadRowPolicy::kRefuse;
-  /// Keep the complete lines of a log with a truncated last line.
-  bool accept_cut = false;
-};
-
 struct ParsedLog {
   std::vector<LogRow> rows;  ///< In file order.
   std::vector<Repair> repairs;
@@ -55,9 +43,8 @@ struct ParsedLog {
 /// A last line without newline counts as truncated if columns are missing, if its last value is
 /// invalid or has fewer decimals than in the row before, or if the gzip stream is truncated. Errors
 /// (kParse, with `file`, line, column): a wrong number of columns, an invalid value, NaN or
-/// infinity, a truncated log unless the policy accepts it.
+/// infinity, a truncated log. `accept_cut`: keep the complete lines of a truncated log instead.
 [[nodiscard]] Result<ParsedLog> parse_log(const UnpackedText& log, const std::string& file,
-                                          std::span<const Column> columns,
-                                          const ParsePolicy& policy);
+                                          std::span<const Column> columns, bool accept_cut);
 
 }  // namespace rave::utias

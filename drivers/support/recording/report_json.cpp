@@ -39,8 +39,6 @@ Json dropped_of(const StreamReport& report) {
   std::string because;
   for (const Repair& repair : report.repairs) {
     const bool drops = repair.kind == RepairKind::kDuplicateStamp ||
-                       repair.kind == RepairKind::kSkippedRow ||
-                       repair.kind == RepairKind::kSkippedNonFinite ||
                        (repair.kind == RepairKind::kJunkStamp && report.rows == 0);
     if (drops) because += (because.empty() ? "" : ", ") + std::string(to_string(repair.kind));
   }

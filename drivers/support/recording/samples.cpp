@@ -8,7 +8,7 @@ namespace rave::recording {
 void wrap_heading(Pose2& pose, int line, StreamReport& report) {
   const double wrapped = wrap_angle(pose.yaw);
   if (wrapped == pose.yaw) return;
-  report.add_repair(RepairKind::kHeadingWrapped, 1, line);
+  add_repair(report.repairs, RepairKind::kHeadingWrapped, 1, line);
   pose.yaw = wrapped;
 }
 

@@ -20,7 +20,7 @@ void sort_rows(std::vector<Row>& rows, StreamReport& report) {
   bool sorted = true;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     if (rows[i].stamp_ns >= rows[i - 1].stamp_ns) continue;
-    report.add_repair(RepairKind::kStepBack, 1, rows[i].line);
+    add_repair(report.repairs, RepairKind::kStepBack, 1, rows[i].line);
     sorted = false;
   }
   if (sorted) return;
@@ -35,7 +35,7 @@ void drop_duplicates(std::vector<Row>& rows, const StreamWindow& window, StreamR
   kept.reserve(rows.size());
   for (const Row& row : rows) {
     if (!kept.empty() && kept.back().stamp_ns == row.stamp_ns) {
-      report.add_repair(RepairKind::kDuplicateStamp, 1, row.line);
+      add_repair(report.repairs, RepairKind::kDuplicateStamp, 1, row.line);
       const std::int64_t t_ns = row.stamp_ns - window.origin_ns;
       const bool inside = t_ns >= window.start_ns && t_ns <= window.end_ns;
       report.duplicates_in_window += inside ? 1 : 0;

@@ -11,10 +11,6 @@ std::string_view to_string(RepairKind kind) noexcept {
       return "duplicate_stamp";
     case RepairKind::kStepBack:
       return "step_back";
-    case RepairKind::kSkippedRow:
-      return "skipped_row";
-    case RepairKind::kSkippedNonFinite:
-      return "skipped_non_finite";
     case RepairKind::kHeadingWrapped:
       return "heading_wrapped";
     case RepairKind::kCutLine:
@@ -37,13 +33,13 @@ std::string_view to_string(GapKind kind) noexcept {
   return "unknown";
 }
 
-void StreamReport::add_repair(RepairKind repair, std::int64_t count, int line) {
+void add_repair(std::vector<Repair>& repairs, RepairKind kind, std::int64_t count, int line) {
   for (Repair& known : repairs) {
-    if (known.kind != repair) continue;
+    if (known.kind != kind) continue;
     known.count += count;
     return;
   }
-  repairs.push_back({repair, count, line});
+  repairs.push_back({kind, count, line});
 }
 
 std::int64_t StreamReport::repaired(RepairKind repair) const noexcept {
@@ -54,8 +50,7 @@ std::int64_t StreamReport::repaired(RepairKind repair) const noexcept {
 }
 
 std::int64_t StreamReport::dropped() const noexcept {
-  std::int64_t count = duplicates_in_window + repaired(RepairKind::kSkippedRow) +
-                       repaired(RepairKind::kSkippedNonFinite);
+  std::int64_t count = duplicates_in_window;
   // Junk rows are normally extra rows beside good ones. If nothing else is left, they were the
   // stream.
   if (rows == 0) count += repaired(RepairKind::kJunkStamp);

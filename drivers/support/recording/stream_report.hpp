@@ -15,11 +15,9 @@ enum class RepairKind : std::uint8_t {
   kDuplicateStamp,  ///< Rows dropped because a later row has the same stamp (not of sightings).
   kStepBack,        ///< Rows with a stamp before that of their predecessor; the stream was sorted,
                     ///< stably.
-  kSkippedRow,      ///< Rows with wrong columns, skipped because the caller requested it.
-  kSkippedNonFinite,  ///< Rows with NaN or infinity, skipped because the caller requested it.
-  kHeadingWrapped,    ///< Headings outside (-pi, pi], wrapped.
-  kCutLine,           ///< A truncated last line, left out.
-  kJunkStamp,         ///< Rows dropped because their stamp is invalid.
+  kHeadingWrapped,  ///< Headings outside (-pi, pi], wrapped.
+  kCutLine,         ///< A truncated last line, left out.
+  kJunkStamp,       ///< Rows dropped because their stamp is invalid.
 };
 
 /// The position of a gap in the window.
@@ -38,6 +36,9 @@ struct Repair {
   /// Line of the first occurrence in the unpacked text, from 1.
   int first_line = 0;
 };
+
+/// Counts a repair under its kind; `line` is kept for the first one.
+void add_repair(std::vector<Repair>& repairs, RepairKind kind, std::int64_t count, int line);
 
 /// An interval without rows that exceeds the stream's limit. Nanoseconds from the origin.
 struct Gap {
@@ -75,8 +76,6 @@ struct StreamReport {
   /// Rows of the window that are skipped because a later row has the same stamp.
   std::int64_t duplicates_in_window = 0;
 
-  /// Adds to the count of a kind of repair; keeps the line of the first call.
-  void add_repair(RepairKind repair, std::int64_t count, int line);
   /// The count of a kind of repair.
   [[nodiscard]] std::int64_t repaired(RepairKind repair) const noexcept;
   /// Rows of the window that are not played. Rows without a usable stamp cannot be assigned to the

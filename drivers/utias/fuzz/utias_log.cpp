@@ -34,14 +34,14 @@ void check_streams(const ParsedLog& log, unsigned choice) {
   LogFile file;
   file.log = log;
   if (choice % 5 == 0) {
-    const PoseTrack track(make_poses(file, 1, window, 1).samples);
+    const PoseTrack track(make_poses(file, 1, window).samples);
     (void)track.interpolate(100'000'000'000);
     (void)track.velocity(100'000'000'000);
   } else if (choice % 5 == 1) {
-    (void)make_odometry(file, 1, window, 1);
+    (void)make_odometry(file, 1, window);
   } else if (choice % 5 == 2) {
     const SightingLog sightings(
-        make_sightings(file, 1, window, 1, 0, CodeMeaning::kBarcode, {}).samples);
+        make_sightings(file, 1, window, 0, CodeMeaning::kBarcode, {}).samples);
     for (std::size_t i = 0; i < sightings.group_count(); ++i)
       RAVE_CHECK(!sightings.group(i).empty());
   } else {
@@ -58,10 +58,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   (void)parse_stretch(bytes, "s");
   const auto text = unpack_text(bytes, "f", std::size_t{1} << 20);
   if (!text) return 0;
-  ParsePolicy policy;
-  policy.bad_rows = (choice & 0x40U) != 0 ? BadRowPolicy::kSkip : BadRowPolicy::kRefuse;
-  policy.accept_cut = (choice & 0x80U) != 0;
-  const auto log = parse_log(*text, "f", columns_for(choice & 0x3fU), policy);
+  const auto log = parse_log(*text, "f", columns_for(choice & 0x3fU), (choice & 0x80U) != 0);
   if (!log) {
     RAVE_CHECK(!log.error().message.empty() && log.error().where.line > 0);
     return 0;

@@ -31,7 +31,7 @@ Result<Playback> load_playback(const HardwareSetup& setup, StreamKind kind,
   // One offset for the whole robot, as if its only clock were off.
   options.state_clock_offset_s = playback.clock_offset_s;
   options.code_meaning = code_meaning;
-  options.parse.accept_cut = play.accept_cut;
+  options.accept_cut = play.accept_cut;
   // operator/ ignores the folder of the robot file if the path is absolute.
   RAVE_TRY_ASSIGN(playback.data,
                   load(std::filesystem::path(setup.folder) / playback.folder, options));

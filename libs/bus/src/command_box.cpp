@@ -7,8 +7,9 @@ namespace rave::bus {
 
 Result<std::unique_ptr<CommandBox>> CommandBox::create(Bus& bus, OnCommand tell) {
   if (!tell) return std::unique_ptr<CommandBox>();
-  RAVE_TRY_ASSIGN(auto commands, Reader<Command>::create(bus));
-  return std::unique_ptr<CommandBox>(new CommandBox(std::move(commands), std::move(tell)));
+  std::unique_ptr<CommandBox> box(new CommandBox(std::move(tell)));
+  RAVE_TRY(box->commands_.open(bus));
+  return box;
 }
 
 void CommandBox::serve() {

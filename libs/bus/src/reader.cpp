@@ -9,17 +9,22 @@
 namespace rave::bus {
 
 Result<ReaderCore> ReaderCore::create(Bus& bus, const TopicSpec& topic) {
-  ReaderCore core(bus, topic.name);
+  ReaderCore core;
+  core.bus_ = &bus;
+  core.topic_ = topic.name;
   RAVE_TRY_ASSIGN(core.reader_, bus.add_endpoint(topic, true));
   core.local_ = bus.endpoint(core.reader_)->receiver.get();
   return core;
 }
 
-ReaderCore::ReaderCore(ReaderCore&& other) noexcept
-    : bus_(other.bus_),
-      topic_(other.topic_),
-      reader_(std::exchange(other.reader_, 0)),
-      local_(other.local_) {}
+ReaderCore& ReaderCore::operator=(ReaderCore&& other) noexcept {
+  std::swap(bus_, other.bus_);
+  std::swap(topic_, other.topic_);
+  std::swap(reader_, other.reader_);
+  std::swap(local_, other.local_);
+  std::swap(sender_, other.sender_);
+  return *this;
+}
 
 ReaderCore::~ReaderCore() {
   if (reader_ > 0) bus_->remove_endpoint(reader_);

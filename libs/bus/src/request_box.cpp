@@ -7,10 +7,9 @@ namespace rave::bus {
 
 Result<std::unique_ptr<RequestBox>> RequestBox::create(Bus& bus, BeginRequest begin, LogSink* log) {
   if (!begin) return std::unique_ptr<RequestBox>();
-  RAVE_TRY_ASSIGN(auto requests, Reader<Request>::create(bus));
-  RAVE_TRY_ASSIGN(auto answers, Writer<RequestAnswer>::create(bus));
-  return std::unique_ptr<RequestBox>(new RequestBox(
-      std::move(requests), std::move(answers), bus.writer(), RequestBook(std::move(begin), log)));
+  std::unique_ptr<RequestBox> box(new RequestBox(bus.writer(), RequestBook(std::move(begin), log)));
+  RAVE_TRY(open_all(bus, box->requests_, box->answers_));
+  return box;
 }
 
 void RequestBox::serve() {

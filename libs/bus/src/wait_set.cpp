@@ -20,10 +20,12 @@ Status done(dds_return_t code) {
 
 }  // namespace
 
-WaitSet::WaitSet(Bus& bus) : bus_(&bus) {}
+// Here, where the relay is a complete type.
+WaitSet::WaitSet() = default;
 
 Result<WaitSet> WaitSet::create(Bus& bus) {
-  WaitSet set(bus);
+  WaitSet set;
+  set.bus_ = &bus;
   set.set_ = dds_create_waitset(bus.participant_);
   set.stop_ = dds_create_guardcondition(bus.participant_);
   set.bell_ = dds_create_guardcondition(bus.participant_);
@@ -33,13 +35,17 @@ Result<WaitSet> WaitSet::create(Bus& bus) {
   return set;
 }
 
-WaitSet::WaitSet(WaitSet&& other) noexcept
-    : bus_(other.bus_),
-      set_(std::exchange(other.set_, 0)),
-      stop_(std::exchange(other.stop_, 0)),
-      bell_(std::exchange(other.bell_, 0)),
-      relay_(std::move(other.relay_)),
-      conditions_(std::exchange(other.conditions_, {})) {}
+WaitSet::WaitSet(WaitSet&& other) noexcept { *this = std::move(other); }
+
+WaitSet& WaitSet::operator=(WaitSet&& other) noexcept {
+  std::swap(bus_, other.bus_);
+  std::swap(set_, other.set_);
+  std::swap(stop_, other.stop_);
+  std::swap(bell_, other.bell_);
+  std::swap(relay_, other.relay_);
+  std::swap(conditions_, other.conditions_);
+  return *this;
+}
 
 WaitSet::~WaitSet() {
   relay_.reset();

@@ -8,17 +8,21 @@
 namespace rave::bus {
 
 Result<WriterCore> WriterCore::create(Bus& bus, const TopicSpec& topic) {
-  WriterCore core(bus, topic.name);
+  WriterCore core;
+  core.bus_ = &bus;
+  core.topic_ = topic.name;
   RAVE_TRY_ASSIGN(core.writer_, bus.add_endpoint(topic, false));
   core.local_ = bus.endpoint(core.writer_)->sender.get();
   return core;
 }
 
-WriterCore::WriterCore(WriterCore&& other) noexcept
-    : bus_(other.bus_),
-      topic_(other.topic_),
-      writer_(std::exchange(other.writer_, 0)),
-      local_(other.local_) {}
+WriterCore& WriterCore::operator=(WriterCore&& other) noexcept {
+  std::swap(bus_, other.bus_);
+  std::swap(topic_, other.topic_);
+  std::swap(writer_, other.writer_);
+  std::swap(local_, other.local_);
+  return *this;
+}
 
 WriterCore::~WriterCore() {
   if (writer_ > 0) bus_->remove_endpoint(writer_);

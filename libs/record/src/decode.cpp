@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // From bytes of a recording to values. The bytes may be damaged or from another program, so every
 // count and offset is checked against the bytes that are there.
-#include <map>
-
 #include "cdr_time.hpp"
 #include "packed.hpp"
 #include "rave/record/run_messages.hpp"
+#include "run_members.hpp"
 
 namespace rave::record {
 namespace {
@@ -77,6 +76,17 @@ template <class Packed, class Item, class Make>
   if (reader.ok() && version != kLayoutVersion) return other_version(topic, version);
   const Message records = reader.get_bytes();
   if (!reader.ok() || !add_items(packed, records, make, step.items)) return malformed(topic);
+  return step;
+}
+
+/// Reads a message of one item.
+template <class Item>
+[[nodiscard]] Result<StepOf<Item>> decode_one(Message message, const char* topic) {
+  CdrReader reader(message);
+  StepOf<Item> step;
+  step.time = get_time(reader);
+  CdrTake<RunMembers>{reader}(step.step, step.items.emplace_back());
+  if (!reader.ok()) return malformed(topic);
   return step;
 }
 
@@ -162,49 +172,18 @@ Result<StepOf<PoseVariance>> decode_variances(Message message) {
 }
 
 Result<StepOf<RunEvent>> decode_event(Message message) {
-  CdrReader reader(message);
-  StepOf<RunEvent> step;
-  step.time = get_time(reader);
-  step.step = reader.get<std::uint64_t>();
-  RunEvent event;
-  event.robot = RobotId(reader.get<std::uint32_t>());
-  event.kind = reader.get_string();
-  event.text = reader.get_string();
-  event.values = reader.get_sequence<double>();
-  if (!reader.ok()) return malformed(topic::kEvents);
-  step.items.push_back(std::move(event));
-  return step;
+  return decode_one<RunEvent>(message, topic::kEvents);
 }
 
 Result<StepOf<ShadowRecord>> decode_shadow(Message message) {
-  CdrReader reader(message);
-  StepOf<ShadowRecord> step;
-  step.time = get_time(reader);
-  step.step = reader.get<std::uint64_t>();
-  ShadowRecord shadow;
-  shadow.robot = RobotId(reader.get<std::uint32_t>());
-  for (Pose2* const pose : {&shadow.X_WR, &shadow.X_WS}) {
-    for (double* const number : {&pose->x, &pose->y, &pose->yaw}) *number = reader.get<double>();
-  }
-  shadow.m = reader.get<double>();
-  shadow.rad = reader.get<double>();
-  shadow.readings = reader.get_sequence<double>();
-  if (!reader.ok()) return malformed(topic::kShadows);
-  step.items.push_back(std::move(shadow));
-  return step;
+  return decode_one<ShadowRecord>(message, topic::kShadows);
 }
 
 Result<RunInput> decode_input(Message message) {
   CdrReader reader(message);
   static_cast<void>(get_time(reader));
   RunInput input;
-  input.step = reader.get<std::uint64_t>();
-  input.kind = reader.get_string();
-  input.robot = reader.get_string();
-  input.key = reader.get_string();
-  input.value = reader.get_string();
-  // Older recordings have no author.
-  if (!reader.at_end()) input.by = reader.get_string();
+  CdrTake<RunMembers>{reader}(input);
   if (!reader.ok()) return malformed(topic::kInputs);
   return input;
 }
@@ -212,13 +191,8 @@ Result<RunInput> decode_input(Message message) {
 Result<std::pair<SimTime, RunChat>> decode_chat(Message message) {
   CdrReader reader(message);
   std::pair<SimTime, RunChat> said;
-  auto& [time, chat] = said;
-  time = get_time(reader);
-  chat.step = reader.get<std::uint64_t>();
-  chat.number = reader.get<std::uint64_t>();
-  for (std::string* const word : {&chat.from, &chat.role, &chat.to, &chat.name, &chat.text}) {
-    *word = reader.get_string();
-  }
+  said.first = get_time(reader);
+  CdrTake<RunMembers>{reader}(said.second);
   if (!reader.ok()) return malformed(topic::kChat);
   return said;
 }
@@ -263,36 +237,7 @@ Result<RunEnd> decode_end(Message message) {
 Result<RunInfo> decode_run(Message message) {
   CdrReader reader(message);
   RunInfo info;
-  info.scenario = reader.get_string();
-  info.started = reader.get_string();
-  info.seed = reader.get<std::uint64_t>();
-  info.step_s = reader.get<double>();
-  // get_count() is given the least number of bytes of an element (a text has 5), so that a damaged
-  // count cannot claim more elements than there is room for.
-  for (auto count = reader.get_count(10); count > 0 && reader.ok(); --count) {
-    std::string name = reader.get_string();
-    info.versions[std::move(name)] = reader.get_string();
-  }
-  for (auto count = reader.get_count(19); count > 0 && reader.ok(); --count) {
-    RecordedRobot& robot = info.robots.emplace_back();
-    robot.id = RobotId(reader.get<std::uint32_t>());
-    robot.name = reader.get_string();
-    robot.kind = reader.get_string();
-    robot.team = reader.get_string();
-  }
-  for (auto count = reader.get_count(85); count > 0 && reader.ok(); --count) {
-    RecordedSensor& sensor = info.sensors.emplace_back();
-    sensor.robot = RobotId(reader.get<std::uint32_t>());
-    sensor.sensor = DeviceId(reader.get<std::uint32_t>());
-    sensor.name = reader.get_string();
-    sensor.kind = reader.get<std::uint32_t>();
-    for (double* value :
-         {&sensor.X_RS.x, &sensor.X_RS.y, &sensor.X_RS.yaw, &sensor.z_m, &sensor.period_s,
-          &sensor.range_min_m, &sensor.range_max_m, &sensor.cone_rad}) {
-      *value = reader.get<double>();
-    }
-    sensor.bearings_rad = reader.get_sequence<double>();
-  }
+  CdrTake<RunMembers>{reader}(info);
   if (!reader.ok()) return malformed(topic::kRun);
   return info;
 }

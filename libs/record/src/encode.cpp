@@ -5,6 +5,7 @@
 
 #include "cdr_time.hpp"
 #include "packed.hpp"
+#include "run_members.hpp"
 
 namespace rave::record {
 void encode_step_head(CdrWriter& writer, SimTime time, std::uint64_t step, std::size_t count) {
@@ -19,11 +20,7 @@ void encode_step_head(CdrWriter& writer, SimTime time, std::uint64_t step, std::
 void encode_event(CdrWriter& writer, SimTime time, std::uint64_t step, const RunEvent& event) {
   writer.clear();
   put_time(writer, time);
-  writer.put(step);
-  writer.put(event.robot.value());
-  writer.put_string(event.kind);
-  writer.put_string(event.text);
-  writer.put_sequence(std::span<const double>(event.values));
+  CdrPut<RunMembers>{writer}(step, event);
 }
 
 void encode_variances(CdrWriter& writer, SimTime time, std::uint64_t step,
@@ -42,35 +39,19 @@ void encode_shadow(CdrWriter& writer, SimTime time, std::uint64_t step,
                    const ShadowRecord& shadow) {
   writer.clear();
   put_time(writer, time);
-  writer.put(step);
-  writer.put(shadow.robot.value());
-  for (const Pose2& pose : {shadow.X_WR, shadow.X_WS}) {
-    for (const double number : {pose.x, pose.y, pose.yaw}) writer.put(number);
-  }
-  writer.put(shadow.m);
-  writer.put(shadow.rad);
-  writer.put_sequence(std::span<const double>(shadow.readings));
+  CdrPut<RunMembers>{writer}(step, shadow);
 }
 
 void encode_input(CdrWriter& writer, SimTime time, const RunInput& input) {
   writer.clear();
   put_time(writer, time);
-  writer.put(input.step);
-  writer.put_string(input.kind);
-  writer.put_string(input.robot);
-  writer.put_string(input.key);
-  writer.put_string(input.value);
-  writer.put_string(input.by);
+  CdrPut<RunMembers>{writer}(input);
 }
 
 void encode_chat(CdrWriter& writer, SimTime time, const RunChat& chat) {
   writer.clear();
   put_time(writer, time);
-  writer.put(chat.step);
-  writer.put(chat.number);
-  for (const std::string* const word : {&chat.from, &chat.role, &chat.to, &chat.name, &chat.text}) {
-    writer.put_string(*word);
-  }
+  CdrPut<RunMembers>{writer}(chat);
 }
 
 void encode_console(CdrWriter& writer, const ConsoleLine& line) {
@@ -102,35 +83,7 @@ void encode_end(CdrWriter& writer, const RunEnd& end) {
 
 void encode_run(CdrWriter& writer, const RunInfo& info) {
   writer.clear();
-  writer.put_string(info.scenario);
-  writer.put_string(info.started);
-  writer.put(info.seed);
-  writer.put(info.step_s);
-  writer.put_count(info.versions.size());
-  for (const auto& [name, version] : info.versions) {
-    writer.put_string(name);
-    writer.put_string(version);
-  }
-  writer.put_count(info.robots.size());
-  for (const RecordedRobot& robot : info.robots) {
-    writer.put(robot.id.value());
-    writer.put_string(robot.name);
-    writer.put_string(robot.kind);
-    writer.put_string(robot.team);
-  }
-  writer.put_count(info.sensors.size());
-  for (const RecordedSensor& sensor : info.sensors) {
-    writer.put(sensor.robot.value());
-    writer.put(sensor.sensor.value());
-    writer.put_string(sensor.name);
-    writer.put(sensor.kind);
-    for (const double value :
-         {sensor.X_RS.x, sensor.X_RS.y, sensor.X_RS.yaw, sensor.z_m, sensor.period_s,
-          sensor.range_min_m, sensor.range_max_m, sensor.cone_rad}) {
-      writer.put(value);
-    }
-    writer.put_sequence(std::span<const double>(sensor.bearings_rad));
-  }
+  CdrPut<RunMembers>{writer}(info);
 }
 
 }  // namespace rave::record

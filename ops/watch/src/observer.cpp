@@ -41,8 +41,21 @@ struct Observer::Impl {
   bus::WaitSet waits;
   RunModel model;
 
+  explicit Impl(const std::string& run) : model(run) {}
+  Status open(const bus::BusConfig& config);
   void take();
 };
+
+Status Observer::Impl::open(const bus::BusConfig& config) {
+  RAVE_TRY_ASSIGN(bus, bus::Bus::open(config));
+  RAVE_TRY(bus::open_all(*bus, infos, runs, words, roster));
+  RAVE_TRY(processes.open(*bus, kWatched));
+  RAVE_TRY(states.open(*bus, kWatched));
+  RAVE_TRY(worlds.open(*bus, kWatched));
+  RAVE_TRY_ASSIGN(waits, bus::WaitSet::create(*bus));
+  RAVE_TRY(waits.add(infos, runs, words, roster, processes, states, worlds));
+  return waits.add_events();
+}
 
 void Observer::Impl::take() {
   const std::int64_t now_ns = ns_of(Clock::now());
@@ -70,28 +83,8 @@ Observer::~Observer() = default;
 Result<std::unique_ptr<Observer>> Observer::open(bus::BusConfig config) {
   // A monitor has no number in the run, so it takes no place and no process waits for it.
   config.anonymous = true;
-  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
-  RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
-  RAVE_TRY_ASSIGN(auto runs, bus::Reader<bus::RunState>::create(*bus));
-  RAVE_TRY_ASSIGN(auto words, bus::Reader<bus::HostRun>::create(*bus));
-  RAVE_TRY_ASSIGN(auto roster, bus::Reader<bus::RosterEntry>::create(*bus));
-  RAVE_TRY_ASSIGN(auto processes, bus::Reader<bus::ProcessState>::create(*bus, kWatched));
-  RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::HostState>::create(*bus, kWatched));
-  RAVE_TRY_ASSIGN(auto worlds, bus::Reader<bus::World>::create(*bus, kWatched));
-  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
-  RAVE_TRY(waits.add(infos));
-  RAVE_TRY(waits.add(runs));
-  RAVE_TRY(waits.add(words));
-  RAVE_TRY(waits.add(roster));
-  RAVE_TRY(waits.add(processes));
-  RAVE_TRY(waits.add(states));
-  RAVE_TRY(waits.add(worlds));
-  RAVE_TRY(waits.add_events());
-  RunModel model(config.run.text());
-  std::unique_ptr<Impl> impl(new Impl{std::move(bus), std::move(infos), std::move(runs),
-                                      std::move(words), std::move(roster), std::move(processes),
-                                      std::move(states), std::move(worlds), std::move(waits),
-                                      std::move(model)});
+  auto impl = std::make_unique<Impl>(config.run.text());
+  RAVE_TRY(impl->open(config));
   return std::unique_ptr<Observer>(new Observer(std::move(impl)));
 }
 

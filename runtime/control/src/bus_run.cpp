@@ -223,19 +223,13 @@ BusRun::~BusRun() = default;
 Result<std::unique_ptr<BusRun>> BusRun::open(bus::BusConfig config, std::string_view from) {
   // Other processes must not count this one as a participant of the run.
   config.anonymous = true;
-  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
-  RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
-  RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::RunState>::create(*bus));
-  RAVE_TRY_ASSIGN(auto requests, bus::Writer<bus::Request>::create(*bus));
-  RAVE_TRY_ASSIGN(auto answers, bus::Reader<bus::RequestAnswer>::create(*bus));
-  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
-  RAVE_TRY(waits.add(infos));
-  RAVE_TRY(waits.add(states));
-  RAVE_TRY(waits.add(answers));
-  RAVE_TRY(waits.add_events());
-  std::unique_ptr<Impl> impl(new Impl{std::move(bus), std::move(infos), std::move(states),
-                                      std::move(requests), std::move(answers), std::move(waits),
-                                      without_control_characters(from, " ")});
+  auto impl = std::make_unique<Impl>();
+  impl->from = without_control_characters(from, " ");
+  RAVE_TRY_ASSIGN(impl->bus, bus::Bus::open(config));
+  RAVE_TRY(bus::open_all(*impl->bus, impl->infos, impl->states, impl->requests, impl->answers));
+  RAVE_TRY_ASSIGN(impl->waits, bus::WaitSet::create(*impl->bus));
+  RAVE_TRY(impl->waits.add(impl->infos, impl->states, impl->answers));
+  RAVE_TRY(impl->waits.add_events());
   return std::unique_ptr<BusRun>(new BusRun(std::move(impl)));
 }
 

@@ -116,14 +116,12 @@ Result<std::unique_ptr<Lines>> lines_on_bus(bus::BusConfig config, RobotsOf robo
   config.anonymous = true;
   config.beside = true;
   const std::string run = config.run.text();
-  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
-  RAVE_TRY_ASSIGN(auto infos, LineInfoReader::create(*bus));
-  RAVE_TRY_ASSIGN(auto withdrawals, WithdrawalWriter::create(*bus));
-  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
-  RAVE_TRY(waits.add(infos));
-  return std::unique_ptr<Lines>(std::make_unique<BusLines>(
-      BusEnds{std::move(bus), std::move(infos), std::move(withdrawals), std::move(waits)}, run,
-      std::move(robots_of)));
+  BusEnds ends;
+  RAVE_TRY_ASSIGN(ends.bus, bus::Bus::open(config));
+  RAVE_TRY(bus::open_all(*ends.bus, ends.infos, ends.withdrawals));
+  RAVE_TRY_ASSIGN(ends.waits, bus::WaitSet::create(*ends.bus));
+  RAVE_TRY(ends.waits.add(ends.infos));
+  return std::make_unique<BusLines>(std::move(ends), run, std::move(robots_of));
 }
 
 }  // namespace rave::direct_line

@@ -22,12 +22,12 @@ struct BeaconEnds {
 };
 
 Result<BeaconEnds> open_ends(const bus::BusConfig& config) {
-  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
-  RAVE_TRY_ASSIGN(auto infos, bus::Writer<bus::LineInfo>::create(*bus));
-  RAVE_TRY_ASSIGN(auto withdrawals, bus::Reader<bus::LineWithdrawal>::create(*bus));
-  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
-  RAVE_TRY(waits.add(withdrawals));
-  return BeaconEnds{std::move(bus), std::move(infos), std::move(withdrawals), std::move(waits)};
+  BeaconEnds ends;
+  RAVE_TRY_ASSIGN(ends.bus, bus::Bus::open(config));
+  RAVE_TRY(bus::open_all(*ends.bus, ends.infos, ends.withdrawals));
+  RAVE_TRY_ASSIGN(ends.waits, bus::WaitSet::create(*ends.bus));
+  RAVE_TRY(ends.waits.add(ends.withdrawals));
+  return ends;
 }
 
 }  // namespace

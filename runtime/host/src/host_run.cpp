@@ -64,7 +64,7 @@ class SteppedExchange final : public HostExchange {
     account_.after_step(run_.engine);
     port_.show(run_.engine, host_.slot.robots);
   }
-  Ending ending() const override { return {port_.ending().good, port_.ending().text}; }
+  const std::optional<lock_step::RunEnding>& ending() const override { return port_.ending(); }
   void complete(RunFacts& facts) override;
   void describe(nlohmann::ordered_json& json, const HostOutcome& outcome,
                 const RunFacts& /*facts*/) const override {

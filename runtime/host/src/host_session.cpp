@@ -25,10 +25,9 @@ HostOutcome judge(const RunSession& run, const HostSetup& host, const HostExchan
   outcome.problems = run.losses;
   outcome.problems.insert(outcome.problems.end(), run.problems.begin(), run.problems.end());
   if (run.stopped) outcome.problems.emplace_back("stopped before the end of the run");
-  if (run.ended) {
-    const HostExchange::Ending ending = exchange.ending();
-    outcome.ending = ending.text;
-    if (!ending.good) outcome.problems.push_back("the run ended: " + ending.text);
+  if (const auto& ending = exchange.ending(); run.ended && ending) {
+    outcome.ending = ending->text;
+    if (!ending->good) outcome.problems.push_back("the run ended: " + ending->text);
   }
   outcome.whole = outcome.problems.empty();
   return outcome;

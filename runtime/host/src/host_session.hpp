@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -12,6 +13,7 @@
 #include "rave/host/host_run.hpp"
 #include "rave/host/host_slot.hpp"
 #include "rave/protocol/roster.hpp"
+#include "rave/protocol/run_words.hpp"
 #include "rave/results/facts.hpp"
 #include "run_session.hpp"
 
@@ -34,12 +36,8 @@ class HostExchange : public WorldExchange {
  public:
   /// A step is done (EngineSpec::on_step_done).
   virtual void step_done() = 0;
-  /// How the environment manager ended the run.
-  struct Ending {
-    bool good = true;
-    std::string text;
-  };
-  [[nodiscard]] virtual Ending ending() const = 0;
+  /// How the environment manager ended the run; empty before.
+  [[nodiscard]] virtual const std::optional<lock_step::RunEnding>& ending() const = 0;
   /// Adds to `facts` what only the exchange knows.
   virtual void complete(RunFacts& facts) = 0;
   /// Adds to result.json, behind `whole`, what only this kind of run has.

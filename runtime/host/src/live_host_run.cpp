@@ -64,10 +64,7 @@ class LiveExchange final : public HostExchange {
     look_back(run_, live_.events(), link_.world_age());
     keep_roster(link_.roster(), run_.engine, run_.observers, run_.console);
   }
-  Ending ending() const override {
-    const auto& ending = link_.ending();
-    return ending ? Ending{ending->good, ending->text} : Ending();
-  }
+  const std::optional<lock_step::RunEnding>& ending() const override { return link_.ending(); }
   void complete(RunFacts& /*facts*/) override {}
   void describe(nlohmann::ordered_json& json, const HostOutcome& outcome,
                 const RunFacts& facts) const override;

@@ -1,12 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "setup_copy.hpp"
 
+#include <concepts>
 #include <cstring>
 #include <span>
 #include <type_traits>
 
 namespace rave::isolation {
 namespace {
+
+// The members of a struct that Writer and SetupCopy::Reader handle alike, in one list for both. S
+// is constant for the writer.
+template <class S, class T>
+concept Is = std::same_as<std::remove_const_t<S>, T>;
+
+void members(auto& archive, Is<RobotInfo> auto& info) {
+  archive.text(info.name);
+  archive.text(info.team);
+  archive.values(info.id, info.radius_m, info.seed);
+}
+
+void members(auto& archive, Is<SensorInfo> auto& info) {
+  archive.text(info.name);
+  archive.values(info.kind, info.capacity, info.X_RS, info.z_m, info.period_s, info.max_age_s,
+                 info.range_min_m, info.range_max_m, info.cone_rad);
+}
+
+void members(auto& archive, Is<ControllerInfo> auto& info) {
+  archive.text(info.name);
+  archive.values(info.accepts);
+}
+
+void members(auto& archive, Is<CommunicatorInfo> auto& info) {
+  archive.text(info.name);
+  archive.values(info.max_messages, info.max_bytes, info.max_message_bytes);
+}
 
 // The bytes have the layout of this machine and this build. ProgramHost::create() checks magic and
 // sizes, in case the runner is of another installation.
@@ -17,6 +45,7 @@ class Writer {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>);
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
+  void values(const auto&... all) { (value(all), ...); }
   void text(std::string_view text) {
     value(std::uint64_t{text.size()});
     bytes_.append(text);
@@ -26,16 +55,7 @@ class Writer {
     for (const double number : list) value(number);
   }
   void sensor(const SensorInfo& info) {
-    text(info.name);
-    value(info.kind);
-    value(info.capacity);
-    value(info.X_RS);
-    value(info.z_m);
-    value(info.period_s);
-    value(info.max_age_s);
-    value(info.range_min_m);
-    value(info.range_max_m);
-    value(info.cone_rad);
+    members(*this, info);
     value(std::uint8_t{info.bearings_rad != nullptr});
     if (info.bearings_rad != nullptr) list({info.bearings_rad, info.capacity});
   }
@@ -58,27 +78,14 @@ std::string encode_setup(const Order& order, const ProgramSetup& setup) {
   out.text(order.plugin);
   out.text(order.program);
   out.value(order.parent);
-  out.text(setup.robot.name);
-  out.text(setup.robot.team);
-  out.value(setup.robot.id);
-  out.value(setup.robot.radius_m);
-  out.value(setup.robot.seed);
+  members(out, setup.robot);
   out.value(setup.period_s);
   out.value(setup.sensor_count);
   for (std::uint64_t i = 0; i < setup.sensor_count; ++i) out.sensor(setup.sensors[i]);
   out.value(setup.controller_count);
-  for (std::uint64_t i = 0; i < setup.controller_count; ++i) {
-    out.text(setup.controllers[i].name);
-    out.value(setup.controllers[i].accepts);
-  }
+  for (std::uint64_t i = 0; i < setup.controller_count; ++i) members(out, setup.controllers[i]);
   out.value(setup.communicator_count);
-  for (std::uint64_t i = 0; i < setup.communicator_count; ++i) {
-    const CommunicatorInfo& info = setup.communicators[i];
-    out.text(info.name);
-    out.value(info.max_messages);
-    out.value(info.max_bytes);
-    out.value(info.max_message_bytes);
-  }
+  for (std::uint64_t i = 0; i < setup.communicator_count; ++i) members(out, setup.communicators[i]);
   out.value(setup.robot_count);
   for (std::uint64_t i = 0; i < setup.robot_count; ++i) out.text(setup.robot_names[i]);
   out.value(setup.param_count);
@@ -123,23 +130,15 @@ class SetupCopy::Reader {
     return text;
   }
   // A deque keeps its elements where they are, so the pointers stay valid while more are added.
-  const char* kept_text() { return copy_.texts_.emplace_back(text()).c_str(); }
+  void text(const char*& kept) { kept = copy_.texts_.emplace_back(text()).c_str(); }
+  void values(auto&... all) { (value(all), ...); }
   std::span<const double> list() {
     std::vector<double>& list = copy_.lists_.emplace_back(count(sizeof(double)));
     for (double& number : list) value(number);
     return list;
   }
   void sensor(SensorInfo& info) {
-    info.name = kept_text();
-    value(info.kind);
-    value(info.capacity);
-    value(info.X_RS);
-    value(info.z_m);
-    value(info.period_s);
-    value(info.max_age_s);
-    value(info.range_min_m);
-    value(info.range_max_m);
-    value(info.cone_rad);
+    members(*this, info);
     std::uint8_t has_bearings = 0;
     value(has_bearings);
     if (has_bearings == 0) return;
@@ -148,9 +147,9 @@ class SetupCopy::Reader {
     info.bearings_rad = bearings.data();
   }
   void param(ParamValue& param) {
-    param.name = kept_text();
+    text(param.name);
     value(param.number);
-    param.text = kept_text();
+    text(param.text);
     const std::span<const double> numbers = list();
     param.list = numbers.data();
     param.list_size = numbers.size();
@@ -174,28 +173,16 @@ Result<std::unique_ptr<SetupCopy>> SetupCopy::decode(std::string_view bytes) {
   copy->order_.plugin = in.text();
   copy->order_.program = in.text();
   in.value(copy->order_.parent);
-  setup.robot.name = in.kept_text();
-  setup.robot.team = in.kept_text();
-  in.value(setup.robot.id);
-  in.value(setup.robot.radius_m);
-  in.value(setup.robot.seed);
+  members(in, setup.robot);
   in.value(setup.period_s);
   copy->sensors_.resize(in.count(sizeof(std::uint64_t)));
   for (SensorInfo& info : copy->sensors_) in.sensor(info);
   copy->controllers_.resize(in.count(sizeof(std::uint64_t)));
-  for (ControllerInfo& info : copy->controllers_) {
-    info.name = in.kept_text();
-    in.value(info.accepts);
-  }
+  for (ControllerInfo& info : copy->controllers_) members(in, info);
   copy->communicators_.resize(in.count(sizeof(std::uint64_t)));
-  for (CommunicatorInfo& info : copy->communicators_) {
-    info.name = in.kept_text();
-    in.value(info.max_messages);
-    in.value(info.max_bytes);
-    in.value(info.max_message_bytes);
-  }
+  for (CommunicatorInfo& info : copy->communicators_) members(in, info);
   copy->robot_names_.resize(in.count(sizeof(std::uint64_t)));
-  for (const char*& name : copy->robot_names_) name = in.kept_text();
+  for (const char*& name : copy->robot_names_) in.text(name);
   copy->params_.resize(in.count(sizeof(std::uint64_t)));
   for (ParamValue& value : copy->params_) in.param(value);
   if (!in.whole()) return fail(ErrorCode::kParse, "the setup of an isolated program is damaged");

@@ -3,51 +3,20 @@
 
 namespace rave::manager {
 
-struct BusEndpoint::Parts {
-  lock_step::Identity identity;
-  LogSink* log;
-  std::unique_ptr<bus::Bus> bus;
-  bus::Writer<bus::RunState> states;
-  bus::Writer<bus::HostInfo> own_info;
-  bus::Reader<bus::HostInfo> infos;
-  bus::Reader<bus::RosterEntry> roster;
-  std::unique_ptr<bus::RequestBox> requests;
-  lock_step::Pulse pulse;
-  lock_step::HostResultsCollector host_results;
-};
-
-BusEndpoint::BusEndpoint(Parts parts)
-    : identity_(std::move(parts.identity)),
-      foreign_(parts.log),
-      bus_(std::move(parts.bus)),
-      states_(std::move(parts.states)),
-      own_info_(std::move(parts.own_info)),
-      infos_(std::move(parts.infos)),
-      roster_(std::move(parts.roster)),
-      requests_(std::move(parts.requests)),
-      pulse_(std::move(parts.pulse)),
-      host_results_(std::move(parts.host_results)),
-      introduced_(lock_step::introduction(identity_)) {}
-
-Result<std::unique_ptr<BusEndpoint>> BusEndpoint::open(const bus::BusConfig& config,
-                                                       lock_step::Identity identity, LogSink* log,
-                                                       bus::BeginRequest begin_request) {
-  bus::BusConfig own = config;
+Result<std::unique_ptr<BusEndpoint>> BusEndpoint::open(const RunOptions& options) {
+  bus::BusConfig own = options.bus;
   // The manager has a partition and reserved ports of its own, so hosts of a large run need to look
   // for it alone.
   own.side = bus::Side::kManager;
-  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(own));
-  RAVE_TRY_ASSIGN(auto states, bus::Writer<bus::RunState>::create(*bus));
-  RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
-  RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
-  RAVE_TRY_ASSIGN(auto roster, bus::Reader<bus::RosterEntry>::create(*bus));
-  RAVE_TRY_ASSIGN(auto requests, bus::RequestBox::create(*bus, std::move(begin_request), log));
-  RAVE_TRY_ASSIGN(auto pulse, lock_step::Pulse::create(*bus, identity));
-  RAVE_TRY_ASSIGN(auto host_results, lock_step::HostResultsCollector::create(*bus));
-  return std::unique_ptr<BusEndpoint>(
-      new BusEndpoint({std::move(identity), log, std::move(bus), std::move(states),
-                       std::move(own_info), std::move(infos), std::move(roster),
-                       std::move(requests), std::move(pulse), std::move(host_results)}));
+  std::unique_ptr<BusEndpoint> made(new BusEndpoint(options.identity, options.log));
+  RAVE_TRY_ASSIGN(made->bus_, bus::Bus::open(own));
+  bus::Bus& bus = *made->bus_;
+  RAVE_TRY(bus::open_all(bus, made->states_, made->own_info_, made->infos_, made->roster_,
+                         made->host_results_));
+  RAVE_TRY(made->pulse_.open(bus, made->identity_));
+  RAVE_TRY_ASSIGN(made->requests_,
+                  bus::RequestBox::create(bus, options.begin_request, options.log));
+  return made;
 }
 
 Status BusEndpoint::wake(bus::WaitSet& waits) {

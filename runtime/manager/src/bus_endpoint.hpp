@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "manager_endpoint.hpp"
@@ -17,6 +18,7 @@
 #include "rave/bus/standstill.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
+#include "rave/manager/run_options.hpp"
 #include "rave/protocol/host_results.hpp"
 #include "rave/protocol/introduction.hpp"
 #include "rave/protocol/pulse.hpp"
@@ -26,12 +28,8 @@ namespace rave::manager {
 /// The endpoint of a manager whose run is on the bus. Belongs to one thread.
 class BusEndpoint final : public ManagerEndpoint {
  public:
-  /// `begin_request` may be empty; then no process on the bus can make requests. `log` is not owned
-  /// and may be null. Errors: those of bus::Bus::open().
-  [[nodiscard]] static Result<std::unique_ptr<BusEndpoint>> open(const bus::BusConfig& config,
-                                                                 lock_step::Identity identity,
-                                                                 LogSink* log,
-                                                                 bus::BeginRequest begin_request);
+  /// Errors: those of bus::Bus::open().
+  [[nodiscard]] static Result<std::unique_ptr<BusEndpoint>> open(const RunOptions& options);
 
   /// The bus, for the topics that only one kind of run has.
   [[nodiscard]] bus::Bus& bus() noexcept { return *bus_; }
@@ -79,8 +77,10 @@ class BusEndpoint final : public ManagerEndpoint {
   }
 
  private:
-  struct Parts;
-  explicit BusEndpoint(Parts parts);
+  BusEndpoint(lock_step::Identity identity, LogSink* log)
+      : identity_(std::move(identity)),
+        foreign_(log),
+        introduced_(lock_step::introduction(identity_)) {}
   void meet(const bus::HostInfo& info, bool begun);
 
   lock_step::Identity identity_;

@@ -12,79 +12,68 @@
 namespace rave::manager {
 namespace {
 
-struct LiveParts {
-  std::unique_ptr<BusEndpoint> endpoint;
-  bus::Writer<bus::World> worlds;
-  bus::Writer<bus::ClockPong> pongs;
-  bus::Writer<bus::Obstacle> obstacles;
-  bus::Reader<bus::ClockPing> pings;
-  bus::Reader<bus::HostState> states;
-  std::optional<bus::Reader<bus::LastObstacle>> handed{};  ///< Exists during a hand-over only.
-  bus::WaitSet waits;                                      ///< Behind all that it waits for.
-};
-
 class LiveOnBus final : public LiveEndpoint {
  public:
-  explicit LiveOnBus(LiveParts parts) : parts_(std::move(parts)) {}
+  explicit LiveOnBus(std::unique_ptr<BusEndpoint> endpoint) : endpoint_(std::move(endpoint)) {}
 
-  void wait(Duration timeout, const std::stop_token& stop) override {
-    parts_.endpoint->wait(parts_.waits, world_, timeout, stop);
+  Status open() {
+    bus::Bus& bus = endpoint_->bus();
+    RAVE_TRY(bus::open_all(bus, worlds_, pongs_, obstacles_, pings_, states_));
+    RAVE_TRY_ASSIGN(waits_, bus::WaitSet::create(bus));
+    RAVE_TRY(waits_.add(pings_, states_));
+    RAVE_TRY(endpoint_->wake(waits_));
+    // After all readers exist, since hosts answer at once.
+    return endpoint_->introduce();
   }
-  ManagerEndpoint& common() noexcept override { return *parts_.endpoint; }
+  void wait(Duration timeout, const std::stop_token& stop) override {
+    endpoint_->wait(waits_, world_, timeout, stop);
+  }
+  ManagerEndpoint& common() noexcept override { return *endpoint_; }
   void take_pings(const std::function<void(const bus::ClockPing&)>& visit) override {
-    parts_.pings.take(visit);
+    pings_.take(visit);
   }
   // A lost answer costs one reading; the host asks again.
-  void answer(bus::ClockPong& pong) override { static_cast<void>(parts_.pongs.write(pong)); }
+  void answer(bus::ClockPong& pong) override { static_cast<void>(pongs_.write(pong)); }
   void take_states(const std::function<void(const bus::HostState&)>& visit) override {
-    parts_.states.take(visit);
+    states_.take(visit);
   }
   void refuse(const bus::HostState& state, std::string_view why) override {
-    parts_.states.refuse(state, why);
+    states_.refuse(state, why);
   }
   void send(bus::World& world) override {
     // A world that cannot be sent is not repeated, because the next one replaces it.
-    static_cast<void>(parts_.worlds.write(world));
+    static_cast<void>(worlds_.write(world));
     world_ = world.step;
   }
-  Status send(bus::Obstacle& obstacle) override { return parts_.obstacles.write(obstacle); }
+  Status send(bus::Obstacle& obstacle) override { return obstacles_.write(obstacle); }
   Status ask_for_handed() override {
-    // A new reader receives all that hosts keep, also what came before they were known.
-    parts_.handed.reset();
-    RAVE_TRY_ASSIGN(auto reader, bus::Reader<bus::LastObstacle>::create(parts_.endpoint->bus()));
-    parts_.handed.emplace(std::move(reader));
-    return {};
+    // A new reader is told all that hosts keep, also what came before they were known.
+    return handed_.emplace().open(endpoint_->bus());
   }
   std::size_t take_handed(const std::function<void(const bus::LastObstacle&)>& visit) override {
-    return parts_.handed ? parts_.handed->take(visit) : 0;
+    return handed_ ? handed_->take(visit) : 0;
   }
-  void end_handing() override { parts_.handed.reset(); }
+  void end_handing() override { handed_.reset(); }
 
  private:
-  LiveParts parts_;
+  std::unique_ptr<BusEndpoint> endpoint_;
+  bus::Writer<bus::World> worlds_;
+  bus::Writer<bus::ClockPong> pongs_;
+  bus::Writer<bus::Obstacle> obstacles_;
+  bus::Reader<bus::ClockPing> pings_;
+  bus::Reader<bus::HostState> states_;
+  std::optional<bus::Reader<bus::LastObstacle>> handed_;  ///< Exists during a hand-over only.
+  bus::WaitSet waits_;       ///< Declared after the readers that it refers to.
   std::uint64_t world_ = 0;  ///< Number of the last one sent.
 };
 
 }  // namespace
 
-Result<std::unique_ptr<LiveEndpoint>> LiveEndpoint::open(const LiveManagerOptions& options) {
-  RAVE_TRY_ASSIGN(auto endpoint, BusEndpoint::open(options.bus, options.identity, options.log,
-                                                   options.begin_request));
-  bus::Bus& bus = endpoint->bus();
-  RAVE_TRY_ASSIGN(auto worlds, bus::Writer<bus::World>::create(bus));
-  RAVE_TRY_ASSIGN(auto pongs, bus::Writer<bus::ClockPong>::create(bus));
-  RAVE_TRY_ASSIGN(auto obstacles, bus::Writer<bus::Obstacle>::create(bus));
-  RAVE_TRY_ASSIGN(auto pings, bus::Reader<bus::ClockPing>::create(bus));
-  RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::HostState>::create(bus));
-  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(bus));
-  RAVE_TRY(waits.add(pings));
-  RAVE_TRY(waits.add(states));
-  RAVE_TRY(endpoint->wake(waits));
-  // After all readers exist, since hosts answer at once.
-  RAVE_TRY(endpoint->introduce());
-  return std::make_unique<LiveOnBus>(
-      LiveParts{std::move(endpoint), std::move(worlds), std::move(pongs), std::move(obstacles),
-                std::move(pings), std::move(states), std::nullopt, std::move(waits)});
+Result<std::unique_ptr<LiveEndpoint>> LiveEndpoint::open(const RunOptions& options) {
+  RAVE_TRY_ASSIGN(auto endpoint, BusEndpoint::open(options));
+  auto made = std::make_unique<LiveOnBus>(std::move(endpoint));
+  RAVE_TRY(made->open());
+  return made;
 }
 
 }  // namespace rave::manager

@@ -133,12 +133,6 @@ void LiveHosts::take_roster(runtime::RunControl* control) {
   show_kinds(book_, serving, control);
 }
 
-void LiveHosts::take_host_results() {
-  endpoint().take_host_results([this](std::uint64_t writer, std::uint32_t host) {
-    return has_served(slots_, writer, host);
-  });
-}
-
 void LiveHosts::take_states() {
   endpoint_->take_states([this](const bus::HostState& state) { take_in(state); });
 }

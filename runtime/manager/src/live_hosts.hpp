@@ -93,8 +93,6 @@ class LiveHosts {
   /// Sends the state of an obstacle to all hosts, also to those that join later. Errors:
   /// kInvalidArgument (larger than the bus carries), kIo.
   Status publish(const real_time::ObstacleSight& sight);
-  /// Receives the results of hosts at the end of the run.
-  void take_host_results();
   /// Asks the present hosts for the obstacles that the previous manager had published; again if
   /// others have joined since the last call. Errors: kState, kIo.
   Status ask_for_handed();

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "drain.hpp"
 #include "rave/base/names.hpp"
-#include "served.hpp"
 
 namespace rave::manager {
 namespace {
@@ -71,7 +69,7 @@ void LiveRun::begin_if_ready() {
     begin_in(kLead);
     edits_->begin(false);
     log(LogLevel::kInfo, "all hosts have joined: the run begins");
-  } else if (Clock::now() - std::max(first_host_, hosts_->endpoint().silence_counts_from()) >
+  } else if (Clock::now() - std::max(first_host_, endpoint_.silence_counts_from()) >
              std::chrono::nanoseconds(options_.host_timeout.ns)) {
     begin_in(kLead);
     edits_->begin(false);
@@ -81,13 +79,7 @@ void LiveRun::begin_if_ready() {
 
 /// Hosts that have lost their manager during a run do not belong to a new one.
 void LiveRun::leave_alone(std::int64_t run_ns) {
-  left_alone_ = Error{
-      ErrorCode::kState,
-      fmt::format(
-          "hosts are at {:.1f} s of a run that lost its environment manager: --resume continues "
-          "that run, `rave end {}` ends it, and --run with another name starts a new run",
-          Duration{run_ns}.seconds(), options_.scenario),
-      {}};
+  left_alone_ = of_another_run(fmt::format("hosts are at {:.1f} s", Duration{run_ns}.seconds()));
 }
 
 void LiveRun::hear(const bus::ClockPing& ping) {
@@ -120,8 +112,8 @@ Status LiveRun::listen() {
   hosts_->take_pings([this](const bus::ClockPing& ping) { hear(ping); });
   if (left_alone_) return tl::unexpected(*left_alone_);
   hosts_->take_states();
-  hosts_->take_host_results();
-  hosts_->endpoint().serve_requests();
+  take_host_results(hosts_->slots());
+  endpoint_.serve_requests();
   // The rest is not urgent, and in a large run it costs more than a world.
   if (Clock::now() < next_look_) return {};
   next_look_ = Clock::now() + kLook;
@@ -182,19 +174,6 @@ void LiveRun::tell_progress() {
   options_.on_progress(begun_ ? now() : SimTime{}, hosts_->slowest_speed(), missing());
 }
 
-/// Tells hosts that the run has ended, before this process leaves.
-void LiveRun::drain_hosts() {
-  const auto owes = [this](std::uint64_t writer) {
-    return begun_ && hosts_->endpoint().owes_host_results(writer);
-  };
-  drain(hosts_->slots(), options_.log, owes, [this] {
-    hosts_->wait(Duration{std::chrono::nanoseconds(kLook).count()});
-    return listen().has_value();
-  });
-  // Messages that a process sent before it left have arrived by now.
-  hosts_->take_host_results();
-}
-
 Result<LiveManagerOutcome> LiveRun::go() {
   auto next_ask = Clock::now();
   while (!(begun_ && now().ns >= options_.duration.ns)) {
@@ -204,8 +183,7 @@ Result<LiveManagerOutcome> LiveRun::go() {
         std::chrono::duration_cast<std::chrono::nanoseconds>(wake - Clock::now()).count();
     // A message of a host or a request ends the wait; otherwise it ends for the next world or the
     // next look.
-    hosts_->wait(Duration{std::max<std::int64_t>(0, left)},
-                 options_.control != nullptr ? options_.control->asked() : std::stop_token());
+    hosts_->wait(Duration{std::max<std::int64_t>(0, left)}, asked());
     RAVE_TRY(listen());
     begin_if_ready();
     // Edits come before the world of the same turn, so a host receives both with one wake.
@@ -249,13 +227,11 @@ LiveManagerOutcome LiveRun::outcome() {
                       slot.losses == 1 ? "once" : fmt::format("{} times", slot.losses)));
     }
   }
-  if (hosts_->endpoint().standstills() > 0) {
-    problems_.push_back(
-        fmt::format("the environment manager stood still for so long that hosts may have "
-                    "considered it lost{}: it sent no worlds meanwhile",
-                    hosts_->endpoint().standstills() == 1
-                        ? ""
-                        : fmt::format(" ({} times)", hosts_->endpoint().standstills())));
+  if (endpoint_.standstills() > 0) {
+    problems_.push_back(fmt::format(
+        "the environment manager stood still for so long that hosts may have "
+        "considered it lost{}: it sent no worlds meanwhile",
+        endpoint_.standstills() == 1 ? "" : fmt::format(" ({} times)", endpoint_.standstills())));
   }
   // The run is judged before the farewell, during which time passes, too.
   const bool over = begun_ && now().ns >= options_.duration.ns;
@@ -265,17 +241,19 @@ LiveManagerOutcome LiveRun::outcome() {
   const bool ends =
       options_.ends_hosts || (options_.control != nullptr && options_.control->ends_everybody());
   if (!over && !ends) {
-    hosts_->take_host_results();
-    outcome.host_results = hosts_->endpoint().hand_out_host_results();
-    order_by_service(hosts_->slots(), outcome.host_results);
+    take_host_results(hosts_->slots());
+    outcome.host_results = hand_out_host_results(hosts_->slots());
     return outcome;
   }
   tell_state(over ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
              over || problems_.empty() ? std::string() : problems_.front());
-  drain_hosts();
+  // Hosts are told before this process leaves.
+  drain_hosts(hosts_->slots(), begun_, [this] {
+    hosts_->wait(Duration{std::chrono::nanoseconds(kLook).count()});
+    return listen().has_value();
+  });
   outcome.drained = true;
-  outcome.host_results = hosts_->endpoint().hand_out_host_results();
-  order_by_service(hosts_->slots(), outcome.host_results);
+  outcome.host_results = hand_out_host_results(hosts_->slots());
   return outcome;
 }
 

@@ -12,19 +12,22 @@
 
 #include "live_edits.hpp"
 #include "live_hosts.hpp"
-#include "manager_habits.hpp"
+#include "manager_run.hpp"
 #include "rave/manager/live_manager.hpp"
 
 namespace rave::manager {
 
 /// One run in real time as its manager sees it, from the first host to the end. Belongs to one
 /// thread.
-class LiveRun {
+class LiveRun final : ManagerRun {
  public:
   /// `options` are not owned.
   LiveRun(const LiveManagerOptions& options, std::unique_ptr<LiveHosts> hosts,
           std::unique_ptr<LiveEdits> edits)
-      : options_(options), hosts_(std::move(hosts)), edits_(std::move(edits)) {}
+      : ManagerRun(options, hosts->endpoint()),
+        options_(options),
+        hosts_(std::move(hosts)),
+        edits_(std::move(edits)) {}
 
   [[nodiscard]] Result<LiveManagerOutcome> go();
 
@@ -40,32 +43,21 @@ class LiveRun {
   void tell_silence(const std::vector<std::string_view>& names, std::string_view what);
   void tell_state(rave_wire_RunPhase phase, const std::string& text);
   void tell_progress();
-  void drain_hosts();
   LiveManagerOutcome outcome();
-  [[nodiscard]] bool stopping() const { return options_.stopping && options_.stopping(); }
   [[nodiscard]] SimTime now() const;
   [[nodiscard]] std::string missing() const;
-
-  template <class... Args>
-  void log(LogLevel level, fmt::format_string<Args...> format, Args&&... args) {
-    if (options_.log == nullptr) return;
-    options_.log->write(level, kSource, fmt::format(format, std::forward<Args>(args)...));
-  }
 
   const LiveManagerOptions& options_;
   std::unique_ptr<LiveHosts> hosts_;
   std::unique_ptr<LiveEdits> edits_;  ///< Declared after the hosts, which it uses.
-  bool begun_ = false;
   std::int64_t zero_ns_ =
       0;  ///< Time 0 of the run by the clock of this machine; valid once the run has begun.
   std::chrono::steady_clock::time_point first_host_{};
   std::chrono::steady_clock::time_point next_world_{};
-  std::chrono::steady_clock::time_point next_tell_{};
   std::chrono::steady_clock::time_point next_look_{};
   std::uint64_t worlds_ = 0;
   std::vector<std::uint8_t> stale_;  ///< By robot.
   bool ended_ = false;
-  std::vector<std::string> problems_;
   std::optional<Error>
       left_alone_;  ///< Hosts are in another run, which this manager does not continue.
 };

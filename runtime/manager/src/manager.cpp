@@ -23,8 +23,7 @@ Result<ManagerOutcome> manage(sim::EngineSpec spec, const ManagerOptions& option
   }
   RAVE_TRY(check_scheduled(spec));
   RAVE_TRY_ASSIGN(auto authority, sim::WorldAuthority::create(std::move(spec), std::move(host_of)));
-  RAVE_TRY_ASSIGN(auto bus, SteppedEndpoint::open(options.bus, options.identity, options.log,
-                                                  options.begin_request));
+  RAVE_TRY_ASSIGN(auto bus, SteppedEndpoint::open(options));
   SteppedRun run(options, std::move(authority), std::move(bus));
   auto outcome = run.go();
   // Hosts wait for the next world. An error here must reach them, or they would wait for a manager

@@ -10,12 +10,9 @@
 
 #include "host_slots.hpp"
 #include "manager_endpoint.hpp"
-#include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
 #include "rave/base/time.hpp"
-#include "rave/bus/config.hpp"
-#include "rave/bus/request_book.hpp"
-#include "rave/protocol/introduction.hpp"
+#include "rave/manager/run_options.hpp"
 #include "rave/sim/authority_state.hpp"
 #include "rave/sim/world_step.hpp"
 
@@ -27,11 +24,8 @@ class SteppedEndpoint {
  public:
   using Visit = std::function<void(const bus::HostReport&)>;
 
-  /// `begin_request` may be empty; then no process on the bus can make requests. Errors: those of
-  /// bus::Bus::open().
-  [[nodiscard]] static Result<std::unique_ptr<SteppedEndpoint>> open(
-      const bus::BusConfig& config, lock_step::Identity identity, LogSink* log,
-      bus::BeginRequest begin_request);
+  /// Errors: those of bus::Bus::open().
+  [[nodiscard]] static Result<std::unique_ptr<SteppedEndpoint>> open(const RunOptions& options);
   virtual ~SteppedEndpoint() = default;
 
   /// Sleeps until a message arrives, the time has passed or `stop` is set.

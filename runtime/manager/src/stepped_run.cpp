@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "rave/base/names.hpp"
-#include "served.hpp"
 
 namespace rave::manager {
 namespace {
@@ -32,7 +31,8 @@ std::vector<RosterBook::Robot> planned_robots(const sim::EngineSpec& spec) {
 SteppedRun::SteppedRun(const ManagerOptions& options,
                        std::unique_ptr<sim::WorldAuthority> authority,
                        std::unique_ptr<SteppedEndpoint> bus)
-    : options_(options),
+    : ManagerRun(options, bus->endpoint()),
+      options_(options),
       authority_(std::move(authority)),
       bus_(std::move(bus)),
       slots_(make_slots(options.hosts)),
@@ -260,9 +260,9 @@ Result<ManagerOutcome> SteppedRun::go() {
 void SteppedRun::give_up(const Error& error) {
   over_ = true;
   // The hosts belong to another manager, or wait for theirs.
-  if (bus_->endpoint().is_second() || left_alone_) return;
+  if (endpoint_.is_second() || left_alone_) return;
   tell_state(rave_wire_RUN_FAILED, error.message);
-  drain_hosts(false);
+  see_end(false);
 }
 
 ManagerOutcome SteppedRun::outcome() {
@@ -292,9 +292,8 @@ ManagerOutcome SteppedRun::outcome() {
   over_ = true;
   tell_state(outcome.whole ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
              problems_.empty() ? std::string() : problems_.back());
-  drain_hosts(begun_);
-  outcome.host_results = bus_->endpoint().hand_out_host_results();
-  order_by_service(slots_, outcome.host_results);
+  see_end(begun_);
+  outcome.host_results = hand_out_host_results(slots_);
   return outcome;
 }
 

@@ -5,14 +5,13 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "host_slots.hpp"
-#include "manager_habits.hpp"
+#include "manager_run.hpp"
 #include "rave/manager/manager.hpp"
 #include "rave/pace/lateness.hpp"
 #include "rave/sim/world_authority.hpp"
@@ -23,7 +22,7 @@
 namespace rave::manager {
 
 /// One run in lock-step, from the first report to the last step. Belongs to one thread.
-class SteppedRun {
+class SteppedRun final : ManagerRun {
  public:
   /// `options` are not owned.
   SteppedRun(const ManagerOptions& options, std::unique_ptr<sim::WorldAuthority> authority,
@@ -41,8 +40,7 @@ class SteppedRun {
   Status look();
   void look_at_roster();
   void miss(std::uint64_t writer);
-  void drain_hosts(bool awaits_host_results);
-  void take_host_results();
+  void see_end(bool awaits_host_results);
   Status hear(const bus::HostReport& message);
   Status refuse_ahead(const HostSlot& slot, const bus::HostReport& message);
   void count_newest();
@@ -58,23 +56,12 @@ class SteppedRun {
   void hold();
   Status resend();
   [[nodiscard]] runtime::RunStatus first_status() const;
-  /// Wakes from a wait when a request arrives.
-  [[nodiscard]] std::stop_token asked() const {
-    return options_.control != nullptr ? options_.control->asked() : std::stop_token();
-  }
   void tell_state(rave_wire_RunPhase phase, std::string_view text);
   void tell_progress(std::string waiting);
   void note_waiting(std::string hosts);
   [[nodiscard]] std::string waited_for() const;
   [[nodiscard]] bool complete() const;
-  [[nodiscard]] bool stopping() const { return options_.stopping && options_.stopping(); }
   ManagerOutcome outcome();
-
-  template <class... Args>
-  void log(LogLevel level, fmt::format_string<Args...> format, Args&&... args) {
-    if (options_.log == nullptr) return;
-    options_.log->write(level, kSource, fmt::format(format, std::forward<Args>(args)...));
-  }
 
   const ManagerOptions& options_;
   std::unique_ptr<sim::WorldAuthority> authority_;
@@ -85,7 +72,6 @@ class SteppedRun {
   bus::HostClaims claims_;
   RosterBook roster_;
   std::uint64_t step_ = 0;  ///< The step whose reports are gathered.
-  bool begun_ = false;      ///< All hosts have been present at the same time.
   bool lost_any_ = false;
   bool ending_ = false;
   bool over_ = false;  ///< The run has ended or was given up; later messages do not matter.
@@ -96,13 +82,11 @@ class SteppedRun {
   bool handed_over_ = false;  ///< `world_` and `state_` are those of the previous manager.
   std::uint64_t newest_report_ = 0;
   std::string waits_for_;  ///< What status requests were told that the run waits for.
-  std::vector<std::string> problems_;
   std::chrono::steady_clock::time_point began_;
   std::chrono::steady_clock::time_point ended_;
   std::uint64_t first_step_ = 0;
   runtime::Lateness lateness_;
   sim::PhaseTimes resolved_{};  ///< Times of the authority, which has one of the phases.
-  std::chrono::steady_clock::time_point next_tell_;
   std::chrono::steady_clock::time_point next_progress_;
   std::chrono::steady_clock::time_point next_roster_;
   std::chrono::steady_clock::time_point resend_at_;

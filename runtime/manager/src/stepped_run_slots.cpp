@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "drain.hpp"
-#include "served.hpp"
 #include "stepped_run.hpp"
 
 namespace rave::manager {
@@ -94,11 +92,8 @@ Status SteppedRun::leave_alone(const bus::HostReport& message) {
   // A process with a manager, or one that has not noticed its loss yet, is not such a host.
   if (begun_ || options_.resume || message.step == 0 || message.epoch != 0) return {};
   left_alone_ = true;
-  return fail(
-      ErrorCode::kState,
-      "host `{}` is in step {} of a run that lost its environment manager: --resume continues that "
-      "run, `rave end {}` ends it, and --run with another name starts a new run",
-      slots_[message.host].name, message.step, options_.scenario);
+  return tl::unexpected(of_another_run(
+      fmt::format("host `{}` is in step {}", slots_[message.host].name, message.step)));
 }
 
 Status SteppedRun::hear(const bus::HostReport& message) {
@@ -159,7 +154,7 @@ Status SteppedRun::listen() {
   bus_->take_reports([&](const bus::HostReport& message) {
     if (status) status = hear(message);
   });
-  bus_->endpoint().serve_requests();
+  endpoint_.serve_requests();
   return status;
 }
 
@@ -191,16 +186,10 @@ void SteppedRun::count_newest() {
   for (const HostSlot& slot : slots_) newest_report_ = std::max(newest_report_, slot.last_step);
 }
 
-void SteppedRun::take_host_results() {
-  bus_->endpoint().take_host_results([this](std::uint64_t writer, std::uint32_t host) {
-    return has_served(slots_, writer, host);
-  });
-}
-
 /// What can wait until nothing else is to be done.
 Status SteppedRun::look() {
-  take_host_results();
-  RAVE_TRY_ASSIGN(const auto gone, bus_->endpoint().look_at_processes(begun_));
+  take_host_results(slots_);
+  RAVE_TRY_ASSIGN(const auto gone, endpoint_.look_at_processes(begun_));
   if (!begun_) handed_over_ = bus_->take_last_world(world_, state_, handed_over_) || handed_over_;
   for (const std::uint64_t writer : gone) {
     miss(writer);
@@ -222,7 +211,7 @@ void SteppedRun::look_at_roster() {
   const auto serving = [this](std::uint32_t host) {
     return host < slots_.size() ? slots_[host].writer : 0;
   };
-  bus_->endpoint().take_roster(roster_, serving);
+  endpoint_.take_roster(roster_, serving);
   if (begun_ && !over_) show_kinds(roster_, serving, options_.control);
 }
 
@@ -230,7 +219,7 @@ void SteppedRun::look_at_roster() {
 void SteppedRun::look_at_clock(Clock::time_point since) {
   const auto patience = std::chrono::nanoseconds(options_.host_timeout.ns);
   // They may have answered while this process stood still.
-  since = std::max(since, bus_->endpoint().silence_counts_from());
+  since = std::max(since, endpoint_.silence_counts_from());
   if (!begun_ || Clock::now() - since < patience) return;
   for (HostSlot& slot : slots_) {
     if (slot.reported || slot.state != SlotState::kRuns) continue;
@@ -247,16 +236,11 @@ void SteppedRun::look_at_clock(Clock::time_point since) {
 }
 
 /// The last step reaches everybody before this process goes.
-void SteppedRun::drain_hosts(bool awaits_host_results) {
-  const auto owes = [&](std::uint64_t writer) {
-    return awaits_host_results && bus_->endpoint().owes_host_results(writer);
-  };
-  drain(slots_, options_.log, owes, [this] {
+void SteppedRun::see_end(bool awaits_host_results) {
+  drain_hosts(slots_, awaits_host_results, [this] {
     bus_->wait(Duration{std::chrono::nanoseconds(kLook).count()}, {});
     return listen() && look();
   });
-  // What a process sent before it went is here.
-  take_host_results();
 }
 
 }  // namespace rave::manager

@@ -35,7 +35,7 @@ void SteppedRun::tell_state(rave_wire_RunPhase phase, std::string_view text) {
   bus::RunState state{};
   lock_step::fill(state, {options_.scenario, phase, step_, options_.steps, step_s, speed, text},
                   hosts);
-  bus_->endpoint().publish(state);
+  endpoint_.publish(state);
   next_tell_ = Clock::now() + kTell;
 }
 

@@ -30,13 +30,10 @@ constexpr bus::QosProfile kHeard{.reliable = false, .depth = 4};
 }  // namespace
 
 Result<Listener> Listener::create(bus::Bus& bus) {
-  RAVE_TRY_ASSIGN(auto looks, bus::Writer<bus::Look>::create(bus));
-  RAVE_TRY_ASSIGN(auto readings, bus::Reader<bus::Readings>::create(bus, kHeard));
-  RAVE_TRY_ASSIGN(auto events, bus::Reader<bus::RunEvents>::create(bus));
-  RAVE_TRY_ASSIGN(auto obstacles, bus::Reader<bus::LastObstacle>::create(bus));
-  RAVE_TRY_ASSIGN(auto tiles, bus::Reader<bus::MapTile>::create(bus));
-  return Listener(std::move(looks), std::move(readings), std::move(events), std::move(obstacles),
-                  std::move(tiles));
+  Listener made;
+  RAVE_TRY(bus::open_all(bus, made.looks_, made.events_in_, made.obstacles_in_, made.tiles_in_));
+  RAVE_TRY(made.readings_in_.open(bus, kHeard));
+  return made;
 }
 
 void Listener::look(const Asked& asked) {

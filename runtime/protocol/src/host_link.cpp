@@ -26,63 +26,27 @@ constexpr milliseconds kLeisure{1000};
 
 }  // namespace
 
-void HostLink::Impl::tell(LogLevel level, const std::string& text) const {
-  if (options.log != nullptr) options.log->write(level, "host " + options.self.name, text);
-}
-
-/// Logs a text once, until a different text follows.
-void HostLink::Impl::tell_once(LogLevel level, const std::string& text) {
-  if (text == told) return;
-  told = text;
-  if (!text.empty()) tell(level, text);
-}
-
-/// The same for texts caused by other processes.
-void HostLink::Impl::tell_foreign(LogLevel level, const std::string& text) {
-  if (text == told) return;
-  told = text;
-  if (!text.empty()) foreign.write(level, "host " + options.self.name, text);
-}
-
-Status HostLink::Impl::open_endpoints() {
-  RAVE_TRY_ASSIGN(auto set, bus::WaitSet::create(*bus));
-  RAVE_TRY(set.add(infos));
-  if (options.managed) {
-    RAVE_TRY(make(pings, *bus));
-    RAVE_TRY(make(pongs, *bus));
-    RAVE_TRY(make(runs, *bus));
-    // Written by hosts, read by a manager that takes the place of a lost one: hosts are then the
-    // only processes that still know the obstacles.
-    RAVE_TRY(make(last_obstacles, *bus));
-    RAVE_TRY(make(host_results, *bus));
-    RAVE_TRY(set.add(*pongs));
-    RAVE_TRY(set.add(*runs));
+Status HostLink::Impl::open() {
+  RAVE_TRY(HostConnection::open(options.bus, options.begin_request, options.on_command));
+  RAVE_TRY_ASSIGN(waits, bus::WaitSet::create(*bus));
+  if (managed) {
+    // The obstacles are written by hosts and read by a manager that takes the place of a lost one:
+    // hosts are then the only processes that still know them.
+    RAVE_TRY(bus::open_all(*bus, pings.emplace(), pongs.emplace(), last_obstacles.emplace()));
+    RAVE_TRY(waits.add(*pongs));
   }
-  if (options.managed && options.sees) {
-    RAVE_TRY(make(worlds, *bus));
-    RAVE_TRY(set.add(*worlds));
+  if (managed && options.sees) {
+    RAVE_TRY(worlds.emplace().open(*bus));
+    RAVE_TRY(waits.add(*worlds));
   }
   if (options.talks) {
-    RAVE_TRY(make(packets_out, *bus));
-    RAVE_TRY(make(packets_in, *bus));
-    RAVE_TRY(set.add(*packets_in));
+    RAVE_TRY(bus::open_all(*bus, packets_out.emplace(), packets_in.emplace()));
+    RAVE_TRY(waits.add(*packets_in));
   }
   if (!options.host_of.empty()) {
-    RAVE_TRY_ASSIGN(Realities made, Realities::create(*bus, options.self.host, options.host_of));
-    realities.emplace(std::move(made));
+    RAVE_TRY_ASSIGN(realities, Realities::create(*bus, self.host, options.host_of));
   }
-  // These wake the wait as well, so a stop that arrives between two steps is handled at once.
-  RAVE_TRY_ASSIGN(requests, bus::RequestBox::create(*bus, options.begin_request, options.log));
-  if (requests) RAVE_TRY(requests->wake(set));
-  RAVE_TRY_ASSIGN(commands, bus::CommandBox::create(*bus, options.on_command));
-  if (commands) RAVE_TRY(commands->wake(set));
-  RAVE_TRY(set.add_events());
-  waits.emplace(std::move(set));
-  RAVE_TRY(make(pulse, *bus, options.self));
-  RAVE_TRY(make(host_word, *bus, options.self.host, options.self.name));
-  // The introduction comes last: from then on the manager answers, and all readers must exist.
-  introduced = lock_step::introduction(options.self);
-  return own_info.write(introduced);
+  return join(waits);
 }
 
 void HostLink::Impl::ping() {
@@ -113,7 +77,7 @@ void HostLink::Impl::ping() {
 }
 
 bool HostLink::Impl::ready() const {
-  if (!options.managed) return true;
+  if (!managed) return true;
   if (!time.known() || pongs_heard < kFirstReadings / 2) return false;
   // Without the obstacles of the run, robots could start inside one that was added.
   if (live.heard_revision() < obstacle_revision) return false;
@@ -123,9 +87,9 @@ bool HostLink::Impl::ready() const {
 void HostLink::Impl::start_clock() {
   // Fixed from here on: drivers and steps need a time that never jumps. shift() puts later
   // corrections into the stamps of messages.
-  if (!options.managed) time.begin_alone(local_ns());
+  if (!managed) time.begin_alone(local_ns());
   zero_ns = time.zero_ns();
-  started = true;
+  begun = true;
   last_world = Clock::now();
   told.clear();
   if (const auto reading = time.reading(local_ns())) {
@@ -159,21 +123,14 @@ HostLink::HostLink(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 HostLink::~HostLink() = default;
 
 Result<std::unique_ptr<HostLink>> HostLink::open(Options options, LiveWorld& world) {
-  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(options.bus));
-  RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
-  RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
-  RAVE_TRY_ASSIGN(auto states, bus::Writer<bus::HostState>::create(*bus));
-  RAVE_TRY_ASSIGN(auto roster, lock_step::Roster::create(*bus, options.self.host));
-  std::unique_ptr<Impl> impl(new Impl{std::move(options), world, std::move(bus),
-                                      std::move(own_info), std::move(infos), std::move(states),
-                                      std::move(roster)});
-  RAVE_TRY(impl->open_endpoints());
+  auto impl = std::make_unique<Impl>(std::move(options), world);
+  RAVE_TRY(impl->open());
   return std::unique_ptr<HostLink>(new HostLink(std::move(impl)));
 }
 
 Result<bool> HostLink::await_start(const std::function<bool()>& stopping) {
   Impl& link = *impl_;
-  if (link.options.managed) {
+  if (link.managed) {
     link.tell_once(LogLevel::kInfo, "waits for the environment manager of the run");
   }
   auto look_at = Clock::now() + kLook;
@@ -184,11 +141,11 @@ Result<bool> HostLink::await_start(const std::function<bool()>& stopping) {
     link.ping();
     if (Clock::now() >= look_at) {
       look_at += kLook;
-      link.look_at_patience();
+      link.look_at_patience(link.options.manager_patience);
       if (stopping() || link.ending) return false;
     }
     // Short, because the first clock readings are 10 ms apart.
-    static_cast<void>(link.waits->wait(Duration{std::chrono::nanoseconds(kHurry).count()}));
+    static_cast<void>(link.waits.wait(Duration{std::chrono::nanoseconds(kHurry).count()}));
   }
   link.start_clock();
   return true;
@@ -197,8 +154,8 @@ Result<bool> HostLink::await_start(const std::function<bool()>& stopping) {
 std::chrono::steady_clock::time_point HostLink::zero() const noexcept {
   return Clock::time_point(std::chrono::nanoseconds(impl_->zero_ns));
 }
-void HostLink::count_real(std::uint32_t robots) noexcept { impl_->pulse->count_real(robots); }
-lock_step::HostWord& HostLink::word() noexcept { return *impl_->host_word; }
+void HostLink::count_real(std::uint32_t robots) noexcept { impl_->pulse.count_real(robots); }
+lock_step::HostWord& HostLink::word() noexcept { return impl_->host_word; }
 bus::Bus& HostLink::bus() noexcept { return *impl_->bus; }
 lock_step::Roster& HostLink::roster() noexcept { return impl_->roster; }
 std::span<const RobotSight> HostLink::starts() const noexcept { return impl_->starts; }
@@ -214,7 +171,7 @@ void HostLink::listen_until(std::chrono::steady_clock::time_point due) {
     // An idle wait ends in time for the next clock reading, too.
     const auto until = pings ? std::min(due, std::max(now, link.ping_at)) : due;
     const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(until - now);
-    static_cast<void>(link.waits->wait(Duration{left.count()}));
+    static_cast<void>(link.waits.wait(Duration{left.count()}));
   }
   link.watch_worlds();
 }
@@ -222,22 +179,9 @@ void HostLink::listen_until(std::chrono::steady_clock::time_point due) {
 void HostLink::tell(const sim::Engine& engine, std::span<const RobotId> robots, bool reports) {
   Impl& link = *impl_;
   // In every step, also if nothing is due: contacts are events of one step.
-  link.reports.note_contacts(engine);
-  const Duration shift = link.shift();
-  link.columns.clear();
-  for (const RobotId robot : robots) link.columns.add(engine, robot, shift);
-  link.reports.clear();
-  if (reports) {
-    for (const RobotId robot : robots) link.reports.add(engine, robot);
-  }
-  if (link.columns.size() == 0 && (robots.empty() || !reports)) return;
-  bus::HostState message{};
-  message.host = link.options.self.host;
-  message.step = engine.steps_done();
-  link.facts.step = message.step;
-  link.columns.lend(message.resolved);
-  link.reports.lend(message.reports);
-  static_cast<void>(link.states.write(message));
+  link.reports_out.note_contacts(engine);
+  link.facts.step = engine.steps_done();
+  link.publish(engine, robots, reports, link.shift());
 }
 
 void HostLink::send(const sim::SentPackets& sent) {
@@ -282,16 +226,7 @@ void HostLink::obstacles_shown() {
 }
 
 Status HostLink::deliver(std::span<const std::byte> host_results) {
-  Impl& link = *impl_;
-  if (link.started) {
-    const bool good = !link.ending || link.ending->good;
-    // Monitors learn the end from the host itself, because a run may have no manager, and a GUI
-    // Server does not hear it.
-    link.host_word->tell_end(good, link.facts.step, link.ending ? link.ending->text : "");
-  }
-  if (!link.host_results || !link.started) return {};
-  return link.host_results->send(link.options.self.host, host_results,
-                                 lock_step::kHostResultsPatience);
+  return impl_->deliver(host_results, impl_->facts.step);
 }
 
 std::vector<RobotReality> HostLink::take_realities() {
@@ -300,12 +235,14 @@ std::vector<RobotReality> HostLink::take_realities() {
 
 Duration HostLink::world_age() const {
   const Impl& link = *impl_;
-  if (!link.worlds || !link.started) return {};
+  if (!link.worlds || !link.begun) return {};
   return {std::chrono::nanoseconds(Clock::now() - link.last_world).count()};
 }
 
 std::optional<bus::ClockReading> HostLink::clock() const { return impl_->time.reading(local_ns()); }
-const std::optional<HostLink::Ending>& HostLink::ending() const noexcept { return impl_->ending; }
+const std::optional<lock_step::RunEnding>& HostLink::ending() const noexcept {
+  return impl_->ending;
+}
 std::vector<RobotId> HostLink::take_flooders() { return std::exchange(impl_->flooders, {}); }
 std::uint64_t HostLink::withheld_packets() const noexcept { return impl_->packets_withheld; }
 std::uint64_t HostLink::unsent_packets() const noexcept { return impl_->packets_unsent; }

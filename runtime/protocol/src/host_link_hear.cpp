@@ -5,7 +5,6 @@
 
 #include "host_link_impl.hpp"
 #include "rave/bus/sequence.hpp"
-#include "rave/bus/standstill.hpp"
 
 namespace rave::real_time {
 namespace {
@@ -17,39 +16,12 @@ constexpr std::int64_t kJump_ns = 1'000'000;
 
 }  // namespace
 
-void HostLink::Impl::meet(const bus::HostInfo& info) {
-  const char* const machine = *info.machine != '\0' ? info.machine : "this machine";
-  if (info.host == rave_wire_kNone) {
-    // An introduction without a host number is that of a manager.
-    if (!options.managed) return;
-    if (auto fits = lock_step::check_fits(options.self, info); !fits) {
-      // A manager of another scenario must not end this run by its words.
-      words.shut_out(info.writer);
-      if (started) tell_foreign(LogLevel::kError, "refused: " + fits.error().message);
-      // Before the start this ends await_start(). Afterwards it is not read, and the run
-      // continues.
-      unfit = std::move(fits).error();
-      return;
-    }
-    words.welcome(info.writer);
-    const auto same = [&](const auto& known) { return known.writer == info.writer; };
-    if (std::any_of(managers.begin(), managers.end(), same)) return;
-    managers.push_back(info);
-    // A second manager is only remembered: this host listens to the first until that one is lost.
-    if (managers.size() == 1) listen_to_first();
-    return;
-  }
-  // A process that is part of the run already stays.
-  if (info.host != options.self.host || started || !lock_step::gives_way(introduced, info)) return;
-  unfit = Error{ErrorCode::kState,
-                fmt::format("host `{}` of this run is served already, by a process on {}; end that "
-                            "one first, or choose another host",
-                            options.self.name, machine),
-                {}};
-}
-
-void HostLink::Impl::take_infos() {
-  infos.take([this](const bus::HostInfo& info) { meet(info); });
+void HostLink::Impl::meet_manager(const bus::HostInfo& info) {
+  const auto same = [&](const auto& known) { return known.writer == info.writer; };
+  if (std::any_of(managers.begin(), managers.end(), same)) return;
+  managers.push_back(info);
+  // A second manager is only remembered: this host listens to the first until that one is lost.
+  if (managers.size() == 1) listen_to_first();
 }
 
 void HostLink::Impl::take_pongs() {
@@ -92,7 +64,7 @@ void HostLink::Impl::take_worlds() {
       const RobotSight sight = read_robot(world.robots, i, back);
       // LiveWorld refuses robots of this host. Before the start they show where an earlier process
       // of this host left them, and where they begin again.
-      if (!live.see(sight) && !started) {
+      if (!live.see(sight) && !begun) {
         std::erase_if(starts, [&](const auto& start) { return start.robot == sight.robot; });
         starts.push_back(sight);
       }
@@ -143,7 +115,7 @@ void HostLink::Impl::take_packets() {
     note_number(packet);
     sim::SentPacket sent = read_packet(packet, Duration{-shift().ns});
     // The clocks are unrelated, so the time of reception counts as the time of sending.
-    if (!options.managed) sent.stamp_ns = INT64_MAX;
+    if (!managed) sent.stamp_ns = INT64_MAX;
     live.hear(packet.writer, sent, payload_of(packet));
   });
 }
@@ -155,11 +127,11 @@ void HostLink::Impl::hear(const lock_step::RunWord& word) {
       return;
     case rave_wire_RUN_GATHERING:
     case rave_wire_RUN_WAITS:
-      if (!started) tell_foreign(LogLevel::kWarning, word.text);
+      if (!begun) tell_foreign(LogLevel::kWarning, word.text);
       return;
     case rave_wire_RUN_ENDED:
     case rave_wire_RUN_FAILED:
-      ending = Ending{word.phase == rave_wire_RUN_ENDED, word.text};
+      ending = lock_step::RunEnding{word.phase == rave_wire_RUN_ENDED, word.text};
       return;
   }
 }
@@ -173,85 +145,48 @@ void HostLink::Impl::listen_to_first() {
   ping_at = {};
   // A new reader receives all obstacles, also those published before this process listened to this
   // manager.
-  obstacles.reset();
-  if (auto made = make(obstacles, *bus); !made) unfit = std::move(made).error();
-  const char* const machine = managers.front().machine;
-  tell_once(LogLevel::kInfo,
-            fmt::format("the environment manager is `{}` on {}", managers.front().name,
-                        *machine != '\0' ? machine : "this machine"));
+  if (auto made = obstacles.emplace().open(*bus); !made) unfit = std::move(made).error();
+  tell_manager(managers.front());
 }
 
 void HostLink::Impl::lose(std::uint64_t writer) {
+  if (realities) realities->lose(writer);
   std::erase_if(managers, [&](const auto& info) { return info.writer == writer; });
   if (writer != manager) return;
   manager = 0;
   alone_since = Clock::now();
   if (!ending) {
-    tell_once(LogLevel::kError, started ? "the environment manager is lost; this host continues "
-                                          "without the others until one is back"
-                                        : "the environment manager is lost");
+    tell_once(LogLevel::kError, begun ? "the environment manager is lost; this host continues "
+                                        "without the others until one is back"
+                                      : "the environment manager is lost");
   }
   // The next manager may have appeared before the loss of this one was detected.
   if (!managers.empty()) listen_to_first();
 }
 
-/// A process started for a run that no longer exists must not wait forever for its beginning.
-void HostLink::Impl::look_at_patience() {
-  const Duration longest = options.manager_patience;
-  if (!options.managed || ending || longest.ns <= 0 || manager != 0) return;
-  const auto since = std::max(alone_since, bus->standstill().silence_counts_from());
-  if (Clock::now() - since < std::chrono::nanoseconds(longest.ns)) return;
-  ending =
-      Ending{false, fmt::format("there was no environment manager for {} s", longest.seconds())};
-  tell(LogLevel::kError, "gives up: " + ending->text);
-}
-
-/// Work that can wait until nothing else is due.
-/// Introductions come before the states of the run, because a state counts only if its manager is
-/// known to be of this run. Losses come last, so that the last words of a lost process still count.
-void HostLink::Impl::look() {
-  take_infos();
-  if (runs) {
-    runs->take([this](const bus::RunState& state) {
-      words.hear(lock_step::run_word(state, options.self.host));
-    });
-  }
-  for (const lock_step::RunWord& word : words.take()) hear(word);
-  for (const bus::BusEvent& event : bus->take_events()) {
-    using enum bus::EventKind;
-    if (event.kind == kParticipantLost && event.writer != 0) {
-      if (realities) realities->lose(event.writer);
-      lose(event.writer);
-      continue;
-    }
-    foreign.note(event);
-  }
-}
-
 /// For monitors.
 void HostLink::Impl::tell_word() {
   lock_step::HostWord::Facts said{rave_wire_RUN_RUNNING, facts.step, ""};
-  said.managed = options.managed;
+  said.managed = managed;
   said.manager_here = manager != 0;
-  if (!started) {
+  if (!begun) {
     said.phase = rave_wire_RUN_GATHERING;
     said.text = told;
   }
-  host_word->tell(said);
+  host_word.tell(said);
 }
 
 void HostLink::Impl::take() {
   // The order: first what must not be late (the pulse, clock answers, whose reception is stamped),
   // then data for the next step. Obstacles come last, because look() may change the manager and
   // with it their reader.
-  pulse->beat(facts);
+  pulse.beat(facts);
   tell_word();
   if (pongs) take_pongs();
   if (worlds) take_worlds();
   if (packets_in) take_packets();
   if (realities) realities->hear();
-  if (requests) requests->serve();
-  if (commands) commands->serve();
+  serve();
   look();
   if (obstacles) take_obstacles();
 }

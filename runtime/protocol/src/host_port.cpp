@@ -27,17 +27,12 @@ constexpr std::uint64_t kHandedOver = 1;
 void HostPort::Impl::tell_word(std::uint64_t step) {
   const bool stands = manager == 0 || !told.empty();
   const auto phase = stands ? rave_wire_RUN_WAITS : rave_wire_RUN_RUNNING;
-  host_word->tell({has_world ? phase : rave_wire_RUN_GATHERING, step, told, true, manager != 0});
-}
-
-void HostPort::Impl::serve() {
-  if (requests) requests->serve();
-  if (commands) commands->serve();
+  host_word.tell({begun ? phase : rave_wire_RUN_GATHERING, step, told, true, manager != 0});
 }
 
 Status HostPort::Impl::send(const sim::HostReport& report, std::uint64_t hash,
                             const sim::WorldStep& last) {
-  if (has_world && epoch == 0) {
+  if (begun && epoch == 0) {
     // A manager that replaces a lost one continues from this state.
     sim::AuthorityState whole = authority;
     whole.obstacles = obstacles.changes();
@@ -88,7 +83,7 @@ bool HostPort::Impl::take_world(const sim::HostReport& report, sim::WorldStep& w
     }
     std::swap(world, coming);
     last_step = world.step;
-    has_world = true;
+    begun = true;
     authority = std::move(state);
     epoch = sample.epoch;
     if (first_epoch == 0) first_epoch = epoch;
@@ -102,40 +97,21 @@ bool HostPort::Impl::take_world(const sim::HostReport& report, sim::WorldStep& w
 HostPort::HostPort(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 HostPort::~HostPort() = default;
 
+Status HostPort::Impl::open(const bus::BusConfig& config, bus::BeginRequest begin_request,
+                            bus::OnCommand on_command) {
+  RAVE_TRY(HostConnection::open(config, std::move(begin_request), std::move(on_command)));
+  RAVE_TRY(bus::open_all(*bus, reports, last_worlds, worlds));
+  RAVE_TRY_ASSIGN(waits, bus::WaitSet::create(*bus));
+  RAVE_TRY(waits.add(worlds));
+  return join(waits);
+}
+
 Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, Identity identity,
                                                  LogSink* log, Patience patience,
                                                  bus::BeginRequest begin_request,
                                                  bus::OnCommand on_command) {
-  RAVE_TRY_ASSIGN(auto bus, bus::Bus::open(config));
-  RAVE_TRY_ASSIGN(auto reports, bus::Writer<bus::HostReport>::create(*bus));
-  RAVE_TRY_ASSIGN(auto own_info, bus::Writer<bus::HostInfo>::create(*bus));
-  RAVE_TRY_ASSIGN(auto last_worlds, bus::Writer<bus::LastWorld>::create(*bus));
-  RAVE_TRY_ASSIGN(auto worlds, bus::Reader<bus::WorldStep>::create(*bus));
-  RAVE_TRY_ASSIGN(auto states, bus::Reader<bus::RunState>::create(*bus));
-  RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
-  RAVE_TRY_ASSIGN(auto waits, bus::WaitSet::create(*bus));
-  RAVE_TRY_ASSIGN(auto pulse, Pulse::create(*bus, identity));
-  RAVE_TRY_ASSIGN(auto roster, Roster::create(*bus, identity.host));
-  RAVE_TRY_ASSIGN(auto host_results, HostResultsSender::create(*bus));
-  RAVE_TRY_ASSIGN(auto requests, bus::RequestBox::create(*bus, std::move(begin_request), log));
-  RAVE_TRY_ASSIGN(auto commands, bus::CommandBox::create(*bus, std::move(on_command)));
-  RAVE_TRY(waits.add(worlds));
-  RAVE_TRY(waits.add(states));
-  RAVE_TRY(waits.add(infos));
-  if (requests) RAVE_TRY(requests->wake(waits));
-  if (commands) RAVE_TRY(commands->wake(waits));
-  RAVE_TRY(waits.add_events());
-  bus::HostInfo info = introduction(identity);
-  RAVE_TRY(own_info.write(info));
-  std::unique_ptr<Impl> impl(
-      new Impl{std::move(identity), log, bus::EventLog(log), std::move(bus), std::move(reports),
-               std::move(own_info), std::move(last_worlds), std::move(worlds), std::move(states),
-               std::move(infos), std::move(requests), std::move(commands), std::move(waits),
-               std::move(pulse), std::move(roster), std::move(host_results), info, patience});
-  RAVE_TRY_ASSIGN(auto states_out, bus::Writer<bus::HostState>::create(*impl->bus));
-  impl->states_out.emplace(std::move(states_out));
-  RAVE_TRY_ASSIGN(auto word, HostWord::create(*impl->bus, impl->self.host, impl->self.name));
-  impl->host_word.emplace(std::move(word));
+  auto impl = std::make_unique<Impl>(std::move(identity), log, patience);
+  RAVE_TRY(impl->open(config, std::move(begin_request), std::move(on_command)));
   return std::unique_ptr<HostPort>(new HostPort(std::move(impl)));
 }
 
@@ -163,10 +139,10 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
       port.told.clear();
       return Answer::kWorld;
     }
-    port.look_at_processes();
+    port.look();
     port.look_at_patience();
     if (port.unfit) return tl::unexpected(*port.unfit);
-    if (port.over) return Answer::kEnded;
+    if (port.ending) return Answer::kEnded;
     // Checked rarely: usually the answer to a step arrives earlier.
     if (Clock::now() < next_stop && !next.asked.stop_requested()) continue;
     const std::size_t inputs = report.inputs.size();
@@ -187,37 +163,20 @@ void HostPort::show(const sim::Engine& engine, std::span<const RobotId> robots) 
   const auto now = Clock::now();
   if (now < port.next_show) return;
   port.next_show = now + kShowInterval;
-  if (port.states_out->readers() == 0) return;
-  port.columns.clear();
-  port.reports_out.clear();
-  for (const RobotId robot : robots) {
-    port.columns.add(engine, robot, Duration{});
-    port.reports_out.add(engine, robot);
-  }
-  if (robots.empty()) return;
-  bus::HostState message{};
-  message.host = port.self.host;
-  message.step = engine.steps_done();
-  port.columns.lend(message.resolved);
-  port.reports_out.lend(message.reports);
-  // A monitor that is too slow misses some messages.
-  static_cast<void>(port.states_out->write(message));
+  if (port.states.readers() > 0) port.publish(engine, robots, true, Duration{});
 }
 
 void HostPort::serve() { impl_->serve(); }
 const std::string& HostPort::waits_for() const noexcept { return impl_->told; }
-HostWord& HostPort::word() noexcept { return *impl_->host_word; }
+HostWord& HostPort::word() noexcept { return impl_->host_word; }
 bus::Bus& HostPort::bus() noexcept { return *impl_->bus; }
 Roster& HostPort::roster() noexcept { return impl_->roster; }
 const sim::AuthorityState& HostPort::authority() const noexcept { return impl_->authority; }
 bool HostPort::changed_hands() const noexcept { return impl_->changed_hands; }
-const HostPort::Ending& HostPort::ending() const noexcept { return impl_->ending; }
+const std::optional<RunEnding>& HostPort::ending() const noexcept { return impl_->ending; }
 
 Status HostPort::deliver(std::span<const std::byte> host_results) {
-  Impl& port = *impl_;
-  if (!port.has_world) return {};
-  port.host_word->tell_end(!port.over || port.ending.good, port.last_step, port.ending.text);
-  return port.host_results.send(port.self.host, host_results, kHostResultsPatience);
+  return impl_->deliver(host_results, impl_->last_step);
 }
 
 void HostPort::farewell(const sim::HostReport& report, std::uint64_t hash) {

@@ -31,11 +31,6 @@ Status nobody(bool listened) {
 
 }  // namespace
 
-Result<HostResultsSender> HostResultsSender::create(bus::Bus& bus) {
-  RAVE_TRY_ASSIGN(auto writer, bus::Writer<bus::HostResultsPart>::create(bus));
-  return HostResultsSender(std::move(writer));
-}
-
 Status HostResultsSender::send(std::uint32_t host, std::span<const std::byte> bytes,
                                Duration patience) {
   // Remembered before sending, so that the error can tell a manager that was lost meanwhile from
@@ -126,11 +121,6 @@ Status HostResultsParts::finish(std::uint64_t writer, Partial partial) {
 }
 
 std::vector<HostResults> HostResultsParts::hand_out() { return std::exchange(whole_, {}); }
-
-Result<HostResultsCollector> HostResultsCollector::create(bus::Bus& bus) {
-  RAVE_TRY_ASSIGN(auto reader, bus::Reader<bus::HostResultsPart>::create(bus));
-  return HostResultsCollector(std::move(reader));
-}
 
 void HostResultsCollector::take(const std::function<bool(std::uint64_t, std::uint32_t)>& served) {
   const auto hear = [&](const bus::HostResultsPart& part) {

@@ -9,11 +9,6 @@
 
 namespace rave::lock_step {
 
-Result<HostWord> HostWord::create(bus::Bus& bus, std::uint32_t host, std::string name) {
-  RAVE_TRY_ASSIGN(auto writer, bus::Writer<bus::HostRun>::create(bus));
-  return HostWord(std::move(writer), host, std::move(name));
-}
-
 void HostWord::describe(std::string scenario, std::uint64_t steps, double step_s) {
   scenario_ = std::move(scenario);
   steps_ = steps;

@@ -33,18 +33,14 @@ std::uint64_t memory_bytes() {
 
 }  // namespace
 
-Pulse::Pulse(bus::Bus& bus, bus::Writer<bus::ProcessState> writer, const Identity& self,
-             std::chrono::nanoseconds period)
-    : bus_(&bus), writer_(std::move(writer)), period_(period) {
+Status Pulse::open(bus::Bus& bus, const Identity& self, std::chrono::nanoseconds period) {
+  bus_ = &bus;
+  period_ = period;
   state_.host = self.host;
   state_.robots = self.robots;
   state_.real_robots = self.real_robots;
   state_.process = static_cast<std::uint32_t>(::getpid());
-}
-
-Result<Pulse> Pulse::create(bus::Bus& bus, const Identity& self, std::chrono::nanoseconds period) {
-  RAVE_TRY_ASSIGN(auto writer, bus::Writer<bus::ProcessState>::create(bus));
-  return Pulse(bus, std::move(writer), self, period);
+  return writer_.open(bus);
 }
 
 void Pulse::count_real(std::uint32_t robots) noexcept {

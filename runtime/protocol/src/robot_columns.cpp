@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/protocol/robot_columns.hpp"
 
+#include "rave/bus/sequence.hpp"
 #include "rave/math/transform.hpp"
 
 namespace rave::lock_step {

@@ -21,11 +21,6 @@ bus::RosterEntry describe(const sim::EngineSpec& spec, RobotId robot) {
   return entry;
 }
 
-Result<Roster> Roster::create(bus::Bus& bus, std::uint32_t host) {
-  RAVE_TRY_ASSIGN(auto writer, bus::Writer<bus::RosterEntry>::create(bus));
-  return Roster(std::move(writer), host);
-}
-
 Status Roster::tell(const sim::EngineSpec& spec, const std::function<Driver(RobotId)>& driver_of) {
   Status wrong;
   while (!due_.empty()) {

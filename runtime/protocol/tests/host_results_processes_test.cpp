@@ -38,7 +38,7 @@ struct Host {
     auto opened = bus::Bus::open(domain.config("host"));
     if (!opened) return;
     bus = *std::move(opened);
-    if (auto created = HostResultsSender::create(*bus)) sender.emplace(*std::move(created));
+    if (!sender.emplace().open(*bus)) sender.reset();
   }
   [[nodiscard]] bool meets(std::size_t managers) const {
     return sender && eventually([&] { return sender->readers() == managers; });

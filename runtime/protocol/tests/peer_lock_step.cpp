@@ -21,22 +21,24 @@ using namespace lock_step::testing;
 
 /// A manager that does nothing but collect.
 void collect(Bus& bus) {
-  auto collector = HostResultsCollector::create(bus);
+  HostResultsCollector collector;
+  static_cast<void>(collector.open(bus));
   auto waits = WaitSet::create(bus);
-  static_cast<void>(collector->wake(*waits));
+  static_cast<void>(collector.wake(*waits));
   say("ready");
   while (!ended(0)) {
     static_cast<void>(waits->wait(Duration{20'000'000}));
-    collector->take([](std::uint64_t, std::uint32_t) { return true; });
-    for (const HostResults& whole : collector->hand_out()) say(whole_line(whole.host, whole.bytes));
+    collector.take([](std::uint64_t, std::uint32_t) { return true; });
+    for (const HostResults& whole : collector.hand_out()) say(whole_line(whole.host, whole.bytes));
   }
 }
 
 /// A host that waits for `managers` to be there. A byte on the input: its run is over; it gives
 /// them two seconds to take what it knows.
 void deliver(Bus& bus, const Arguments& arguments) {
-  auto sender = HostResultsSender::create(bus);
-  while (sender->readers() < std::stoul(arguments.at("managers"))) {
+  HostResultsSender sender;
+  static_cast<void>(sender.open(bus));
+  while (sender.readers() < std::stoul(arguments.at("managers"))) {
     if (ended(5)) return;
   }
   say("met");
@@ -44,7 +46,7 @@ void deliver(Bus& bus, const Arguments& arguments) {
   if (::read(STDIN_FILENO, &byte, 1) != 1) return;
   const auto host = static_cast<std::uint32_t>(std::stoul(arguments.at("host")));
   const auto bytes = made_host_results(host, std::stoul(arguments.at("size")));
-  const Status sent = sender->send(host, bytes, from_seconds(2));
+  const Status sent = sender.send(host, bytes, from_seconds(2));
   say(sent ? "sent" : sent.error().message);
   while (!ended(-1)) continue;
 }
@@ -55,7 +57,8 @@ void pulse(Bus& bus) {
   Identity self;
   self.name = "left";
   self.robots = 3;
-  auto pulse = Pulse::create(bus, self, std::chrono::hours(1));
+  Pulse pulse;
+  static_cast<void>(pulse.open(bus, self, std::chrono::hours(1)));
   char begin = 0;
   if (::read(STDIN_FILENO, &begin, 1) != 1) return;
   for (bool known = false; !known;) {
@@ -66,12 +69,12 @@ void pulse(Bus& bus) {
   }
   std::uint32_t real = 0;
   while (true) {
-    pulse->beat({});
+    pulse.beat({});
     pollfd input{STDIN_FILENO, POLLIN, 0};
     if (::poll(&input, 1, 5) <= 0) continue;
     char byte = 0;
     if (::read(STDIN_FILENO, &byte, 1) <= 0) return;
-    pulse->count_real(++real);
+    pulse.count_real(++real);
   }
 }
 

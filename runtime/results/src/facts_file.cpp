@@ -2,9 +2,8 @@
 #include "rave/results/facts_file.hpp"
 
 #include <algorithm>
-#include <concepts>
 
-#include "rave/record/cdr.hpp"
+#include "rave/record/cdr_archive.hpp"
 #include "rave/sim/guard.hpp"
 
 namespace rave::runtime {
@@ -13,18 +12,13 @@ namespace {
 constexpr const char* kMark = "rave findings";
 constexpr std::uint32_t kVersion = 3;
 
-/// The list of members and their order, used for reading and writing: each member is passed to
-/// `archive`.
-/// One list serves reading and writing, so the two cannot disagree. A change of it needs another
-/// kVersion.
+/// The list of members and their order. A change of it needs another kVersion.
 template <class Archive>
 struct Members {
   Archive& archive;
 
   void of(Vec2& v) { archive(v.x, v.y); }
   void of(Pose2& v) { archive(v.x, v.y, v.yaw); }
-  void of(RobotId& v) { archive.id(v); }
-  void of(BodyId& v) { archive.id(v); }
   void of(sim::Event& v) { archive(v.step, v.robot, v.kind, v.other, v.text, v.detail); }
   void of(sim::RadioCounts& v) {
     archive(v.offered, v.refused, v.sent, v.lost_queue, v.lost_device, v.addressed, v.delivered,
@@ -63,115 +57,6 @@ struct Members {
             v.streams, v.transmitters, v.radio, v.inputs_by_hand, v.lateness, v.hits, v.closest,
             v.sightings, v.goals, v.capture, v.tracks, v.instant, v.shadows, v.world);
   }
-};
-
-template <class T>
-concept Plain = std::integral<T> || std::floating_point<T>;
-
-class Writer {
- public:
-  template <class... T>
-  void operator()(T&... values) {
-    (put(values), ...);
-  }
-  template <class Id>
-  void id(Id& value) {
-    cdr_.put(value.value());
-  }
-  [[nodiscard]] std::vector<std::byte> bytes() const {
-    return {cdr_.bytes().begin(), cdr_.bytes().end()};
-  }
-
- private:
-  template <class T>
-  void put(T& value) {
-    if constexpr (std::same_as<T, bool>) {
-      cdr_.put(static_cast<std::uint8_t>(value ? 1 : 0));
-    } else if constexpr (Plain<T>) {
-      cdr_.put(value);
-    } else if constexpr (std::is_enum_v<T>) {
-      cdr_.put(static_cast<std::uint32_t>(value));
-    } else {
-      Members<Writer>{*this}.of(value);
-    }
-  }
-  void put(std::string& value) { cdr_.put_string(value); }
-  template <class T>
-  void put(std::optional<T>& value) {
-    cdr_.put(static_cast<std::uint8_t>(value ? 1 : 0));
-    if (value) put(*value);
-  }
-  template <class T>
-  void put(std::vector<T>& values) {
-    cdr_.put_count(values.size());
-    for (T& value : values) put(value);
-  }
-  template <class Key, class T>
-  void put(std::map<Key, T>& values) {
-    cdr_.put_count(values.size());
-    for (auto& [key, value] : values) {
-      // Keys of a map are constant, and put() takes the same references as the reader.
-      Key copy = key;
-      put(copy);
-      put(value);
-    }
-  }
-
-  record::CdrWriter cdr_;
-};
-
-class Reader {
- public:
-  explicit Reader(std::span<const std::byte> bytes) : cdr_(bytes) {}
-
-  template <class... T>
-  void operator()(T&... values) {
-    (take(values), ...);
-  }
-  template <class Id>
-  void id(Id& value) {
-    value = Id(cdr_.get<std::uint32_t>());
-  }
-  [[nodiscard]] bool ok() const { return cdr_.ok(); }
-
- private:
-  template <class T>
-  void take(T& value) {
-    if constexpr (std::same_as<T, bool>) {
-      value = cdr_.get<std::uint8_t>() != 0;
-    } else if constexpr (Plain<T>) {
-      value = cdr_.get<T>();
-    } else if constexpr (std::is_enum_v<T>) {
-      value = static_cast<T>(cdr_.get<std::uint32_t>());
-    } else {
-      Members<Reader>{*this}.of(value);
-    }
-  }
-  void take(std::string& value) { value = cdr_.get_string(); }
-  template <class T>
-  void take(std::optional<T>& value) {
-    value.reset();
-    if (cdr_.get<std::uint8_t>() != 0) take(value.emplace());
-  }
-  /// A count is accepted only if enough bytes follow.
-  template <class T>
-  void take(std::vector<T>& values) {
-    values.clear();
-    const std::uint32_t count = cdr_.get_count(1);
-    for (std::uint32_t i = 0; i < count && cdr_.ok(); ++i) take(values.emplace_back());
-  }
-  template <class Key, class T>
-  void take(std::map<Key, T>& values) {
-    values.clear();
-    const std::uint32_t count = cdr_.get_count(1);
-    for (std::uint32_t i = 0; i < count && cdr_.ok(); ++i) {
-      Key key{};
-      take(key);
-      take(values[key]);
-    }
-  }
-
-  record::CdrReader cdr_;
 };
 
 /// Enumerators are stored as numbers; they are checked before use, because a number may be outside
@@ -251,23 +136,20 @@ bool fits(const RunFacts& facts, const FactsLimits& limits) {
 }  // namespace
 
 std::vector<std::byte> encode_facts(const FactsOf& about, const RunFacts& facts) {
-  Writer writer;
-  std::string mark = kMark;
-  std::uint32_t version = kVersion;
-  // Writing changes nothing; the copy is needed because the same list of members serves reading.
-  FactsOf whose = about;
-  RunFacts copy = facts;
-  writer(mark, version, whose.run_number, whose.host, copy);
-  return writer.bytes();
+  record::CdrWriter writer;
+  record::CdrPut<Members>{writer}(std::string(kMark), kVersion, about.run_number, about.host,
+                                  facts);
+  return {writer.bytes().begin(), writer.bytes().end()};
 }
 
 Result<RunFacts> decode_facts(std::span<const std::byte> bytes, const FactsOf& about,
                               const FactsLimits& limits) {
-  Reader reader(bytes);
+  record::CdrReader reader(bytes);
+  record::CdrTake<Members> take(reader);
   std::string mark;
   std::uint32_t version = 0;
   FactsOf whose;
-  reader(mark, version, whose.run_number, whose.host);
+  take(mark, version, whose.run_number, whose.host);
   if (!reader.ok() || mark != kMark) {
     return fail(ErrorCode::kParse, "not the results file of a host");
   }
@@ -286,7 +168,7 @@ Result<RunFacts> decode_facts(std::span<const std::byte> bytes, const FactsOf& a
                 about.host);
   }
   RunFacts facts;
-  reader(facts);
+  take(facts);
   if (!reader.ok()) return fail(ErrorCode::kParse, "the results are damaged or incomplete");
   if (!fits(facts, limits)) {
     return fail(ErrorCode::kParse, "the results name robots or bodies that do not exist");

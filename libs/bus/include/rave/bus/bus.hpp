@@ -133,4 +133,12 @@ class Bus {
   std::uint64_t refused_samples_ = 0;
 };
 
+/// Opens several writers and readers, up to the first that fails.
+template <class... Ends>
+[[nodiscard]] Status open_all(Bus& bus, Ends&... ends) {
+  Status status;
+  static_cast<void>(((status = ends.open(bus)).has_value() && ...));
+  return status;
+}
+
 }  // namespace rave::bus

@@ -27,8 +27,7 @@ class CommandBox {
   void serve();
 
  private:
-  CommandBox(Reader<Command> commands, OnCommand tell)
-      : commands_(std::move(commands)), tell_(std::move(tell)) {}
+  explicit CommandBox(OnCommand tell) : tell_(std::move(tell)) {}
 
   Reader<Command> commands_;
   OnCommand tell_;

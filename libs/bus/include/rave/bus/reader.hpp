@@ -20,8 +20,9 @@ class ReaderCore {
   static constexpr std::size_t kMostAtOnce = 4096;
 
   [[nodiscard]] static Result<ReaderCore> create(Bus& bus, const TopicSpec& topic);
-  ReaderCore(ReaderCore&& other) noexcept;
-  ReaderCore& operator=(ReaderCore&&) = delete;
+  ReaderCore() = default;
+  ReaderCore(ReaderCore&& other) noexcept { *this = std::move(other); }
+  ReaderCore& operator=(ReaderCore&& other) noexcept;
   ~ReaderCore();
 
   /// Begins a take. Returns how many datagrams it may read; 0: all samples come through DDS.
@@ -41,10 +42,8 @@ class ReaderCore {
   [[nodiscard]] dds_entity_t handle() const noexcept { return reader_; }
 
  private:
-  ReaderCore(Bus& bus, const char* topic) : bus_(&bus), topic_(topic) {}
-
-  Bus* bus_;
-  const char* topic_;
+  Bus* bus_ = nullptr;
+  const char* topic_ = nullptr;
   dds_entity_t reader_ = 0;
   LocalReceiver* local_ = nullptr;  ///< Owned by the bus; null: all samples come through DDS.
   std::uint64_t sender_ = 0;        ///< The sender of the last sample of the local transport.
@@ -54,19 +53,27 @@ class ReaderCore {
 template <class Message>
 class Reader {
  public:
+  /// Not open: only open() may be called.
+  Reader() = default;
   /// Creates a reader. Errors: kState (the topic exists with another type), kIo.
   [[nodiscard]] static Result<Reader> create(Bus& bus) {
-    RAVE_TRY_ASSIGN(ReaderCore core, ReaderCore::create(bus, topic_of<Message>()));
-    return Reader(std::move(core));
+    Reader reader;
+    RAVE_TRY(reader.open(bus));
+    return reader;
   }
-  /// Creates a reader with QoS other than the topic's, for monitors: they must not request more
-  /// than writers offer anyway.
-  [[nodiscard]] static Result<Reader> create(Bus& bus, const QosProfile& qos) {
+  /// The same for a member; see open_all().
+  [[nodiscard]] Status open(Bus& bus) {
+    RAVE_TRY_ASSIGN(core_, ReaderCore::create(bus, topic_of<Message>()));
+    return {};
+  }
+  /// The same with QoS other than the topic's, for monitors: they must not request more than
+  /// writers offer anyway.
+  [[nodiscard]] Status open(Bus& bus, const QosProfile& qos) {
     TopicSpec topic = topic_of<Message>();
     topic.qos = qos;
     topic.local_transport = 0;
-    RAVE_TRY_ASSIGN(ReaderCore core, ReaderCore::create(bus, topic));
-    return Reader(std::move(core));
+    RAVE_TRY_ASSIGN(core_, ReaderCore::create(bus, topic));
+    return {};
   }
 
   /// Calls `visit(const Message&)`, or `visit(const Message&, const dds_sample_info_t&)`, for every
@@ -113,8 +120,6 @@ class Reader {
   [[nodiscard]] dds_entity_t handle() const noexcept { return core_.handle(); }
 
  private:
-  explicit Reader(ReaderCore core) : core_(std::move(core)) {}
-
   template <class Visit>
   static constexpr bool kAsksInfo =
       std::is_invocable_v<Visit&, const Message&, const dds_sample_info_t&>;

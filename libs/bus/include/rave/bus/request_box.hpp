@@ -25,12 +25,7 @@ class RequestBox {
   void serve();
 
  private:
-  RequestBox(Reader<Request> requests, Writer<RequestAnswer> answers, std::uint64_t self,
-             RequestBook book)
-      : requests_(std::move(requests)),
-        answers_(std::move(answers)),
-        self_(self),
-        book_(std::move(book)) {}
+  RequestBox(std::uint64_t self, RequestBook book) : self_(self), book_(std::move(book)) {}
 
   Reader<Request> requests_;
   Writer<RequestAnswer> answers_;

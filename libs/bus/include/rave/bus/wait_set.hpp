@@ -29,14 +29,18 @@ enum class Woken : std::uint8_t { kReady, kTimeout, kStopped };
 class WaitSet {
  public:
   [[nodiscard]] static Result<WaitSet> create(Bus& bus);
+  /// Only to be assigned to.
+  WaitSet();
   WaitSet(WaitSet&& other) noexcept;
-  WaitSet& operator=(WaitSet&&) = delete;
+  WaitSet& operator=(WaitSet&& other) noexcept;
   ~WaitSet();
 
-  /// Wakes while the reader has samples that were not taken.
-  template <class Message>
-  [[nodiscard]] Status add(const Reader<Message>& reader) {
-    return add_reader(reader.handle());
+  /// Wakes while one of the readers has samples that were not taken.
+  template <class... Messages>
+  [[nodiscard]] Status add(const Reader<Messages>&... readers) {
+    Status status;
+    static_cast<void>(((status = add_reader(readers.handle())).has_value() && ...));
+    return status;
   }
   /// Wakes when a participant appears or leaves, or when a match of a present writer or reader
   /// changes, until Bus::take_events() is called.
@@ -50,11 +54,10 @@ class WaitSet {
   [[nodiscard]] Woken wait(Duration timeout, const std::stop_token& stop = {});
 
  private:
-  explicit WaitSet(Bus& bus);
   [[nodiscard]] Status add_reader(dds_entity_t reader);
   [[nodiscard]] Status attach(dds_entity_t entity);
 
-  Bus* bus_;
+  Bus* bus_ = nullptr;
   dds_entity_t set_ = 0;
   dds_entity_t stop_ = 0;
   dds_entity_t bell_ = 0;

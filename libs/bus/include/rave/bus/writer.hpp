@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "rave/bus/bus.hpp"
 
@@ -12,8 +13,9 @@ namespace rave::bus {
 class WriterCore {
  public:
   [[nodiscard]] static Result<WriterCore> create(Bus& bus, const TopicSpec& topic);
-  WriterCore(WriterCore&& other) noexcept;
-  WriterCore& operator=(WriterCore&&) = delete;
+  WriterCore() = default;
+  WriterCore(WriterCore&& other) noexcept { *this = std::move(other); }
+  WriterCore& operator=(WriterCore&& other) noexcept;
   ~WriterCore();
 
   [[nodiscard]] Status write(const void* sample);
@@ -23,11 +25,10 @@ class WriterCore {
   [[nodiscard]] dds_entity_t handle() const noexcept { return writer_; }
 
  private:
-  WriterCore(Bus& bus, const char* topic) : bus_(&bus), topic_(topic) {}
   [[nodiscard]] bool goes_locally(const void* sample);
 
-  Bus* bus_;
-  const char* topic_;
+  Bus* bus_ = nullptr;
+  const char* topic_ = nullptr;
   dds_entity_t writer_ = 0;
   LocalSender* local_ = nullptr;  ///< Owned by the bus; null: all samples use DDS.
 };
@@ -36,10 +37,18 @@ class WriterCore {
 template <class Message>
 class Writer {
  public:
+  /// Not open: it has no readers, and only open() may be called.
+  Writer() = default;
   /// Creates a writer. Errors: kState (the topic exists with another type), kIo.
   [[nodiscard]] static Result<Writer> create(Bus& bus) {
-    RAVE_TRY_ASSIGN(WriterCore core, WriterCore::create(bus, topic_of<Message>()));
-    return Writer(std::move(core));
+    Writer writer;
+    RAVE_TRY(writer.open(bus));
+    return writer;
+  }
+  /// The same for a member; see open_all().
+  [[nodiscard]] Status open(Bus& bus) {
+    RAVE_TRY_ASSIGN(core_, WriterCore::create(bus, topic_of<Message>()));
+    return {};
   }
 
   /// Sets the run and writer of a sample and sends it. Its sequences stay owned by the caller and
@@ -62,7 +71,6 @@ class Writer {
   [[nodiscard]] dds_entity_t handle() const noexcept { return core_.handle(); }
 
  private:
-  explicit Writer(WriterCore core) : core_(std::move(core)) {}
   void sign(Message& sample) const {
     std::ranges::copy(core_.bus().config().run.bytes, sample.run);
     sample.writer = core_.bus().writer();

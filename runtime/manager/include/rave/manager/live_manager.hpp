@@ -6,26 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
 #include "rave/base/time.hpp"
-#include "rave/bus/config.hpp"
-#include "rave/bus/request_book.hpp"
-#include "rave/config/expanded_scenario.hpp"
-#include "rave/control/run_control.hpp"
+#include "rave/manager/run_options.hpp"
 #include "rave/protocol/host_results.hpp"
-#include "rave/protocol/introduction.hpp"
 #include "rave/sim/engine_spec.hpp"
 #include "rave/sim/event.hpp"
 
 namespace rave::manager {
 
 /// Configuration of a manager for a run in real time.
-struct LiveManagerOptions {
-  bus::BusConfig bus;
-  lock_step::Identity identity;  ///< `host` is kNone, `real_time` is set.
-  std::string scenario;          ///< Name of the scenario, for people.
-  std::vector<config::PlannedHost> hosts;
+struct LiveManagerOptions : RunOptions {
   /// All robots, by id.
   struct Robot {
     std::string name;
@@ -38,22 +29,8 @@ struct LiveManagerOptions {
   Duration step;          ///< Step of the hosts; for observers.
   Duration duration;      ///< Duration of the run.
   Duration world_period;  ///< Above 0.
-  /// How long the run waits for missing hosts, from the arrival of the first.
-  Duration host_timeout = from_seconds(10);
   /// This process owns the hosts: when it is stopped, it tells them to end.
   bool ends_hosts = false;
-  /// Continue a run that has lost its manager; otherwise hosts whose run has begun are ignored.
-  bool resume = false;
-  /// By host, the command that restarts it after a loss; empty: it is restarted automatically.
-  std::vector<std::string> commands;
-  LogSink* log = nullptr;  ///< Not owned; may be null.
-  /// Called about ten times a second; true ends the run. May be empty.
-  std::function<bool()> stopping;
-  /// Requests to the run; not owned, may be null.
-  runtime::RunControl* control = nullptr;
-  /// Begins a request that arrived on the bus, in the calling thread; empty: such requests are
-  /// refused.
-  bus::BeginRequest begin_request;
   /// Called about ten times a second, in the calling thread, with the time of the run, the
   /// simulated seconds per second of the slowest host, and the hosts that it waits for; may be
   /// empty.

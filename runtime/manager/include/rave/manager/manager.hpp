@@ -7,42 +7,20 @@
 #include <string>
 #include <vector>
 
-#include "rave/base/log.hpp"
 #include "rave/base/result.hpp"
-#include "rave/bus/config.hpp"
-#include "rave/bus/request_book.hpp"
-#include "rave/config/expanded_scenario.hpp"
-#include "rave/control/run_control.hpp"
+#include "rave/manager/run_options.hpp"
 #include "rave/pace/lateness.hpp"
 #include "rave/protocol/host_results.hpp"
-#include "rave/protocol/introduction.hpp"
 #include "rave/sim/engine_spec.hpp"
 #include "rave/sim/world_authority.hpp"
 
 namespace rave::manager {
 
 /// Configuration of a manager for a world that several hosts share in lock-step.
-struct ManagerOptions {
-  bus::BusConfig bus;
-  lock_step::Identity identity;  ///< `host` is kNone.
-  std::string scenario;          ///< Name of the scenario, for people.
-  std::vector<config::PlannedHost> hosts;
+struct ManagerOptions : RunOptions {
   std::uint64_t steps = 0;
   config::LostHost on_lost_host = config::LostHost::kWait;
-  Duration host_timeout = from_seconds(10);
   double pace = 0;  ///< Simulated seconds per second; 0: not limited.
-  /// Continue a run that has lost its manager; otherwise hosts beyond step 0 are ignored.
-  bool resume = false;
-  /// By host, the command that restarts it after a loss; empty: it is restarted automatically.
-  std::vector<std::string> commands;
-  LogSink* log = nullptr;  ///< Not owned; may be null.
-  /// Called about ten times a second; true ends the run. May be empty.
-  std::function<bool()> stopping;
-  /// Requests to the run, also to pause it; not owned, may be null.
-  runtime::RunControl* control = nullptr;
-  /// Begins a request that arrived on the bus, in the calling thread; empty: such requests are
-  /// refused.
-  bus::BeginRequest begin_request;
   /// Passed to `on_progress` about ten times a second, in the calling thread.
   struct Progress {
     std::uint64_t step = 0;

@@ -78,14 +78,7 @@ class Listener {
     double t_s = 0;
     std::uint64_t writer = 0;
   };
-  Listener(bus::Writer<bus::Look> looks, bus::Reader<bus::Readings> readings,
-           bus::Reader<bus::RunEvents> events, bus::Reader<bus::LastObstacle> obstacles,
-           bus::Reader<bus::MapTile> tiles)
-      : looks_(std::move(looks)),
-        readings_in_(std::move(readings)),
-        events_in_(std::move(events)),
-        obstacles_in_(std::move(obstacles)),
-        tiles_in_(std::move(tiles)) {}
+  Listener() = default;
 
   [[nodiscard]] bool is_asked(const LookedAt& sensor) const;
   void hear(const bus::Readings& sample);

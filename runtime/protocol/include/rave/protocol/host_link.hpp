@@ -23,6 +23,7 @@
 #include "rave/protocol/pulse.hpp"
 #include "rave/protocol/realities.hpp"
 #include "rave/protocol/roster.hpp"
+#include "rave/protocol/run_words.hpp"
 #include "rave/sim/engine.hpp"
 
 namespace rave::real_time {
@@ -112,11 +113,7 @@ class HostLink {
   /// The offset of the manager's clock: that clock minus the local one; empty if unknown.
   [[nodiscard]] std::optional<bus::ClockReading> clock() const;
   /// The end of the run according to the manager; empty before.
-  struct Ending {
-    bool good = false;
-    std::string text;
-  };
-  [[nodiscard]] const std::optional<Ending>& ending() const noexcept;
+  [[nodiscard]] const std::optional<lock_step::RunEnding>& ending() const noexcept;
   /// The number of local messages dropped because their robots exceeded the TalkLimit.
   [[nodiscard]] std::uint64_t withheld_packets() const noexcept;
   /// The number of local messages dropped because another process does not keep up.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -19,6 +20,7 @@
 #include "rave/protocol/host_word.hpp"
 #include "rave/protocol/introduction.hpp"
 #include "rave/protocol/roster.hpp"
+#include "rave/protocol/run_words.hpp"
 #include "rave/sim/authority_state.hpp"
 #include "rave/sim/engine.hpp"
 #include "rave/sim/host_report.hpp"
@@ -92,12 +94,8 @@ class HostPort {
   /// Whether the authority has changed during the run, so that the present one has not seen all of
   /// it.
   [[nodiscard]] bool changed_hands() const noexcept;
-  /// After kEnded: whether the run was complete, and a message of its manager.
-  struct Ending {
-    bool good = false;
-    std::string text;
-  };
-  [[nodiscard]] const Ending& ending() const noexcept;
+  /// The end of the run according to the manager; empty before.
+  [[nodiscard]] const std::optional<RunEnding>& ending() const noexcept;
 
   /// Sends a last report without waiting for an answer; its `state` says that this host is done or
   /// has failed.

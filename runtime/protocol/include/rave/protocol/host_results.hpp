@@ -37,8 +37,8 @@ struct HostResults {
 /// bus.
 class HostResultsSender {
  public:
-  /// Errors: those of bus::Writer::create().
-  [[nodiscard]] static Result<HostResultsSender> create(bus::Bus& bus);
+  /// Comes before any send(). Errors: those of bus::Writer::open().
+  [[nodiscard]] Status open(bus::Bus& bus) { return writer_.open(bus); }
 
   /// Sends the results once, and waits until all present managers have acknowledged them, at
   /// most for `patience`. Errors: kInvalidArgument (empty, or more than kMostHostResults), kTimeout
@@ -49,9 +49,6 @@ class HostResultsSender {
   [[nodiscard]] std::size_t readers() const { return writer_.readers(); }
 
  private:
-  explicit HostResultsSender(bus::Writer<bus::HostResultsPart> writer)
-      : writer_(std::move(writer)) {}
-
   bus::Writer<bus::HostResultsPart> writer_;
 };
 
@@ -84,8 +81,8 @@ class HostResultsParts {
 /// The manager's side. Destroy it before its bus; thread: that of the bus.
 class HostResultsCollector {
  public:
-  /// Errors: those of bus::Reader::create().
-  [[nodiscard]] static Result<HostResultsCollector> create(bus::Bus& bus);
+  /// Comes before any take(). Errors: those of bus::Reader::open().
+  [[nodiscard]] Status open(bus::Bus& bus) { return reader_.open(bus); }
   [[nodiscard]] Status wake(bus::WaitSet& waits) { return waits.add(reader_); }
 
   /// Receives parts. Those of a process for which `served(writer, host)` is false, because it did
@@ -95,9 +92,6 @@ class HostResultsCollector {
   [[nodiscard]] std::vector<HostResults> hand_out() { return parts_.hand_out(); }
 
  private:
-  explicit HostResultsCollector(bus::Reader<bus::HostResultsPart> reader)
-      : reader_(std::move(reader)) {}
-
   bus::Reader<bus::HostResultsPart> reader_;
   HostResultsParts parts_;
 };

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "rave/base/result.hpp"
 #include "rave/bus/writer.hpp"
@@ -26,8 +27,13 @@ class HostWord {
     bool manager_here = false;
   };
 
-  /// `host`: its number in the scenario. Errors: those of bus::Writer::create().
-  [[nodiscard]] static Result<HostWord> create(bus::Bus& bus, std::uint32_t host, std::string name);
+  /// Comes before any tell(). `host`: its number in the scenario. Errors: those of
+  /// bus::Writer::open().
+  [[nodiscard]] Status open(bus::Bus& bus, std::uint32_t host, std::string name) {
+    host_ = host;
+    name_ = std::move(name);
+    return writer_.open(bus);
+  }
 
   /// Sets the properties of the run from its scenario.
   void describe(std::string scenario, std::uint64_t steps, double step_s);
@@ -40,13 +46,11 @@ class HostWord {
   static constexpr std::chrono::milliseconds kInterval{200};
   static constexpr std::chrono::milliseconds kMeasure{1000};
 
-  HostWord(bus::Writer<bus::HostRun> writer, std::uint32_t host, std::string name)
-      : writer_(std::move(writer)), host_(host), name_(std::move(name)) {}
   void write(const Facts& facts);
   void measure(std::uint64_t step, Clock::time_point now);
 
   bus::Writer<bus::HostRun> writer_;
-  std::uint32_t host_;
+  std::uint32_t host_ = 0;
   std::string name_;
   std::string scenario_;
   std::uint64_t steps_ = 0;

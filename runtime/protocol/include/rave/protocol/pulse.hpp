@@ -33,9 +33,10 @@ class Pulse {
 
   static constexpr std::chrono::nanoseconds kPeriod{std::chrono::seconds(1)};
 
-  /// `period`: time between two messages without a change. Errors: those of bus::Writer::create().
-  [[nodiscard]] static Result<Pulse> create(bus::Bus& bus, const Identity& self,
-                                            std::chrono::nanoseconds period = kPeriod);
+  /// Comes before any beat(). `period`: time between two messages without a change. Errors: those
+  /// of bus::Writer::open().
+  [[nodiscard]] Status open(bus::Bus& bus, const Identity& self,
+                            std::chrono::nanoseconds period = kPeriod);
 
   /// Call it often: it publishes once per period, and otherwise only reads the clock.
   void beat(const Facts& facts);
@@ -45,13 +46,11 @@ class Pulse {
 
  private:
   using Clock = std::chrono::steady_clock;
-  Pulse(bus::Bus& bus, bus::Writer<bus::ProcessState> writer, const Identity& self,
-        std::chrono::nanoseconds period);
 
-  bus::Bus* bus_;
+  bus::Bus* bus_ = nullptr;
   bus::Writer<bus::ProcessState> writer_;
   bus::ProcessState state_{};
-  std::chrono::nanoseconds period_;
+  std::chrono::nanoseconds period_ = kPeriod;
   Clock::time_point next_{};
 };
 

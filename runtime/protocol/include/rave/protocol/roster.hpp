@@ -21,8 +21,12 @@ namespace rave::lock_step {
 /// change. Destroy it before its bus; thread: that of the bus.
 class Roster {
  public:
-  /// `host`: its number in the scenario. Errors: those of bus::Writer::create().
-  [[nodiscard]] static Result<Roster> create(bus::Bus& bus, std::uint32_t host);
+  /// Comes before any tell(). `host`: its number in the scenario. Errors: those of
+  /// bus::Writer::open().
+  [[nodiscard]] Status open(bus::Bus& bus, std::uint32_t host) {
+    host_ = host;
+    return writer_.open(bus);
+  }
 
   /// Marks a robot of this host as new or changed.
   void note(RobotId robot) { due_.insert(robot.value()); }
@@ -44,11 +48,8 @@ class Roster {
   Status tell(const sim::EngineSpec& spec, const std::function<Driver(RobotId)>& driver_of = {});
 
  private:
-  Roster(bus::Writer<bus::RosterEntry> writer, std::uint32_t host)
-      : writer_(std::move(writer)), host_(host) {}
-
   bus::Writer<bus::RosterEntry> writer_;
-  std::uint32_t host_;
+  std::uint32_t host_ = 0;
   std::set<std::uint32_t> due_;
 };
 

@@ -19,6 +19,12 @@ struct RunWord {
   bool without_us = false;  ///< The run continues without the host that receives this.
 };
 
+/// The end of a run for a host.
+struct RunEnding {
+  bool good = false;  ///< The run was complete.
+  std::string text;   ///< How its manager says it.
+};
+
 /// Decodes a sample of the topic rave/run for the host with this number.
 [[nodiscard]] RunWord run_word(const bus::RunState& state, std::uint32_t host);
 

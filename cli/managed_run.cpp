@@ -35,13 +35,16 @@ Result<std::unique_ptr<runtime::SharedResults>> results_of(const ManagedRun& run
       {run.folder, !run.options.no_picture, !run.options.no_record, &run.console});
 }
 
-lock_step::Identity manager_of(const config::ExpandedScenario& scenario, bool real_time) {
-  return {rave_wire_kNone,
-          "environment manager",
-          0,
-          runtime::shared_number(scenario),
-          runtime::interface_stamp(),
-          real_time};
+lock_step::Identity manager_of(const ManagedRun& run, bool real_time) {
+  lock_step::Identity self{rave_wire_kNone,
+                           "environment manager",
+                           0,
+                           runtime::shared_number(run.scenario),
+                           runtime::interface_stamp(),
+                           real_time};
+  std::error_code error;
+  if (!run.options.no_record) self.folder = std::filesystem::absolute(run.folder, error).string();
+  return self;
 }
 
 /// How each host is started again by hand, if that is not done by `rave run`.
@@ -78,7 +81,7 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, runtime::BuiltScenario bu
   const config::ScenarioFile& file = run.scenario.scenario;
   manager::ManagerOptions how;
   how.bus = run.bus;
-  how.identity = manager_of(run.scenario, false);
+  how.identity = manager_of(run, false);
   how.scenario = file.name.value;
   how.resume = resumes(run);
   how.commands = commands_of(run, hosts);
@@ -198,7 +201,7 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, runtime::BuiltScenario bui
         "with more robots each",
         hosts.size(), kMostLiveHosts);
   }
-  how.identity = manager_of(run.scenario, true);
+  how.identity = manager_of(run, true);
   how.scenario = file.name.value;
   how.resume = resumes(run);
   how.commands = commands_of(run, hosts);
@@ -247,14 +250,14 @@ Result<runtime::BuiltScenario> build_world(const config::ExpandedScenario& scena
 Result<std::unique_ptr<gui_server::GuiServer>> show_run(const RunCommand& options,
                                                         const config::ExpandedScenario& scenario,
                                                         const bus::BusConfig& bus,
-                                                        runtime::RunControl* control,
-                                                        LogSink& log) {
+                                                        runtime::RunControl* control, LogSink& log,
+                                                        gui_server::OnOver on_over) {
   RAVE_TRY_ASSIGN(const auto built, build_world(scenario, options.plugins, log));
   // A catalogue of its own, because it belongs to one thread and the page describes drivers in
   // another.
   RAVE_TRY_ASSIGN(auto described, open_catalogue(options.plugins));
-  RAVE_TRY_ASSIGN(auto source,
-                  gui_server::watch_run(scenario, built, bus, std::move(described), control));
+  RAVE_TRY_ASSIGN(auto source, gui_server::watch_run(scenario, built, bus, std::move(described),
+                                                     control, std::move(on_over)));
   RAVE_TRY_ASSIGN(auto page, serve_page(options.page, std::move(source)));
   if (!options.page.line_key.empty()) {
     RAVE_TRY_ASSIGN(const auto key, direct_line::read_signing_key(options.page.line_key));

@@ -176,6 +176,7 @@ void HostLink::Impl::listen_to_first() {
   obstacles.reset();
   if (auto made = make(obstacles, *bus); !made) unfit = std::move(made).error();
   const char* const machine = managers.front().machine;
+  host_word->place_manager(machine, managers.front().folder);
   tell_once(LogLevel::kInfo,
             fmt::format("the environment manager is `{}` on {}", managers.front().name,
                         *machine != '\0' ? machine : "this machine"));

@@ -44,6 +44,7 @@ void HostPort::Impl::meet(const bus::HostInfo& info) {
     // A further manager is accepted only after the loss of the current one.
     if (manager != 0 || gone.contains(info.writer)) return;
     manager = info.writer;
+    host_word->place_manager(info.machine, info.folder);
     tell(LogLevel::kInfo, fmt::format("the environment manager is `{}` on {}", info.name,
                                       *info.machine != '\0' ? info.machine : "this machine"));
     return;

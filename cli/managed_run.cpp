@@ -35,13 +35,16 @@ Result<std::unique_ptr<runtime::SharedResults>> results_of(const ManagedRun& run
       {run.folder, !run.options.no_picture, !run.options.no_record, &run.console});
 }
 
-lock_step::Identity manager_of(const config::ExpandedScenario& scenario, bool real_time) {
-  return {rave_wire_kNone,
-          "environment manager",
-          0,
-          runtime::shared_number(scenario),
-          runtime::interface_stamp(),
-          real_time};
+lock_step::Identity manager_of(const ManagedRun& run, bool real_time) {
+  lock_step::Identity self{rave_wire_kNone,
+                           "environment manager",
+                           0,
+                           runtime::shared_number(run.scenario),
+                           runtime::interface_stamp(),
+                           real_time};
+  std::error_code error;
+  if (!run.options.no_record) self.folder = std::filesystem::absolute(run.folder, error).string();
+  return self;
 }
 
 /// How each host is started again by hand, if that is not done by `rave run`.
@@ -67,7 +70,7 @@ manager::RunOptions options_of(const ManagedRun& run, std::vector<config::Planne
                                bool real_time) {
   manager::RunOptions how;
   how.bus = run.bus;
-  how.identity = manager_of(run.scenario, real_time);
+  how.identity = manager_of(run, real_time);
   how.scenario = run.scenario.scenario.name.value;
   how.commands = commands_of(run, hosts);
   how.hosts = std::move(hosts);
@@ -243,14 +246,14 @@ Result<runtime::BuiltScenario> build_world(const config::ExpandedScenario& scena
 Result<std::unique_ptr<gui_server::GuiServer>> show_run(const RunCommand& options,
                                                         const config::ExpandedScenario& scenario,
                                                         const bus::BusConfig& bus,
-                                                        runtime::RunControl* control,
-                                                        LogSink& log) {
+                                                        runtime::RunControl* control, LogSink& log,
+                                                        gui_server::OnOver on_over) {
   RAVE_TRY_ASSIGN(const auto built, build_world(scenario, options.plugins, log));
   // A catalogue of its own, because it belongs to one thread and the page describes drivers in
   // another.
   RAVE_TRY_ASSIGN(auto described, open_catalogue(options.plugins));
-  RAVE_TRY_ASSIGN(auto source,
-                  gui_server::watch_run(scenario, built, bus, std::move(described), control));
+  RAVE_TRY_ASSIGN(auto source, gui_server::watch_run(scenario, built, bus, std::move(described),
+                                                     control, std::move(on_over)));
   RAVE_TRY_ASSIGN(auto page, serve_page(options.page, std::move(source)));
   if (!options.page.line_key.empty()) {
     RAVE_TRY_ASSIGN(const auto key, direct_line::read_signing_key(options.page.line_key));

@@ -14,6 +14,7 @@
 #include "rave/bus/config.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/control/run_control.hpp"
+#include "rave/gui_server/bus_run.hpp"
 #include "rave/results/shared_results.hpp"
 
 namespace rave::cli {
@@ -39,10 +40,10 @@ struct ManagedRun {
                                                          LogSink& log);
 
 /// Serves a page that looks on at a run on the bus. `control`: that of its manager, if it is in
-/// this process; may be null.
+/// this process; may be null. `on_over`: see gui_server::watch_run().
 [[nodiscard]] Result<std::unique_ptr<gui_server::GuiServer>> show_run(
     const RunCommand& options, const config::ExpandedScenario& scenario, const bus::BusConfig& bus,
-    runtime::RunControl* control, LogSink& log);
+    runtime::RunControl* control, LogSink& log, gui_server::OnOver on_over = {});
 
 /// How it ended.
 struct ManagedEnd {

@@ -19,10 +19,14 @@ bool is_set(const char* name) {
   return value != nullptr && *value != '\0';
 }
 
-/// Opens the page where there is a desktop; over SSH and without a display only the link is
-/// printed.
+/// Whether there is a desktop here, in front of the user.
+bool has_desktop() {
+  return !is_set("SSH_CONNECTION") && (is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"));
+}
+
+/// Opens the page where there is a desktop; elsewhere only the link is printed.
 void open_browser(const std::string& link) {
-  if (is_set("SSH_CONNECTION") || (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))) return;
+  if (!has_desktop()) return;
   // The link has only characters that a shell leaves alone within quotes.
   const std::string command = fmt::format("xdg-open '{}' >/dev/null 2>&1 &", link);
   if (std::system(command.c_str()) != 0) return;  // The link was told; nothing is lost.
@@ -31,7 +35,7 @@ void open_browser(const std::string& link) {
 std::string how_to_reach(const std::string& link, const std::string& foxglove, std::uint16_t port) {
   std::string text = fmt::format("open  {}\n", link);
   if (!foxglove.empty()) text += fmt::format("foxglove  {}\n", foxglove);
-  if (is_set("SSH_CONNECTION")) {
+  if (!has_desktop()) {
     text += fmt::format("from your machine, first:  ssh -L {0}:127.0.0.1:{0} THIS_MACHINE\n", port);
   }
   return text + "Ctrl-C ends\n";

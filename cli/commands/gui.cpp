@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/gui.hpp"
 
+#include <fmt/format.h>
+
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
+#include <mutex>
+#include <utility>
 
 #include "console.hpp"
 #include "error_text.hpp"
@@ -14,7 +19,37 @@
 namespace rave::cli {
 namespace {
 
-Result<std::unique_ptr<gui_server::GuiServer>> serve(const GuiCommand& options) {
+/// Shows the recording of a run that is over on the page of the run, whichever is there first.
+class Afterwards {
+ public:
+  /// Any thread.
+  void take(std::shared_ptr<gui_server::Source> replay, const std::string& where) {
+    const std::lock_guard lock(mutex_);
+    put(stdout, replay ? "the run is over; the page shows its recording\n"
+                       : fmt::format("the run is over. {}\n", where));
+    std::fflush(stdout);
+    replay_ = std::move(replay);
+    show();
+  }
+  /// The page, until it ends (null).
+  void set_page(gui_server::GuiServer* page) {
+    const std::lock_guard lock(mutex_);
+    page_ = page;
+    show();
+  }
+
+ private:
+  void show() {
+    if (page_ != nullptr && replay_) page_->show(std::exchange(replay_, nullptr));
+  }
+
+  std::mutex mutex_;
+  gui_server::GuiServer* page_ = nullptr;       ///< Guarded by the mutex.
+  std::shared_ptr<gui_server::Source> replay_;  ///< Guarded by the mutex.
+};
+
+Result<std::unique_ptr<gui_server::GuiServer>> serve(const GuiCommand& options,
+                                                     Afterwards& afterwards) {
   const auto file = record_file(options.file);
   std::error_code error;
   // A scenario may be given by its file, as `rave run` takes it.
@@ -37,7 +72,11 @@ Result<std::unique_ptr<gui_server::GuiServer>> serve(const GuiCommand& options) 
   RAVE_TRY_ASSIGN(auto bus, bus_config(run.bus, "GUI Server", runtime::shared_number(*scenario)));
   make_room(bus, kMostHosts);
   Console console(false);
-  return show_run(run, *scenario, bus, nullptr, console);
+  return show_run(
+      run, *scenario, bus, nullptr, console,
+      [&afterwards](std::shared_ptr<gui_server::Source> replay, const std::string& where) {
+        afterwards.take(std::move(replay), where);
+      });
 }
 
 }  // namespace
@@ -50,10 +89,13 @@ int gui(const GuiCommand& options) {
   sigaddset(&signals, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
-  const auto server = serve(options);
+  Afterwards afterwards;
+  const auto server = serve(options, afterwards);
   if (!server) return complain(server.error());
+  afterwards.set_page(server->get());
   int signal = 0;
   sigwait(&signals, &signal);
+  afterwards.set_page(nullptr);
   return kGood;
 }
 

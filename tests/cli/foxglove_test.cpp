@@ -35,7 +35,9 @@ class FoxgloveRun : public ::testing::Test {
   void start(std::vector<std::string> words) {
     const std::string folder = folder_.path();
     words.insert(words.end(), {"--page", folder, "--port", "0", "--no-open", "--foxglove"});
-    process_ = start_rave(words, {setting()}, folder + "/said");
+    std::vector<std::string> variables = {setting()};
+    variables.insert(variables.end(), desktop_.begin(), desktop_.end());
+    process_ = start_rave(words, variables, folder + "/said");
     ASSERT_GT(process_, 0);
     for (int i = 0; i < 3000 && said().find("Ctrl-C ends") == std::string::npos; ++i) {
       ASSERT_EQ(::waitpid(process_, nullptr, WNOHANG), 0) << said();
@@ -80,6 +82,7 @@ class FoxgloveRun : public ::testing::Test {
   pid_t process_ = -1;
   std::uint16_t port_ = 0;
   std::string target_;
+  std::vector<std::string> desktop_;  ///< Variables that say whether there is one.
 };
 
 TEST_F(FoxgloveRun, ShowsRobotsAndObstaclesWhereTheyAre) {
@@ -174,6 +177,23 @@ TEST_F(FoxgloveRun, PlaysARecording) {
   while (state.is_object() && state.at("state") != "ended") state = client.data(1);
   ASSERT_TRUE(state.is_object());
   EXPECT_NEAR(state.at("time_s").get<double>(), 3, 0.1);
+}
+
+/// Without a desktop in front of the user the page is reached through SSH.
+TEST_F(FoxgloveRun, IsToldHowToReachItFromAnotherMachine) {
+  const auto told = [&](std::vector<std::string> desktop) {
+    desktop_ = std::move(desktop);
+    start({"run", "foxglove.yaml", "--output", results(), "--replace", "--gui", "--duration",
+           "100000"});
+    const bool there =
+        said().find(fmt::format("ssh -L {0}:127.0.0.1:{0} ", port_)) != std::string::npos;
+    TearDown();
+    process_ = -1;
+    return there;
+  };
+  EXPECT_FALSE(told({"SSH_CONNECTION=", "DISPLAY=:0", "WAYLAND_DISPLAY="}));
+  EXPECT_TRUE(told({"SSH_CONNECTION=", "DISPLAY=", "WAYLAND_DISPLAY="}));
+  EXPECT_TRUE(told({"SSH_CONNECTION=10.0.0.1 1 10.0.0.2 22", "DISPLAY=:0", "WAYLAND_DISPLAY="}));
 }
 
 TEST_F(FoxgloveRun, NeedsItsOption) {

@@ -144,6 +144,37 @@ try {
     await again.end();
   });
 
+  await check('beside a run that ends: its recordings turn into the replay, wherever its processes left them', async () => {
+    const name = ['--run', `ends-${process.pid}`];
+    const beside = await startServer(rave, ['gui', scenario, '--processes', '2', ...name]);
+    servers.push(beside);
+    const last = await context.newPage();
+    await last.goto(beside.link);
+    await until(last, `${app}?.model?.time?.state === 'waiting'`);
+    for (const words of [['env'], ['robot', '--host', 'host-1'], ['robot', '--host', 'host-2']]) {
+      const [command, ...more] = words;
+      children.push(spawn(rave, [command, scenario, ...more, '--processes', '2', '--quiet', '--no-picture', '--duration', '8', ...name, '--output', join(folder, `ends-${words.join('-')}`)], {stdio: 'ignore'}));
+    }
+    await until(last, `${app}.model.hello.run.source === 'replay'`, 90000);
+    // The hash needs the recordings of both hosts and of the manager.
+    assert.match(await last.evaluate(`${app}.model.hello.run.hash`), /^[0-9a-f]{16}$/);
+    await until(last, `${newest} !== null && [...${newest}.flags].every((flags) => flags & 1)`);
+    await beside.end();
+  });
+
+  await check('beside a run that ends without recordings: the page says so', async () => {
+    const name = ['--run', `bare-${process.pid}`];
+    const beside = await startServer(rave, ['gui', scenario, '--processes', '2', ...name]);
+    servers.push(beside);
+    const last = await context.newPage();
+    await last.goto(beside.link);
+    await until(last, `${app}?.model?.time?.state === 'waiting'`);
+    children.push(spawn(rave, ['run', scenario, '--processes', '2', '--quiet', '--no-picture', '--no-record', '--duration', '5', ...name, '--output', join(folder, 'bare')], {stdio: 'ignore'}));
+    await until(last, `${app}.model.time.state === 'ended' && ${app}.model.time.reason === 'The run left no recording.'`, 60000);
+    await last.getByText('The run left no recording.').first().waitFor();
+    await beside.end();
+  });
+
   await check('two processes in real time: readings, stops and obstacles of each', async () => {
     const room = join(scenario, '..', `.live-${process.pid}`);
     mkdirSync(room);

@@ -103,6 +103,7 @@ RunView Observer::view(bool with_robots) const {
 }
 
 bus::Bus& Observer::bus() noexcept { return *impl_->bus; }
+std::vector<KeptAt> Observer::kept() const { return impl_->model.kept(); }
 bool Observer::knows_any() const { return impl_->model.knows_any(); }
 
 }  // namespace rave::watch

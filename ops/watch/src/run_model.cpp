@@ -67,6 +67,7 @@ void RunModel::hear(const bus::HostInfo& info) {
   process.host = info.host;
   process.name = info.name;
   process.machine = info.machine;
+  process.folder = info.folder;
   process.real_time = info.clock == rave_wire_CLOCK_REAL_TIME;
   process.robots = info.robots;
 }
@@ -99,8 +100,8 @@ RunModel::State RunModel::read(const bus::RunState& state) {
   now.speed = state.speed;
   now.text = state.text;
   for (const rave_wire_HostSight& host : bus::elements(state.hosts)) {
-    now.hosts[host.host] = {host.name, host.phase,    host.robots,
-                            host.step, host.offset_s, host.bound_s};
+    now.hosts[host.host] = {host.name,     host.phase,   host.robots,  host.step,
+                            host.offset_s, host.bound_s, host.machine, host.folder};
   }
   return now;
 }

@@ -102,6 +102,31 @@ TEST_F(HostWordsTest, AnotherRunOfTheNameCountsFromItsBeginning) {
   EXPECT_EQ(view().step, 7U);
 }
 
+TEST_F(HostWordsTest, TellWhereRecordingsAreAlsoThatOfTheManager) {
+  bus::HostInfo info = host_info(2, 0, "left");
+  bus::put_text(info.machine, "lab-2");
+  bus::put_text(info.folder, "/runs/left");
+  model_.hear(info);
+  bus::RunState state{};
+  state.writer = 3;
+  state.phase = rave_wire_RUN_GOES;
+  state.step_s = 0.01;
+  std::vector<rave_wire_HostSight> sights(1);
+  sights[0].host = rave_wire_kNone;
+  bus::put_text(sights[0].name, "environment manager");
+  bus::put_text(sights[0].machine, "lab-1");
+  bus::put_text(sights[0].folder, "/runs/env");
+  bus::borrow(state.hosts, sights);
+  model_.hear_word(state, kMoment);
+  // `right` makes no recording.
+  const std::vector<KeptAt> kept = {{"environment manager", true, "lab-1", "/runs/env"},
+                                    {"left", false, "lab-2", "/runs/left"}};
+  EXPECT_EQ(model_.kept(), kept);
+  // A recording stays when its process has left.
+  model_.lose(2);
+  EXPECT_EQ(model_.kept(), kept);
+}
+
 TEST_F(HostWordsTest, WhatAManagerSaysCountsMore) {
   bus::RunState told{};
   told.writer = 1;

@@ -182,6 +182,7 @@ Result<HostOutcome> run_stepped_host(const HostSetup& host, BuiltScenario& built
                            static_cast<std::uint32_t>(host.slot.robots.size()),
                            shared_number(host.scenario), interface_stamp()};
   self.real_robots = real_robots(built.spec, host.slot.robots);
+  self.folder = kept_folder(options.run);
   std::function<void()> on_step_done;
   built.spec.on_step_done = [&on_step_done] { on_step_done(); };
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));

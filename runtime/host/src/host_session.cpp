@@ -2,6 +2,7 @@
 #include "host_session.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "rave/base/file.hpp"
@@ -111,6 +112,11 @@ std::uint32_t real_robots(const sim::EngineSpec& spec, std::span<const RobotId> 
   return static_cast<std::uint32_t>(std::ranges::count_if(robots, [&](RobotId robot) {
     return !spec.types[spec.robots[robot.value()].type].simulated;
   }));
+}
+
+std::string kept_folder(const RunOptions& run) {
+  std::error_code error;
+  return run.record ? std::filesystem::absolute(run.output, error).string() : std::string();
 }
 
 void introduce_robots(lock_step::Roster& roster, const sim::EngineSpec& spec,

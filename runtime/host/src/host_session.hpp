@@ -55,6 +55,9 @@ using MakeExchange =
 [[nodiscard]] std::uint32_t real_robots(const sim::EngineSpec& spec,
                                         std::span<const RobotId> robots);
 
+/// Where a host leaves its recording, for its introduction; empty: nowhere.
+[[nodiscard]] std::string kept_folder(const RunOptions& run);
+
 /// Describes robots that nothing runs yet, as their files have them, to monitors. No monitor
 /// waits for that, and what is wrong with it is a warning in `log`.
 void introduce_robots(lock_step::Roster& roster, const sim::EngineSpec& spec,

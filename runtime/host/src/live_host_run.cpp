@@ -217,6 +217,7 @@ Result<HostLink::Options> link_options(const HostSetup& host, const BuiltScenari
                   interface_stamp(),
                   true};
   options.self.real_robots = real_robots(built.spec, host.slot.robots);
+  options.self.folder = kept_folder(host.options.run);
   options.managed = needs_manager(built);
   RAVE_TRY_ASSIGN(options.host_of, hosts_of_twins(host.scenario, built.spec));
   options.sees = false;

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "rave/base/control_characters.hpp"
+#include "rave/bus/sequence.hpp"
 #include "rave/protocol/run_state.hpp"
 
 namespace rave::lock_step {
@@ -13,6 +14,11 @@ void HostWord::describe(std::string scenario, std::uint64_t steps, double step_s
   scenario_ = std::move(scenario);
   steps_ = steps;
   step_s_ = step_s;
+}
+
+void HostWord::place_manager(std::string machine, std::string folder) {
+  manager_machine_ = std::move(machine);
+  manager_folder_ = std::move(folder);
 }
 
 void HostWord::measure(std::uint64_t step, Clock::time_point now) {
@@ -50,6 +56,8 @@ void HostWord::write(const Facts& facts) {
   std::array seen{process_sight(host_, name_, rave_wire_HOST_RUNS, facts.step),
                   process_sight(rave_wire_kNone, "environment manager",
                                 facts.manager_here ? rave_wire_HOST_RUNS : rave_wire_HOST_LOST, 0)};
+  bus::put_text(seen[1].machine, manager_machine_);
+  bus::put_text(seen[1].folder, manager_folder_);
   bus::HostRun message{};
   fill(message, {scenario_, facts.phase, facts.step, steps_, step_s_, speed_, text},
        std::span(seen).first(facts.managed ? 2 : 1));

@@ -34,6 +34,7 @@ bus::HostInfo introduction(const Identity& self) {
   info.started_ns = self.started_ns != 0
                         ? self.started_ns
                         : std::chrono::duration_cast<std::chrono::nanoseconds>(today).count();
+  bus::put_text(info.folder, self.folder);
   return info;
 }
 

@@ -131,11 +131,12 @@ RobotState truth_of(const watch::RobotView& robot) {
 }  // namespace
 
 BusFeed::BusFeed(std::unique_ptr<watch::Observer> observer, onlook::Listener listener,
-                 std::shared_ptr<LiveBox> box, World world)
+                 std::shared_ptr<LiveBox> box, World world, OnOver on_over)
     : observer_(std::move(observer)),
       listener_(std::move(listener)),
       box_(std::move(box)),
       world_(std::move(world)),
+      on_over_(std::move(on_over)),
       thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
 void BusFeed::work(const std::stop_token& stop) {
@@ -145,6 +146,7 @@ void BusFeed::work(const std::stop_token& stop) {
     listener_.hear();
     const watch::RunView view = observer_->view(true);
     tell_news(view);
+    look_at_end(view);
     draw(view);
   }
 }
@@ -217,6 +219,19 @@ void BusFeed::tell_processes(const watch::RunView& view, LiveNews& news) {
   }
 }
 
+/// Recordings are complete when their processes have left; that of the manager is before it tells
+/// the end.
+void BusFeed::look_at_end(const watch::RunView& view) {
+  const bool over = view.phase == watch::Phase::kEnded || view.phase == watch::Phase::kFailed;
+  const auto left = [](const watch::HostView& host) {
+    return host.manager || host.standing == watch::Standing::kGone ||
+           host.standing == watch::Standing::kDropped;
+  };
+  if (!over || !on_over_ || !std::ranges::all_of(view.hosts, left)) return;
+  const std::string text = std::exchange(on_over_, nullptr)(observer_->kept());
+  end_text_ = view.text.empty() || text.empty() ? text : fmt::format("{}. {}", view.text, text);
+}
+
 void BusFeed::draw(const watch::RunView& view) {
   LivePicture& picture = box_->pictures.draft();
   // A serial of 0 would mean a moment of one page alone.
@@ -242,6 +257,7 @@ void BusFeed::draw(const watch::RunView& view) {
   }
   draw_readings(picture);
   picture.standing = standing_of(view);
+  if (!end_text_.empty()) picture.standing->reason = end_text_;
   if (const auto now = Clock::now(); now >= next_hosts_) {
     next_hosts_ = now + kHostsInterval;
     hosts_ = hosts_json(view);

@@ -4,10 +4,12 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "live_box.hpp"
 #include "rave/onlook/listener.hpp"
@@ -25,9 +27,12 @@ class BusFeed {
     std::size_t robots = 0;
     std::map<std::uint32_t, world::Obstacle> obstacles;  ///< Of the start, by number.
   };
-  /// `listener`: on the bus of the observer.
+  /// Called once, in the thread of the feed, when the run is over and its processes have left, with
+  /// where they left their recordings. Returns what pages then say; empty: what the run says.
+  using OnOver = std::function<std::string(const std::vector<watch::KeptAt>& kept)>;
+  /// `listener`: on the bus of the observer. `on_over` may be empty.
   BusFeed(std::unique_ptr<watch::Observer> observer, onlook::Listener listener,
-          std::shared_ptr<LiveBox> box, World world);
+          std::shared_ptr<LiveBox> box, World world, OnOver on_over);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -37,6 +42,7 @@ class BusFeed {
   void tell_news(const watch::RunView& view);
   void tell_obstacle(const onlook::HeardObstacle& heard, LiveNews& news);
   void tell_processes(const watch::RunView& view, LiveNews& news);
+  void look_at_end(const watch::RunView& view);
   void draw(const watch::RunView& view);
   void draw_readings(LivePicture& picture) const;
 
@@ -49,7 +55,9 @@ class BusFeed {
   std::string hosts_ = "[]";
   std::uint64_t hosts_revision_ = 0;
   std::map<std::string, bool> there_;  ///< By process: whether it was there.
-  std::jthread thread_;                ///< Last, so that it ends first.
+  OnOver on_over_;                     ///< Empty after the end.
+  std::string end_text_;
+  std::jthread thread_;  ///< Last, so that it ends first.
 };
 
 }  // namespace rave::gui_server

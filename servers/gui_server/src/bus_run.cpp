@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/gui_server/bus_run.hpp"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+
 #include "bus_feed.hpp"
 #include "bus_port.hpp"
 #include "components.hpp"
+#include "kept_recordings.hpp"
 #include "live_source.hpp"
 #include "parameters_json.hpp"
+#include "rave/bus/topics.hpp"
 #include "rave/recording/describe_run.hpp"
 #include "rave/watch/observer.hpp"
 #include "scenario_rights.hpp"
@@ -14,14 +21,18 @@
 namespace rave::gui_server {
 namespace {
 
+/// As long as a machine's name is in an introduction.
+constexpr std::size_t kMachineBytes = sizeof(bus::HostInfo::machine);
+
 /// A source that belongs together with the thread that feeds it.
 class BusSource final : public LiveSource {
  public:
   BusSource(Start start, const std::shared_ptr<LiveBox>& box, std::unique_ptr<RunPort> port,
             std::unique_ptr<watch::Observer> observer, onlook::Listener listener,
-            BusFeed::World world)
+            BusFeed::World world, BusFeed::OnOver on_over)
       : LiveSource(std::move(start), box, std::move(port)),
-        feed_(std::move(observer), std::move(listener), box, std::move(world)) {}
+        feed_(std::move(observer), std::move(listener), box, std::move(world), std::move(on_over)) {
+  }
 
  private:
   BusFeed feed_;
@@ -81,12 +92,32 @@ Result<std::unique_ptr<BusPort>> port_to_hosts(const config::ExpandedScenario& s
                                    std::move(host_of));
 }
 
+BusFeed::OnOver replays(OnOver on_over) {
+  if (!on_over) return {};
+  return [on_over = std::move(on_over)](const std::vector<watch::KeptAt>& kept) -> std::string {
+    std::array<char, kMachineBytes> machine{};
+    if (::gethostname(machine.data(), machine.size() - 1) != 0) machine.front() = '\0';
+    auto replay = open_kept(kept, machine.data());
+    if (replay) {
+      on_over(*std::move(replay), "");
+      return {};
+    }
+    // Who cannot see them here is told where they are; else why they cannot be played.
+    const bool elsewhere = replay.error().code == ErrorCode::kNotFound;
+    std::string where = elsewhere ? replay.error().message
+                                  : fmt::format("{} They cannot be played: {}.", places_of(kept),
+                                                replay.error().text());
+    on_over(nullptr, where);
+    return where;
+  };
+}
+
 }  // namespace
 
 Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenario,
                                           const runtime::BuiltScenario& built, bus::BusConfig bus,
                                           std::unique_ptr<plugin::Catalogue> described,
-                                          runtime::RunControl* control) {
+                                          runtime::RunControl* control, OnOver on_over) {
   // The manager of the run may be in this process, with a bus of its own.
   bus.beside = true;
   bus.side = bus::Side::kMonitor;
@@ -108,7 +139,7 @@ Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenar
   if (managed) start.about.relay = true;
   return std::make_shared<BusSource>(std::move(start), std::make_shared<LiveBox>(), std::move(port),
                                      std::move(observer), std::move(listener),
-                                     world_of(scenario, built));
+                                     world_of(scenario, built), replays(std::move(on_over)));
 }
 
 }  // namespace rave::gui_server

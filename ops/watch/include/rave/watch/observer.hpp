@@ -61,6 +61,8 @@ class Observer {
   void watch(Duration span, const std::stop_token& stop = {});
   /// The present view of the run. `with_robots`: include robots.
   [[nodiscard]] RunView view(bool with_robots) const;
+  /// See RunModel::kept().
+  [[nodiscard]] std::vector<KeptAt> kept() const;
   /// Whether any process of the run has been found.
   [[nodiscard]] bool knows_any() const;
   /// The bus, for objects of this thread that end before it.

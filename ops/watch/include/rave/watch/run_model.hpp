@@ -61,6 +61,8 @@ class RunModel {
     return !processes_.empty() || state_.has_value();
   }
   [[nodiscard]] RunView view(std::int64_t now_ns, bool with_robots) const;
+  /// The recordings of all processes that were ever seen: of managers first, then by name.
+  [[nodiscard]] std::vector<KeptAt> kept() const;
 
  private:
   /// A robot according to its host.
@@ -78,6 +80,8 @@ class RunModel {
     std::uint64_t step = 0;
     double offset_s = 0;
     double bound_s = -1;
+    std::string machine{};  ///< Of the manager, according to a host.
+    std::string folder{};
   };
   struct State {
     std::uint64_t writer = 0;
@@ -99,6 +103,7 @@ class RunModel {
     std::uint32_t host = 0;   ///< kNone: the manager.
     std::string name;
     std::string machine;
+    std::string folder;  ///< With its recording; empty: it makes none.
     bool real_time = false;
     std::uint32_t robots = 0;
     std::optional<bus::ProcessState> state;  ///< Its last one.

@@ -100,6 +100,15 @@ struct RobotView {
   std::optional<RobotReport> report;
 };
 
+/// Where a process of a run leaves its recording. A process that came back has one for each start.
+struct KeptAt {
+  std::string name;
+  bool manager = false;
+  std::string machine;
+  std::string folder;  ///< Absolute, on that machine.
+  friend auto operator<=>(const KeptAt&, const KeptAt&) = default;
+};
+
 /// A run as a monitor knows it at one time. A value.
 struct RunView {
   std::string run;       ///< 32 hexadecimal digits, or the name at the control socket.

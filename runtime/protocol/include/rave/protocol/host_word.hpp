@@ -37,6 +37,8 @@ class HostWord {
 
   /// Sets the properties of the run from its scenario.
   void describe(std::string scenario, std::uint64_t steps, double step_s);
+  /// Sets where the manager leaves its recording: monitors do not hear the manager.
+  void place_manager(std::string machine, std::string folder);
   /// Call it often; it publishes when due.
   void tell(const Facts& facts);
   /// Publishes the end of the run at once.
@@ -53,6 +55,8 @@ class HostWord {
   std::uint32_t host_ = 0;
   std::string name_;
   std::string scenario_;
+  std::string manager_machine_{};
+  std::string manager_folder_{};
   std::uint64_t steps_ = 0;
   double step_s_ = 0;
   Clock::time_point next_{};

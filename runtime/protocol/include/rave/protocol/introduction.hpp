@@ -23,6 +23,8 @@ struct Identity {
   std::int64_t started_ns = 0;
   /// Number of its real robots at the start; see Pulse::count_real().
   std::uint32_t real_robots = 0;
+  /// Absolute path of the folder with its recording, for monitors; empty: it makes none.
+  std::string folder{};
 };
 
 /// A hash of an expanded scenario; the same in every process.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "rave/assemble/build.hpp"
 #include "rave/bus/config.hpp"
@@ -12,17 +14,22 @@
 
 namespace rave::gui_server {
 
+/// Called once, in a thread of the source, when the run is over and all its hosts have left: with a
+/// source that plays its recordings, or null and a sentence that names where they are, which pages
+/// then show.
+using OnOver = std::function<void(std::shared_ptr<Source> replay, const std::string& where)>;
+
 /// A source for a run with several processes: joins its bus as a monitor, so that no process of the
 /// run waits for it. It may join and leave at any time, as may they.
 ///
 /// `built`: of the scenario, for the appearance of robots; not referred to later. `bus`: that of
 /// the run. `described`: the plug-ins of the run, for the thread of the server; null: no probes.
 /// `control`: of the run's Environment Manager in lock-step, if it is in this process; must outlive
-/// the source. Null: robots are stopped over the bus, and pages cannot pause the run. Errors: those
-/// of bus::Bus::open().
+/// the source. Null: robots are stopped over the bus, and pages cannot pause the run. `on_over` may
+/// be empty. Errors: those of bus::Bus::open().
 [[nodiscard]] Result<std::shared_ptr<Source>> watch_run(
     const config::ExpandedScenario& scenario, const runtime::BuiltScenario& built,
     bus::BusConfig bus, std::unique_ptr<plugin::Catalogue> described,
-    runtime::RunControl* control = nullptr);
+    runtime::RunControl* control = nullptr, OnOver on_over = {});
 
 }  // namespace rave::gui_server

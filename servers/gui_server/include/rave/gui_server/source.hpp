@@ -78,7 +78,8 @@ struct RobotState {
   double yaw_rad = 0;
   double speed_mps = 0;  ///< Over ground; forward is positive.
   std::uint16_t flags = 0;
-  /// Variance of the reported pose: of x and y, and of the heading. 0: unknown. Live runs only.
+  /// Variance of the reported pose: of x and y, and of the heading. 0: unknown, as in recordings of
+  /// earlier versions.
   float variance_xy_m2 = 0;
   float variance_yaw_rad2 = 0;
 };

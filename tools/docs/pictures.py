@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the pictures of runs in docs/images, and checks that pages and program agree.
+"""Makes the pictures in docs/images, and checks that pages and program agree.
 
     tools/docs/pictures.py --rave PROGRAM [--check]
 
-Each picture is the `picture.png` of one run. docs/images/pictures.json has the run hash of each. The
-run of corridor.png (`scenarios/demo corridor`) is live and has none, so it is made by hand.
+A picture of a run is its `picture.png`. docs/images/pictures.json has the run hash of each. The run
+of corridor.png (`scenarios/demo corridor`) is live and has none, so it is made by hand. Pictures of
+the page are taken by web/e2e/pictures.mjs, with the page beside the program.
 With --check nothing is written: the runs are made again without pictures, their hashes are compared
-with those of the file, and the figures in the pages with those of the runs.
+with those of the file, and the figures in the pages with those of the runs. The test page_pictures
+takes the pictures of the page again and compares them.
 """
 import argparse
 import json
@@ -51,6 +53,13 @@ def run(rave, name, folder, with_picture):
     return result["hash"], (folder / "summary.txt").read_text(encoding="utf-8")
 
 
+def renew_page(rave, scratch):
+    """Takes the pictures of the page again."""
+    page = pathlib.Path(rave).parent.parent / "share/rave/web"
+    subprocess.run(["node", str(ROOT / "web/e2e/pictures.mjs"), rave, str(page), str(IMAGES),
+                    str(pathlib.Path(scratch, "page")), "--renew"], timeout=600, check=True)
+
+
 def check_figures(summaries):
     for page, pattern, name, source in FIGURES:
         said = re.search(pattern, re.sub(r"\s+", " ", (ROOT / page).read_text(encoding="utf-8")))
@@ -80,6 +89,8 @@ def main():
                 findings.append(f"docs/images/{name}.png: made by a run with the hash "
                                 f"{book.get(name)}, which is {made[name]} now; run "
                                 "tools/docs/pictures.py and look at the pictures")
+        if not arguments.check:
+            renew_page(rave, scratch)
     findings += check_figures(summaries)
     if not arguments.check:
         BOOK.write_text(json.dumps(made, indent=2) + "\n", encoding="utf-8")

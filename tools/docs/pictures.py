@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the pictures of runs in docs/images, and checks that pages and program agree.
+"""Makes the pictures in docs/images, and checks that pages and program agree.
 
     tools/docs/pictures.py --rave PROGRAM [--check]
 
-Each picture is the `picture.png` of one run. docs/images/pictures.json has the run hash of each. The
-run of corridor.png (`scenarios/demo corridor`) is live and has none, so it is made by hand.
+A picture of a run is its `picture.png`. docs/images/pictures.json has the run hash of each. The run
+of corridor.png (`scenarios/demo corridor`) is live and has none, so it is made by hand. Pictures of
+the page are taken by web/e2e/pictures.mjs, with the page beside the program.
 With --check nothing is written: the runs are made again without pictures, their hashes are compared
 with those of the file, and the figures in the pages with those of the runs and of the sweep of
 predator-prey. The figures of hybrid-laser are compared by the tests that compute them
 (tests/scenarios).
+The test page_pictures takes the pictures of the page again and compares them.
 """
 import argparse
 import csv
@@ -52,6 +54,13 @@ def run(rave, name, folder, with_picture):
         raise RuntimeError(f"{name}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
     result = json.loads((folder / "result.json").read_text(encoding="utf-8"))
     return result["hash"], (folder / "summary.txt").read_text(encoding="utf-8")
+
+
+def renew_page(rave, scratch):
+    """Takes the pictures of the page again."""
+    page = pathlib.Path(rave).parent.parent / "share/rave/web"
+    subprocess.run(["node", str(ROOT / "web/e2e/pictures.mjs"), rave, str(page), str(IMAGES),
+                    str(pathlib.Path(scratch, "page")), "--renew"], timeout=600, check=True)
 
 
 def check_figures(summaries):
@@ -110,6 +119,8 @@ def main():
                                 "tools/docs/pictures.py and look at the pictures")
         if arguments.check:
             findings += check_sweep(rave, scratch)
+        else:
+            renew_page(rave, scratch)
     findings += check_figures(summaries)
     if not arguments.check:
         BOOK.write_text(json.dumps(made, indent=2) + "\n", encoding="utf-8")

@@ -49,7 +49,7 @@ void HostConnection::tell_foreign(LogLevel level, const std::string& text) {
 }
 
 void HostConnection::tell_manager(const bus::HostInfo& info) {
-  host_word->place_manager(info.machine, info.folder);
+  host_word.place_manager(info.machine, info.folder);
   tell_once(LogLevel::kInfo, fmt::format("the environment manager is `{}` on {}", info.name,
                                          *info.machine != '\0' ? info.machine : "this machine"));
 }

@@ -115,7 +115,9 @@ class Playing {
     const fs::path whole = fs::weakly_canonical(file, error);
     if (error) return fs::absolute(file, error).lexically_normal();
     if (arguments_.folder.empty()) return whole;
-    const fs::path base = fs::weakly_canonical(arguments_.folder / below, error);
+    // Absolute first: weakly_canonical() leaves a path relative of which nothing exists yet, and
+    // from a relative path to an absolute one there is no way.
+    const fs::path base = fs::weakly_canonical(fs::absolute(arguments_.folder / below), error);
     return error ? whole : whole.lexically_relative(base);
   }
 

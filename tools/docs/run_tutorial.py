@@ -95,11 +95,13 @@ def run_page(page, folder, environment):
     return counts
 
 
-def environment_for(rave, prefix):
+def environment_for(rave, prefix, runtime):
     environment = dict(os.environ, RAVE_PREFIX=str(prefix.resolve()), LC_ALL="C.UTF-8")
     environment["PATH"] = f"{rave.resolve().parent}:{environment.get('PATH', '')}"
     for name in ("RAVE_PLUGIN_PATH", "RAVE_SHARE"):
         environment.pop(name, None)
+    # Sockets of runs are there: commands of a page reach its own runs only.
+    environment["XDG_RUNTIME_DIR"] = str(runtime)
     if shutil.which("ccache"):
         environment.setdefault("CMAKE_CXX_COMPILER_LAUNCHER", "ccache")
     return environment
@@ -147,15 +149,17 @@ def main():
     if not (arguments.page and arguments.rave and arguments.prefix):
         parser.error("PAGE, --rave and --prefix are needed")
     folder = pathlib.Path(tempfile.mkdtemp(prefix="rave-tutorial-"))
+    runtime = pathlib.Path(tempfile.mkdtemp(prefix="rave-runtime-"))
     if arguments.copy:
         shutil.copytree(arguments.page.parent, folder, dirs_exist_ok=True)
     try:
         counts = run_page(arguments.page.read_text(encoding="utf-8"), folder,
-                          environment_for(arguments.rave, arguments.prefix))
+                          environment_for(arguments.rave, arguments.prefix, runtime))
     except Failure as failure:
         print(f"{arguments.page}: {failure}")
         return 1
     finally:
+        shutil.rmtree(runtime, ignore_errors=True)
         if arguments.keep:
             print(f"left {folder}")
         else:

@@ -26,11 +26,13 @@ ConvexPolygon::ConvexPolygon(std::vector<Vec2> vertices) : vertices_(std::move(v
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     const Vec2 edge = vertices_[(i + 1) % vertices_.size()] - vertices_[i];
     const double length = hypot(edge.x, edge.y);
+    // Vertices are counter-clockwise, so outward is the edge turned by -90 degrees.
     normals_.push_back({edge.y / length, -edge.x / length});
   }
 }
 
 Result<ConvexPolygon> ConvexPolygon::make(std::span<const Vec2> vertices) {
+  // More than kMaxVertices may be given, because vertices on a straight edge are dropped first.
   constexpr std::size_t kMaxGiven = 10'000;
   RAVE_TRY_ASSIGN(auto simple, detail::check_simple(vertices, kMaxGiven));
   simple = detail::without_collinear(std::move(simple));
@@ -84,6 +86,8 @@ Result<ConvexPolygon> ConvexPolygon::box(double length_m, double width_m) {
 double ConvexPolygon::area() const noexcept { return detail::signed_area(vertices_); }
 
 Vec2 ConvexPolygon::centroid() const noexcept {
+  // The mean of the centroids of a fan of triangles about vertex 0, weighted by their areas.
+  // Relative to vertex 0, so that no digits are lost for a polygon far from the origin.
   Vec2 sum;
   double twice_area = 0;
   for (std::size_t i = 1; i + 1 < vertices_.size(); ++i) {
@@ -91,6 +95,7 @@ Vec2 ConvexPolygon::centroid() const noexcept {
     const Vec2 v = vertices_[i + 1] - vertices_[0];
     const double weight = cross(u, v);
     twice_area += weight;
+    // The centroid of a triangle is a third of u + v from vertex 0; the third is taken below.
     sum = sum + weight * (u + v);
   }
   return vertices_[0] + (1.0 / (3.0 * twice_area)) * sum;
@@ -105,6 +110,7 @@ double ConvexPolygon::bounding_radius(Vec2 center) const noexcept {
 std::size_t ConvexPolygon::support(Vec2 direction) const noexcept {
   std::size_t best = 0;
   for (std::size_t i = 1; i < vertices_.size(); ++i) {
+    // Of vertices that are equally far the first counts, on every machine.
     if (dot(vertices_[i], direction) > dot(vertices_[best], direction)) best = i;
   }
   return best;
@@ -128,6 +134,8 @@ double ConvexPolygon::signed_distance(Vec2 point) const noexcept {
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     depth = std::max(depth, dot(normals_[i], point - vertices_[i]));
   }
+  // 0) return depth; <= Inside a convex polygon the nearest edge line is the nearest point of the
+  // outline. Outside that may lie beyond the end of the edge, so segments are compared.
   if (depth <= 0) return depth;
   double squared = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
@@ -143,6 +151,8 @@ double ConvexPolygon::distance(Vec2 point) const noexcept {
 
 double cast_ray(Vec2 origin, Vec2 direction, const ConvexPolygon& polygon) noexcept {
   constexpr double kMiss = std::numeric_limits<double>::infinity();
+  // Clipping by half planes (M. Cyrus, J. Beck, Generalized two- and three-dimensional clipping,
+  // Computers & Graphics 3, 1978). An origin inside gives 0.
   double enter = 0;
   double leave = kMiss;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -153,6 +163,7 @@ double cast_ray(Vec2 origin, Vec2 direction, const ConvexPolygon& polygon) noexc
       enter = std::max(enter, ahead / speed);
     } else if (speed > 0) {
       leave = std::min(leave, ahead / speed);
+      // Parallel to an edge, and on its outer side all along.
     } else if (ahead < 0) {
       return kMiss;
     }

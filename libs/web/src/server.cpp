@@ -21,6 +21,7 @@ Core::Core(const ServerOptions& options, Handler& handler)
 bool Core::is_own_host(std::string_view host) const {
   const std::string suffix = fmt::format(":{}", port);
   if (host.ends_with(suffix)) host.remove_suffix(suffix.size());
+  // After DNS rebinding a browser still sends the foreign name, so these names are safe.
   if (host == "localhost" || host == "127.0.0.1" || host == "[::1]") return true;
   return tls ? tls->fits(std::string(host)) : host == options_.address;
 }
@@ -175,6 +176,7 @@ void ServerImpl::stop() {
       }
       core_.io().stop();
     });
+    // A cancelled timer calls its handler, too, which ends the loop.
     if (core_.sockets.empty()) bound->cancel();
   });
   thread_.join();

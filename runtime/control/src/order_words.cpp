@@ -38,8 +38,10 @@ class Words {
     const std::string_view before = left_;
     const std::string_view word = next();
     double value = 0;
+    // Independent of the locale, and it reads back exactly what order_words() wrote.
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error == std::errc() && end == word.data() + word.size() && !word.empty()) return value;
+    // The word stays for the caller: it is the name of the next detail.
     left_ = before;
     return std::nullopt;
   }
@@ -128,6 +130,7 @@ void write_takes(OrderSet set, std::vector<std::string>& words) {
       if (word == to_string(kind)) written |= order_bit(kind);
     }
   }
+  // The usual case: nothing has changed, and nothing is allocated.
   if (written == set) return;
   words.clear();
   for (const OrderKind kind : kOrderKinds) {
@@ -169,6 +172,8 @@ std::string order_words(const RunRequest& request) {
     words += word;
   };
   if (!request.points.empty()) add("points");
+  // `{}` prints the shortest text that reads back as the same number, so that a repeated run gets
+  // the same order to the bit.
   for (const Vec2 p_W : request.points) add(fmt::format("{} {}", p_W.x, p_W.y));
   if (request.yaw_rad) add(fmt::format("yaw {}", *request.yaw_rad));
   if (request.speed_mps != 0) add(fmt::format("speed {}", request.speed_mps));

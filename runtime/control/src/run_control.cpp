@@ -66,6 +66,7 @@ void RunControl::step(std::uint64_t count) {
 
 void RunControl::set_pace(double factor) {
   const std::lock_guard lock(mutex_);
+  // The status shows it at once; the loop of the run takes it by take_pace().
   status_.pace = factor;
   pace_asked_.store(factor);
 }
@@ -76,6 +77,7 @@ double RunControl::pace() const {
 }
 
 std::optional<double> RunControl::take_pace() {
+  // Called in each step, so the cheap look comes first. -1 means that there is no request.
   if (pace_asked_.load(std::memory_order_relaxed) < 0) return std::nullopt;
   const double factor = pace_asked_.exchange(-1);
   return factor < 0 ? std::nullopt : std::optional(factor);
@@ -100,6 +102,7 @@ Result<std::future<Result<std::string>>> RunControl::post(RunRequest request) {
     wake = wake_;
   }
   changed_.notify_all();
+  // Without the lock: callbacks of a stop source run in this thread, and may call this object.
   wake.request_stop();
   return answer;
 }
@@ -160,6 +163,7 @@ void RunControl::serve_or_keep(const ServeOrKeep& serve,
 
 std::vector<RunControl::Asked> RunControl::take() {
   std::vector<Asked> asked;
+  // Called in each step, so without the lock while there is nothing.
   if (!asked_.load()) return asked;
   const std::lock_guard lock(mutex_);
   for (Pending& one : pending_) {
@@ -198,6 +202,7 @@ RunControl::Asked& RunControl::Asked::operator=(Asked&& other) noexcept {
   return *this;
 }
 
+// A promise without a value would throw `broken_promise` in the thread that waits for it.
 RunControl::Asked::~Asked() { answer(fail(ErrorCode::kState, "the run has ended")); }
 
 void RunControl::Asked::answer(Result<std::string> text) {

@@ -70,8 +70,11 @@ Status make_key_files(const fs::path& file) {
   }
   const SigningKey key = new_signing_key();
   const std::string text = fmt::format("{}{}\n", kSecretWord, hex_of(key.secret));
+  // No other user may read it at any moment, so the mode is given when it is created. O_EXCL: a
+  // link that another user has put there is not followed.
   const int handle = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   const bool written = handle >= 0 && ::write(handle, text.data(), text.size()) == std::ssize(text);
+  // Kept, because close() may change it.
   const int reason = errno;
   if (handle >= 0) ::close(handle);
   if (!written) {

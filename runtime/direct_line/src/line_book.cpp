@@ -55,6 +55,8 @@ void LineBook::opened(std::uint64_t id, web::Socket& socket, const web::Request&
   Line line;
   line.socket = &socket;
   line.peer = request.peer;
+  // The address that the page dialled is part of its proof, so another host cannot pass the
+  // challenge on.
   line.address = request.header("host");
   line.origin = request.header("origin");
   line.challenge = base64_of(random_bytes(kChallengeBytes));
@@ -63,6 +65,7 @@ void LineBook::opened(std::uint64_t id, web::Socket& socket, const web::Request&
       lines_, [](const auto& entry) { return !entry.second.ticket && !entry.second.closing; });
   Line& kept = lines_.emplace(id, std::move(line)).first->second;
   if (static_cast<std::size_t>(strangers) >= kMostStrangers) {
+    // Only lines without a ticket count, so that strangers cannot take the room of pages.
     note_refusal(kept, "a line", "too many connections without a ticket");
     return close(kept, kTooManyLines, "too many connections");
   }
@@ -79,6 +82,7 @@ void LineBook::received(std::uint64_t id, std::string_view text) {
     ++counts_.refused_orders;
     note_refusal(line, "a message", message.error().message);
     line.send(dumped({{"type", "answer"}, {"good", false}, {"text", message.error().message}}));
+    // A page with a ticket may be of another version and is given some patience; a stranger is not.
     if (!line.ticket || ++line.nonsense > kMostNonsense) {
       close(line, kNonsense, "malformed messages");
     }
@@ -157,6 +161,7 @@ void LineBook::take(std::uint64_t id, Line& line, const HelloMessage& hello) {
 
 void LineBook::welcome(std::uint64_t id, Line& line, Ticket ticket) {
   for (auto& [other_id, other] : lines_) {
+    // A page that connects anew before this host has noticed the end of its old line replaces it.
     if (other_id == id || !other.ticket || other.ticket->nonce != ticket.nonce) continue;
     post_.forget(other_id);
     close(other, kReplaced, "the page opened another line");
@@ -273,6 +278,8 @@ void LineBook::withdraw(const std::string& signed_text) {
     return;
   }
   std::uint64_t& epoch = epochs_[withdrawal->user];
+  // epoch) return; <= Withdrawals are durable on the bus and may arrive again, or out of order;
+  // epochs only grow.
   if (withdrawal->run != options_.run || withdrawal->epoch <= epoch) return;
   epoch = withdrawal->epoch;
   for (auto& [id, line] : lines_) {
@@ -316,6 +323,7 @@ void LineBook::tell_state() {
     }
     std::string text =
         dumped({{"type", "state"}, {"leases", std::move(leases)}, {"stopped", std::move(stopped)}});
+    // The state is asked for often and changes seldom.
     if (text == line.told_state) continue;
     line.told_state = text;
     line.send(std::move(text));

@@ -27,6 +27,7 @@ void OrderPost::give(Line line, std::vector<runtime::RunRequest> requests, Answe
   using Kind = runtime::RunRequest::Kind;
   const bool stop = !requests.empty() && requests.front().kind == Kind::kStop;
   const auto own = std::ranges::count(waiting_, line, &Waiting::line);
+  // A stop is never refused for lack of room.
   if (!stop && static_cast<std::size_t>(own) >= kMostWaiting) {
     return answer(false, "too many orders are waiting");
   }
@@ -53,6 +54,8 @@ void OrderPost::drive(Line line, runtime::RunRequest request, bool echo, Answer 
   drive.moves = request.v_mps != 0 || request.w_radps != 0;
   drive.newest = std::move(request);
   drive.since = std::chrono::steady_clock::now();
+  // One at a time: the run takes one velocity per robot and step, so older ones would only make the
+  // newest wait.
   if (drive.under_way && !is_ready(*drive.under_way)) {
     drive.next.emplace(echo, std::move(answer));
     return;
@@ -124,6 +127,7 @@ void OrderPost::poll() {
     ready.push_back(std::move(waiting));
     return true;
   });
+  // After the list has been cleaned up, because an answer is foreign code.
   for (const Waiting& waiting : ready) {
     const bool good = waiting.refused.empty();
     waiting.answer(good, good ? waiting.done : waiting.refused);

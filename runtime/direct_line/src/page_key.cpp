@@ -69,12 +69,15 @@ std::string der_of(std::string_view signature) {
 
 std::string proof_text(std::string_view challenge, std::string_view address,
                        std::string_view ticket) {
+  // The first line keeps a page from being made to sign something else that means this.
   std::string text = "rave line proof 1\n";
   for (const std::string_view part : {challenge, address, ticket}) text.append(part) += '\n';
   return text;
 }
 
 bool page_key_signed(std::string_view point, std::string_view signature, std::string_view text) {
+  // WebCrypto gives a signature as r and s, 32 bytes each (IEEE P1363), and a point as 4, x, y
+  // (uncompressed, SEC 1, 2.3.3).
   if (signature.size() != 2 * kHalf || point.size() != 2 * kHalf + 1 || point.front() != 4) {
     return false;
   }
@@ -85,6 +88,7 @@ bool page_key_signed(std::string_view point, std::string_view signature, std::st
       key && !der.empty() && digest &&
       EVP_DigestVerifyInit(digest.get(), nullptr, EVP_sha256(), nullptr, key.get()) == 1 &&
       EVP_DigestVerify(digest.get(), raw(der), der.size(), raw(text), text.size()) == 1;
+  // Errors stay in a list of the thread; the next user of OpenSSL there must not find these.
   ERR_clear_error();
   return good;
 }

@@ -17,12 +17,14 @@ const unsigned char* bytes_at(std::string_view text) {
 }
 
 std::string message_of(std::string_view what, std::string_view content) {
+  // The kind of the text is part of what is signed, so that no withdrawal can be shown as a ticket.
   return "rave " + std::string(what) + " 1\n" + std::string(content);
 }
 
 }  // namespace
 
 std::string base64_of(std::string_view bytes) {
+  // The length counts the zero at the end, which is removed below.
   std::string text(sodium_base64_ENCODED_LEN(bytes.size(), kVariant), '\0');
   sodium_bin2base64(text.data(), text.size(), bytes_at(bytes), bytes.size(), kVariant);
   text.pop_back();
@@ -67,6 +69,7 @@ Result<std::string> verify_text(std::string_view what, std::string_view text,
                                 const PublicKey& key) {
   RAVE_CHECK(sodium_init() >= 0);
   const std::size_t dot = text.find('.');
+  // Before anything is decoded: these bytes come from strangers.
   if (text.size() > kLongestTicket || dot == std::string_view::npos) {
     return fail(ErrorCode::kParse, "not a valid {}", what);
   }
@@ -75,6 +78,7 @@ Result<std::string> verify_text(std::string_view what, std::string_view text,
   if (!content || !signature || signature->size() != crypto_sign_BYTES) {
     return fail(ErrorCode::kParse, "not a valid {}", what);
   }
+  // Nothing in the content is read before the signature holds.
   const std::string message = message_of(what, *content);
   if (crypto_sign_verify_detached(bytes_at(*signature), bytes_at(message), message.size(),
                                   key.data()) != 0) {

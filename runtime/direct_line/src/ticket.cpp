@@ -76,6 +76,7 @@ Result<Ticket> ticket_of(const nlohmann::json& object) {
 }  // namespace
 
 std::uint64_t page_number(std::string_view key) {
+  // 0 stands for a lease without a page.
   return std::max<std::uint64_t>(1, content_hash(std::as_bytes(std::span(key))));
 }
 
@@ -104,6 +105,8 @@ Result<Ticket> verify_ticket(std::string_view text, const PublicKey& key, std::i
   if (ticket.expires_s + kClockSlack_s < now_s) {
     return fail(ErrorCode::kState, "the ticket has expired {} s ago", now_s - ticket.expires_s);
   }
+  // The signer gives tickets for kTicketLife_s. One that lasts longer means that a clock is wrong,
+  // and would outlive that promise.
   if (ticket.expires_s > now_s + kTicketLife_s + kClockSlack_s) {
     return fail(ErrorCode::kState,
                 "the ticket is valid for {} s, longer than permitted: the clocks of this host and "

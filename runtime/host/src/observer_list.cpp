@@ -29,6 +29,7 @@ ObserverList::ObserverList(const Parts& parts)
     : console_(parts.console),
       results_(parts.scenario, parts.robot_kinds, parts.engine.spec(), parts.options.picture) {}
 
+// The console outlives the recording that it writes to.
 ObserverList::~ObserverList() { console_.attach(nullptr); }
 
 Result<std::unique_ptr<ObserverList>> ObserverList::open(const Parts& parts) {
@@ -56,6 +57,7 @@ Status ObserverList::open_all(const Parts& parts) {
     RAVE_TRY(observer->run_begins({parts.engine, results_.kinds, info, hybrids, parts.live}));
   }
   if (!options.record) return {};
+  // The recording is opened last, so that a run which an observer refuses leaves none.
   info.expanded_scenario = parts.expanded;
   info.versions = versions_of(parts.engine.spec(), parts.catalogue);
   info.inputs = input_files(parts.scenario, parts.engine);
@@ -104,6 +106,7 @@ Result<std::string> ObserverList::make_input(sim::Engine& engine, const RunReque
   }
   const bool places = request.kind == RunRequest::Kind::kPlace && place_;
   auto answer = places ? place(engine, request) : serve_request(engine, request);
+  // A refused request has changed nothing, so a repeated run does not need it.
   if (answer && !request.only_reads()) keep(request, engine.steps_done());
   return answer;
 }
@@ -112,6 +115,7 @@ Result<std::string> ObserverList::serve(sim::Engine& engine, const RunRequest& r
   if (request.kind == RunRequest::Kind::kResetShadow && shadows_) {
     return shadows_->reset(request.robot);
   }
+  // Chat does not change the run, so it is no input.
   if (request.kind == RunRequest::Kind::kChat) {
     if (record_) record_->say(request, engine.steps_done());
     return std::string(record_ ? "added to the recording" : "there is no recording");

@@ -41,6 +41,8 @@ double longest_m(const sim::Engine& engine, RobotId robot) {
 /// together.
 MapFrame frame_of(const sim::Engine& engine, RobotId robot) {
   MapFrame frame;
+  // kNear_m ? kFine_m : kCoarse_m; <= The number of cells is fixed, so smaller cells cover less;
+  // sensors of short range can have them.
   frame.resolution_m = longest_m(engine, robot) <= kNear_m ? kFine_m : kCoarse_m;
   frame.columns = frame.rows = LocalMap::kCells;
   const double tile_m = kTileCells * frame.resolution_m;
@@ -55,6 +57,8 @@ MapFrame frame_of(const sim::Engine& engine, RobotId robot) {
 estimate::OccupancyGrid grid_of(const MapFrame& frame, double longest_m) {
   estimate::BeamModel model;
   model.range_max_m = longest_m;
+  // A beam without return may have met something that reflects too little, so only its nearer half
+  // marks cells free.
   model.no_return_free_m = 0.5 * longest_m;
   auto grid = estimate::OccupancyGrid::create(
       {frame.resolution_m, frame.origin_W, LocalMap::kCells, LocalMap::kCells}, model);
@@ -85,6 +89,7 @@ LocalMap::LocalMap(const sim::Engine& engine, RobotId robot)
 void LocalMap::follow(const sim::Engine& engine) {
   if (!engine.is_local(robot_)) return;
   const sim::ReportedPose& reported = engine.reported(robot_);
+  // In the order of stamps, because pose_at() searches by bisection.
   if (reported.known && (poses_.empty() || reported.stamp.ns > poses_.back().stamp_ns)) {
     if (poses_.size() == kPoses) poses_.pop_front();
     poses_.push_back(
@@ -123,6 +128,8 @@ void LocalMap::touch(Vec2 p_W, double range_m) {
   const double tile_m = kTileCells * frame_.resolution_m;
   const auto tile = [&](double at, double origin) {
     const double index = std::floor((at - origin) / tile_m);
+    // One tile beyond the map stands for everything farther out. It keeps the conversion defined,
+    // and a circle outside the map gives an empty range.
     return static_cast<std::int64_t>(std::clamp(index, -1.0, static_cast<double>(kTiles)));
   };
   const bool none = column1_ < column0_;

@@ -39,6 +39,7 @@ struct PutValue {
   Status operator()(const std::vector<double>& value) const {
     constexpr std::size_t kMostNumbers = 1024;
     wire.kind = rave_wire_VALUE_LIST;
+    // The generated types have no const; a message that is sent is only read.
     borrow(wire.list, const_cast<std::vector<double>&>(value));
     return value.size() <= kMostNumbers ? Status() : does_not_fit("the list", name);
   }
@@ -47,6 +48,7 @@ struct PutValue {
 Result<sim::ParameterChange> from_wire(const rave_wire_ParameterChange& wire) {
   sim::ParameterChange change;
   change.part = static_cast<sim::ParameterChange::Part>(wire.part);
+  // Any number may arrive: the bytes come from another process.
   if (change.part > sim::ParameterChange::Part::kBody) {
     return fail(ErrorCode::kInvalidArgument, "a parameter of an unknown part of a robot");
   }
@@ -128,6 +130,7 @@ Result<sim::WorldInput> from_wire(const rave_wire_WorldInput& wire) {
 
 Status InputParts::fill(const std::vector<sim::WorldInput>& inputs) {
   inputs_.assign(inputs.size(), {});
+  // Never smaller, so that the inner vectors keep their memory from step to step.
   changes_.resize(std::max(changes_.size(), inputs.size()));
   points_.resize(std::max(points_.size(), inputs.size()));
   const auto fill_one = [](const sim::WorldInput& input, rave_wire_WorldInput& wire, auto& changes,
@@ -146,6 +149,7 @@ Status InputParts::fill(const std::vector<sim::WorldInput>& inputs) {
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     Status filled = fill_one(inputs[i], inputs_[i], changes_[i], points_[i]);
     if (filled) continue;
+    // What was filled before stays in the message and is valid.
     inputs_.resize(i);
     return filled;
   }

@@ -61,6 +61,7 @@ bus::HostReport& ReportMessage::fill(const sim::HostReport& report, std::uint64_
   // Further texts are omitted: the requests are refused anyway, and the texts are only for people.
   fill_refusals(report.refusals, rave_wire_kMaxRefusals, refusals_);
   borrow(message_.refusals, refusals_);
+  // An input that does not fit ends the list; those before it are sent.
   static_cast<void>(inputs_.fill(report.inputs));
   borrow(message_.inputs, inputs_.inputs());
   return message_;

@@ -13,6 +13,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string text_of(const Json& message) {
+  // Names and texts come from files and other processes. Bytes that are no UTF-8 are replaced; by
+  // default dump() would throw.
   return message.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

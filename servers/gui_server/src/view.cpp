@@ -82,6 +82,7 @@ void View::note(const Rights& rights, const Person& person) {
     any_[i] = reach.kind != Reach::Kind::kNone;
     all_[i] = reach.covers_all(person.teams);
     whole_ = whole_ && all_[i];
+    // Equal keys mean equal views: pages with the same key share messages and frames.
     key_ += any_[i] ? (all_[i] ? 'a' : 's') : 'n';
     for (const std::string& team : teams_) {
       covers_[i].push_back(reach.covers(team, person.teams));
@@ -122,6 +123,7 @@ PosesAt View::poses(const PosesAt& all) const {
   PosesAt mine{all.serial, all.time_s, all.step, {}, {}, all.taken_us};
   mine.robots.reserve(shown_.size());
   for (const std::uint32_t robot : shown_) {
+    // The poses may be of a moment when the run had fewer robots than the roster.
     const bool given = robot < all.robots.size();
     mine.robots.push_back(given ? all.robots[robot] : RobotState{});
   }
@@ -149,6 +151,7 @@ bool View::reading(ReadingAt& reading) const {
   for (std::size_t row = 0; row + reading.fields <= reading.values.size(); row += reading.fields) {
     const float other = reading.values[row];
     const auto slot =
+        // Readings are floats; a conversion of NaN or a number out of range would be undefined.
         other >= 0 && other < 1e9F ? slot_of(static_cast<std::uint32_t>(other)) : std::nullopt;
     if (!slot) continue;
     const auto begin = reading.values.begin() + static_cast<std::ptrdiff_t>(row);

@@ -39,6 +39,7 @@ ColorManagement.enabled = false;
 /** The world in perspective: one scene of the same data that the top view draws. */
 export class PerspectiveStage implements Stage {
   readonly element = document.createElement('div');
+  // Without a graphics card the processor draws, and smoothing would slow it down further.
   private readonly renderer = new WebGLRenderer({antialias: hasCard(), preserveDrawingBuffer: false});
   private readonly over = document.createElement('canvas');
   private readonly scene = new Scene();
@@ -161,6 +162,7 @@ export class PerspectiveStage implements Stage {
     if (bounds === null) return;
     const {palette} = this.context;
     const round = (value: number) => Math.round(value / 10);
+    // In steps of 10 m, or the floor would be made anew with each step of the outermost robot.
     const key = [round(bounds.x0), round(bounds.y0), round(bounds.x1), round(bounds.y1), palette.theme].join();
     const size = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0, 4);
     const fog = this.scene.fog as Fog | null;
@@ -187,9 +189,10 @@ export class PerspectiveStage implements Stage {
     const by = this.context.layers().colourBy;
     const ghost = (slot: number) => slot < placed.count && (placed.flags[slot] & RobotFlag.stale) !== 0;
     let ghosts = 0;
-    // Whoever it is, the sum is another one.
+    // A sum that differs for each set of ghosts.
     for (let slot = 0; slot < placed.count; ++slot) if (ghost(slot)) ghosts = (31 * ghosts + slot + 1) % 1e9;
     const fixed = `${by} ${palette.theme} ${ghosts}`;
+    // Colours by a value that changes are renewed four times a second of the run, not in each frame.
     const key = by === 'kind' || by === 'team' ? fixed : `${fixed} ${Math.floor(placed.time_s * 4)}`;
     if (key === this.tinted) return;
     this.tinted = key;
@@ -288,6 +291,7 @@ export class PerspectiveStage implements Stage {
   snapshot(): HTMLCanvasElement {
     const picture = document.createElement('canvas');
     [picture.width, picture.height] = [this.over.width, this.over.height];
+    // preserveDrawingBuffer is off, so the picture of WebGL can only be read right after it was painted, in the same task.
     this.paint(performance.now());
     const ctx = picture.getContext('2d');
     ctx?.drawImage(this.renderer.domElement, 0, 0, picture.width, picture.height);

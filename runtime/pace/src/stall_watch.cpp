@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/pace/stall_watch.hpp"
 
+#include "rave/base/thread.hpp"
+
 namespace rave::runtime {
 namespace {
 
@@ -10,7 +12,12 @@ constexpr auto kPatience = std::chrono::seconds(1);
 }  // namespace
 
 StallWatch::StallWatch(LogSink* log) : log_(log) {
-  if (log_ != nullptr) thread_ = std::thread([this] { watch(); });
+  if (log_ == nullptr) return;
+  // A run goes on without it.
+  const Status started = start_thread(thread_, "the watch over steps", [this] { watch(); });
+  if (!started) {
+    log_->warn("run", "{}; a step that does not end will not be reported", started.error().message);
+  }
 }
 
 StallWatch::~StallWatch() {

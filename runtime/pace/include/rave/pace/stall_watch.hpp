@@ -13,7 +13,8 @@
 namespace rave::runtime {
 
 /// Logs a warning when a step does not end: a driver or program inside this process that never
-/// returns cannot be stopped, but the user should know. Has a thread of its own.
+/// returns cannot be stopped, but the user should know. Has a thread of its own; where
+/// the system gives none, it warns once and watches nothing.
 class StallWatch {
  public:
   explicit StallWatch(LogSink* log);

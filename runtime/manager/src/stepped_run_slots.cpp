@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "drain.hpp"
+#include "rave/protocol/step_messages.hpp"
 #include "served.hpp"
 #include "stepped_run.hpp"
 

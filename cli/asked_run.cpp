@@ -16,6 +16,7 @@
 
 #include "bus_search.hpp"
 #include "rave/base/names.hpp"
+#include "rave/base/thread.hpp"
 #include "rave/control/client.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/watch/observer.hpp"
@@ -271,8 +272,9 @@ Result<std::vector<Reply>> AskedRun::ask_each_on_bus(const std::string& word,
       named = named || watch::is_named(run.run, run_word);
       auto& replies = asked[run.run.text()];
       if (replies.valid()) continue;
-      replies = std::async(std::launch::async, ask_each_of, config, run.run, std::string_view(word),
-                           request);
+      replies = start_beside([&config, id = run.run, &word, &request] {
+        return ask_each_of(config, id, word, request);
+      });
     }
     return named;
   };

@@ -79,7 +79,8 @@ Result<HostLineEnds> open_host_line(const LineArguments& arguments, const std::s
   options.run = bus.run.text();
   options.host = host;
   RAVE_TRY_ASSIGN(ends.server, direct_line::LineServer::start(options, control));
-  ends.beacon = direct_line::LineBeacon::start(bus, host, *ends.server, control, log);
+  RAVE_TRY_ASSIGN(ends.beacon,
+                  direct_line::LineBeacon::start(bus, host, *ends.server, control, log));
   return ends;
 }
 

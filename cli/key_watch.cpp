@@ -10,6 +10,8 @@
 #include <array>
 #include <csignal>
 
+#include "rave/base/thread.hpp"
+
 namespace rave::cli {
 namespace {
 
@@ -38,17 +40,25 @@ KeyWatch::KeyWatch(bool keys)
     single.c_cc[VSUSP] = _POSIX_VDISABLE;
     ::tcsetattr(STDIN_FILENO, TCSANOW, &single);
   }
-  thread_ = std::thread([this] { watch(); });
+  const Status started = start_thread(thread_, "the keys", [this] { watch(); });
+  // Nobody reads keys or signals: the latter then end the process as they do any other.
+  if (!started) give_back();
+}
+
+void KeyWatch::give_back() const {
+  if (keys_) ::tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+  const ::sigset_t set = ends();
+  ::pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
 }
 
 KeyWatch::~KeyWatch() {
   ::eventfd_write(quit_, 1);
-  thread_.join();
-  if (keys_) ::tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+  if (thread_.joinable()) {
+    thread_.join();
+    give_back();
+  }
   ::close(signals_);
   ::close(quit_);
-  const ::sigset_t set = ends();
-  ::pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
 }
 
 std::stop_token KeyWatch::next() {

@@ -32,6 +32,8 @@ class KeyWatch {
 
  private:
   void watch();
+  /// Restores the terminal and the signals.
+  void give_back() const;
   void take_key();
   void end_it();
   void wake();

@@ -193,18 +193,23 @@ Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const runtime::BuiltSce
   return end;
 }
 
+/// A run of so many hosts, if they have to find each other.
+Status look_at_number(const runtime::BuiltScenario& built, std::size_t hosts) {
+  if (hosts <= kMostLiveHosts || built.live_reason.empty() || !runtime::needs_manager(built)) {
+    return {};
+  }
+  return fail(
+      ErrorCode::kInvalidArgument,
+      "the run has {} hosts; in real time at most {} hosts can find each other; use fewer hosts "
+      "with more robots each",
+      hosts, kMostLiveHosts);
+}
+
 Result<ManagedEnd> manage_time(const ManagedRun& run, runtime::BuiltScenario built,
                                std::vector<config::PlannedHost> hosts) {
   if (!runtime::needs_manager(built)) return wait_for_hosts(run, built);
   const config::ScenarioFile& file = run.scenario.scenario;
   run.console.warn("run", "the run is in real time: {}", built.live_reason);
-  if (hosts.size() > kMostLiveHosts) {
-    return fail(
-        ErrorCode::kInvalidArgument,
-        "the run has {} hosts; in real time at most {} hosts can find each other; use fewer hosts "
-        "with more robots each",
-        hosts.size(), kMostLiveHosts);
-  }
   manager::LiveManagerOptions how{options_of(run, std::move(hosts), true)};
   how.bus.reach = bus::Reach::kAll;
   for (const sim::RobotSpec& robot : built.spec.robots) {
@@ -262,6 +267,13 @@ Result<std::unique_ptr<gui_server::GuiServer>> show_run(const RunCommand& option
   return page;
 }
 
+Status check_hosts_fit(const config::ExpandedScenario& scenario,
+                       const std::vector<std::string>& plugins, std::size_t hosts, LogSink& log) {
+  if (hosts <= kMostLiveHosts) return {};
+  RAVE_TRY_ASSIGN(const auto built, build_world(scenario, plugins, log));
+  return look_at_number(built, hosts);
+}
+
 Result<ManagedEnd> manage_run(const ManagedRun& run) {
   RAVE_TRY(
       write_file_atomically(run.folder / "scenario.yaml", config::write_expanded(run.scenario)));
@@ -273,6 +285,7 @@ Result<ManagedEnd> manage_run(const ManagedRun& run) {
                 "`processes:` with a number; to run it in one process, use `rave run`",
                 run.scenario.scenario.name.value);
   }
+  RAVE_TRY(look_at_number(built, hosts.size()));
   if (!built.live_reason.empty()) return manage_time(run, std::move(built), std::move(hosts));
   return manage_steps(run, std::move(built), std::move(hosts));
 }

@@ -39,6 +39,12 @@ struct ManagedRun {
                                                          const std::vector<std::string>& plugins,
                                                          LogSink& log);
 
+/// Whether so many hosts can find each other in this run, before any of them starts. Errors:
+/// kInvalidArgument (too many for real time), those of runtime::build().
+[[nodiscard]] Status check_hosts_fit(const config::ExpandedScenario& scenario,
+                                     const std::vector<std::string>& plugins, std::size_t hosts,
+                                     LogSink& log);
+
 /// Serves a page that looks on at a run on the bus. `control`: that of its manager, if it is in
 /// this process; may be null. `on_over`: see gui_server::watch_run().
 [[nodiscard]] Result<std::unique_ptr<gui_server::GuiServer>> show_run(

@@ -227,6 +227,9 @@ int run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario
       !written) {
     return complain(written.error());
   }
+  if (auto fit = check_hosts_fit(scenario, options.plugins, hosts.size(), console); !fit) {
+    return complain(fit.error());
+  }
   if (auto made = lines ? make_lines(options, start.path()) : Status(); !made) {
     return complain(made.error());
   }
@@ -253,8 +256,8 @@ int run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario
   }
   auto managed = manage_run({scenario, options, *bus, start.path(), console, control, stopping,
                              [&crew] { return crew.all_ended(); }});
-  // In lock-step the last step tells them.
-  if (managed && managed->live && control.stopping()) crew.interrupt();
+  // In lock-step the last step tells them; nobody tells those whose manager has failed.
+  if (!managed || (managed->live && control.stopping())) crew.interrupt();
   const std::vector<std::string> problems = crew.part();
   console.clear();
   if (!managed) return complain(managed.error());

@@ -12,6 +12,7 @@
 #include "asked_run.hpp"
 #include "error_text.hpp"
 #include "rave/base/table.hpp"
+#include "rave/base/thread.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/math/scalar.hpp"
 
@@ -38,9 +39,9 @@ int ask_run(const AskedRun& run, const Request& request) {
 std::vector<Reply> ask_all(const std::vector<AskedRun>& runs, const Request& request) {
   std::vector<std::future<Result<control::Answer>>> answers;
   for (const AskedRun& run : runs) {
+    const auto ask = [&run, &request] { return run.ask(request); };
     // What is on the bus is asked by its one owner.
-    const auto how = run.on_bus() ? std::launch::deferred : std::launch::async;
-    answers.push_back(std::async(how, [&run, &request] { return run.ask(request); }));
+    answers.push_back(run.on_bus() ? std::async(std::launch::deferred, ask) : start_beside(ask));
   }
   std::vector<Reply> replies;
   for (std::size_t i = 0; i < runs.size(); ++i) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // As many processes as a machine may be asked for.
+#include <chrono>
+#include <filesystem>
 #include <fstream>
 
 #include "shared_world.hpp"
@@ -45,6 +47,29 @@ TEST_F(ManyHosts, MoreThanAMachineHasRoomForAreRefused) {
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_NE(ended.err.find("expected 1 to 100, the number of hosts that fit"), std::string::npos)
       << ended.err;
+}
+
+TEST_F(ManyHosts, TooManyForRealTimeAreRefusedBeforeOneStarts) {
+  const std::string scenario = robots(51);
+  std::ofstream(scenario, std::ios::app) << "clock: real_time\n";
+  const Ended ended = run_rave({"run", scenario, "--processes", "51", "--output", folder("run")});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_NE(ended.err.find("in real time at most 50 hosts can find each other"), std::string::npos)
+      << ended.err;
+  EXPECT_FALSE(std::filesystem::exists(folder("run") + "/hosts"));
+}
+
+TEST_F(ManyHosts, HostsOfARunThatCannotBeginAreInterrupted) {
+  // The link looks like nothing, and no file can be made behind it.
+  std::filesystem::create_directories(folder("run"));
+  std::filesystem::create_symlink(folder("nowhere") + "/world.mcap", folder("run") + "/world.mcap");
+  const auto began = std::chrono::steady_clock::now();
+  const Ended ended =
+      run_rave({"run", robots(2), "--processes", "2", "--no-picture", "--output", folder("run")});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_NE(ended.err.find("world.mcap"), std::string::npos) << ended.err;
+  // They would wait a minute for a manager, and this process 20 s for each of them.
+  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(20));
 }
 
 }  // namespace

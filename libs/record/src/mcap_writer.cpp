@@ -49,7 +49,9 @@ Result<McapWriter> McapWriter::open(const std::filesystem::path& path, McapWrite
                 options.zstd_level, options.chunk_bytes, options.flush_interval_s);
   }
   RAVE_TRY_ASSIGN(auto file, McapFile::create(path, options.profile, options.library));
-  return McapWriter(std::make_unique<Impl>(std::move(file), options, sink));
+  auto impl = std::make_unique<Impl>(std::move(file), options, sink);
+  RAVE_TRY(impl->queue.start());
+  return McapWriter(std::move(impl));
 }
 
 Result<std::uint16_t> McapWriter::add_schema(std::string_view name, std::string_view encoding,

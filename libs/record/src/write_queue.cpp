@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <exception>
 
+#include "rave/base/thread.hpp"
+
 namespace rave::record {
 namespace {
 
@@ -38,7 +40,10 @@ WriteQueue::WriteQueue(std::unique_ptr<McapFile> file, const McapWriterOptions& 
     : options_(options), sink_(sink), file_(std::move(file)), open_(std::make_unique<Chunk>()) {
   next_flush_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                    std::chrono::duration<double>(options_.flush_interval_s));
-  thread_ = std::thread([this] { work(); });
+}
+
+Status WriteQueue::start() {
+  return start_thread(thread_, "the recording", [this] { work(); });
 }
 
 WriteQueue::~WriteQueue() { stop(); }

@@ -42,6 +42,9 @@ class WriteQueue {
   WriteQueue(const WriteQueue&) = delete;
   WriteQueue& operator=(const WriteQueue&) = delete;
   ~WriteQueue();
+  /// Starts the writing thread. Producer, once, before anything else. Error kIo: the system creates
+  /// no thread.
+  [[nodiscard]] Status start();
 
   /// Calls `fill` to append to the open chunk, and queues the chunk when it is full. Producer.
   template <class Fill>

@@ -18,7 +18,7 @@ using InputKind = WorldInput::Kind;
 
 constexpr double kFastest_mps = 100;
 constexpr double kFastest_radps = 100;
-constexpr double kMostTurn_rad = 1e6;
+constexpr double kMostPlaceTurn_rad = 1e6;
 /// The least distance by which the world extends beyond everything in it.
 constexpr double kWorldMargin_m = 10;
 
@@ -141,7 +141,7 @@ Status check_points(const EngineSpec& spec, const WorldInput& input) {
   const Box box = world_box(spec);
   for (const Vec2 p_W : input.order.points_W) RAVE_TRY(check_point(spec, input, box, p_W));
   const double yaw_rad = input.order.yaw_rad.value_or(0);
-  if (!(std::abs(yaw_rad) <= kMostTurn_rad)) {
+  if (!(std::abs(yaw_rad) <= kMostPlaceTurn_rad)) {
     return wrong(spec, input, fmt::format("{} is not a yaw; expected radians", yaw_rad));
   }
   const double speed_mps = input.order.speed_mps;

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core.hpp"
+#include "rave/base/thread.hpp"
 
 namespace rave::web {
 
@@ -42,8 +43,8 @@ class ServerImpl final : public Server {
   ~ServerImpl() override { stop(); }
 
   Status listen();
-  void run() {
-    thread_ = std::thread([this] { core_.io().run(); });
+  [[nodiscard]] Status run() {
+    return start_thread(thread_, "the web server", [this] { core_.io().run(); });
   }
 
   [[nodiscard]] std::uint16_t port() const noexcept override { return core_.port; }
@@ -187,7 +188,7 @@ void ServerImpl::stop() {
 Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options, Handler& handler) {
   auto server = std::make_unique<ServerImpl>(options, handler);
   RAVE_TRY(server->listen());
-  server->run();
+  RAVE_TRY(server->run());
   return std::unique_ptr<Server>(std::move(server));
 }
 

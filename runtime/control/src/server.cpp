@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "answering.hpp"
+#include "rave/base/thread.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/control/protocol.hpp"
 #include "socket.hpp"
@@ -141,7 +142,12 @@ Result<std::unique_ptr<Server>> Server::start(const std::string& run,
     return fail(ErrorCode::kIo, "cannot open the socket `{}`: {}", impl->path.string(),
                 std::strerror(error));
   }
-  impl->thread = std::thread([raw = impl.get()] { raw->run(); });
+  if (auto started = start_thread(impl->thread, "requests of other terminals",
+                                  [raw = impl.get()] { raw->run(); });
+      !started) {
+    fs::remove(impl->path, ignored);
+    return tl::unexpected(started.error());
+  }
   return std::unique_ptr<Server>(new Server(std::move(impl)));
 }
 

@@ -3,6 +3,7 @@
 #include <mutex>
 #include <thread>
 
+#include "rave/base/thread.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
@@ -86,13 +87,15 @@ LineBeacon::~LineBeacon() {
   impl_->thread.join();
 }
 
-std::unique_ptr<LineBeacon> LineBeacon::start(bus::BusConfig config, const std::string& host,
-                                              LineServer& server,
-                                              const runtime::RunControl& control, LogSink& log) {
+Result<std::unique_ptr<LineBeacon>> LineBeacon::start(bus::BusConfig config,
+                                                      const std::string& host, LineServer& server,
+                                                      const runtime::RunControl& control,
+                                                      LogSink& log) {
   config.anonymous = true;
   config.beside = true;
   std::unique_ptr<Impl> impl(new Impl{std::move(config), host, server, control, log});
-  impl->thread = std::jthread([raw = impl.get()](const std::stop_token& stop) { raw->work(stop); });
+  RAVE_TRY(start_thread(impl->thread, "the direct line",
+                        [raw = impl.get()](const std::stop_token& stop) { raw->work(stop); }));
   return std::unique_ptr<LineBeacon>(new LineBeacon(std::move(impl)));
 }
 

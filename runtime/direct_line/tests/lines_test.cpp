@@ -60,7 +60,9 @@ class LinesOnBus : public ::testing::Test {
     return *std::move(lines);
   }
   [[nodiscard]] std::unique_ptr<LineBeacon> beacon(const std::string& host, LineServer& server) {
-    return LineBeacon::start(bus_, host, server, control_, log_);
+    auto beacon = LineBeacon::start(bus_, host, server, control_, log_);
+    EXPECT_TRUE(beacon) << beacon.error().text();
+    return *std::move(beacon);
   }
   [[nodiscard]] RawSocket page_at(const LineServer& server, std::uint64_t epoch,
                                   const std::string& user = "anna") const {

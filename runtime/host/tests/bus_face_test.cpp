@@ -7,6 +7,7 @@
 #include <chrono>
 #include <functional>
 #include <random>
+#include <set>
 #include <thread>
 
 #include "rave/assemble_testing/host_fixture.hpp"
@@ -77,7 +78,7 @@ class BusFaceTest : public ::testing::Test {
   void step() {
     ASSERT_TRUE(engine_->step().has_value());
     kinds_->learn(engine_->spec().world);
-    face_->after_step({*engine_, crowd_});
+    face_->after_step({*engine_, crowd_, late_});
   }
 
   /// Both ends go on until something holds.
@@ -109,6 +110,7 @@ class BusFaceTest : public ::testing::Test {
   std::optional<Listener> listener_;
   onlook::Asked asked_;
   std::vector<sim::Event> crowd_;  ///< Happens in each step beside the engine.
+  bool late_ = false;              ///< Whether its steps are.
   std::vector<onlook::HeardEvent> events_;
   std::vector<onlook::HeardObstacle> obstacles_;
 };
@@ -131,6 +133,26 @@ TEST_F(BusFaceTest, ReadingsComeWhileSomebodyLooksAtThem) {
   asked_.sensors = {{1, 0}};
   ASSERT_TRUE(until([&] { return listener_->readings().contains({1, 0, 0}); }));
   EXPECT_EQ(listener_->readings().size(), 1U);
+}
+
+TEST_F(BusFaceTest, LateStepsTellReadingsATenthAsOften) {
+  start(scenario_text(robot_at("a", 0, kLaser)));
+  look_on();
+  asked_.sensors = {{0, 0}};
+  ASSERT_TRUE(until([&] { return listener_->readings().contains({0, 0, 0}); }));
+  late_ = true;
+  std::set<double> stamps;
+  const auto began = Clock::now();
+  // One may have been on its way, and the first late one was due soon.
+  ASSERT_TRUE(until([&] {
+    const auto& readings = listener_->readings();
+    if (const auto it = readings.find({0, 0, 0}); it != readings.end()) {
+      stamps.insert(it->second.stamp_s);
+    }
+    return stamps.size() >= 5;
+  }));
+  // The three others come a third of a second apart; those of steps in time, thirty in a second.
+  EXPECT_GE(Clock::now() - began, std::chrono::milliseconds(800));
 }
 
 TEST_F(BusFaceTest, TilesOfALocalMapComeOnceSomebodyAskedAndStayForOthers) {

@@ -230,6 +230,79 @@ TEST_F(InputPostTest, AnswersToAnEarlierProcessOfTheHostAreNotTaken) {
   EXPECT_EQ(reports_[0].inputs.size(), 1U) << "it is asked for on";
 }
 
+TEST_F(InputPostTest, AnswersToAnotherHostAreNotTaken) {
+  EXPECT_EQ(why(ask(point_of(Kind::kGoal, "r1", {1, 2}))), "accepted");
+  make_world();
+  ASSERT_EQ(world_.answers.size(), 1U);
+  world_.answers[0].host = 1;
+  post_->take(world_);
+  post_->settle({});
+  EXPECT_EQ(answer(0), "") << "the number is that of a request to the other one";
+}
+
+TEST_F(InputPostTest, OfSeveralRobotsOneRefusalIsTheAnswer) {
+  EXPECT_EQ(ask(request_of(Kind::kStop)).value(), "stopped r0 and r1");
+  make_world();
+  ASSERT_EQ(world_.answers.size(), 2U);
+  post_->take(world_);
+  post_->settle({{world_.answers[0].sequence, "it cannot be stopped"}});
+  EXPECT_EQ(answer(0), "refused: it cannot be stopped");
+}
+
+TEST_F(InputPostTest, AReportHasWhatWaitsOnce) {
+  EXPECT_EQ(why(ask(request_of(Kind::kStop, "r0"))), "accepted");
+  post_->put(reports_[0]);
+  post_->put(reports_[0]);
+  EXPECT_EQ(reports_[0].inputs.size(), 1U) << "it is put each time that the host is asked";
+  EXPECT_EQ(why(ask(request_of(Kind::kStop, "r1"))), "accepted");
+  post_->put(reports_[0]);
+  EXPECT_EQ(reports_[0].inputs.size(), 2U);
+}
+
+TEST_F(InputPostTest, ATextToADrivenRobotLeavesItDriven) {
+  RunRequest drive = request_of(Kind::kDrive, "r1");
+  drive.v_mps = 0.2;
+  EXPECT_EQ(why(ask(drive)), "accepted");
+  RunRequest text = request_of(Kind::kText, "r1");
+  text.value = "hello";
+  EXPECT_EQ(why(ask(text)), "accepted");
+  EXPECT_TRUE(post_->is_driven("r1"));
+  EXPECT_FALSE(post_->is_driven("r0"));
+  EXPECT_EQ(why(ask(request_of(Kind::kCancel, "r1"))), "accepted");
+  EXPECT_FALSE(post_->is_driven("r1"));
+}
+
+TEST_F(InputPostTest, AReleaseOfAnotherRobotPromisesNothing) {
+  EXPECT_EQ(why(ask(request_of(Kind::kStop))), "accepted");
+  step();
+  EXPECT_EQ(why(ask(request_of(Kind::kRelease, "r0"))), "accepted");
+  EXPECT_NE(why(ask(point_of(Kind::kGoal, "r1", {1, 2}))).find("it is stopped"), std::string::npos)
+      << "the next step can only refuse it";
+}
+
+TEST_F(InputPostTest, WhatAnOldReportAskedForIsNotSaidToBeDoneAfterAGap) {
+  EXPECT_EQ(why(ask(point_of(Kind::kGoal, "r1", {1, 2}))), "accepted");
+  make_world();
+  post_->drop("the run went on without the host of the robot");
+  EXPECT_EQ(answer(0), "refused: the run went on without the host of the robot");
+  post_->take(world_);
+  EXPECT_FALSE(post_->settle({})) << "nobody is told again";
+}
+
+TEST_F(InputPostTest, MoreThanAReportHasRoomForAreRefusedButAStopNever) {
+  const RunRequest goal = point_of(Kind::kGoal, "r1", {1, 2});
+  std::size_t taken = 0;
+  std::string refused;
+  while (refused.empty() && taken < 2 * InputPost::kMostWaiting) {
+    const auto text = post_->give(goal);
+    if (text) ++taken;
+    if (!text) refused = text.error().message;
+  }
+  EXPECT_EQ(taken, InputPost::kMostWaiting);
+  EXPECT_EQ(refused, "too many requests wait for the next step; try again later");
+  EXPECT_EQ(why(ask(request_of(Kind::kStop, "r1"))), "accepted");
+}
+
 TEST_F(InputPostTest, TooMuchForOneStepIsRefusedButAStopNever) {
   RunRequest path = request_of(Kind::kPath, "r1");
   for (int i = 0; i < 1000; ++i) path.points.push_back({0.001 * i, 2});

@@ -97,6 +97,26 @@ TEST(OrderDesk, ASilentDriverLetsTheRobotStandAndLosesItLater) {
   EXPECT_EQ(office.serve(drive("bert", 0.1)), "done");
 }
 
+TEST(OrderDesk, ATextDoesNotHideThatTheDriverIsSilent) {
+  Office office;
+  office.serve(drive("anna", 0.3));
+  RunRequest text = request(Kind::kText, "anna");
+  text.value = "hello";
+  EXPECT_EQ(office.serve(text), "done");
+  office.take();
+  office.wait(200ms);
+  EXPECT_EQ(office.take(), Lines{"drive r1 anna 0"});
+}
+
+TEST(OrderDesk, AGoalEndsTheDriveBeforeIt) {
+  Office office;
+  office.serve(drive("anna", 0.3));
+  EXPECT_EQ(office.serve(goal("anna")), "done");
+  office.take();
+  office.wait(1s);
+  EXPECT_TRUE(office.take().empty()) << "nobody is silent who does not drive";
+}
+
 TEST(OrderDesk, AFloodOfOthersTakesNothingFromTheDriver) {
   Office office;
   EXPECT_EQ(office.serve(drive("anna", 0.3)), "done");

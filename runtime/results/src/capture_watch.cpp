@@ -78,9 +78,30 @@ CaptureFacts CaptureWatch::facts() const {
   return facts;
 }
 
-bool holds(const config::CaptureCheckFile& check, const CaptureFacts& facts) {
+std::vector<RobotId> lost_poses(const Capture& capture, std::span<const sim::Event> events,
+                                Duration step) {
+  std::vector<RobotId> lost;
+  for (const RobotId robot : {capture.predator, capture.prey}) {
+    bool is_lost = false;
+    for (const sim::Event& event : events) {
+      const bool of_pose =
+          event.kind == sim::EventKind::kPoseStale || event.kind == sim::EventKind::kPoseBack;
+      if (!of_pose || event.robot != robot) continue;
+      // An event of the step that sensed the capture belongs to the same poses.
+      if ((static_cast<double>(event.step) - 0.5) * step.seconds() > capture.time_s) break;
+      is_lost = event.kind == sim::EventKind::kPoseStale;
+    }
+    if (is_lost) lost.push_back(robot);
+  }
+  return lost;
+}
+
+bool holds(const config::CaptureCheckFile& check, const CaptureFacts& facts,
+           std::span<const sim::Event> events, Duration step) {
   if (!check.before_s) return true;
-  return !facts.captures.empty() && facts.captures.front().time_s <= *check.before_s;
+  return std::ranges::any_of(facts.captures, [&](const Capture& capture) {
+    return capture.time_s <= *check.before_s && lost_poses(capture, events, step).empty();
+  });
 }
 
 }  // namespace rave::runtime

@@ -34,7 +34,7 @@ void judge_capture(const RunResults& results, RunOutcome& outcome) {
                "the capture check was not evaluated: no host saw all of the robots");
     return;
   }
-  if (holds(*check, *facts.capture)) return;
+  if (holds(*check, *facts.capture, facts.events, results.spec.step)) return;
   if (facts.world_from > 0) {
     fail_check(outcome, false,
                fmt::format("the capture check was not evaluated: captures before step {} are known "

@@ -178,7 +178,9 @@ Json capture_json(const RunResults& results) {
   if (!results.facts.capture) return json;
   const CaptureFacts& facts = *results.facts.capture;
   // A capture that is known holds. Without one, an unknown beginning leaves the answer open (null).
-  if (holds(check, facts) || results.facts.world_from == 0) json["holds"] = holds(check, facts);
+  const std::vector<sim::Event>& events = results.facts.events;
+  const bool held = holds(check, facts, events, spec.step);
+  if (held || results.facts.world_from == 0) json["holds"] = held;
   if (facts.closest_m.value_or(1e9) < 1e9) json["closest_m"] = rounded(*facts.closest_m, 4);
   for (const Capture& capture : facts.captures) {
     if (json["captured_at_s"].is_null()) json["captured_at_s"] = capture.time_s;
@@ -186,6 +188,9 @@ Json capture_json(const RunResults& results) {
                                 {"prey", spec.robots[capture.prey.value()].name},
                                 {"time_s", capture.time_s},
                                 {"gap_m", rounded(capture.gap_m, 4)}});
+    for (const RobotId robot : lost_poses(capture, events, spec.step)) {
+      json["captures"].back()["lost_poses"].push_back(spec.robots[robot.value()].name);
+    }
   }
   return json;
 }

@@ -34,9 +34,12 @@ void add_capture_rows(const RunResults& results, Table& table) {
   const sim::EngineSpec& spec = results.spec;
   const CaptureFacts& capture = *results.facts.capture;
   for (const Capture& caught : capture.captures) {
-    table.rows.push_back(
-        {"captured", fmt::format("{} by {} at {:.2f} s", spec.robots[caught.prey.value()].name,
-                                 spec.robots[caught.predator.value()].name, caught.time_s)});
+    std::string text = fmt::format("{} by {} at {:.2f} s", spec.robots[caught.prey.value()].name,
+                                   spec.robots[caught.predator.value()].name, caught.time_s);
+    for (const RobotId robot : lost_poses(caught, results.facts.events, spec.step)) {
+      text += fmt::format("; the pose of {} was lost", spec.robots[robot.value()].name);
+    }
+    table.rows.push_back({"captured", std::move(text)});
   }
   if (!capture.captures.empty()) return;
   const double closest_m = capture.closest_m.value_or(std::numeric_limits<double>::infinity());

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/assemble_testing/host_fixture.hpp"
+#include "rave/results/capture_watch.hpp"
 #include "rave/results/encounters.hpp"
 #include "rave/results/hit_counter.hpp"
 #include "rave/results/sighting_check.hpp"
+#include "rave/results/track_recorder.hpp"
 #include "rave/world/touching.hpp"
 
 namespace rave::runtime::testing {
@@ -113,6 +115,52 @@ TEST(Encounters, MissesNobodyWhoComesNearerStill) {
     ASSERT_NEAR(closest.at("simulated-virtual_obstacle").gap_m, to_obstacles_m, 1e-12) << k;
   }
   EXPECT_GT(nearer, 3) << "nobody moved";
+}
+
+TEST(CaptureWatch, ACaptureWhereAPoseWasLostIsSaidToBeOneAndDoesNotCount) {
+  config::CaptureCheckFile check;
+  check.before_s = 10;
+  const Duration step = from_seconds(0.01);
+  const Capture capture{RobotId(0), RobotId(1), 2.0, 0.1};
+  const CaptureFacts facts{{capture}, 0.1};
+  const auto pose = [](std::uint64_t at, sim::EventKind kind) {
+    return sim::Event{at, RobotId(1), kind, BodyId(), "", 0};
+  };
+  std::vector<sim::Event> events;
+  EXPECT_TRUE(holds(check, facts, events, step));
+  events = {pose(200, sim::EventKind::kPoseStale)};
+  EXPECT_EQ(lost_poses(capture, events, step), std::vector({RobotId(1)}));
+  EXPECT_FALSE(holds(check, facts, events, step));
+  events = {pose(100, sim::EventKind::kPoseStale), pose(150, sim::EventKind::kPoseBack),
+            pose(201, sim::EventKind::kPoseStale)};
+  EXPECT_TRUE(lost_poses(capture, events, step).empty()) << "back before it, lost behind it";
+  EXPECT_TRUE(holds(check, facts, events, step));
+  // A later one in time, with poses, counts.
+  events = {pose(200, sim::EventKind::kPoseStale), pose(250, sim::EventKind::kPoseBack)};
+  EXPECT_TRUE(holds(check, {{capture, {RobotId(0), RobotId(1), 3.0, 0.1}}, 0.1}, events, step));
+}
+
+TEST(TrackRecorder, OfLateStepsKeepsOnePointInTenAndTheWholeWay) {
+  const auto record = [](bool late) {
+    Host host;
+    const auto engine = host.engine_of(scenario_text(
+        standing("a", 0, 0, ", program: {driver: wander, period_s: 0.05}" + laser())));
+    EXPECT_NE(engine, nullptr);
+    const BodyKinds kinds(engine->spec(), host.kinds());
+    TrackRecorder recorder(kinds, engine->spec(), {.duration_s = 4, .odometry_sensor = {}});
+    const std::vector<sim::Event> none;
+    for (int k = 0; k < 400; ++k) {
+      EXPECT_TRUE(engine->step().has_value());
+      recorder.after_step({*engine, none, late});
+    }
+    return std::pair(recorder.facts().at(0).track.points.size(), recorder.way_m().at(0));
+  };
+  const auto [all, way_m] = record(false);
+  const auto [few, same_m] = record(true);
+  ASSERT_GT(all, 20U);
+  EXPECT_EQ(few, (all + 9) / 10);
+  EXPECT_GT(way_m, 0.1);
+  EXPECT_EQ(same_m, way_m);
 }
 
 TEST(HitCounter, CountsEachScanOnceByWhatItMet) {

@@ -48,12 +48,12 @@ class LineBeacon {
  public:
   /// `host`: its name in the scenario. `control`: of the run of this process. The
   /// last three arguments must outlive the beacon. If the bus cannot be opened, it logs a warning
-  /// and the run continues.
-  [[nodiscard]] static std::unique_ptr<LineBeacon> start(bus::BusConfig bus,
-                                                         const std::string& host,
-                                                         LineServer& server,
-                                                         const runtime::RunControl& control,
-                                                         LogSink& log);
+  /// and the run continues. Error kIo: the system creates no thread.
+  [[nodiscard]] static Result<std::unique_ptr<LineBeacon>> start(bus::BusConfig bus,
+                                                                 const std::string& host,
+                                                                 LineServer& server,
+                                                                 const runtime::RunControl& control,
+                                                                 LogSink& log);
   LineBeacon(const LineBeacon&) = delete;
   LineBeacon& operator=(const LineBeacon&) = delete;
   ~LineBeacon();

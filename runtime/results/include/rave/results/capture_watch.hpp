@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,13 @@ class CaptureWatch final : public RunObserver {
   double closest_before_m_;  ///< closest_m_ before the last look.
 };
 
-/// True if the check sets no limit, or the capture was in time.
-[[nodiscard]] bool holds(const config::CaptureCheckFile& check, const CaptureFacts& facts);
+/// Those of a capture whose pose had been lost: they were at their last known place, and may have
+/// been elsewhere. `events`: of the run, those of each robot in order.
+[[nodiscard]] std::vector<RobotId> lost_poses(const Capture& capture,
+                                              std::span<const sim::Event> events, Duration step);
+
+/// True if the check sets no limit, or a capture was in time of which no pose was lost.
+[[nodiscard]] bool holds(const config::CaptureCheckFile& check, const CaptureFacts& facts,
+                         std::span<const sim::Event> events, Duration step);
 
 }  // namespace rave::runtime

@@ -57,12 +57,14 @@ async function switches(page, name, least) {
   const gone = await differ(page);
   assert.ok(gone >= least, `${name}: ${gone} pixels`);
   await layer(page, name).click();
-  const left = await differ(page);
+  // What the layer needs may have to come again.
+  let left = await differ(page);
+  for (const end = Date.now() + 20000; left >= least / 4 && Date.now() < end; left = await differ(page)) await page.waitForTimeout(25);
   assert.ok(left < least / 4, `${name} came back but for ${left} pixels`);
 }
 
-/** More than 200 robots: arrowheads, density, plates, histograms; and a robot that is not sure where it is. */
-async function crowdChecks({page, slot}) {
+/** More than 200 robots: arrowheads, density, plates, histograms. */
+async function crowdChecks({page}) {
   await until(page, `${app}.model.poses.past.length > 6`);
   await hold(page);
 
@@ -106,6 +108,10 @@ async function crowdChecks({page, slot}) {
     await robots.locator('.row', {hasText: 'south-1'}).first().waitFor();
   });
 
+}
+
+/** One robot of the crowd is not sure where it is. */
+async function varianceCheck({page, slot}) {
   await check('how sure a robot is needs no reading: the ellipse is there without scans, in both views', async () => {
     const anna = await slot('anna');
     await page.getByRole('combobox', {name: 'Scans'}).selectOption('off');
@@ -356,6 +362,7 @@ try {
   const many = await open(crowd, 'crowd');
   servers.push(many.gui);
   await crowdChecks(many);
+  await varianceCheck(many);
 
   await check('every message is as the schema describes it', async () => {
     assert.ok(said.some((message) => message.type === 'look' && message.variances.length > 0));

@@ -68,6 +68,7 @@ Result<std::vector<fs::path>> files_below(const fs::path& folder) {
     return fail(ErrorCode::kIo, "cannot list `{}`: {}", folder.string(), error.message());
   }
   if (files.empty()) return fail(ErrorCode::kNotFound, "no templates in `{}`", folder.string());
+  // A folder is listed in any order; errors should come in the same one everywhere.
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -132,11 +133,13 @@ Status create_project(ProjectKind kind, const std::string& name, const fs::path&
                       const fs::path& target_dir) {
   RAVE_TRY(check_project_name(name));
   std::error_code error;
+  // The link itself: one that leads nowhere must not be replaced either.
   if (fs::exists(fs::symlink_status(target_dir, error))) {
     return fail(ErrorCode::kInvalidArgument, "`{}` already exists; nothing was changed",
                 target_dir.string());
   }
   const fs::path from = template_dir / kKinds[static_cast<std::size_t>(kind)];
+  // Written under another name and renamed, so that an error does not leave half of a project.
   fs::path partial = target_dir;
   partial += ".partial";
   Status copied = copy_filled_in(from, partial, name);

@@ -48,9 +48,9 @@ TEST(Decode, ASequenceThatClaimsMoreThanItsBoundIsRefused) {
   robots.lend(world.robots);
   EXPECT_TRUE(encode(world).empty());
 
-  // A length of 2^32 - 1 behind run, writer, epoch, step and time.
+  // A length of 2^32 - 1 behind run, writer, step and time.
   auto bytes = encoded_world(4);
-  for (std::size_t i = 48; i < 52; ++i) bytes[i] = std::byte{0xff};
+  for (std::size_t i = 40; i < 44; ++i) bytes[i] = std::byte{0xff};
   Decoded<World> decoded;
   EXPECT_FALSE(decoded.decode(bytes));
 }

@@ -23,23 +23,35 @@ function partOf(event: Event, name: string | undefined): string | null {
 export function foldSame(events: readonly Event[], names: readonly string[]): LogRow[] {
   const rows: LogRow[] = [];
   const last = new Map<string, number>();
+  /** By row: the robots that it has already. */
+  const known = new Map<LogRow, Set<number>>();
   for (const event of events) {
     const what = partOf(event, names[event.slots[0]]);
     const key = what === null ? '' : `${event.kind}\n${event.level}\n${what}`;
     const at = what === null ? undefined : last.get(key);
     const row = at === undefined || rows.length - at > kLookBack ? undefined : rows[at];
-    if (row === undefined || Math.abs(event.t - row.t) > kMoment_s || row.slots.includes(event.slots[0])) {
-      if (what !== null) last.set(key, rows.length);
-      rows.push({...event, what: ''});
+    if (row === undefined || Math.abs(event.t - row.t) > kMoment_s || known.get(row)?.has(event.slots[0])) {
+      const own: LogRow = {...event, slots: [...event.slots], what: ''};
+      if (what !== null) {
+        last.set(key, rows.length);
+        known.set(own, new Set(event.slots));
+      }
+      rows.push(own);
       continue;
     }
     row.what = what ?? '';
-    row.slots = [...row.slots, event.slots[0]];
+    row.slots.push(event.slots[0]);
+    known.get(row)?.add(event.slots[0]);
     row.count += event.count;
     row.until = Math.max(row.until, event.until);
-    row.text = `${row.slots.map((slot) => names[slot]).join(', ')}: ${row.what}`;
   }
+  for (const row of rows) if (row.what !== '') row.text = shortText(row, names);
   return rows;
+}
+
+function shortText(row: LogRow, names: readonly string[]): string {
+  const {first, last} = shownSlots(row.slots);
+  return `${first.map((slot) => names[slot]).join(', ')}${last === null ? '' : ` … ${names[last]}`}: ${row.what}`;
 }
 
 /** The names of a row, shortened: the first and the last where they are many. */

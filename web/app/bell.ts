@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
 import type {PanelContext} from '../panel_api';
+import {foldSame} from '../panels/log/same_events';
 import type {Event} from '../protocol/messages';
 import {clockText} from './clock';
 import {icon} from './icons';
@@ -48,7 +49,7 @@ export class Bell extends LitElement {
   private alerts(): Event[] {
     const {model} = this.context;
     const now_s = model.live ? Infinity : nowOf(model);
-    return model.events.filter((event) => event.level !== 'info' && event.t <= now_s);
+    return foldSame(model.events.filter((event) => event.level !== 'info' && event.t <= now_s), model.robots.map((robot) => robot.name));
   }
 
   private toggle(): void {

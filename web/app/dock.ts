@@ -3,11 +3,12 @@ import {DockviewComponent, type DockviewPanel, type IContentRenderer, type Group
 import {Signal} from '../model/signal';
 import type {PanelContext, PanelElement, PanelKind} from '../panel_api';
 import {HeaderActions} from './header_actions';
+import {layoutKey} from './kept_keys';
 import {bringHome, type KeptWindow, type WindowBox} from './kept_layout';
 import {PanelWindow} from './panel_window';
 
-/** Each class of widths has a layout of its own. */
-const kKept = 'rave.layout';
+/** The user who was here last. */
+const kUser = 'rave.user';
 const kLeave_ms = 2000;
 /** Another number makes layouts that were kept void. */
 const kVersion = 2;
@@ -34,7 +35,7 @@ class DockedPanel implements IContentRenderer {
   }
 }
 
-/** The docked panels and their layout, which is kept in the browser. */
+/** The docked panels and their layouts, which the browser keeps for each user. */
 export class Dock {
   private readonly view: DockviewComponent;
   name: LayoutName = 'Watch';
@@ -47,7 +48,7 @@ export class Dock {
   private restoring = false;
   /** The page goes, and its windows with it: that is no change of the layout. */
   private leaving = false;
-  private readonly kept: string;
+  private user = localStorage.getItem(kUser) ?? '';
   private readonly width = document.documentElement.clientWidth;
 
   constructor(host: HTMLElement, private readonly kinds: () => readonly PanelKind[], private readonly context: PanelContext, private readonly bindKeys: (document: Document) => void) {
@@ -67,7 +68,7 @@ export class Dock {
         return docked;
       },
     });
-    this.kept = `${kKept}.${this.width >= 1280 ? 'wide' : this.width >= 900 ? 'middle' : 'narrow'}`;
+    this.name = this.lastName();
     if (!this.restore()) this.resetWhenSized(host);
     this.view.onDidLayoutChange(() => {
       if (!this.restoring && !this.leaving) this.keep();
@@ -158,7 +159,14 @@ export class Dock {
     this.restoring = false;
   }
 
-  /** Lays the panels out anew. */
+  /** Another layout, as the person has arranged it. */
+  choose(layout: LayoutName): void {
+    if (layout === this.name) return;
+    this.name = layout;
+    this.takeKept();
+  }
+
+  /** Lays the panels out anew: what the person has arranged in this layout goes. */
   reset(layout: LayoutName = this.name): void {
     this.name = layout;
     this.away = [];
@@ -217,7 +225,40 @@ export class Dock {
 
   private keep(): void {
     const {layout, windows} = bringHome(this.view.toJSON());
-    localStorage.setItem(this.kept, JSON.stringify({version: kVersion, name: this.name, layout, windows: [...windows, ...this.away]}));
+    const about = this.about;
+    localStorage.setItem(layoutKey(about, this.name), JSON.stringify({version: kVersion, layout, windows: [...windows, ...this.away]}));
+    localStorage.setItem(layoutKey(about), this.name);
+  }
+
+  /** Whose layouts these are, once the server has told who the user is: until then those of the last one. */
+  belongTo(user: string): void {
+    if (user === this.user) return;
+    this.user = user;
+    localStorage.setItem(kUser, user);
+    this.name = this.lastName();
+    this.takeKept();
+  }
+
+  private get about(): {user: string; width_px: number} {
+    return {user: this.user, width_px: this.width};
+  }
+
+  /** The kept arrangement of the present layout, or that which it has at first. */
+  private takeKept(): void {
+    this.away = [];
+    this.empty.clear();
+    this.restoring = true;
+    const restored = this.restore();
+    this.restoring = false;
+    if (restored) this.keep();
+    else this.reset();
+    this.changed.emit();
+  }
+
+  /** The layout that the person had last. */
+  private lastName(): LayoutName {
+    const kept = localStorage.getItem(layoutKey(this.about)) as LayoutName;
+    return kLayouts.includes(kept) ? kept : 'Watch';
   }
 
   /** Columns can be given a width only once the dock has its own. */
@@ -233,9 +274,8 @@ export class Dock {
 
   private restore(): boolean {
     try {
-      const kept = JSON.parse(localStorage.getItem(this.kept) ?? 'null') as {version: number; name?: LayoutName; layout: SerializedDockview; windows?: KeptWindow[]} | null;
+      const kept = JSON.parse(localStorage.getItem(layoutKey(this.about, this.name)) ?? 'null') as {version: number; layout: SerializedDockview; windows?: KeptWindow[]} | null;
       if (kept?.version === kVersion) {
-        this.name = kept.name ?? 'Watch';
         this.view.fromJSON(kept.layout);
         this.away = kept.windows ?? [];
         return true;

@@ -17,6 +17,7 @@ import './find_box';
 import './foxglove_sheet';
 import {icon, type IconName} from './icons';
 import {keySheetStyles, renderKeys} from './key_sheet';
+import {userKey} from './kept_keys';
 import {bindKeys, panelKey, type KeyAction} from './keys';
 import {nowOf} from './moment';
 import {readMoment, writeMoment} from './moment_link';
@@ -73,9 +74,14 @@ export class RaveApp extends LitElement {
 
   override connectedCallback(): void {
     super.connectedCallback();
+    // That of whoever was here last, until it is known who this is.
     const kept = localStorage.getItem(kTheme);
     const light = kept === null ? matchMedia('(prefers-color-scheme: light)').matches : kept === 'light';
     this.palette.set(light ? 'light' : 'dark');
+    this.model.runChanged.on(() => {
+      const own = localStorage.getItem(userKey('theme', this.model.user));
+      if ((own === 'light' || own === 'dark') && own !== this.palette.theme) this.palette.set(own);
+    });
     if (matchMedia('(prefers-contrast: more)').matches) document.documentElement.dataset['contrast'] = 'more';
     this.listen();
     bindKeys(() => this.actions());
@@ -151,6 +157,7 @@ export class RaveApp extends LitElement {
   override updated(): void {
     const host = this.renderRoot.querySelector<HTMLElement>('.dock');
     if (host && this.dock === null) this.openDock(host);
+    if (this.model.user !== '') this.dock?.belongTo(this.model.user);
     this.retitle();
     const phone = this.renderRoot.querySelector<HTMLElement>('.phone');
     if (phone) this.fillPhone(phone);
@@ -291,6 +298,7 @@ export class RaveApp extends LitElement {
   private toggleTheme(): void {
     const theme = this.palette.theme === 'dark' ? 'light' : 'dark';
     localStorage.setItem(kTheme, theme);
+    localStorage.setItem(userKey('theme', this.model.user), theme);
     this.palette.set(theme);
     this.requestUpdate();
   }
@@ -302,7 +310,7 @@ export class RaveApp extends LitElement {
     const old = link.state === 'lost';
     return html`
       <rave-top-bar .context=${this.context} .layout=${this.phone.matches || innerWidth < 1280 ? '' : (this.dock?.name ?? 'Watch')}
-        @layout=${(event: CustomEvent<LayoutName>) => { this.dock?.reset(event.detail); this.requestUpdate(); }} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()} @foxglove=${() => this.open('showingFoxglove')}></rave-top-bar>
+        @layout=${(event: CustomEvent<LayoutName>) => { this.dock?.choose(event.detail); this.requestUpdate(); }} @resetlayout=${() => { this.dock?.reset(); this.requestUpdate(); }} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()} @foxglove=${() => this.open('showingFoxglove')}></rave-top-bar>
       ${old ? renderLost(model, link) : renderWaits(model)}
       ${renderSeenBy(model, () => link.send({type: 'see_as'}))}
       ${this.refusal === '' ? nothing : html`<div class="strip refused" role="alert">${icon('circleX', 16)}<span>${this.refusal}</span>

@@ -19,6 +19,8 @@ const kLivePaces = [0.5, 1, 4, 0];
 export class RunBar extends LitElement {
   declare context: PanelContext;
   private queued = false;
+  /** The menu of narrow pages is open. */
+  private menuOpen = false;
   private readonly ends: (() => void)[] = [];
 
   override connectedCallback(): void {
@@ -109,25 +111,42 @@ export class RunBar extends LitElement {
         <span>of ${bigClock(end)} · step ${model.poses.newest?.step ?? model.time?.step ?? 0}</span>`}</div>
       <rave-timeline .context=${this.context}></rave-timeline>
       ${this.renderPace(replay)}
+      ${this.renderMenu(replay)}
       <rave-stop .context=${this.context}></rave-stop>`;
+  }
+
+  /** Below 900 px what does not fit is behind a button. */
+  private renderMenu(replay: boolean): TemplateResult {
+    const toggle = (open: boolean) => {
+      this.menuOpen = open;
+      this.requestUpdate();
+    };
+    return html`<div class="more" @keydown=${(event: KeyboardEvent) => {
+      if (event.key !== 'Escape' || !this.menuOpen) return;
+      event.stopPropagation();
+      toggle(false);
+      this.renderRoot.querySelector<HTMLElement>('.more > button')?.focus();
+    }}>
+      <button class="icon-button" title="Pace and link" aria-label="Pace and link" aria-expanded=${this.menuOpen} @click=${() => toggle(!this.menuOpen)}>${icon('ellipsis', 18)}</button>
+      ${this.menuOpen ? html`<div class="card" role="group" aria-label="Pace and link">${this.renderPace(replay)}</div>` : nothing}</div>`;
   }
 
   private renderPace(replay: boolean): TemplateResult {
     const {model} = this.context;
     const may = model.may('pace');
-    const speed = `${(model.time?.speed ?? 0).toFixed(2)}× of real time`;
+    const speed = replay ? nothing : html`<span>${(model.time?.speed ?? 0).toFixed(2)}× of real time</span>`;
     const paces = html`<div class="segments" role="radiogroup" aria-label="Pace">${this.paces.map((pace) => html`
       <button role="radio" aria-checked=${model.time?.pace === pace} ?disabled=${!may} title=${may ? '' : model.whyNot('pace')}
         @click=${() => this.setPace(pace)}>${paceText(pace)}</button>`)}</div>`;
     return html`<div class="pace">
       <div><span>Pace</span>${paces}</div>
-      <small>${replay ? this.renderLink() : speed}${model.may('recording') && replay
+      <small>${speed}${this.renderLink()}${model.may('recording') && replay
         ? html` <a href="./recording" download title="Download the recording" aria-label="Download the recording">${icon('download', 14)}</a>` : nothing}</small>
     </div>`;
   }
 
   private renderLink(): TemplateResult {
-    return html`<button class="text" @click=${() => this.context.copyLink()}>${icon('link', 13)} Link to this moment</button>`;
+    return html`<button class="text" title="Copy a link to this moment and camera" @click=${() => this.context.copyLink()}>${icon('link', 13)} ${this.context.model.live ? 'Link' : 'Link to this moment'}</button>`;
   }
 
   static override styles = [
@@ -146,10 +165,15 @@ export class RunBar extends LitElement {
       .pace a { color: var(--text-2); }
       .text { display: inline-flex; gap: 6px; align-items: center; color: var(--text-2); }
       .text:hover { color: var(--text-1); }
-      @media (max-width: 900px) { .pace { display: none; } }
+      .more { position: relative; display: none; }
+      .card { position: absolute; right: 0; bottom: calc(100% + 12px); padding: 12px 14px; border: 1px solid var(--line-2); border-radius: var(--r-4); background: var(--bg-1); box-shadow: var(--shadow-2, 0 8px 24px rgb(0 0 0 / .35)); z-index: 20; }
+      @media (max-width: 900px) {
+        :host > .pace { display: none; } .more { display: block; }
+        .card .pace { gap: 10px; } .card button { min-height: var(--h-control, 28px); }
+      }
       @media (max-width: 599px) {
         :host { gap: 8px; padding: 0 8px; border-radius: 0; }
-        .transport .icon-button { display: none; }
+        .transport .icon-button { display: none; } .more > .icon-button { width: 44px; height: 44px; }
         .clock { position: absolute; left: 72px; top: 14px; min-width: 84px; } .clock span { display: none; }
         :host { position: relative; } .play { width: 44px; height: 44px; } rave-timeline { margin-top: 34px; }
       }

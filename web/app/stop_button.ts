@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
-import {countStopped, Hold, kTwice_ms, Twice, type StopCount} from '../model/stop_state';
+import {countStopped, Hold, kTwice_ms, lastStop, Twice, type StopCount} from '../model/stop_state';
 import type {PanelContext} from '../panel_api';
 import {viewOf} from '../panel_api/windows';
 import {bigClock} from './clock';
@@ -22,7 +22,7 @@ export class StopButton extends LitElement {
     super.connectedCallback();
     const {model, link} = this.context;
     const update = () => this.requestUpdate();
-    for (const signal of [model.rosterChanged, model.runChanged, model.timeChanged, link.changed, ...(link.direct ? [link.direct.changed] : [])]) this.ends.push(signal.on(update));
+    for (const signal of [model.rosterChanged, model.runChanged, model.timeChanged, model.eventsChanged, link.changed, ...(link.direct ? [link.direct.changed] : [])]) this.ends.push(signal.on(update));
     this.ends.push(model.pictureChanged.on(() => {
       const count = countStopped(model);
       const now = `${count.stopped} ${count.latched}`;
@@ -102,6 +102,18 @@ export class StopButton extends LitElement {
     return count.robots === 1 ? 'the robot' : `all ${count.robots} robots`;
   }
 
+  /** Who stopped and when, for everybody's stop. One's own is known before the log has it. */
+  private whenStopped(): string {
+    const {model} = this.context;
+    const last = lastStop(model);
+    const own = this.stoppedAt_s;
+    const you = model.user;
+    if (own !== null && (last === null || last.who === you || last.who === '' || last.t_s < own)) return `stopped by you at ${bigClock(own).slice(0, 5)}`;
+    if (last === null) return 'stopped';
+    const who = last.who === '' ? '' : ` by ${last.who === you ? 'you' : last.who}`;
+    return `stopped${who} at ${bigClock(last.t_s).slice(0, 5)}`;
+  }
+
   private renderViewOnly(): TemplateResult {
     const {model} = this.context;
     return html`<div class="view-only" title=${model.whyNot('stop')}>${icon('eye', 18)}
@@ -109,7 +121,7 @@ export class StopButton extends LitElement {
   }
 
   private renderRelease(count: StopCount, large: boolean): TemplateResult {
-    const when = this.stoppedAt_s === null ? 'stopped' : `stopped by you at ${bigClock(this.stoppedAt_s).slice(0, 5)}`;
+    const when = this.whenStopped();
     const turn = 2 * Math.PI * 9;
     const share = this.hold.share(performance.now());
     const key = (event: KeyboardEvent, act: () => void) => {

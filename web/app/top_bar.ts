@@ -12,6 +12,8 @@ import {initials, roleText, sizeText, startedText} from './words';
 
 const kFaces = 3;
 const kSlow_hz = 10;
+/** A picture that is older than this is not what is now. */
+const kOld_ms = 300;
 
 /** The run and its state, find, the line, people, alerts, role. */
 export class TopBar extends LitElement {
@@ -64,7 +66,8 @@ export class TopBar extends LitElement {
       <span class="state ${look}" role="status">${look === 'replay' ? icon('rotateCcw', 13) : html`<i></i>`}${word}</span>
       <span class="about">${this.about()}</span>
       ${this.layout ? html`<div class="segments" role="radiogroup" aria-label="Layout">${kLayouts.filter((name) => (name !== 'Conduct' || model.may('rights')) && (name !== 'Drive' || (model.live && model.may('command')))).map((name) => html`
-        <button role="radio" aria-checked=${this.layout === name} title="Lay the panels out anew" @click=${() => this.dispatchEvent(new CustomEvent('layout', {detail: name}))}>${name}</button>`)}</div>` : nothing}
+        <button role="radio" aria-checked=${this.layout === name} title=${this.layout === name ? 'The panels as you arranged them' : `Your arrangement of ${name}`} @click=${() => this.dispatchEvent(new CustomEvent('layout', {detail: name}))}>${name}</button>`)}</div>
+        <button class="icon-button" title="Reset layout: the panels of ${this.layout} as they were at first" aria-label="Reset layout" @click=${() => ask('resetlayout')}>${icon('rotateCcw', 15)}</button>` : nothing}
       <span class="space"></span>
       <button class="find" aria-label="Find a robot, panel or moment" @click=${() => ask('find')}>${icon('search', 15)}<span>Find a robot, panel or moment</span><kbd>Ctrl K</kbd></button>
       <span class="space"></span>
@@ -83,8 +86,10 @@ export class TopBar extends LitElement {
   private renderRate(): TemplateResult {
     const {link, model} = this.context;
     const slow = model.time?.state === 'running' && link.state === 'open' && link.rate_hz < kSlow_hz;
-    return html`<span class="chip rate ${slow ? 'slow' : ''}" title="Pictures per second, and how much comes over the line">${icon('activity', 14)}
-      ${link.rate_hz} Hz <em>${sizeText(link.bytesPerSecond)}/s</em></span>`;
+    const age = model.live && link.state === 'open' ? link.age.newest_ms : null;
+    const old = age !== null && age > kOld_ms;
+    return html`<span class="chip rate ${slow || old ? 'slow' : ''}" title="Pictures per second, how old the newest one was when it came, and how much comes over the line">${icon('activity', 14)}
+      ${link.rate_hz} Hz ${age === null ? nothing : html`<span class="age">${Math.round(age)} ms</span>`} <em>${sizeText(link.bytesPerSecond)}/s</em></span>`;
   }
 
   private renderPeople(): TemplateResult | typeof nothing {

@@ -270,7 +270,7 @@ try {
     const own = await (await browser.newContext({viewport: {width: 1500, height: 950}})).newPage();
     const errors = [];
     own.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
-    const kept = () => own.evaluate(() => JSON.parse(localStorage.getItem('rave.layout.wide')).layout);
+    const kept = () => own.evaluate(() => JSON.parse(localStorage.getItem('rave.layout.Ada N.wide.Watch')).layout);
     server.run.components = [{name: 'heat', url: 'components/0/heat.js'}];
     await own.goto(server.origin);
     await own.locator('.dv-tab', {hasText: 'Heat map'}).waitFor();

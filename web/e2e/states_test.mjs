@@ -84,6 +84,63 @@ try {
     run.stopped.clear();
   });
 
+  await check('a stop of somebody else says who and when, and is one row of the log', async () => {
+    for (let slot = 0; slot < 16; ++slot) run.stopped.add(slot);
+    await page.evaluate(() => {
+      const {model} = document.querySelector('rave-app');
+      const events = model.robots.map(({name}, slot) => ({t: 83, until: 83, count: 1, kind: 'stopped', level: 'warn', text: `${name}: stopped, by hand: Ben K`, slots: [slot]}));
+      model.takeMessage({type: 'events', first: model.events.length, events});
+    });
+    await page.getByText('16 robots, stopped by Ben K at 01:23').waitFor();
+    const row = page.locator('rave-log .row', {hasText: 'stopped, by hand: Ben K'});
+    assert.equal(await row.count(), 1);
+    assert.match((await row.innerText()).replace(/\s+/g, ' '), /real-1 … walker-11: stopped, by hand: Ben K ×16/);
+    await page.screenshot({path: join(folder, 'stopped-by-another.png')});
+    run.stopped.clear();
+    await page.evaluate(() => {
+      const {model} = document.querySelector('rave-app');
+      model.takeMessage({type: 'events', first: 0, reset: true, events: []});
+    });
+    await page.getByText('STOP', {exact: true}).waitFor();
+  });
+
+  await check('the top bar says how old the picture is', async () => {
+    await page.evaluate(() => {
+      const {link} = document.querySelector('rave-app');
+      const buffer = new ArrayBuffer(48);
+      const view = new DataView(buffer);
+      view.setUint8(0, 1);
+      const wall_ms = performance.timeOrigin + performance.now();
+      view.setUint32(44, Math.floor((wall_ms - 420) * 1000) % 2 ** 32, true);
+      link.age.take(buffer, wall_ms);
+      link.age.take = () => {};
+      link.changed.emit();
+    });
+    await page.locator('rave-top-bar .rate.slow .age', {hasText: '420 ms'}).waitFor();
+  });
+
+  await check('a live run has a link to the moment; on narrow pages pace and link are in a menu', async () => {
+    await page.getByRole('button', {name: 'Link', exact: true}).click();
+    await until(page, `/#t=[0-9.]+/.test(location.hash)`);
+    for (const [width, height] of [[820, 900], [390, 844]]) {
+      const narrow = await (await browser.newContext({viewport: {width, height}})).newPage();
+      await narrow.goto(server.origin);
+      await until(narrow, `${app}?.model?.poses?.newest !== null`);
+      assert.equal(await narrow.getByRole('radio', {name: '4×'}).count(), 0);
+      await narrow.getByRole('button', {name: 'Pace and link'}).click();
+      await narrow.getByRole('radio', {name: '4×'}).waitFor();
+      await narrow.getByRole('button', {name: 'Link', exact: true}).waitFor();
+      assert.ok(await narrow.locator('rave-run-bar .card').evaluate((card) => {
+        const box = card.getBoundingClientRect();
+        return box.left >= 0 && box.right <= innerWidth && box.top >= 0;
+      }));
+      await narrow.screenshot({path: join(folder, `menu-${width}.png`)});
+      await narrow.keyboard.press('Escape');
+      await narrow.getByRole('radio', {name: '4×'}).waitFor({state: 'detached'});
+      await narrow.close();
+    }
+  });
+
   await check('pause, step and pace reach the server', async () => {
     await page.keyboard.press('k');
     await page.getByText('Paused', {exact: true}).waitFor();

@@ -39,6 +39,28 @@ try {
   await until(page, `${app}?.model?.robots?.length === 16 && ${app}.model.poses.newest !== null`);
   await page.locator('rave-robots .row', {hasText: 'real-3'}).click();
 
+  await check('each named layout keeps its arrangement, for each user; one entry makes it as it was', async () => {
+    const tab = (title) => page.locator('.dv-tab', {hasText: title});
+    const groupOf = (title) => page.locator('.dv-groupview', {has: tab(title)});
+    await tab('Log').dragTo(tab('Robots'));
+    await groupOf('Log').locator('.dv-tab', {hasText: 'Robots'}).waitFor();
+    await page.getByRole('radio', {name: 'Analyse'}).click();
+    assert.equal(await groupOf('Log').locator('.dv-tab', {hasText: 'Robots'}).count(), 0);
+    await page.getByRole('radio', {name: 'Watch'}).click();
+    await groupOf('Log').locator('.dv-tab', {hasText: 'Robots'}).waitFor();
+    const user = await page.evaluate(`${app}.model.user`);
+    const keys = await page.evaluate(() => Object.keys(localStorage).filter((key) => key.startsWith('rave.layout.')).sort());
+    assert.deepEqual(keys, ['', '.Analyse', '.Watch'].map((name) => `rave.layout.${user}.wide${name}`));
+    // Somebody else at the same browser has their own.
+    await page.evaluate(`${app}.dock.belongTo('somebody')`);
+    assert.equal(await groupOf('Log').locator('.dv-tab', {hasText: 'Robots'}).count(), 0);
+    await page.evaluate(`${app}.dock.belongTo(${JSON.stringify(user)})`);
+    await groupOf('Log').locator('.dv-tab', {hasText: 'Robots'}).waitFor();
+    await page.getByRole('button', {name: 'Reset layout'}).click();
+    assert.equal(await groupOf('Log').locator('.dv-tab', {hasText: 'Robots'}).count(), 0);
+    await page.locator('rave-robots .row', {hasText: 'real-3'}).click();
+  });
+
   let world;
   await check('the World View moves to a window of its own and goes on there', async () => {
     world = await moveOut(page, 'rave-world');

@@ -2,6 +2,7 @@
 import type {Look, PageMessage, ProbeRequest, ServerMessage} from '../protocol/messages';
 import type {DirectLines} from './direct_lines';
 import {OrderRouter} from './order_router';
+import {PictureAge} from './picture_age';
 import type {RunModel} from './run_model';
 import type {MapKey} from './maps';
 import {Windows} from '../panel_api/windows';
@@ -33,6 +34,7 @@ export class Link {
   refusal = '';
   /** Measured at the page: frames per second, and bytes per second. */
   rate_hz = 0;
+  readonly age: PictureAge;
   bytesPerSecond = 0;
   readonly changed = new Signal();
 
@@ -63,6 +65,7 @@ export class Link {
     readonly direct: DirectLines | null = null,
     private readonly windows = new Windows(),
   ) {
+    this.age = new PictureAge(/^(127\..*|localhost|\[?::1\]?)$/.test(new URL(url).hostname));
     this.router = direct === null ? null : new OrderRouter(model, direct);
     if (this.router) this.router.serverIsThere = () => this.state === 'open';
     direct?.changed.on(() => this.tellPage());
@@ -224,6 +227,7 @@ export class Link {
       return;
     }
     this.bytes += data.byteLength;
+    this.age.take(data, performance.timeOrigin + performance.now());
     const sequence = this.model.takeFrame(data, performance.now());
     // Once it can be drawn: a page that cannot keep up is sent less.
     if (sequence !== null) {

@@ -86,6 +86,11 @@ export class RunModel {
     return robot !== undefined && this.live && this.may('command') && robot.yours !== false;
   }
 
+  /** The name of the person at this page, also while they look as somebody else; empty until it is known. */
+  get user(): string {
+    return (this.hello?.seen_by ?? this.hello?.user)?.name ?? '';
+  }
+
   /** Why a robot does not take something from this person, in words; empty if it does. */
   whyNotTaken(slot: number, what: string): string {
     const robot = this.robots[slot];

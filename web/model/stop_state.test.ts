@@ -3,7 +3,7 @@ import {describe, expect, it} from 'vitest';
 import {RobotFlag} from '../protocol/frames';
 import type {Robot} from '../protocol/messages';
 import {RunModel} from './run_model';
-import {countStopped, Hold, Twice} from './stop_state';
+import {countStopped, Hold, lastStop, Twice} from './stop_state';
 
 function robot(name: string, recorded = false): Robot {
   return {name, team: '', kind: 'real', word: '', recorded, program: '', drivers: [], shapes: [], sensors: []};
@@ -33,6 +33,18 @@ describe('stopped robots', () => {
     const mixed = [robot('a'), robot('tape', true)];
     expect(countStopped(modelWith(mixed, [1 | RobotFlag.stopped, 1])).latched).toBe(true);
     expect(countStopped(modelWith(mixed, [1, 1])).latched).toBe(false);
+  });
+
+  it('were stopped by somebody, whoever it was', () => {
+    const model = modelWith([robot('a'), robot('b')], [1 | RobotFlag.stopped, 1]);
+    expect(lastStop(model)).toBeNull();
+    const stop = (t: number, slot: number, text: string) => ({t, until: t, count: 1, kind: 'stopped', level: 'warn' as const, text, slots: [slot]});
+    const released = stop(9, 1, 'b: stopped, by hand: carla');
+    model.takeMessage({type: 'events', first: 0, events: [stop(3, 0, 'a: stopped, by hand: ada'), stop(7, 0, 'a: stopped, by hand: Ben K'), released]} as never);
+    // Of a robot that goes again nobody asks.
+    expect(lastStop(model)).toEqual({t_s: 7, who: 'Ben K'});
+    model.takeMessage({type: 'events', first: 3, events: [stop(12, 0, 'a: stopped')]} as never);
+    expect(lastStop(model)).toEqual({t_s: 12, who: ''});
   });
 
   it('are none where no robot is', () => {

@@ -27,6 +27,27 @@ export function countStopped(model: RunModel): StopCount {
   return {robots: model.robots.length, stopped, latched: stopped > 0 && moving === 0};
 }
 
+/** Who stopped, by what the log says of robots that stand: `stopped, by hand: ben`. */
+const kByHand = /: stopped, by hand: (.+)$/;
+
+/** The last stop of robots that stand still, and of whom; null where nobody is known to have stopped. */
+export interface LastStop {
+  t_s: number;
+  /** Empty: the log does not name anybody. */
+  who: string;
+}
+
+/** When the robots that stand were stopped, and by whom: as the log has it, for everybody's stop alike. */
+export function lastStop(model: RunModel): LastStop | null {
+  const flags = model.poses.newest?.flags;
+  for (let i = model.events.length - 1; i >= 0; --i) {
+    const event = model.events[i];
+    if (event.kind !== 'stopped' || !event.slots.some((slot) => ((flags?.[slot] ?? 0) & RobotFlag.stopped) !== 0)) continue;
+    return {t_s: event.until, who: kByHand.exec(event.text)?.[1] ?? ''};
+  }
+  return null;
+}
+
 /** A press that counts only after it was held for long enough. */
 export class Hold {
   private since_ms: number | null = null;

@@ -215,7 +215,7 @@ export interface Events {
 export interface Host {
   name: string;
   machine: string;
-  state: "here" | "late" | "gone";
+  state: "waiting" | "here" | "late" | "gone" | "dropped";
   late_s?: number;
   real: number;
   simulated: number;
@@ -225,6 +225,23 @@ export interface Host {
   /** Share of one core. */
   cpu: number | null;
   lost: number;
+  /** Of its newest pose; in lock-step, of its step. */
+  age_s?: number;
+  /** To the manager and back. */
+  trip_s?: number;
+  /** Clock of the manager minus its own. */
+  clock_s?: number;
+  /** Give or take this. */
+  clock_bound_s?: number;
+  /** Samples that it refused. */
+  refused?: number;
+  /** Percentage of missed deadlines. */
+  missed_pct?: number;
+  /** What makes its steps late. */
+  late_phase?: string;
+  memory_mb?: number;
+  /** Of its process, on its machine. */
+  pid?: number;
 }
 
 export interface Hosts {

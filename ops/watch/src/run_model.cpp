@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <tuple>
 
 #include "moments.hpp"
 #include "rave/bus/sequence.hpp"
@@ -247,6 +249,25 @@ void RunModel::forget_rosters_of_the_gone(std::uint64_t but) {
 void RunModel::lose(std::uint64_t writer) {
   const auto found = processes_.find(writer);
   if (found != processes_.end()) found->second.gone = true;
+}
+
+std::vector<KeptAt> RunModel::kept() const {
+  std::vector<KeptAt> kept;
+  std::set<KeptAt> known;
+  const auto add = [&](KeptAt one) {
+    if (!one.folder.empty() && known.insert(one).second) kept.push_back(std::move(one));
+  };
+  for (const auto& [writer, process] : processes_) {
+    add({process.name, process.host == rave_wire_kNone, process.machine, process.folder});
+    if (!process.word) continue;
+    const auto told = process.word->hosts.find(rave_wire_kNone);
+    if (told == process.word->hosts.end()) continue;
+    add({told->second.name, true, told->second.machine, told->second.folder});
+  }
+  std::ranges::stable_sort(kept, [](const KeptAt& a, const KeptAt& b) {
+    return std::tie(b.manager, a.name) < std::tie(a.manager, b.name);
+  });
+  return kept;
 }
 
 }  // namespace rave::watch

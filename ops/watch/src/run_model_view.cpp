@@ -150,25 +150,6 @@ std::optional<HostView> RunModel::manager_by_words() const {
   return view;
 }
 
-std::vector<KeptAt> RunModel::kept() const {
-  std::vector<KeptAt> kept;
-  std::set<KeptAt> known;
-  const auto add = [&](KeptAt one) {
-    if (!one.folder.empty() && known.insert(one).second) kept.push_back(std::move(one));
-  };
-  for (const auto& [writer, process] : processes_) {
-    add({process.name, process.host == rave_wire_kNone, process.machine, process.folder});
-    if (!process.word) continue;
-    const auto told = process.word->hosts.find(rave_wire_kNone);
-    if (told == process.word->hosts.end()) continue;
-    add({told->second.name, true, told->second.machine, told->second.folder});
-  }
-  std::ranges::stable_sort(kept, [](const KeptAt& a, const KeptAt& b) {
-    return std::tie(b.manager, a.name) < std::tie(a.manager, b.name);
-  });
-  return kept;
-}
-
 HostView RunModel::manager_view(const Process& process, std::int64_t now_ns) const {
   HostView view;
   view.name = "environment manager";

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
 
+#include "hosts_json.hpp"
 #include "scene_json.hpp"
 
 namespace rave::gui_server {
@@ -49,45 +49,6 @@ PlayState standing_of(const watch::RunView& view) {
     }
   }
   return state;
-}
-
-const char* word_of(watch::Standing standing) {
-  switch (standing) {
-    case watch::Standing::kHere:
-      return "here";
-    case watch::Standing::kWaiting:
-    case watch::Standing::kLate:
-      return "late";
-    case watch::Standing::kGone:
-    case watch::Standing::kDropped:
-      return "gone";
-  }
-  return "gone";
-}
-
-template <class T>
-nlohmann::json or_null(const std::optional<T>& value) {
-  return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
-}
-
-std::string hosts_json(const watch::RunView& view) {
-  nlohmann::json hosts = nlohmann::json::array();
-  for (const watch::HostView& host : view.hosts) {
-    const std::uint32_t robots = host.robots.value_or(0);
-    const std::uint32_t real = std::min(robots, host.real_robots.value_or(0));
-    hosts.push_back({{"name", host.manager ? "manager" : host.name},
-                     {"machine", host.machine},
-                     {"state", word_of(host.standing)},
-                     {"late_s", host.behind_s.value_or(0)},
-                     {"real", real},
-                     {"simulated", robots - real},
-                     {"step", host.step.value_or(0)},
-                     {"steps_per_s", host.rate_hz.value_or(0)},
-                     {"delay_s", or_null(host.delay_s)},
-                     {"cpu", or_null(host.cores)},
-                     {"lost", host.lost.value_or(0)}});
-  }
-  return hosts.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 RobotState state_of(const watch::RobotView& robot) {

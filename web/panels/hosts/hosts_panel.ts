@@ -4,14 +4,18 @@ import {icon} from '../../app/icons';
 import {controls} from '../../app/styles';
 import type {PanelContext} from '../../panel_api';
 import type {Host} from '../../protocol/messages';
+import {kColumns, matches} from './columns';
 import {Rates, shortTime} from './rates';
 
 const kPlot = [40, 12] as const;
+/** Fewer hosts are found with the eyes. */
+const kFilterFrom = 4;
 
 /** The processes of the run, in the columns and words of `rave top`. */
 export class HostsPanel extends LitElement {
   declare context: PanelContext;
   private readonly rates = new Rates();
+  private text = '';
   private readonly ends: (() => void)[] = [];
 
   override connectedCallback(): void {
@@ -40,9 +44,13 @@ export class HostsPanel extends LitElement {
       return html`<p>${model.live ? 'This run is one process: it has no other hosts.' : 'A recording does not say how its hosts were.'}</p>`;
     }
     const late = model.hosts.filter((host) => host.state !== 'here');
-    return html`<div class="scroll" tabindex="0" role="region" aria-label="Hosts"><table>
-      <thead><tr><th>Host</th><th>State</th><th class="n">Real+sim</th><th class="n">Step</th><th class="n" colspan="2">Steps/s</th><th class="n">Delay</th><th class="n">CPU</th><th class="n">Lost</th></tr></thead>
-      <tbody>${model.hosts.map((host) => this.renderRow(host))}</tbody></table></div>
+    const shown = model.hosts.filter((host) => matches(host, this.text));
+    return html`${model.hosts.length < kFilterFrom && this.text === '' ? nothing : this.renderFilter()}
+      <div class="scroll" tabindex="0" role="region" aria-label="Hosts"><table>
+      <thead><tr><th>Host</th><th>State</th><th class="n">Real+sim</th><th class="n">Step</th><th class="n" colspan="2">Steps/s</th>
+        ${kColumns.map((column) => html`<th class="n w${column.from}" title=${column.title}>${column.heading}</th>`)}</tr></thead>
+      <tbody>${shown.map((host) => this.renderRow(host))}</tbody></table></div>
+      ${shown.length === 0 ? html`<p>No host matches “${this.text}”.</p>` : nothing}
       ${late.length === 0 ? nothing : html`<div class="waits">${icon('hourglass', 15)}<span>${lateText(late)}</span></div>`}`;
   }
 
@@ -57,9 +65,12 @@ export class HostsPanel extends LitElement {
       <td class="n">${host.step}</td>
       <td class="n">${Number(host.steps_per_s.toPrecision(3))}</td>
       <td class="plot"><svg width=${kPlot[0]} height=${kPlot[1]} class=${host.state} aria-hidden="true">${svg`<polyline points=${this.rates.points(host.name, ...kPlot)} />`}</svg></td>
-      <td class="n">${host.delay_s === null ? '' : shortTime(host.delay_s)}</td>
-      <td class="n">${host.cpu === null ? '' : `${Math.round(100 * host.cpu)} %`}</td>
-      <td class="n ${host.lost > 0 ? 'care' : 'zero'}">${host.lost}</td></tr>`;
+      ${kColumns.map((column) => html`<td class="n w${column.from} ${column.tone?.(host) ?? ''}">${column.text(host)}</td>`)}</tr>`;
+  }
+
+  private renderFilter(): TemplateResult {
+    return html`<label class="field">${icon('filter', 13)}<input placeholder="name, machine, state" aria-label="Filter hosts" .value=${this.text}
+      @input=${(event: InputEvent) => { this.text = (event.target as HTMLInputElement).value; this.requestUpdate(); }}></label>`;
   }
 
   private select(host: Host): void {
@@ -71,7 +82,15 @@ export class HostsPanel extends LitElement {
   static override styles = [
     controls,
     css`
-      :host { display: block; height: 100%; background: var(--bg-1); overflow: auto; font-size: var(--fs-12); }
+      :host { display: block; height: 100%; background: var(--bg-1); overflow: auto; font-size: var(--fs-12); container-type: inline-size; }
+      .field { display: flex; margin: 8px 12px; }
+      /* Columns come by their weight, as in the terminal. */
+      .w560, .w680, .w820, .w980, .w1140 { display: none; }
+      @container (min-width: 560px) { .w560 { display: table-cell; } }
+      @container (min-width: 680px) { .w680 { display: table-cell; } }
+      @container (min-width: 820px) { .w820 { display: table-cell; } }
+      @container (min-width: 980px) { .w980 { display: table-cell; } }
+      @container (min-width: 1140px) { .w1140 { display: table-cell; } }
       .scroll { overflow-x: auto; }
       table { border-collapse: collapse; width: 100%; white-space: nowrap; }
       th { position: sticky; top: 0; height: 30px; background: var(--bg-1); color: var(--text-3); font-weight: 400; font-size: var(--fs-11); text-align: left; }
@@ -86,8 +105,8 @@ export class HostsPanel extends LitElement {
       em { font-style: normal; color: var(--text-3); }
       .state { padding: 1px 7px; border-radius: var(--r-2); }
       .state.here { background: var(--ok-soft); color: var(--ok); }
-      .state.late { background: var(--warn-soft); color: var(--warn); }
-      .state.gone { background: var(--danger-soft); color: var(--danger); }
+      .state.late, .state.waiting { background: var(--warn-soft); color: var(--warn); }
+      .state.gone, .state.dropped { background: var(--danger-soft); color: var(--danger); }
       .zero { color: var(--text-3); } .care { color: var(--warn); font-weight: var(--fw-strong); }
       polyline { fill: none; stroke: var(--text-2); stroke-width: 1; }
       svg.late polyline, svg.gone polyline { stroke: var(--warn); }
@@ -98,9 +117,13 @@ export class HostsPanel extends LitElement {
   ];
 }
 
+const kStates = {gone: 'gone', dropped: 'dropped, the run goes on without', waiting: 'not in the run yet'};
+
 function lateText(hosts: readonly Host[]): string {
   const names = hosts.map((host) => host.name).join(', ');
-  if (hosts.every((host) => host.state === 'gone')) return `${names}: gone`;
+  for (const state of ['gone', 'dropped', 'waiting'] as const) {
+    if (hosts.every((host) => host.state === state)) return `${names}: ${kStates[state]}`;
+  }
   return `No answer from ${names}${hosts.length === 1 && hosts[0].late_s !== undefined ? ` for ${shortTime(hosts[0].late_s)}` : ''}`;
 }
 

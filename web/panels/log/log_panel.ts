@@ -5,6 +5,7 @@ import {controls} from '../../app/styles';
 import type {PanelContext} from '../../panel_api';
 import type {Event} from '../../protocol/messages';
 import {clockText} from '../../app/clock';
+import {foldSame, shownSlots, type LogRow} from './same_events';
 
 const kRows = 300;
 
@@ -43,8 +44,9 @@ export class LogPanel extends LitElement {
 
   override render(): TemplateResult {
     const {model} = this.context;
-    const alerts = model.events.filter((event) => event.level !== 'info').length;
-    const shown = model.events.filter((event) => this.accepts(event)).reverse();
+    const all = foldSame(model.events, model.robots.map((robot) => robot.name));
+    const alerts = all.filter((event) => event.level !== 'info').length;
+    const shown = all.filter((event) => this.accepts(event)).reverse();
     const now_s = model.poses.newest?.time_s ?? Infinity;
     const replay = model.hello?.run.source === 'replay';
     let lineDrawn = !replay;
@@ -85,7 +87,7 @@ export class LogPanel extends LitElement {
     return html`<div class="now"><b>${clockText(now_s)} now</b><i></i></div>`;
   }
 
-  private renderRow(event: Event, future: boolean, present: boolean): TemplateResult {
+  private renderRow(event: LogRow, future: boolean, present: boolean): TemplateResult {
     const until = event.count > 1 && event.until > event.t ? `, until ${clockText(event.until)}` : '';
     return html`<button class="row ${event.level} ${future ? 'future' : ''} ${present ? 'present' : ''}"
       title=${this.context.model.may('seek') ? 'Go to this moment' : event.kind} @click=${() => this.open(event)}>
@@ -95,8 +97,9 @@ export class LogPanel extends LitElement {
   }
 
   /** Names of robots in the colour of their robot. */
-  private renderText(event: Event): (TemplateResult | string)[] {
+  private renderText(event: LogRow): (TemplateResult | string)[] {
     const {model, palette} = this.context;
+    if (event.what !== '') return this.renderMany(event);
     let parts: (TemplateResult | string)[] = [event.text];
     for (const slot of event.slots) {
       const name = model.robots[slot]?.name;
@@ -111,8 +114,16 @@ export class LogPanel extends LitElement {
     return parts;
   }
 
-  private open(event: Event): void {
-    if (event.slots.length > 0) this.context.selection.set(event.slots.slice(0, 2));
+  /** `real-1 … real-5: stopped`; the tooltip has all names. */
+  private renderMany(event: LogRow): (TemplateResult | string)[] {
+    const {model, palette} = this.context;
+    const name = (slot: number) => html`<b style="color:${palette.hue(slot).ink}">${model.robots[slot]?.name}</b>`;
+    const {first, last} = shownSlots(event.slots);
+    return [html`<span title=${event.slots.map((slot) => model.robots[slot]?.name).join(', ')}>${first.map((slot, i) => html`${i > 0 ? ', ' : ''}${name(slot)}`)}${last === null ? nothing : html` … ${name(last)}`}</span>: ${event.what}`];
+  }
+
+  private open(event: LogRow): void {
+    if (event.slots.length > 0) this.context.selection.set(event.what === '' ? event.slots.slice(0, 2) : event.slots);
     this.context.seek(event.t);
   }
 

@@ -15,6 +15,7 @@ import {renderAway} from './away_strip';
 import {Dock, type LayoutName} from './dock';
 import './find_box';
 import './foxglove_sheet';
+import './trust_sheet';
 import {icon, type IconName} from './icons';
 import {keySheetStyles, renderKeys} from './key_sheet';
 import {userKey} from './kept_keys';
@@ -52,6 +53,7 @@ export class RaveApp extends LitElement {
   private finding = false;
   private showingKeys = false;
   private showingFoxglove = false;
+  private showingTrust = false;
   /** The link that opened the page was followed. */
   private arrived = false;
   /** What the server refused last, in its words. */
@@ -277,7 +279,7 @@ export class RaveApp extends LitElement {
     return this.panel<JoystickPanel>('rave-joystick');
   }
 
-  private open(what: 'finding' | 'showingKeys' | 'showingFoxglove'): void {
+  private open(what: 'finding' | 'showingKeys' | 'showingFoxglove' | 'showingTrust'): void {
     this[what] = !this[what];
     // The keys may have been pressed in another window.
     if (this[what]) window.focus();
@@ -285,9 +287,10 @@ export class RaveApp extends LitElement {
   }
 
   private escape(): void {
-    if (this.finding || this.showingKeys || this.showingFoxglove) {
+    if (this.finding || this.showingKeys || this.showingFoxglove || this.showingTrust) {
       this.finding = false;
       this.showingFoxglove = false;
+      this.showingTrust = false;
       this.showingKeys = false;
     } else if (this.world?.drop()) return;
     else if (this.selection.following) this.selection.follow(false);
@@ -310,7 +313,7 @@ export class RaveApp extends LitElement {
     const old = link.state === 'lost';
     return html`
       <rave-top-bar .context=${this.context} .layout=${this.phone.matches || innerWidth < 1280 ? '' : (this.dock?.name ?? 'Watch')}
-        @layout=${(event: CustomEvent<LayoutName>) => { this.dock?.choose(event.detail); this.requestUpdate(); }} @resetlayout=${() => { this.dock?.reset(); this.requestUpdate(); }} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()} @foxglove=${() => this.open('showingFoxglove')}></rave-top-bar>
+        @layout=${(event: CustomEvent<LayoutName>) => { this.dock?.choose(event.detail); this.requestUpdate(); }} @resetlayout=${() => { this.dock?.reset(); this.requestUpdate(); }} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()} @foxglove=${() => this.open('showingFoxglove')} @trust=${() => this.open('showingTrust')}></rave-top-bar>
       ${old ? renderLost(model, link) : renderWaits(model)}
       ${renderSeenBy(model, () => link.send({type: 'see_as'}))}
       ${this.refusal === '' ? nothing : html`<div class="strip refused" role="alert">${icon('circleX', 16)}<span>${this.refusal}</span>
@@ -325,6 +328,7 @@ export class RaveApp extends LitElement {
         : html`<rave-run-bar .context=${this.context}></rave-run-bar>${this.phone.matches ? this.renderTabs() : nothing}`}
       ${this.finding ? html`<rave-find .context=${this.context} .panels=${panelsFor(model)} @theme=${() => this.toggleTheme()} @foxglove=${() => this.open('showingFoxglove')} @done=${() => this.open('finding')}></rave-find>` : nothing}
       ${this.showingFoxglove ? html`<rave-foxglove @done=${() => this.open('showingFoxglove')}></rave-foxglove>` : nothing}
+      ${this.showingTrust ? html`<rave-trust .context=${this.context} @done=${() => this.open('showingTrust')}></rave-trust>` : nothing}
       ${this.showingKeys ? renderKeys(this.actions(), () => this.escape()) : nothing}`;
   }
 

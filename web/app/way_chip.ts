@@ -28,9 +28,8 @@ export class WayChip extends LitElement {
     const bad = [...lines.lines.values()].filter((line) => line.state !== 'open');
     const untrusted = bad.find((line) => line.state === 'untrusted');
     if (untrusted) {
-      const address = `https://${new URL(untrusted.ticket.url).host}/`;
-      return html`<a class="chip warn" href=${address} target="_blank" rel="noopener"
-        title="Most often the browser does not trust the certificate of this host yet: open the address once, or install authority.pem of \`rave keys web\`.">${icon('wifiOff', 14)} Trust ${untrusted.ticket.host}</a>`;
+      return html`<button class="chip warn" title="Most often the browser does not trust the certificate of this host yet. This says what to do."
+        @click=${() => this.dispatchEvent(new CustomEvent('trust', {bubbles: true, composed: true}))}>${icon('wifiOff', 14)} Trust ${untrusted.ticket.host}</button>`;
     }
     const blocked = bad.find((line) => line.state === 'blocked');
     if (blocked) {

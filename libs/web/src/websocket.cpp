@@ -153,6 +153,7 @@ void WebSocket::take(std::string_view message) {
   }
   if (!rate_.take("", RateLimit::Clock::now())) {
     ++core_.counts.sockets_closed_for_rate;
+    core_.handler().flooded(id_);
     return close(kTooMany, "too many messages");
   }
   if (text) return core_.handler().received(id_, message);

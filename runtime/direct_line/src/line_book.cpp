@@ -47,7 +47,8 @@ LineBook::LineBook(const LineOptions& options, runtime::RunControl& control)
     : options_(options),
       control_(control),
       post_(control),
-      refusals_(kRefusalsPerSecond, kRefusals) {
+      refusals_(kRefusalsPerSecond, kRefusals),
+      cuts_(kRefusalsPerSecond, kRefusals) {
   if (!options_.clock_ms) options_.clock_ms = day_clock_ms;
 }
 
@@ -84,6 +85,7 @@ void LineBook::received(std::uint64_t id, std::string_view text) {
     line.send(dumped({{"type", "answer"}, {"good", false}, {"text", message.error().message}}));
     // A page with a ticket may be of another version and is given some patience; a stranger is not.
     if (!line.ticket || ++line.nonsense > kMostNonsense) {
+      note_cut(line, "malformed messages");
       close(line, kNonsense, "malformed messages");
     }
     return;
@@ -92,6 +94,13 @@ void LineBook::received(std::uint64_t id, std::string_view text) {
     return refuse_line(line, "expected a ticket first");
   }
   std::visit([&](const auto& what) { take(id, line, what); }, *message);
+}
+
+void LineBook::flooded(std::uint64_t id) {
+  const auto found = lines_.find(id);
+  if (found == lines_.end() || found->second.closing) return;
+  found->second.closing = true;
+  note_cut(found->second, "too many messages");
 }
 
 void LineBook::closed(std::uint64_t id) {
@@ -257,6 +266,12 @@ void LineBook::refuse_line(Line& line, std::string_view why) {
   ++counts_.refused_lines;
   note_refusal(line, "a line", why);
   close(line, kBadTicket, why);
+}
+
+void LineBook::note_cut(const Line& line, std::string_view why) {
+  if (options_.log == nullptr) return;
+  if (!cuts_.take(web::network_of(line.peer), web::RateLimit::Clock::now())) return;
+  options_.log->warn("line", "cut off {}: {}", line.who(), why);
 }
 
 void LineBook::note_refusal(const Line& line, std::string_view what, std::string_view why) {

@@ -29,6 +29,8 @@ class LineBook {
 
   void opened(std::uint64_t id, web::Socket& socket, const web::Request& request);
   void received(std::uint64_t id, std::string_view text);
+  /// The page sends too much, and its line is being closed for it.
+  void flooded(std::uint64_t id);
   void closed(std::uint64_t id);
   void withdraw(const std::string& signed_text);
   /// Passes on the answers that have arrived; called about 200 times a second.
@@ -54,6 +56,8 @@ class LineBook {
   void welcome(std::uint64_t id, Line& line, Ticket ticket);
   void close(Line& line, std::uint16_t code, std::string_view why);
   void refuse_line(Line& line, std::string_view why);
+  /// Why a line is cut off. Apart from refusals, so that these do not use up its place in the log.
+  void note_cut(const Line& line, std::string_view why);
   void note_refusal(const Line& line, std::string_view what, std::string_view why);
   void answer(std::uint64_t id, std::uint64_t order, bool good, const std::string& text);
   void leave_leases(const Line& line);
@@ -66,6 +70,7 @@ class LineBook {
   std::map<std::uint64_t, Line> lines_;
   std::map<std::string, std::uint64_t, std::less<>> epochs_;  ///< By person.
   web::RateLimit refusals_;
+  web::RateLimit cuts_;
   std::uint64_t untold_ = 0;  ///< Refusals omitted from the log because there were too many.
   LineCounts counts_;
 };

@@ -86,6 +86,7 @@ class LineServer::Impl final : public web::Handler {
     book_.opened(id, socket, request);
   }
   void received(std::uint64_t id, std::string_view text) override { book_.received(id, text); }
+  void flooded(std::uint64_t id) override { book_.flooded(id); }
   void closed(std::uint64_t id) override { book_.closed(id); }
 
  private:

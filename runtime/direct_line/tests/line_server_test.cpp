@@ -257,9 +257,11 @@ TEST_F(DirectLine, FloodsEndTheLineAndHarmNobodyElse) {
   RawSocket anna = line();
   for (int i = 0; i < 2000; ++i) anna.send(drive(i, "green-1"));
   EXPECT_EQ(anna.close_code(), 4429);
+  EXPECT_TRUE(journal_.has("cut off anna (127.0.0.1): too many messages"));
   RawSocket nonsense = line();
   for (int i = 0; i < 30; ++i) nonsense.send("{}");
   EXPECT_EQ(nonsense.close_code(), 4400);
+  EXPECT_TRUE(journal_.has("cut off anna (127.0.0.1): malformed messages"));
   ben.send(R"({"type":"order","id":1,"kind":"stop"})");
   EXPECT_NE(ben.text_with("\"answer\"").find("\"good\":true"), std::string::npos);
   RawSocket large = dial();

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon, type IconName} from '../../../app/icons';
+import type {Pending} from '../../../model/commands';
 import type {PanelContext} from '../../../panel_api';
 import type {Point} from '../../../protocol/messages';
+import {radiusOf} from '../outlines';
+import {nearestFree} from './free_point';
 import type {OrderDesk, Tool} from './order_desk';
 import {lengthOf, outlineOf, outlineText, type OutlineKind} from './outline';
 
@@ -52,9 +55,29 @@ export function renderHint(context: PanelContext, desk: OrderDesk, choose: (shap
 export function renderCards(context: PanelContext, desk: OrderDesk, at: ToScreen): TemplateResult {
   return html`${renderDraft(context, desk, at)}
     ${context.commands.pending.filter((order) => order.state === 'refused').map((order) => place(at(order.points[order.points.length - 1]), 'refused', html`
-      <b>${order.kind === 'place' ? 'Not placed' : `No ${order.kind}`}</b><span>${order.text}</span><button @click=${() => context.commands.drop(order)}>Drop</button>`))}
+      <b>${order.kind === 'place' ? 'Not placed' : `No ${order.kind}`}</b><span>${order.text}</span>${renderInstead(context, order)}<button @click=${() => context.commands.drop(order)}>Drop</button>`))}
     ${desk.note === null ? nothing : place(at(desk.note.at), desk.note.good ? 'good' : 'refused', html`<span>${desk.note.text}</span><button @click=${() => desk.drop()}>Close</button>`)}
     ${renderChosen(context, desk, at)}`;
+}
+
+/** The search takes longer than a picture may, so it is made once for each refusal. */
+const instead = new WeakMap<Pending, Point | null>();
+
+/** Of a goal inside an obstacle: the nearest point that is free. */
+function renderInstead({commands, model}: PanelContext, order: Pending): TemplateResult | typeof nothing {
+  const frame = model.poses.newest;
+  if (order.kind !== 'goal' || order.slots.length !== 1 || frame === null || !order.text.includes('is inside the obstacle')) return nothing;
+  const [slot] = order.slots;
+  if (!instead.has(order)) {
+    const {shapes} = model.robots[slot];
+    const height: [number, number] = [Math.min(...shapes.map(({z}) => z[0])), Math.max(...shapes.map(({z}) => z[1]))];
+    instead.set(order, nearestFree(model.bodies.values(), order.points[0], radiusOf(shapes), height, [frame.x[slot], frame.y[slot]]));
+  }
+  const point = instead.get(order) ?? null;
+  if (point === null) return nothing;
+  const away_m = Math.hypot(point[0] - order.points[0][0], point[1] - order.points[0][1]);
+  return html`<span>The nearest free point is ${away_m.toFixed(2)} m away.</span>
+    <button class="main" @click=${() => { commands.drop(order); void commands.goal([slot], [point]); }}>Go there</button>`;
 }
 
 function place([x, y]: readonly [number, number], look: string, content: TemplateResult): TemplateResult {

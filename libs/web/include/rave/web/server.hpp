@@ -69,6 +69,8 @@ class Handler {
   [[nodiscard]] virtual bool received_binary(std::uint64_t /*id*/, std::string_view /*bytes*/) {
     return false;
   }
+  /// The socket exceeds `messages_per_s` and is closed with 4429 after this call.
+  virtual void flooded(std::uint64_t /*id*/) {}
   /// The socket is closed and must not be used any more.
   virtual void closed(std::uint64_t id) = 0;
 };

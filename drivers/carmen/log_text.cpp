@@ -36,7 +36,7 @@ constexpr std::array<std::string_view, 20> kMessages{
 
 class LogParser : recording::LineParser {
  public:
-  using LineParser::LineParser;
+  LogParser(const std::string& file, bool accept_cut) : LineParser(file, accept_cut) {}
 
   Result<ParsedLog> parse(const recording::UnpackedText& log) {
     RAVE_TRY(parse_lines(log));

@@ -13,7 +13,7 @@
 #include "manager_endpoint.hpp"
 #include "manager_habits.hpp"
 #include "rave/manager/run_options.hpp"
-#include "sat.hpp"
+#include "served.hpp"
 
 namespace rave::manager {
 
@@ -50,7 +50,7 @@ class ManagerRun {
   template <class Slots>
   void take_host_results(const Slots& slots) {
     endpoint_.take_host_results([&slots](std::uint64_t writer, std::uint32_t host) {
-      return has_sat(slots, writer, host);
+      return has_served(slots, writer, host);
     });
   }
   /// Waits until the hosts are gone, which know of the end; see drain().
@@ -66,7 +66,7 @@ class ManagerRun {
   template <class Slots>
   [[nodiscard]] std::vector<lock_step::HostResults> hand_out_host_results(const Slots& slots) {
     std::vector<lock_step::HostResults> results = endpoint_.hand_out_host_results();
-    order_by_sitting(slots, results);
+    order_by_service(slots, results);
     return results;
   }
 

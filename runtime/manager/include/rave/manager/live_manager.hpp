@@ -25,18 +25,18 @@ struct LiveManagerOptions : RunOptions {
     bool twin = false;           ///< It has two sets of drivers.
     Duration other_staleness{};  ///< Staleness with its other set of drivers.
   };
-  std::vector<Robot> robots;
-  Duration step;          ///< Step of the hosts; for observers.
-  Duration duration;      ///< Duration of the run.
-  Duration world_period;  ///< Above 0.
+  std::vector<Robot> robots{};
+  Duration step{};          ///< Step of the hosts; for observers.
+  Duration duration{};      ///< Duration of the run.
+  Duration world_period{};  ///< Above 0.
   /// This process owns the hosts: when it is stopped, it tells them to end.
   bool ends_hosts = false;
   /// Called about ten times a second, in the calling thread, with the time of the run, the
   /// simulated seconds per second of the slowest host, and the hosts that it waits for; may be
   /// empty.
-  std::function<void(SimTime, double, const std::string&)> on_progress;
+  std::function<void(SimTime, double, const std::string&)> on_progress{};
   /// Called with the final world, with added obstacles; may be empty.
-  std::function<void(const world::WorldModel&)> on_end;
+  std::function<void(const world::WorldModel&)> on_end{};
 };
 
 /// The outcome of a run.

@@ -27,12 +27,12 @@ struct ManagerOptions : RunOptions {
     double speed = 0;     ///< Simulated seconds per second so far.
     std::string waiting;  ///< The hosts that it waits for; empty: none.
   };
-  std::function<void(const Progress&)> on_progress;
+  std::function<void(const Progress&)> on_progress{};
   /// Called with each world, also the last one, before the hosts get it; true: the run ends with
   /// it. May be empty.
-  std::function<bool(const sim::WorldAuthority&)> on_world;
+  std::function<bool(const sim::WorldAuthority&)> on_world{};
   /// Called once with the final world. May be empty.
-  std::function<void(const sim::WorldAuthority&)> on_end;
+  std::function<void(const sim::WorldAuthority&)> on_end{};
 };
 
 /// The outcome of a run.

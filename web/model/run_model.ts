@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {RobotFlag, decodeFrame, kFirstProbe, isMapTile, isPoseFrame, isVariances, type Variance} from '../protocol/frames';
-import type {Accounts, Answer, AuditLines, AuditWritten, Body, Chat, DriveState, Event, Hello, Host, Invited, Leases, Line, People, Person, Rights, Robot, Roster, Sensor, ServerMessage, Time} from '../protocol/messages';
+import type {Accounts, Answer, AuditLines, AuditWritten, Body, Chat, DriveState, Event, Hello, Host, Invited, Leases, Line, People, Person, Rights, Robot, Roster, ServerMessage, Time} from '../protocol/messages';
 import {Maps} from './maps';
 import {PoseHistory} from './pose_history';
 import {Probes} from './probes';

@@ -109,7 +109,7 @@ TEST_F(HostWordsTest, TellWhereRecordingsAreAlsoThatOfTheManager) {
   model_.hear(info);
   bus::RunState state{};
   state.writer = 3;
-  state.phase = rave_wire_RUN_GOES;
+  state.phase = rave_wire_RUN_RUNNING;
   state.step_s = 0.01;
   std::vector<rave_wire_HostSight> sights(1);
   sights[0].host = rave_wire_kNone;

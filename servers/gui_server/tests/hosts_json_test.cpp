@@ -8,12 +8,12 @@
 namespace rave::gui_server {
 namespace {
 
-using Json = nlohmann::json;
+using HostsJson = nlohmann::json;
 
-Json one(const watch::HostView& host) {
+HostsJson one(const watch::HostView& host) {
   watch::RunView view;
   view.hosts.push_back(host);
-  return Json::parse(hosts_json(view)).at(0);
+  return HostsJson::parse(hosts_json(view)).at(0);
 }
 
 TEST(HostsJson, HasTheWordsOfTheTerminal) {
@@ -42,7 +42,7 @@ TEST(HostsJson, HasTheColumnsOfTheTerminal) {
   host.late_phase = "drivers";
   host.memory_mb = 84.2;
   host.process = 4711;
-  const Json json = one(host);
+  const HostsJson json = one(host);
   EXPECT_EQ(json.at("age_s"), 0.01);
   EXPECT_EQ(json.at("trip_s"), 0.0002);
   EXPECT_EQ(json.at("clock_s"), -0.003);
@@ -55,7 +55,7 @@ TEST(HostsJson, HasTheColumnsOfTheTerminal) {
 }
 
 TEST(HostsJson, WhatIsNotKnownIsLeftOut) {
-  const Json json = one({});
+  const HostsJson json = one({});
   for (const char* const key :
        {"age_s", "trip_s", "clock_s", "refused", "missed_pct", "late_phase", "memory_mb", "pid"}) {
     EXPECT_FALSE(json.contains(key)) << key;

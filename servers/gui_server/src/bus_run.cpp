@@ -86,7 +86,8 @@ Result<std::unique_ptr<BusPort>> port_to_hosts(const config::ExpandedScenario& s
 Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenario,
                                           const runtime::BuiltScenario& built, bus::BusConfig bus,
                                           std::unique_ptr<plugin::Catalogue> described,
-                                          runtime::RunControl* control) {
+                                          runtime::RunControl* control,
+                                          const std::filesystem::path& file) {
   // The manager of the run may be in this process, with a bus of its own.
   bus.beside = true;
   bus.side = bus::Side::kMonitor;
@@ -101,6 +102,7 @@ Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenar
     port = std::move(hosts);
   }
   RAVE_TRY_ASSIGN(auto start, start_of(scenario, built));
+  start.scenario = file;
   if (described) {
     start.probes = std::make_shared<ProbeDesk>(std::move(described), start.about.step_s);
   }

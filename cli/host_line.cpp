@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host_line.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
+#include <filesystem>
 
 #include "rave/bus/run_id.hpp"
 #include "rave/direct_line/key_files.hpp"
@@ -37,6 +40,19 @@ std::vector<std::string> names_of(const config::ExpandedScenario& scenario,
   return names;
 }
 
+/// The file with the public key of tickets: as given, or that beside the certificates of the host.
+Result<std::filesystem::path> key_place(const LineArguments& arguments, const bus::BusConfig& bus) {
+  if (!arguments.web_key.empty()) return std::filesystem::path(arguments.web_key);
+  const std::filesystem::path beside = bus.security / direct_line::kMemberKeyFile;
+  std::error_code error;
+  if (!bus.security.empty() && std::filesystem::exists(beside, error)) return beside;
+  return fail(ErrorCode::kInvalidArgument,
+              "--web needs --web-key FILE, the public key of the GUI Server: `rave keys line "
+              "FILE` creates FILE for `rave gui --line-key` and FILE.pub for hosts{}",
+              bus.security.empty() ? std::string()
+                                   : fmt::format("; there is no `{}` either", beside.string()));
+}
+
 }  // namespace
 
 Result<LinePlace> parse_line_place(const std::string& text) {
@@ -69,13 +85,9 @@ Result<HostLineEnds> open_host_line(const LineArguments& arguments, const std::s
     if (arguments.web_key.empty()) return ends;
     return fail(ErrorCode::kInvalidArgument, "--web-key needs --web");
   }
-  if (arguments.web_key.empty()) {
-    return fail(ErrorCode::kInvalidArgument,
-                "--web needs --web-key FILE, the public key of the GUI Server: `rave keys line "
-                "FILE` creates FILE for `rave gui --line-key` and FILE.pub for hosts");
-  }
+  RAVE_TRY_ASSIGN(const std::filesystem::path key, key_place(arguments, bus));
   RAVE_TRY_ASSIGN(auto options, options_of(arguments, log));
-  RAVE_TRY_ASSIGN(options.signer, direct_line::read_public_key(arguments.web_key));
+  RAVE_TRY_ASSIGN(options.signer, direct_line::read_public_key(key));
   options.run = bus.run.text();
   options.host = host;
   RAVE_TRY_ASSIGN(ends.server, direct_line::LineServer::start(options, control));

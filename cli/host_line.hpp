@@ -18,8 +18,9 @@ namespace rave::cli {
 /// Options of the direct line of a host.
 struct LineArguments {
   std::optional<std::string> web;  ///< `ADDRESS:PORT` or a part of it; unset: no line.
-  std::string web_key;             ///< The file with the public key of the GUI Server.
-  std::string certificate;         ///< With `key`: TLS.
+  /// The file with the public key of the GUI Server; empty: `line.pub` beside the certificates.
+  std::string web_key;
+  std::string certificate;  ///< With `key`: TLS.
   std::string key;
 };
 

@@ -22,7 +22,9 @@ void add_new(CLI::App& parent, KeysNewCommand& c) {
   add_value(app, "--days", c.days, "Days of validity [3650]", "N");
   app.footer(
       "Creates DIR/ca, the certificate authority, and a folder for each member. Copy each member\n"
-      "folder to the machine that uses it. Keep DIR/ca secret.\n\n"
+      "folder to the machine that uses it. Keep DIR/ca secret. DIR/line.key signs tickets of "
+      "direct\n"
+      "lines, for `rave gui --line-key`; members have its public half.\n\n"
       "Example:\n"
       "  rave keys new lab-keys env left right\n"
       "  rave env lab --security lab-keys/env");

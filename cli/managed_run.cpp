@@ -257,8 +257,10 @@ Result<std::unique_ptr<gui_server::GuiServer>> show_run(const RunCommand& option
   // A catalogue of its own, because it belongs to one thread and the page describes drivers in
   // another.
   RAVE_TRY_ASSIGN(auto described, open_catalogue(options.plugins));
-  RAVE_TRY_ASSIGN(auto source, gui_server::watch_run(scenario, built, bus, std::move(described),
-                                                     control, std::move(on_over)));
+  RAVE_TRY_ASSIGN(auto source,
+                  gui_server::watch_run(scenario, built, bus, std::move(described), control,
+                                        find_scenario(options.scenario).value_or(""),
+                                        std::move(on_over)));
   RAVE_TRY_ASSIGN(auto page, serve_page(options.page, std::move(source)));
   if (!options.page.line_key.empty()) {
     RAVE_TRY_ASSIGN(const auto key, direct_line::read_signing_key(options.page.line_key));

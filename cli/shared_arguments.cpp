@@ -116,7 +116,9 @@ void add_line_options(CLI::App& app, LineArguments& line) {
       ->expected(0, 1)
       ->default_str("");
   add_value(app, "--web-key", line.web_key,
-            "Public key of the GUI Server: FILE.pub of `rave keys line FILE`", "FILE");
+            "Public key of the GUI Server: FILE.pub of `rave keys line FILE` [line.pub in the "
+            "folder of --security]",
+            "FILE");
   add_value(app, "--web-certificate", line.certificate,
             "Certificate for TLS, made by `rave keys web`", "FILE");
   add_value(app, "--web-certificate-key", line.key, "Private key of the certificate", "FILE");

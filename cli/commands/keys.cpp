@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 
 #include "error_text.hpp"
 #include "rave/base/table.hpp"
@@ -63,6 +64,22 @@ bool judge(const keys::KeyInfo& key, const Terminal& terminal) {
   return problems.empty();
 }
 
+/// Gives members the public key of tickets, whose secret half is `line.key` of the set. A set of an
+/// older version gets one as well, and members that have none.
+Status give_line_key(const std::filesystem::path& folder) {
+  const std::filesystem::path secret = folder / "line.key";
+  const std::filesystem::path open = folder / "line.key.pub";
+  std::error_code error;
+  if (!std::filesystem::exists(open, error)) RAVE_TRY(direct_line::make_key_files(secret));
+  RAVE_TRY_ASSIGN(const direct_line::PublicKey key, direct_line::read_public_key(open));
+  RAVE_TRY_ASSIGN(const keys::KeySetInfo set, keys::read_key_set(folder));
+  for (const keys::KeyInfo& member : set.members) {
+    const auto file = folder / member.name / direct_line::kMemberKeyFile;
+    if (!std::filesystem::exists(file, error)) RAVE_TRY(direct_line::write_public_key(file, key));
+  }
+  return {};
+}
+
 }  // namespace
 
 int new_keys(const KeysNewCommand& options) {
@@ -70,11 +87,16 @@ int new_keys(const KeysNewCommand& options) {
   const Status made =
       keys::make_key_set({folder, options.lab, options.days, options.members, now_s()});
   if (!made) return complain(made.error());
-  put(stdout, fmt::format("created {0} for {1}; valid for {2} days\n"
-                          "next: copy {0}/{3} to where {3} runs, and start it there with\n"
-                          "  --security {3}\n"
-                          "Keep {0}/ca secret: whoever has it can create members.\n",
-                          folder, list_of(options.members), options.days, options.members.front()));
+  const Status line = give_line_key(folder);
+  if (!line) return complain(line.error());
+  put(stdout,
+      fmt::format("created {0} for {1}; valid for {2} days\n"
+                  "next: copy {0}/{3} to where {3} runs, and start it there with\n"
+                  "  --security {3}\n"
+                  "Keep {0}/ca secret: whoever has it can create members. {0}/line.key is "
+                  "for the\nGUI Server alone (--line-key): whoever has it can command every "
+                  "robot.\n",
+                  folder, list_of(options.members), options.days, options.members.front()));
   return kGood;
 }
 
@@ -82,6 +104,8 @@ int add_keys(const KeysAddCommand& options) {
   const std::string folder = plain(options.folder);
   const Status added = keys::add_members(folder, options.members, options.days, now_s());
   if (!added) return complain(added.error());
+  const Status line = give_line_key(folder);
+  if (!line) return complain(line.error());
   put(stdout, fmt::format("added {} to {}\n", list_of(options.members), folder));
   return kGood;
 }

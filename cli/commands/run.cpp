@@ -49,8 +49,10 @@ int run_alone(const RunCommand& options, const config::ExpandedScenario& scenari
     if (!found) return complain(found.error());
     described = *std::move(found);
   }
-  gui_server::LiveRun live(scenario, control, **catalogue, std::move(described),
-                           [&page](auto source) { page->show(std::move(source)); });
+  gui_server::LiveRun live(
+      scenario, control, **catalogue, std::move(described),
+      [&page](auto source) { page->show(std::move(source)); },
+      find_scenario(options.scenario).value_or(""));
   if (options.gui) {
     auto served = serve_page(options.page);
     if (!served) return complain(served.error());

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "process.hpp"
 
@@ -37,6 +38,46 @@ TEST_F(Keys, MadeAddedToAndShown) {
   for (const Ended& ended : {made, added, shown}) {
     EXPECT_EQ((ended.out + ended.err).find("PRIVATE KEY"), std::string::npos);
   }
+}
+
+TEST_F(Keys, MembersHaveThePublicKeyOfTickets) {
+  ASSERT_EQ(run_rave({"keys", "new", path("set"), "left"}).exit_code, 0);
+  ASSERT_EQ(run_rave({"keys", "add", path("set"), "right"}).exit_code, 0);
+  const std::string open = content_of(path("set/line.key.pub"));
+  EXPECT_TRUE(open.starts_with("rave-line-public ")) << open;
+  EXPECT_EQ(content_of(path("set/left/line.pub")), open);
+  EXPECT_EQ(content_of(path("set/right/line.pub")), open);
+  const auto others = fs::perms::group_all | fs::perms::others_all;
+  EXPECT_EQ(fs::status(path("set/line.key")).permissions() & others, fs::perms::none);
+  // A set that an older version made has no such key.
+  for (const char* const file : {"set/line.key", "set/line.key.pub", "set/left/line.pub"}) {
+    fs::remove(path(file));
+  }
+  ASSERT_EQ(run_rave({"keys", "add", path("set"), "gui"}).exit_code, 0);
+  EXPECT_EQ(content_of(path("set/left/line.pub")), content_of(path("set/line.key.pub")));
+}
+
+TEST_F(Keys, AHostTakesTheKeyOfTicketsFromItsFolder) {
+  ASSERT_EQ(run_rave({"keys", "new", path("set"), "left"}).exit_code, 0);
+  std::ofstream(path("pair.yaml")) << "name: pair\nduration_s: 1\nprocesses: 2\nrobots:\n"
+                                      "  - {name: a, pose: {x_m: 0, y_m: 0}, robot: {body: "
+                                      "{shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}}}\n"
+                                      "  - {name: b, pose: {x_m: 2, y_m: 0}, robot: {body: "
+                                      "{shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}}}\n";
+  const auto start = [this] {
+    return run_rave({"robot", path("pair.yaml"), "--host", "host-1", "--web", "--security",
+                     path("set/left"), "--output", path("out")});
+  };
+  std::ofstream(path("set/left/line.pub")) << "no key\n";
+  const Ended wrong = start();
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("left/line.pub` is not a key of direct lines"), std::string::npos)
+      << wrong.err;
+  fs::remove(path("set/left/line.pub"));
+  const Ended none = start();
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("--web needs --web-key FILE"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("left/line.pub` either"), std::string::npos) << none.err;
 }
 
 TEST_F(Keys, TroubleIsShownWithItsPlace) {

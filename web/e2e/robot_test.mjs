@@ -70,6 +70,13 @@ try {
     await slider.fill('0.1');
     await slider.press('Enter');
     await until(page, `${app}.model.events.some(({text}) => /cruise_mps/.test(text) && /0\\.1/.test(text))`);
+    // A page that comes later has it, and one that is there has what a terminal sets.
+    const other = await context.newPage();
+    await other.goto(new URL('/', server.link).href);
+    await until(other, `${app}?.model?.drives?.get(0)?.values?.['program.cruise_mps'] === 0.1`, 30000);
+    await other.close();
+    execFileSync(rave, ['set', 'twins', 'rosie', 'program.cruise_mps', '0.15'], {stdio: ['ignore', 'ignore', 'inherit']});
+    await page.waitForFunction(() => document.querySelector('rave-robot').renderRoot.querySelector('input[aria-label="program.cruise_mps, value"]').value === '0.15');
     await slider.fill('-3');
     await slider.press('Enter');
     await panel.getByRole('alert').waitFor();

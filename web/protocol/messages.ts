@@ -368,6 +368,8 @@ export interface DriveState {
   order: string;
   /** Of a robot with two sets of drivers that this user may command. */
   twin?: Twin;
+  /** Parameters that were changed during the run, by key; the roster has the first values. For who may command the robot. */
+  values?: Record<string, number | string | boolean>;
   /** Of a robot whose twin runs beside it while it is real, for who may see its readings. */
   shadow?: Shadow;
 }

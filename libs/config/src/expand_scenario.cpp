@@ -7,6 +7,7 @@
 
 #include "expansion_checks.hpp"
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/config/gui_of_scenario.hpp"
 #include "scenario_fields.hpp"
 
 namespace rave::config {
@@ -29,6 +30,18 @@ class Expansion {
     if (diagnostics_.ok()) check_expansion(expanded_, diagnostics_);
     if (diagnostics_.ok()) return std::move(expanded_);
     return tl::unexpected<Error>(diagnostics_.joined());
+  }
+
+  Result<GuiOfScenario> run_gui(const fs::path& path) && {
+    GuiOfScenario read;
+    read.files.push_back(path);
+    if (const auto& file = expanded_.scenario.gui.file) {
+      read.files.push_back(beside(folder_, **file));
+    }
+    expand_gui();
+    if (!diagnostics_.ok()) return tl::unexpected<Error>(diagnostics_.joined());
+    read.gui = std::move(expanded_.scenario.gui);
+    return read;
   }
 
  private:
@@ -210,6 +223,12 @@ Result<ExpandedScenario> expand_scenario_text(std::string_view text,
                                               const std::filesystem::path& path) {
   RAVE_TRY_ASSIGN(ScenarioFile scenario, read_scenario_text(text, path.string()));
   return expand_scenario_file(std::move(scenario), path);
+}
+
+Result<GuiOfScenario> read_gui_of(const std::filesystem::path& scenario) {
+  RAVE_TRY_ASSIGN(const std::string text, rave::read_file(scenario, kMaxFileBytes));
+  RAVE_TRY_ASSIGN(ScenarioFile file, read_scenario_text(text, scenario.string()));
+  return Expansion(std::move(file), scenario).run_gui(scenario);
 }
 
 Result<ExpandedScenario> expand_scenario(const std::filesystem::path& path) {

@@ -69,14 +69,17 @@ std::uint64_t AuditLog::lost() const {
 }
 
 bool AuditLog::is_too_many(std::string_view what, Fields fields) {
-  if (what != "refused") return false;
+  if (what != "refused" && what != "cut_off") return false;
   // Strangers by their network, others by their name, which no network looks like.
   std::string who;
   for (const auto& [name, value] : fields) {
     if (name == "from") who = web::network_of(std::string(value));
     if (name == "user" && who.empty()) who = fmt::format("user {}", value);
   }
-  return !who.empty() && !refusals_.take(who, web::RateLimit::Clock::now());
+  if (who.empty()) return false;
+  // Apart from refusals, which come before a page is cut off and would use up its place.
+  if (what == "cut_off") who = "cut off " + who;
+  return !refusals_.take(who, web::RateLimit::Clock::now());
 }
 
 void AuditLog::turn_over() {

@@ -117,7 +117,8 @@ BusFeed::OnOver replays(OnOver on_over) {
 Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenario,
                                           const runtime::BuiltScenario& built, bus::BusConfig bus,
                                           std::unique_ptr<plugin::Catalogue> described,
-                                          runtime::RunControl* control, OnOver on_over) {
+                                          runtime::RunControl* control,
+                                          const std::filesystem::path& file, OnOver on_over) {
   // The manager of the run may be in this process, with a bus of its own.
   bus.beside = true;
   bus.side = bus::Side::kMonitor;
@@ -132,6 +133,7 @@ Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenar
     port = std::move(hosts);
   }
   RAVE_TRY_ASSIGN(auto start, start_of(scenario, built));
+  start.scenario = file;
   if (described) {
     start.probes = std::make_shared<ProbeDesk>(std::move(described), start.about.step_s);
   }

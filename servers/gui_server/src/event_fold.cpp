@@ -15,8 +15,9 @@ LogEvent::Level level_of(std::string_view kind) {
   for (const std::string_view bad : {"program failed", "driver failed", "pinned", "process lost"}) {
     if (kind == bad) return LogEvent::Level::kAlert;
   }
-  for (const std::string_view odd : {"pose stale", "guard stopped", "guard slowed",
-                                     "change refused", "stopped", "handed over refused"}) {
+  for (const std::string_view odd :
+       {"pose stale", "guard stopped", "guard slowed", "change refused", "stopped",
+        "handed over refused", "panels not changed"}) {
     if (kind == odd) return LogEvent::Level::kWarn;
   }
   return LogEvent::Level::kInfo;

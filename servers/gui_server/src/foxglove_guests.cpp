@@ -38,6 +38,11 @@ void FoxgloveGuests::received(std::uint64_t id, std::string_view text) {
   guests_.at(id).client->received(text);
 }
 
+std::string FoxgloveGuests::user_of(std::uint64_t id) const {
+  const auto person = door_.whose(guests_.at(id).session);
+  return person ? person->name : "";
+}
+
 void FoxgloveGuests::received_binary(std::uint64_t id) { guests_.at(id).client->received_binary(); }
 
 Audience FoxgloveGuests::audience() const {

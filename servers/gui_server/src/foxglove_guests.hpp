@@ -27,6 +27,8 @@ class FoxgloveGuests {
   [[nodiscard]] bool has(std::uint64_t id) const { return guests_.contains(id); }
   void received(std::uint64_t id, std::string_view text);
   void received_binary(std::uint64_t id);
+  /// The name of the user whose client this is; empty: signed out.
+  [[nodiscard]] std::string user_of(std::uint64_t id) const;
   void closed(std::uint64_t id) { guests_.erase(id); }
   /// What they look at, for the source.
   [[nodiscard]] Audience audience() const;

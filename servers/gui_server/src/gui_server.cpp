@@ -187,6 +187,11 @@ class GuiServer::Impl final : public web::Handler {
     guests_.received_binary(id);
     return true;
   }
+  void flooded(std::uint64_t id) override {
+    if (!guests_.has(id)) return visitors_.flooded(id);
+    audit_->note("cut_off",
+                 {{"why", "too many messages of Foxglove"}, {"user", guests_.user_of(id)}});
+  }
   void closed(std::uint64_t id) override {
     if (guests_.has(id)) return guests_.closed(id);
     visitors_.closed(id);
@@ -270,7 +275,7 @@ class GuiServer::Impl final : public web::Handler {
     if (!person) return web::text_response(401, "not signed in\n");
     const auto& source = visitors_.source();
     const PageComponent* const known =
-        source ? component_at(source->about().components, request.path) : nullptr;
+        source ? component_at(source->components(), request.path) : nullptr;
     if (known == nullptr || !known->is_for(person->role)) {
       return web::text_response(404, "not found\n");
     }

@@ -180,6 +180,13 @@ void LiveSource::learn_status(Playhead::Clock::time_point now) {
   }
 }
 
+void LiveSource::learn_values(const LiveEvent& event) {
+  if (event.slot < 0 || event.kind != "changed") return;
+  const auto slot = static_cast<std::size_t>(event.slot);
+  if (slot >= leases_.size() || !set_values_.take(slot, event.text, leases_[slot].values)) return;
+  leases_changed_[slot] = ++leases_revision_;
+}
+
 void LiveSource::learn_leases(const runtime::RunStatus::Robot& robot, std::uint32_t slot) {
   DriveState now{slot,           robot.lease,      robot.takes,
                  robot.order,    robot.lease_page, robot.hand_over,
@@ -188,6 +195,7 @@ void LiveSource::learn_leases(const runtime::RunStatus::Robot& robot, std::uint3
   if (now.hand_over) now.hand_over->x_m = now.hand_over->y_m = now.hand_over->yaw_rad = 0;
   if (robot.shadow) now.shadow = rounded(*robot.shadow);
   DriveState& known = leases_[slot];
+  now.values = known.values;
   if (known == now) return;
   known = std::move(now);
   leases_changed_[slot] = ++leases_revision_;

@@ -19,11 +19,12 @@ const char* const kHeldByNobody =
 struct LiveRun::Impl {
   Impl(const config::ExpandedScenario& of, runtime::RunControl& with, plugin::Catalogue& catalogue,
        std::unique_ptr<plugin::Catalogue> of_server,
-       std::function<void(std::shared_ptr<Source>)> call)
+       std::function<void(std::shared_ptr<Source>)> call, std::filesystem::path of_scenario)
       : scenario(of),
         control(with),
         described(std::move(of_server)),
         ready(std::move(call)),
+        file(std::move(of_scenario)),
         box(std::make_shared<LiveBox>()),
         feed(box, catalogue, [this](const runtime::RunView& run, auto bodies) {
           return begin(run, std::move(bodies));
@@ -47,6 +48,7 @@ struct LiveRun::Impl {
         with_parameters(robots_of(scenario, run.info, run.hybrids), run.engine.spec());
     for (const record::RecordedRobot& robot : run.info.robots) start.robots.push_back(robot.name);
     start.bodies = std::move(bodies);
+    start.scenario = file;
     if (described) {
       start.probes = std::make_shared<ProbeDesk>(std::move(described), run.info.step_s);
     }
@@ -60,6 +62,7 @@ struct LiveRun::Impl {
   runtime::RunControl& control;
   std::unique_ptr<plugin::Catalogue> described;
   std::function<void(std::shared_ptr<Source>)> ready;
+  std::filesystem::path file;
   std::shared_ptr<LiveBox> box;
   std::shared_ptr<LiveSource> source;
   LiveFeed feed;
@@ -67,9 +70,9 @@ struct LiveRun::Impl {
 
 LiveRun::LiveRun(const config::ExpandedScenario& scenario, runtime::RunControl& control,
                  plugin::Catalogue& catalogue, std::unique_ptr<plugin::Catalogue> described,
-                 std::function<void(std::shared_ptr<Source>)> ready)
+                 std::function<void(std::shared_ptr<Source>)> ready, std::filesystem::path file)
     : impl_(std::make_unique<Impl>(scenario, control, catalogue, std::move(described),
-                                   std::move(ready))) {}
+                                   std::move(ready), std::move(file))) {}
 
 LiveRun::~LiveRun() = default;
 

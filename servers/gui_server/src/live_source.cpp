@@ -91,6 +91,8 @@ LiveSource::LiveSource(Start start, std::shared_ptr<LiveBox> box, std::unique_pt
       box_(std::move(box)),
       port_(std::move(port)),
       fold_(start_.robots),
+      set_values_(start_.robots_json),
+      component_watch_(start_.scenario),
       maps_(start_.robots_json, joined(start_.bodies)) {
   write_bodies();
   state_.duration_s = start_.about.duration_s;
@@ -115,6 +117,17 @@ Powers LiveSource::powers() const {
     }
   }
   return powers;
+}
+
+Status LiveSource::refresh_components() {
+  auto read = component_watch_.look();
+  if (!read) return {};
+  if (!*read) {
+    fold_.add(state_.now_s, -1, "panels not changed", read->error().text());
+    return tl::unexpected(read->error());
+  }
+  start_.about.components = **std::move(read);
+  return {};
 }
 
 Result<ProbeMade> LiveSource::probe(const ProbeRequest& request) {
@@ -165,6 +178,7 @@ void LiveSource::take_news() {
   for (const auto& news : box_->news.take()) {
     for (const LiveEvent& event : news->events) {
       fold_.add(event.t_s, event.slot, event.kind, event.text);
+      learn_values(event);
     }
     for (const auto& [id, json] : news->set) {
       body_changes_.push_back({++bodies_revision_, id, json});

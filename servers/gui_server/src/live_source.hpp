@@ -10,11 +10,13 @@
 #include <utility>
 #include <vector>
 
+#include "component_watch.hpp"
 #include "event_fold.hpp"
 #include "live_box.hpp"
 #include "map_book.hpp"
 #include "probe_desk.hpp"
 #include "run_port.hpp"
+#include "set_values.hpp"
 
 namespace rave::gui_server {
 
@@ -27,11 +29,13 @@ class LiveSource : public Source {
     std::vector<std::string> robots;  ///< Names, by slot.
     std::vector<std::pair<std::uint32_t, std::string>> bodies;
     std::shared_ptr<ProbeDesk> probes;  ///< Null: no virtual sensors can be tried.
+    std::filesystem::path scenario;     ///< Its file, which may list other panels; may be empty.
   };
   LiveSource(Start start, std::shared_ptr<LiveBox> box, std::unique_ptr<RunPort> port);
 
   [[nodiscard]] const RunAbout& about() const noexcept override { return start_.about; }
   [[nodiscard]] Powers powers() const override;
+  [[nodiscard]] Status refresh_components() override;
   [[nodiscard]] const std::string& bodies_json() const noexcept override { return bodies_json_; }
   [[nodiscard]] const std::string& robots_json() const noexcept override {
     return start_.robots_json;
@@ -100,6 +104,7 @@ class LiveSource : public Source {
   void write_bodies();
   void answer_asked();
   void learn_status(Playhead::Clock::time_point now);
+  void learn_values(const LiveEvent& event);
   void learn_leases(const runtime::RunStatus::Robot& robot, std::uint32_t slot);
 
   Start start_;
@@ -109,6 +114,8 @@ class LiveSource : public Source {
   std::vector<BodyChange> body_changes_;
   std::uint64_t bodies_revision_ = 0;
   EventFold fold_;
+  SetValues set_values_;
+  ComponentWatch component_watch_;
   MapBook maps_;
   PosesAt poses_;
   std::map<std::string, std::uint32_t, std::less<>> slots_;

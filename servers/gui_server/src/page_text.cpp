@@ -76,8 +76,9 @@ std::string hello_text(const Source& source, const Greeting& greeting) {
                 {"user", person_json(greeting.user)},
                 {"may", powers.may},
                 {"why_not", powers.why_not}};
-  for (std::size_t i = 0; i < about.components.size(); ++i) {
-    const PageComponent& component = about.components[i];
+  const std::vector<PageComponent>& components = source.components();
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    const PageComponent& component = components[i];
     if (!component.is_for(greeting.user.role)) continue;
     hello["components"].push_back(
         {{"name", component.name}, {"url", component_path(i, component)}});
@@ -132,6 +133,7 @@ std::string leases_text(std::span<const DriveState> states, const Author& me, bo
                        {"refused", state.hand_over->refused},
                        {"last", state.hand_over->last}};
     }
+    for (const auto& [key, value] : state.values) robot["values"][key] = Json::parse(value);
     if (state.shadow) robot["shadow"] = runtime::shadow_json<Json>(*state.shadow);
   }
   return text_of(message);

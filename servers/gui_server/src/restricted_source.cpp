@@ -340,6 +340,7 @@ std::vector<DriveState> RestrictedSource::leases_changed_since(std::uint64_t rev
     if (!view_->may(InfoClass::kCommand, robot)) {
       state.takes.clear();
       state.hand_over.reset();
+      state.values.clear();
     }
     // It tells what the sensors of the robot read.
     if (!view_->may(InfoClass::kReadings, robot)) state.shadow.reset();

@@ -21,6 +21,9 @@ class RestrictedSource final : public Source {
   RestrictedSource(std::shared_ptr<Source> all, std::shared_ptr<const View> view);
 
   [[nodiscard]] const RunAbout& about() const noexcept override { return about_; }
+  [[nodiscard]] const std::vector<PageComponent>& components() const override {
+    return all_->components();
+  }
   [[nodiscard]] Powers powers() const override;
   [[nodiscard]] const std::string& bodies_json() const noexcept override;
   [[nodiscard]] std::string hidden_kinds_json() const override;

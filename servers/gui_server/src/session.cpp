@@ -91,7 +91,9 @@ void Session::received(std::string_view text) {
   auto message = parse_page_message(text);
   if (!message) {
     answer("message", false, message.error().message);
-    if (++refusals_ > kMostRefusals) socket_.close(kBadMessages, "too many malformed messages");
+    const bool cut = ++refusals_ > kMostRefusals;
+    calls_.malformed(message.error().message, cut);
+    if (cut) socket_.close(kBadMessages, "too many malformed messages");
     return;
   }
   std::visit([this](const auto& what) { take(what); }, *message);

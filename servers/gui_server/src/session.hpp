@@ -40,6 +40,8 @@ struct SessionCalls {
   /// Once it is known what became of it.
   PageCommands::Told commanded;
   std::function<Result<std::string>(const ChatMessage&)> chat;
+  /// A message that is none. `cut`: it is one too many, and the page is cut off.
+  std::function<void(std::string_view why, bool cut)> malformed;
   /// The page has a key, so it is known from now on by that.
   std::function<void(const PageKeyMessage&)> page_key;
   /// Answers by itself.

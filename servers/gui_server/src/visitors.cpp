@@ -88,6 +88,9 @@ void Visitors::opened(std::uint64_t id, web::Socket& socket, const std::string& 
   visitor.page = std::make_unique<Session>(socket, calls_of(id));
   Visitor& kept = visitors_.emplace(id, std::move(visitor)).first->second;
   if (!source_) return;
+  if (const Status read = source_->refresh_components(); !read) {
+    audit_->note("components", {{"why", read.error().text()}});
+  }
   kept.view = desk_.view_of(kept.person);
   show_to(kept, false);
   if (kept.person.role == Role::kSuperUser) {
@@ -296,6 +299,7 @@ SessionCalls Visitors::calls_of(std::uint64_t id) {
     note_command(id, command, answer);
   };
   calls.people = [this, id](const PeopleMessage& asked) { take_people(id, asked); };
+  calls.malformed = [this, id](std::string_view why, bool cut) { note_malformed(id, why, cut); };
   calls.page_key = [this, id](const PageKeyMessage& page) {
     const auto found = visitors_.find(id);
     if (found == visitors_.end()) return;

@@ -33,6 +33,8 @@ class Visitors {
   /// A page came whose session the door knows.
   void opened(std::uint64_t id, web::Socket& socket, const std::string& session);
   void received(std::uint64_t id, std::string_view text);
+  /// It sends too much, and is being closed for it.
+  void flooded(std::uint64_t id);
   void closed(std::uint64_t id);
   /// Some 60 times a second. `audience`: what others than pages look at, in robots of the run.
   void tick(Audience audience = {});
@@ -81,6 +83,7 @@ class Visitors {
   void tell_accounts();
   [[nodiscard]] static bool is_operator(const Visitor& visitor);
   void note_command(std::uint64_t id, const CommandMessage& command, const PageAnswer& answer);
+  void note_malformed(std::uint64_t id, std::string_view why, bool cut);
   [[nodiscard]] bool is_there(const std::string& name) const;
   void tell_chat();
   void tell_people();

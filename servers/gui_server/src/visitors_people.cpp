@@ -6,6 +6,20 @@
 
 namespace rave::gui_server {
 
+void Visitors::note_malformed(std::uint64_t id, std::string_view why, bool cut) {
+  const auto found = visitors_.find(id);
+  if (found == visitors_.end()) return;
+  const std::string& user = found->second.person.name;
+  audit_->note("refused", {{"why", "message"}, {"user", user}, {"detail", why}});
+  if (cut) audit_->note("cut_off", {{"why", "malformed messages"}, {"user", user}});
+}
+
+void Visitors::flooded(std::uint64_t id) {
+  const auto found = visitors_.find(id);
+  if (found == visitors_.end()) return;
+  audit_->note("cut_off", {{"why", "too many messages"}, {"user", found->second.person.name}});
+}
+
 bool Visitors::is_operator(const Visitor& visitor) {
   return known(visitor.person).name != visitor.person.name;
 }

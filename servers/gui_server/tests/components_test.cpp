@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "component_watch.hpp"
+
 namespace rave::gui_server {
 namespace {
 
@@ -43,6 +45,49 @@ TEST_F(Components, OfARecordingAreThoseThatAreLeft) {
   EXPECT_TRUE(components[0].is_for(Role::kCommander));
   EXPECT_FALSE(components[0].is_for(Role::kObserver));
   EXPECT_EQ(component_at(components, "/components/0/there.js"), components.data());
+}
+
+TEST_F(Components, AreReadAgainWhenTheirFileHasChanged) {
+  const auto write = [this](const char* name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+  };
+  const std::string robots =
+      "robots: [{name: r, pose: {x_m: 0, y_m: 0}, robot: {body: {shapes: [{disc_radius_m: 0.2, "
+      "z_m: [0, 0.3]}]}}}]\n";
+  write("scenario.yaml", "name: s\nduration_s: 1\ngui: {file: gui.yaml}\n" + robots);
+  write("gui.yaml", "components: [{module: there.mjs, roles: [commander]}]\n");
+  ComponentWatch watch(folder_ / "scenario.yaml");
+  EXPECT_FALSE(watch.look());
+  write("more.mjs", "export const component = 2;\n");
+  write("gui.yaml",
+        "components: [{module: there.mjs, roles: [commander]}, {module: more.mjs, roles: "
+        "[observer]}]\n");
+  auto read = watch.look();
+  ASSERT_TRUE(read);
+  ASSERT_TRUE(*read) << read->error().text();
+  ASSERT_EQ((*read)->size(), 2U);
+  EXPECT_EQ((**read)[1].name, "more");
+  EXPECT_FALSE(watch.look());
+  // An error is told once, with its place; the same for a module that is missing until it is there.
+  write("gui.yaml", "components: [{modul: there.mjs, roles: [commander]}]\n");
+  read = watch.look();
+  ASSERT_TRUE(read);
+  ASSERT_FALSE(*read);
+  EXPECT_NE(read->error().text().find("gui.yaml:1:"), std::string::npos) << read->error().text();
+  EXPECT_FALSE(watch.look());
+  write("gui.yaml", "components: [{module: later.mjs, roles: [commander]}]\n");
+  read = watch.look();
+  ASSERT_TRUE(read && !*read);
+  write("later.mjs", "export const component = 3;\n");
+  read = watch.look();
+  ASSERT_TRUE(read && *read);
+  EXPECT_EQ((**read)[0].name, "later");
+  // The list may move into the scenario.
+  write("scenario.yaml", "name: s\nduration_s: 1\n" + robots);
+  read = watch.look();
+  ASSERT_TRUE(read && *read);
+  EXPECT_TRUE((*read)->empty());
+  EXPECT_FALSE(ComponentWatch("").look());
 }
 
 }  // namespace

@@ -128,6 +128,18 @@ class FakeRun : public Source {
       reply(slot, slot != 2, slot == 2 ? "`spy-2` drives walker-3" : "taken by spy-4");
     }
   }
+  [[nodiscard]] Status refresh_components() override {
+    const std::lock_guard lock(mutex_);
+    if (!components_error_.empty()) return fail(ErrorCode::kParse, "{}", components_error_);
+    if (!next_components_.empty()) facts.components = std::exchange(next_components_, {});
+    return {};
+  }
+  /// What the file of the panels says from now on.
+  void change_components(std::vector<PageComponent> next, std::string error) {
+    const std::lock_guard lock(mutex_);
+    next_components_ = std::move(next);
+    components_error_ = std::move(error);
+  }
   [[nodiscard]] std::uint64_t leases_revision() const noexcept override { return 1; }
   [[nodiscard]] std::vector<DriveState> leases_changed_since(
       std::uint64_t revision) const override {
@@ -208,6 +220,8 @@ class FakeRun : public Source {
   };
 
   std::mutex mutex_;
+  std::vector<PageComponent> next_components_;
+  std::string components_error_;
   std::vector<ProbeRequest> requests_;
   std::vector<ChatText> kept_;
   std::vector<std::pair<CommandMessage, Author>> commands_;

@@ -2,6 +2,10 @@
 // Orders, chat and components of a client that may not have them.
 #include <unistd.h>
 
+#include <map>
+#include <set>
+#include <string>
+
 #include "hostile_fixture.hpp"
 #include "rave/direct_line/ticket.hpp"
 
@@ -103,6 +107,24 @@ TEST_F(Hostile, MalformedOrdersNeverReachARun) {
   EXPECT_NE(ben.text_with("\"to\":\"message\"").find("a path has 10000 points; expected 2 to 1000"),
             std::string::npos);
   EXPECT_TRUE(run_->commands().empty());
+  const std::string log = audit();
+  EXPECT_NE(
+      log.find(
+          R"("what":"refused","why":"message","user":"ben","detail":"expected a JSON object")"),
+      std::string::npos)
+      << log;
+  EXPECT_NE(log.find("a path has 10000 points"), std::string::npos) << log;
+  EXPECT_EQ(log.find("cut_off"), std::string::npos) << log;
+}
+
+TEST_F(Hostile, WhoSendsNonsenseIsCutOffByNameInTheLog) {
+  RawSocket eve = socket(guest(Role::kObserver, "eve"));
+  for (int i = 0; i < 30; ++i) eve.send(R"({"type":"hack"})");
+  EXPECT_EQ(eve.close_code(), 4400);
+  const std::string log = audit();
+  EXPECT_NE(log.find(R"("what":"cut_off","why":"malformed messages","user":"eve")"),
+            std::string::npos)
+      << log;
 }
 
 TEST_F(Hostile, TwoPagesOfOnePersonAreTwoForTheRun) {
@@ -168,6 +190,10 @@ TEST_F(Hostile, AFloodOfOrdersIsRefusedAndThenCutOff) {
     ben.send(R"({"type":"order","request":1,"kind":"goal","slots":[0,2],"points":[[0,0]]})");
   }
   EXPECT_EQ(ben.close_code(), 4429);
+  const std::string log = audit();
+  EXPECT_NE(log.find(R"("what":"cut_off","why":"too many messages","user":"ben")"),
+            std::string::npos)
+      << log;
 }
 
 TEST_F(Hostile, APageThatGoesLeavesNoRobotDriving) {
@@ -206,6 +232,40 @@ TEST_F(Hostile, WhatIsSaidReachesWhoMayHearItAlone) {
   EXPECT_EQ(run_->commands().size(), 1U);
   eve.send(R"({"type":"say","request":2,"to":"user","name":"nobody","text":"psst"})");
   EXPECT_NE(eve.text_with("\"request\":2").find("is not connected"), std::string::npos);
+}
+
+TEST_F(Hostile, WhatIsSaidToATeamIsForItsMembersAndRobotsAlone) {
+  RawSocket eve = socket(guest(Role::kObserver, "eve"));
+  RawSocket ben = socket(guest(Role::kCommander, "ben"));
+  RawSocket boss = super_user();
+  // Both guests are of team green.
+  boss.send(R"({"type":"say","request":1,"to":"team","name":"blue","text":"spies, go home"})");
+  EXPECT_NE(boss.text_with("Sent to 2 robots."), "");
+  ben.send(R"({"type":"say","request":2,"to":"team","name":"green","text":"walkers, gather"})");
+  EXPECT_NE(ben.text_with("Sent to 2 robots."), "");
+  EXPECT_NE(eve.text_with("walkers, gather"), "");
+  EXPECT_NE(ben.text_with("walkers, gather"), "");
+  for (const RawSocket* const client : {&eve, &ben}) {
+    EXPECT_EQ(client->heard().find("spies, go home"), std::string::npos);
+  }
+  // Robots by what they were told.
+  const auto told = [this] {
+    std::map<std::string, std::set<std::uint32_t>> robots;
+    for (const auto& [command, author] : run_->commands()) {
+      // A page that went before leaves its leases.
+      if (command.kind != CommandMessage::Kind::kText) continue;
+      robots[command.value].insert(command.slots.begin(), command.slots.end());
+    }
+    return robots;
+  };
+  const std::map<std::string, std::set<std::uint32_t>> both = {{"spies, go home", {1, 3}},
+                                                               {"walkers, gather", {0, 2}}};
+  EXPECT_EQ(told(), both);
+  // Who may not talk about a team does not reach it either.
+  ben.send(R"({"type":"say","request":3,"to":"team","name":"blue","text":"join us"})");
+  EXPECT_NE(ben.text_with("\"request\":3").find("There is no such robot or team."),
+            std::string::npos);
+  EXPECT_EQ(told(), both);
 }
 
 TEST_F(Hostile, AReplayShowsTheChatOfTheRecordToWhoMayReadItAlone) {
@@ -274,6 +334,24 @@ TEST_F(Hostile, ComponentsAreServedToTheirRolesAlone) {
   EXPECT_EQ(status_of(ask("GET", path)), "401");
   EXPECT_EQ(status_of(ask("GET", "/components/1/heat_map.js", ben)), "404");
   EXPECT_EQ(status_of(ask("GET", "/components/0/../accounts/accounts", ben)), "400");
+}
+
+TEST_F(Hostile, APageThatComesHasThePanelsThatTheFileListsNow) {
+  const std::string eve = guest(Role::kObserver, "eve");
+  const std::string ben = guest(Role::kCommander, "ben");
+  std::ofstream(folder_ / "late.js") << "export const component = 1;\n";
+  EXPECT_EQ(socket(ben).text_with("\"hello\"").find("late"), std::string::npos);
+  run_->change_components({{"late", folder_ / "late.js", {Role::kCommander}}}, "");
+  EXPECT_NE(socket(ben).text_with("\"hello\"").find("components/0/late.js"), std::string::npos);
+  EXPECT_EQ(status_of(ask("GET", "/components/0/late.js", ben)), "200");
+  EXPECT_EQ(socket(eve).text_with("\"hello\"").find("late"), std::string::npos);
+  EXPECT_EQ(status_of(ask("GET", "/components/0/late.js", eve)), "404");
+  // A wrong file leaves the panels that are there, and the log says why.
+  run_->change_components({}, "gui.yaml:3:5: unknown key");
+  EXPECT_NE(socket(ben).text_with("\"hello\"").find("components/0/late.js"), std::string::npos);
+  EXPECT_NE(audit().find(R"("what":"components","why":"gui.yaml:3:5: unknown key")"),
+            std::string::npos)
+      << audit();
 }
 
 }  // namespace

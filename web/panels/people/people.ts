@@ -55,7 +55,7 @@ export function usesText({uses}: KnownInvitation): string {
 }
 
 /** Kinds of lines, as the filter offers them. */
-export const kAuditKinds: readonly string[] = ['login', 'logout', 'refused', 'stop', 'release', 'order', 'right', 'see_as', 'account', 'invitation', 'recording', 'accounts'];
+export const kAuditKinds: readonly string[] = ['login', 'logout', 'refused', 'cut_off', 'stop', 'release', 'order', 'right', 'see_as', 'account', 'invitation', 'recording', 'accounts'];
 
 /** `you` is who has the link of the terminal. */
 export function whoText(line: AuditLine): string {
@@ -75,6 +75,7 @@ export function auditText(line: AuditLine): string {
     case 'stop': return `stopped ${said}`;
     case 'release': return `released ${said}`;
     case 'right': return `set the right ${said}`;
+    case 'cut_off': return `was cut off: ${why}`;
     case 'see_as': return said === 'self' ? 'no longer views the page as another user' : `sees as ${said}`;
     case 'order': return `ordered ${said}`;
     case 'account': return `changed ${said}`;

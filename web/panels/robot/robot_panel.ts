@@ -10,6 +10,7 @@ import {usefulRange} from '../parameter_range';
 import {guardOf, lastAct} from './guard_act';
 import './twin_section';
 import {toldLines} from './told';
+import {SetValues, type SetValue} from './set_values';
 import {SpeedTrace, askedLines, kTrace_s, type DrivenVelocity} from './speed_trace';
 
 const kRefresh_ms = 250;
@@ -18,8 +19,7 @@ const kTakes = ['goal', 'path', 'drive', 'text', 'place'];
 /** One robot: who drives it, what it takes, its parameters, its guard and how fast it goes. */
 export class RobotPanel extends LitElement {
   declare context: PanelContext;
-  /** Values that were set here, by robot and key; a run does not tell them back. */
-  private readonly values = new Map<string, string | number | boolean>();
+  private readonly values = new SetValues();
   private readonly notes = new Map<string, string>();
   private readonly trace = new SpeedTrace();
   private timer = 0;
@@ -98,8 +98,12 @@ export class RobotPanel extends LitElement {
 
   private renderParameter(slot: number, parameter: Parameter, may: boolean): TemplateResult {
     const name = `${this.context.model.robots[slot].name} ${parameter.key}`;
-    const value = this.values.get(name) ?? parameter.value ?? '';
-    const set = (to: string | number | boolean) => void this.set(slot, parameter.key, name, to);
+    const present = this.context.model.drives.get(slot)?.values?.[parameter.key] ?? parameter.value;
+    const value = this.values.shown(name, present) ?? '';
+    const set = (to: SetValue) => {
+      this.values.ask(name, to, present);
+      void this.set(slot, parameter.key, name, to);
+    };
     const label = parameter.key.replace(/^program\./, '');
     const read = (event: Event) => (event.target as HTMLInputElement | HTMLSelectElement).value;
     let control: TemplateResult;
@@ -120,15 +124,12 @@ export class RobotPanel extends LitElement {
       ${note === undefined ? nothing : html`<p class="bad" role="alert">${note}</p>`}`;
   }
 
-  private async set(slot: number, key: string, name: string, value: string | number | boolean): Promise<void> {
-    const before = this.values.get(name);
-    this.values.set(name, value);
+  private async set(slot: number, key: string, name: string, value: SetValue): Promise<void> {
     const answer = await this.context.commands.ask({type: 'set', slots: [slot], key, value});
     if (answer.good) this.notes.delete(name);
     else {
       this.notes.set(name, answer.text);
-      if (before === undefined) this.values.delete(name);
-      else this.values.set(name, before);
+      this.values.refuse(name);
     }
     this.requestUpdate();
   }

@@ -11,6 +11,10 @@
 // for the server, and `FILE.pub`, for hosts. Any thread.
 namespace rave::direct_line {
 
+/// The public key of tickets in the folder of a member of a set of keys (`rave keys new`), where a
+/// host looks for it.
+inline constexpr const char* kMemberKeyFile = "line.pub";
+
 /// Creates both files with a new key. Errors: kInvalidArgument (one of them exists), kIo.
 [[nodiscard]] Status make_key_files(const std::filesystem::path& file);
 /// Writes only the public half, for hosts. Error kIo.

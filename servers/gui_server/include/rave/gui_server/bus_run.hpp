@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -25,11 +26,13 @@ using OnOver = std::function<void(std::shared_ptr<Source> replay, const std::str
 /// `built`: of the scenario, for the appearance of robots; not referred to later. `bus`: that of
 /// the run. `described`: the plug-ins of the run, for the thread of the server; null: no probes.
 /// `control`: of the run's Environment Manager in lock-step, if it is in this process; must outlive
-/// the source. Null: robots are stopped over the bus, and pages cannot pause the run. `on_over` may
-/// be empty. Errors: those of bus::Bus::open().
+/// the source. Null: robots are stopped over the bus, and pages cannot pause the run. `file`: of
+/// the scenario, for panels that are added during the run; may be empty. `on_over` may be empty.
+/// Errors: those of bus::Bus::open().
 [[nodiscard]] Result<std::shared_ptr<Source>> watch_run(
     const config::ExpandedScenario& scenario, const runtime::BuiltScenario& built,
     bus::BusConfig bus, std::unique_ptr<plugin::Catalogue> described,
-    runtime::RunControl* control = nullptr, OnOver on_over = {});
+    runtime::RunControl* control = nullptr, const std::filesystem::path& file = {},
+    OnOver on_over = {});
 
 }  // namespace rave::gui_server

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -78,6 +79,8 @@ struct DriveState {
   std::optional<runtime::RunStatus::HandOver> hand_over = std::nullopt;
   bool simulated = true;
   std::optional<runtime::RunStatus::Shadow> shadow = std::nullopt;  ///< Rounded.
+  /// Parameters that were changed during the run: values by key, as JSON.
+  std::map<std::string, std::string> values = {};
 
   /// Whether the lease belongs to this author's page.
   [[nodiscard]] bool is_of(const Author& author) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -20,10 +21,11 @@ class LiveRun {
   /// `control`: of the run; it receives the requests of pages. `ready` is called with the source
   /// when the run is ready, in the thread of the run. Both must outlive the run. `catalogue`: of
   /// the run, must outlive it; `described`: a second catalogue of the same plug-ins, for the thread
-  /// of the server; null: no probes.
+  /// of the server; null: no probes. `file`: of the scenario, for panels that are added during the
+  /// run; may be empty.
   LiveRun(const config::ExpandedScenario& scenario, runtime::RunControl& control,
           plugin::Catalogue& catalogue, std::unique_ptr<plugin::Catalogue> described,
-          std::function<void(std::shared_ptr<Source>)> ready);
+          std::function<void(std::shared_ptr<Source>)> ready, std::filesystem::path file = {});
   LiveRun(const LiveRun&) = delete;
   LiveRun& operator=(const LiveRun&) = delete;
   ~LiveRun();

@@ -326,6 +326,14 @@ class Source {
   /// Executes a command. Calls `reply` once for each robot of the command, now or later.
   virtual void command(const CommandMessage& command, const Author& /*author*/,
                        const SlotReply& reply);
+  /// Panels that the scenario supplies.
+  [[nodiscard]] virtual const std::vector<PageComponent>& components() const {
+    return about().components;
+  }
+  /// Reads the list of these panels again if its file has changed; called when a page comes. Error:
+  /// of the file; the panels stay as they were.
+  [[nodiscard]] virtual Status refresh_components() { return {}; }
+
   /// Changes whenever a lease changes. leases_changed_since() returns the changes since an earlier
   /// revision (0: all).
   [[nodiscard]] virtual std::uint64_t leases_revision() const noexcept { return 0; }

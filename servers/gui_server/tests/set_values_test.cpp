@@ -10,7 +10,7 @@
 namespace rave::gui_server {
 namespace {
 
-constexpr const char* kRobots =
+constexpr const char* kSetRobots =
     R"([{"name":"r1","team":"","kind":"simulated","sensors":[],"parameters":[)"
     R"({"key":"program.v_mps","kind":"number","value":0.2},{"key":"program.bold","kind":"flag"},)"
     R"({"key":"program.mode","kind":"choice","choices":["slow","fast"]},)"
@@ -18,7 +18,7 @@ constexpr const char* kRobots =
     R"({"name":"r2","team":"","kind":"simulated","sensors":[]}])";
 
 TEST(SetValues, AreThoseOfTheEventWithoutItsAuthor) {
-  const SetValues set(kRobots);
+  const SetValues set(kSetRobots);
   SetValues::Values values;
   EXPECT_TRUE(set.take(0, "program.v_mps: 0.2 -> 0.45 (by hand: anna)", values));
   EXPECT_EQ(values, (SetValues::Values{{"program.v_mps", "0.45"}}));
@@ -36,7 +36,7 @@ TEST(SetValues, AreThoseOfTheEventWithoutItsAuthor) {
 }
 
 TEST(SetValues, NothingElseIsTakenForAValue) {
-  const SetValues set(kRobots);
+  const SetValues set(kSetRobots);
   SetValues::Values values;
   EXPECT_FALSE(set.take(0, "program.v_mps: 0.2 -> fast", values));
   EXPECT_FALSE(set.take(0, "program.v_mps", values));
@@ -72,7 +72,7 @@ class NoPort final : public RunPort {
 TEST(SetValues, PagesThatAreThereAndThatComeLaterAreTold) {
   const auto box = std::make_shared<LiveBox>();
   LiveSource::Start start;
-  start.robots_json = kRobots;
+  start.robots_json = kSetRobots;
   start.robots = {"r1", "r2"};
   LiveSource source(std::move(start), box, std::make_unique<NoPort>());
   const auto now = Playhead::Clock::now();

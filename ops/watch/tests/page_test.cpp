@@ -78,7 +78,7 @@ TEST(Page, IsNeverWiderOrHigherThanItsTerminal) {
 
 TEST(Page, ANarrowOneKeepsWhatMattersMost) {
   EXPECT_EQ(text_of(render_page(example(), {60, 0, false, ""})),
-            "flock   goes   12.34 of 60.00 s   1.00x   in real time\n"
+            "flock   running   12.34 of 60.00 s   1.00x   in real time\n"
             "\n"
             "HOST     STATE  REAL+SIM    RATE /s     AGE  LOST  CPU\n"
             "manager  here                  20.0             0   3%\n"

@@ -285,8 +285,9 @@ TEST_F(InputPostTest, WhatAnOldReportAskedForIsNotSaidToBeDoneAfterAGap) {
   make_world();
   post_->drop("the run went on without the host of the robot");
   EXPECT_EQ(answer(0), "refused: the run went on without the host of the robot");
+  EXPECT_TRUE(post_->settle({})) << "the refusal was an answer";
   post_->take(world_);
-  EXPECT_FALSE(post_->settle({})) << "nobody is told again";
+  EXPECT_FALSE(post_->settle({})) << "the step gives no second answer";
 }
 
 TEST_F(InputPostTest, MoreThanAReportHasRoomForAreRefusedButAStopNever) {

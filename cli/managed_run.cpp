@@ -65,7 +65,7 @@ bool resumes(const ManagedRun& run) {
   return run.resume || run.scenario.scenario.on_lost_host == config::LostHost::kRestart;
 }
 
-/// What a manager is told alike in lock-step and in real time.
+/// Options of a manager that are the same in lock-step and in real time.
 manager::RunOptions options_of(const ManagedRun& run, std::vector<config::PlannedHost> hosts,
                                bool real_time) {
   manager::RunOptions how;
@@ -193,7 +193,7 @@ Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const runtime::BuiltSce
   return end;
 }
 
-/// A run of so many hosts, if they have to find each other.
+/// A run of this number of hosts, if they have to find each other.
 Status look_at_number(const runtime::BuiltScenario& built, std::size_t hosts) {
   if (hosts <= kMostLiveHosts || built.live_reason.empty() || !runtime::needs_manager(built)) {
     return {};
@@ -257,10 +257,10 @@ Result<std::unique_ptr<gui_server::GuiServer>> show_run(const RunCommand& option
   // A catalogue of its own, because it belongs to one thread and the page describes drivers in
   // another.
   RAVE_TRY_ASSIGN(auto described, open_catalogue(options.plugins));
-  RAVE_TRY_ASSIGN(auto source,
-                  gui_server::watch_run(scenario, built, bus, std::move(described), control,
-                                        find_scenario(options.scenario).value_or(""),
-                                        std::move(on_over)));
+  RAVE_TRY_ASSIGN(
+      auto source,
+      gui_server::watch_run(scenario, built, bus, std::move(described), control,
+                            find_scenario(options.scenario).value_or(""), std::move(on_over)));
   RAVE_TRY_ASSIGN(auto page, serve_page(options.page, std::move(source)));
   if (!options.page.line_key.empty()) {
     RAVE_TRY_ASSIGN(const auto key, direct_line::read_signing_key(options.page.line_key));

@@ -39,7 +39,7 @@ struct ManagedRun {
                                                          const std::vector<std::string>& plugins,
                                                          LogSink& log);
 
-/// Whether so many hosts can find each other in this run, before any of them starts. Errors:
+/// Whether this number of hosts can find each other in this run, before any of them starts. Errors:
 /// kInvalidArgument (too many for real time), those of runtime::build().
 [[nodiscard]] Status check_hosts_fit(const config::ExpandedScenario& scenario,
                                      const std::vector<std::string>& plugins, std::size_t hosts,

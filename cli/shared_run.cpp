@@ -256,7 +256,7 @@ int run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario
   }
   auto managed = manage_run({scenario, options, *bus, start.path(), console, control, stopping,
                              [&crew] { return crew.all_ended(); }});
-  // In lock-step the last step tells them; nobody tells those whose manager has failed.
+  // In lock-step the last step tells them; after a failure of the manager nothing does.
   if (!managed || (managed->live && control.stopping())) crew.interrupt();
   const std::vector<std::string> problems = crew.part();
   console.clear();

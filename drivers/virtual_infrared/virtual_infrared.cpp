@@ -26,7 +26,6 @@ class VirtualInfrared final : public VirtualSensor {
     return {};
   }
 
-
  private:
   static constexpr double kAxis_rad = 0;
 };

@@ -41,7 +41,6 @@ class VirtualLaser final : public VirtualSensor {
     return {};
   }
 
-
  private:
   Status spread(std::size_t rays, double fov_deg) {
     if (rays > 1 && !(fov_deg > 0)) {

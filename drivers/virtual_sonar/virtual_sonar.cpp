@@ -38,7 +38,6 @@ class VirtualSonar final : public VirtualSensor {
     return {};
   }
 
-
  private:
   /// An even number of gaps, so that both edges and the axis of the cone have a ray.
   void spread(double cone_deg, double resolution_deg) {

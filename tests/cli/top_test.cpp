@@ -122,8 +122,8 @@ TEST_F(Top, ATableOfARunInLockStep) {
   const Ended ended = look({"crowd", "--once", "--robots"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   for (const char* const word :
-       {"crowd   goes", "in lock-step", "HOST", "manager", "one", "two", "here", "STEP", "RATE /s",
-        "KIND", "left-1 ", "right-20", "simulated"}) {
+       {"crowd   running", "in lock-step", "HOST", "manager", "one", "two", "here", "STEP",
+        "RATE /s", "KIND", "left-1 ", "right-20", "simulated"}) {
     EXPECT_NE(ended.out.find(word), std::string::npos) << word << "\n" << ended.out;
   }
   EXPECT_EQ(ended.out.find('\x1b'), std::string::npos) << "no terminal, no colours";

@@ -76,7 +76,7 @@ export class RaveApp extends LitElement {
 
   override connectedCallback(): void {
     super.connectedCallback();
-    // That of whoever was here last, until it is known who this is.
+    // That of the last user, until the present one is known.
     const kept = localStorage.getItem(kTheme);
     const light = kept === null ? matchMedia('(prefers-color-scheme: light)').matches : kept === 'light';
     this.palette.set(light ? 'light' : 'dark');

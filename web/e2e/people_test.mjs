@@ -98,7 +98,7 @@ try {
     await paul.lease.getByText('olga drives').waitFor();
     await olga.page.screenshot({path: join(folder, 'taken.png')});
     await olga.lease.getByRole('button', {name: 'Give back'}).click();
-    await paul.lease.getByText('Nobody drives').waitFor();
+    await paul.lease.getByText('No person drives').waitFor();
   });
 
   await check('a line to all is read by all', async () => {

@@ -44,11 +44,13 @@ try {
     const page = await opened(gui.link);
     cookies = await page.context().storageState();
     await until(page, `[...${app}.link.direct.lines.values()].some((line) => line.state === 'untrusted')`, 60000);
-    const chip = page.locator('rave-way a', {hasText: /Trust (left|right)/});
-    await chip.waitFor();
-    assert.match(await chip.getAttribute('title'), /does not trust the certificate of this host yet: open the address once, or install authority\.pem of `rave keys web`/);
-    assert.match(await chip.getAttribute('href'), /^https:\/\/127\.0\.0\.1:\d+\/$/);
+    await page.locator('rave-way').getByRole('button', {name: /Trust (left|right)/}).click();
+    const sheet = page.getByRole('dialog', {name: 'Trust a host'});
+    await sheet.getByText('Most often it does not trust the certificate of the host yet').waitFor();
+    await sheet.getByText('authority.pem').waitFor();
+    assert.match(await sheet.getByRole('link', {name: /left|right/}).first().getAttribute('href'), /^https:\/\/127\.0\.0\.1:\d+\/$/);
     await page.screenshot({path: join(folder, 'untrusted.png')});
+    await page.keyboard.press('Escape');
     const answer = await page.evaluate((slot) => document.querySelector('rave-app').commands.goal([slot], [[-1, 0.5]]), await slotOf(page, 'anna'));
     assert.equal(answer.good, false, 'without a line nothing is ordered');
     await page.context().browser().close();

@@ -86,7 +86,7 @@ export class RunModel {
     return robot !== undefined && this.live && this.may('command') && robot.yours !== false;
   }
 
-  /** The name of the person at this page, also while they look as somebody else; empty until it is known. */
+  /** The name of the person at this page, also while they look as another person; empty until it is known. */
   get user(): string {
     return (this.hello?.seen_by ?? this.hello?.user)?.name ?? '';
   }

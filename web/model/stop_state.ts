@@ -30,7 +30,7 @@ export function countStopped(model: RunModel): StopCount {
 /** Who stopped, by what the log says of robots that stand: `stopped, by hand: ben`. */
 const kByHand = /: stopped, by hand: (.+)$/;
 
-/** The last stop of robots that stand still, and of whom; null where nobody is known to have stopped. */
+/** The last stop of robots that stand still, and of whom; null where the author is not known. */
 export interface LastStop {
   t_s: number;
   /** Empty: the log does not name anybody. */

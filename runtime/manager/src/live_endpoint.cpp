@@ -47,7 +47,7 @@ class LiveOnBus final : public LiveEndpoint {
   }
   Status send(bus::Obstacle& obstacle) override { return obstacles_.write(obstacle); }
   Status ask_for_handed() override {
-    // A new reader is told all that hosts keep, also what came before they were known.
+    // A new reader receives all that hosts keep, also what came before they were known.
     return handed_.emplace().open(endpoint_->bus());
   }
   std::size_t take_handed(const std::function<void(const bus::LastObstacle&)>& visit) override {

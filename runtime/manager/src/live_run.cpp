@@ -247,7 +247,7 @@ LiveManagerOutcome LiveRun::outcome() {
   }
   tell_state(over ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
              over || problems_.empty() ? std::string() : problems_.front());
-  // Hosts are told before this process leaves.
+  // Hosts learn of the end before this process leaves.
   drain_hosts(hosts_->slots(), begun_, [this] {
     hosts_->wait(Duration{std::chrono::nanoseconds(kLook).count()});
     return listen().has_value();

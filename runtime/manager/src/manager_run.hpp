@@ -72,7 +72,7 @@ class ManagerRun {
 
   const RunOptions& common_;
   ManagerEndpoint& endpoint_;
-  bool begun_ = false;  ///< All hosts have been present, or it goes on without some.
+  bool begun_ = false;  ///< All hosts have been present, or it continues without some.
   std::vector<std::string> problems_;
   std::chrono::steady_clock::time_point next_tell_{};  ///< When its state is published again.
 };

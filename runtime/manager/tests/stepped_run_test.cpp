@@ -115,13 +115,13 @@ TEST_F(SteppedRunTest, WithoutALostHostItIsAnotherRun) {
 
 TEST_F(SteppedRunTest, WhoWasCutOffIsHeardAgainOnceItHasIntroducedItself) {
   bool cut = false;
+  int spoken = 0;
   hosts_[1].says = [&](std::uint64_t step) {
-    if (step == kMoment && !std::exchange(cut, true)) {
-      bus_->common.gone.push_back(hosts_[1].writer);
-      return false;
-    }
+    if (step != kMoment) return true;
+    if (!std::exchange(cut, true)) bus_->common.gone.push_back(hosts_[1].writer);
+    if (!lines_.has("host `two` is gone")) return false;
     // It goes on speaking; the manager has not heard yet who that is.
-    if (cut && hosts_[1].spoken > 3) bus_->common.hosts[hosts_[1].writer] = 1;
+    if (++spoken > 3) bus_->common.hosts[hosts_[1].writer] = 1;
     return true;
   };
   bool back_unknown = false;

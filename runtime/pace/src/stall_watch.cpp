@@ -13,7 +13,7 @@ constexpr auto kPatience = std::chrono::seconds(1);
 
 StallWatch::StallWatch(LogSink* log) : log_(log) {
   if (log_ == nullptr) return;
-  // A run goes on without it.
+  // A run continues without it.
   const Status started = start_thread(thread_, "the watch over steps", [this] { watch(); });
   if (!started) {
     log_->warn("run", "{}; a step that does not end will not be reported", started.error().message);

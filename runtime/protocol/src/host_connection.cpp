@@ -109,7 +109,7 @@ void HostConnection::look_at_patience(Duration longest, const char* why) {
   const auto since = std::max(alone_since, bus->standstill().silence_counts_from());
   if (Clock::now() - since < std::chrono::nanoseconds(longest.ns)) return;
   ending = RunEnding{
-      false, fmt::format("there was no environment manager for {} s{}", longest.seconds(), why)};
+      false, fmt::format("there was no environment manager for {:g} s{}", longest.seconds(), why)};
   tell_once(LogLevel::kError, "gives up: " + ending->text);
 }
 

@@ -102,7 +102,7 @@ BusFeed::OnOver replays(OnOver on_over) {
       on_over(*std::move(replay), "");
       return {};
     }
-    // Who cannot see them here is told where they are; else why they cannot be played.
+    // If they are elsewhere, the text says where; otherwise why they cannot be played.
     const bool elsewhere = replay.error().code == ErrorCode::kNotFound;
     std::string where = elsewhere ? replay.error().message
                                   : fmt::format("{} They cannot be played: {}.", places_of(kept),

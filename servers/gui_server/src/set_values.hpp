@@ -8,8 +8,8 @@
 
 namespace rave::gui_server {
 
-/// Which values parameters were given while the run goes on, as its events `changed` say. These
-/// come in the same way under each clock and over a bus, whoever made the change.
+/// Values that parameters were given during the run, as its events `changed` say. These
+/// come in the same way under each clock and over a bus, from any author.
 class SetValues {
  public:
   /// Values by key, as JSON.

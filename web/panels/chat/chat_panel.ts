@@ -107,7 +107,7 @@ export class ChatPanel extends LitElement {
     return html`
       ${model.live ? this.renderTargets() : nothing}
       <div class="lines" role="log" aria-label="Chat" tabindex="0" @scroll=${(event: Event) => this.scrolled(event.target as HTMLElement)}>
-        ${said.length === 0 ? html`<p class="none">${model.live ? 'Nobody has said anything yet.' : 'Nobody said anything.'}</p>` : said.map((line) => this.renderLine(line))}</div>
+        ${said.length === 0 ? html`<p class="none">${model.live ? 'No messages yet.' : 'No messages.'}</p>` : said.map((line) => this.renderLine(line))}</div>
       ${this.note === '' ? nothing : html`<p class="bad" role="alert">${this.note}</p>`}
       ${model.live ? this.renderField() : nothing}
       <p class="kept">${model.live ? 'The chat is recorded with the run.' : 'The chat of the recording, to read only.'}</p>`;

@@ -117,7 +117,7 @@ export class HostsPanel extends LitElement {
   ];
 }
 
-const kStates = {gone: 'gone', dropped: 'dropped, the run goes on without', waiting: 'not in the run yet'};
+const kStates = {gone: 'gone', dropped: 'dropped, the run continues without', waiting: 'not in the run yet'};
 
 function lateText(hosts: readonly Host[]): string {
   const names = hosts.map((host) => host.name).join(', ');

@@ -88,7 +88,7 @@ export class CoursePlot {
         {...axis, size: 40, gap: 4, splits: (_, __, low, high) => ticksOf(low, high, height), values: (_, at) => at.map((value, i) => tickText(value, at.length > 1 ? at[1] - at[0] : 1) + (i === at.length - 1 && field.unit !== '' ? ` ${field.unit}` : ''))},
       ],
       series: [{}, ...lines.map(({colour, dashed, dots}): uPlot.Series => ({
-        stroke: colour, width: 1.5, points: {show: dots ?? false, size: 4, width: 0, fill: colour}, spanGaps: false, ...(dashed === true ? {dash: [4, 3]} : {}),
+        stroke: colour, width: 1.5, points: {show: dots === true ? true : alone, size: 4, width: 0, fill: colour}, spanGaps: false, ...(dashed === true ? {dash: [4, 3]} : {}),
       }))],
       hooks: {setCursor: [(plot) => this.point(plot)]},
     }, this.table(lines, field, 0), host);
@@ -100,6 +100,11 @@ export class CoursePlot {
     this.pointed = idx === null || idx === undefined ? null : {values: plot.data.slice(1).map((line) => line[idx] ?? null), ago_s: -plot.data[0][idx]};
     if (before !== null || this.pointed !== null) this.changed();
   }
+}
+
+/** A line of a single value would not be seen. */
+function alone(plot: uPlot, series: number): boolean {
+  return plot.data[series].length === 1;
 }
 
 function finite(value: number): number | null {

@@ -10,7 +10,7 @@ import {drawHits, drawScan, drawSightings, drawnSensors, mountOf} from './scan_l
 import type {Surface} from './surface';
 
 const kOldest_s = 5;
-/** Sensors of so many robots are drawn at a time. */
+/** The number of robots whose sensors are drawn at a time. */
 const kScanned = 12;
 
 /** Slot and index of the sensors that the layers ask for: those of the selection, and of a few real robots. */

@@ -37,7 +37,7 @@ export interface Stage {
   lookFrom(text: string): void;
   /** Drops what the person has begun; false if there was nothing. */
   drop(): boolean;
-  /** At the keyboard: looks so many pixels farther to the right and down. */
+  /** At the keyboard: looks this number of pixels farther to the right and down. */
   nudge(dx: number, dy: number): void;
   /** Zooms about the middle. */
   zoomBy(factor: number): void;

@@ -11,7 +11,7 @@ import {addPrism, type Solid} from './prism';
 
 const kSides = 16;
 const kRing = 48;
-/** Beyond so many at a time edges would cost more than they tell: the rest is pale. */
+/** Beyond this number at a time edges would cost more than they tell: the rest is pale. */
 const kMostDashed = 300;
 
 /** What is not there as it seems, over the picture in perspective: ghosts of stale robots, real ones that wait to be
@@ -91,7 +91,7 @@ export class GhostOverlay {
     for (let i = 0; i < edges.length; i += 6) {
       const [a, b] = [at(i), at(i + 3)];
       if (a === null || b === null) continue;
-      // Dashes go on around a rim: each piece by itself would begin with a new one.
+      // Dashes continue around a rim: each piece by itself would begin with a new one.
       if (end === null || Math.hypot(end.x - a.x, end.y - a.y) > 1e-6) ctx.moveTo(a.x, a.y);
       ctx.lineTo(b.x, b.y);
       end = b;

@@ -115,7 +115,7 @@ export class PerspectiveStage implements Stage {
       clearTimeout(this.sharpen);
       this.sharpen = 0;
     }
-    // Pictures of a run that is held go on, and must not put it off.
+    // Pictures of a run that is held continue, and must not put it off.
     if (this.sharpen !== 0) return;
     this.sharpen = window.setTimeout(() => {
       this.sharpen = 0;

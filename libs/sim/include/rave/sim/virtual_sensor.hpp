@@ -130,8 +130,8 @@ constexpr VirtualSensorOps virtual_sensor_ops() noexcept {
   ops.state_size = state_size_of<T>();
   ops.configure = [](void* instance, const VirtualSensorSetup* setup,
                      VirtualDeclaration* declaration, ErrorText* error) {
-    return guarded(error,
-                   [&] { return configure_sensor(*static_cast<T*>(instance), *setup, *declaration); });
+    return guarded(
+        error, [&] { return configure_sensor(*static_cast<T*>(instance), *setup, *declaration); });
   };
   ops.sample = [](const void* instance, const WorldView* world, const SampleItem* items,
                   std::uint64_t count, std::uint8_t* failed, ErrorText* error) {

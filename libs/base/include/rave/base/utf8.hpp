@@ -7,13 +7,14 @@
 
 namespace rave {
 
-/// One character of a UTF-8 text; length 0 if the bytes at `offset` are invalid (RFC 3629: no
-/// overlong forms, no surrogates, nothing above U+10FFFF).
+/// One character of a UTF-8 text: its code point, and its length in bytes.
 struct Utf8Character {
   std::uint32_t code = 0;
   std::size_t length = 0;
 };
 
+/// The character at `offset`. Its length is 0 if the bytes there are invalid (RFC 3629: no overlong
+/// forms, no surrogates, nothing above U+10FFFF). `offset` is below the size of the text.
 [[nodiscard]] inline Utf8Character utf8_at(std::string_view text, std::size_t offset) noexcept {
   const auto byte = [&](std::size_t i) -> std::uint32_t {
     return offset + i < text.size() ? static_cast<unsigned char>(text[offset + i]) : 0U;

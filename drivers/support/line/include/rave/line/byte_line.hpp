@@ -20,6 +20,7 @@ enum class ReadEnd {
   kLost,     ///< The line is lost; see lost().
 };
 
+/// How a wait ended, and how many bytes it read.
 struct ReadResult {
   ReadEnd end = ReadEnd::kTimeout;
   std::size_t size = 0;

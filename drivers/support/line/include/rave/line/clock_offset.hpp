@@ -19,6 +19,7 @@ namespace rave::line {
 /// Pure: reads no clock. Not thread-safe.
 class ClockOffset {
  public:
+  /// How samples are chosen and trusted.
   struct Options {
     double window_s = 30;  ///< How long a sample is used.
     /// Only the least delayed sample of each interval of this length is kept.

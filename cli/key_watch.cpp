@@ -41,7 +41,8 @@ KeyWatch::KeyWatch(bool keys)
     ::tcsetattr(STDIN_FILENO, TCSANOW, &single);
   }
   const Status started = start_thread(thread_, "the keys", [this] { watch(); });
-  // Without a thread no keys or signals are read: the latter then end the process as they do any other.
+  // Without a thread no keys or signals are read: the latter then end the process as they do any
+  // other.
   if (!started) give_back();
 }
 

@@ -224,6 +224,8 @@ export class Dock {
   }
 
   private keep(): void {
+    // Until the server has told who this is, it is nobody's arrangement.
+    if (this.user === '') return;
     const {layout, windows} = bringHome(this.view.toJSON());
     const about = this.about;
     localStorage.setItem(layoutKey(about, this.name), JSON.stringify({version: kVersion, layout, windows: [...windows, ...this.away]}));

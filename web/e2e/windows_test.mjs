@@ -52,9 +52,14 @@ try {
     const keys = await page.evaluate(() => Object.keys(localStorage).filter((key) => key.startsWith('rave.layout.')).sort());
     assert.deepEqual(keys, ['', '.Analyse', '.Watch'].map((name) => `rave.layout.${user}.wide${name}`));
     // Somebody else at the same browser has their own.
-    await page.evaluate(`${app}.dock.belongTo('somebody')`);
-    assert.equal(await groupOf('Log').locator('.dv-tab', {hasText: 'Robots'}).count(), 0);
-    await page.evaluate(`${app}.dock.belongTo(${JSON.stringify(user)})`);
+    const become = (name) => page.evaluate((other) => {
+      const rave = document.querySelector('rave-app');
+      rave.model.hello.user.name = other;
+      rave.requestUpdate();
+    }, name);
+    await become('somebody');
+    await groupOf('Log').locator('.dv-tab', {hasText: 'Robots'}).waitFor({state: 'detached'});
+    await become(user);
     await groupOf('Log').locator('.dv-tab', {hasText: 'Robots'}).waitFor();
     await page.getByRole('button', {name: 'Reset layout'}).click();
     assert.equal(await groupOf('Log').locator('.dv-tab', {hasText: 'Robots'}).count(), 0);

@@ -85,6 +85,7 @@ try {
     assert.ok(met.finite > 3 && met.nearest > 0 && met.nearest < met.robot, JSON.stringify(met));
     const [kind, known] = await page.evaluate(`[${app}.model.robots[${real}].kind, ${app}.model.robots[${real}].sensors.map(({name}) => name)]`);
     assert.equal(kind, 'real');
+    await until(page, `${app}.model.probes.sensor(${kFirst}) !== undefined`);
     assert.ok(!known.includes(await page.evaluate(`${app}.model.probes.sensor(${kFirst}).name`)), 'the robot has the sensor itself');
     await page.evaluate(`${app}.palette.set('dark')`);
     await page.waitForTimeout(500);

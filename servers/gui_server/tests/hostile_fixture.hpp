@@ -8,6 +8,8 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <thread>
 
 #include "fake_run.hpp"
 #include "rave/base/file.hpp"
@@ -121,6 +123,16 @@ class Hostile : public ::testing::Test {
   }
   [[nodiscard]] std::string audit() const {
     return read_file(folder_ / "accounts/audit.jsonl").value_or("");
+  }
+  /// Whether the audit log has this text, or gets it within five seconds: an answer can be read
+  /// before the server has written the line about it.
+  [[nodiscard]] bool audited(std::string_view text) const {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+    while (audit().find(text) == std::string::npos) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return true;
   }
 
   fs::path folder_;

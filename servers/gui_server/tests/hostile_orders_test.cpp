@@ -34,8 +34,7 @@ TEST_F(Hostile, OrdersOfAnObserverAreRefusedAndLogged) {
     EXPECT_NE(answer.find("Your rights do not include this."), std::string::npos) << answer;
   }
   EXPECT_TRUE(run_->commands().empty());
-  EXPECT_NE(audit().find(R"("what":"refused","why":"order","user":"eve")"), std::string::npos)
-      << audit();
+  EXPECT_TRUE(audited(R"("what":"refused","why":"order","user":"eve")")) << audit();
   // Who drives is shown with the robot; whoever is not seen, and what they are called, is not.
   EXPECT_EQ(eve.heard().find("spy"), std::string::npos);
 }
@@ -62,7 +61,7 @@ TEST_F(Hostile, ACommanderCommandsTheirOwnTeamAlone) {
     EXPECT_NE(ben.text_with("\"type\":\"answer\"").find("Your rights"), std::string::npos);
   }
   EXPECT_EQ(run_->commands().size(), 1U);
-  EXPECT_NE(audit().find("goal, 3 robots: Your rights do not include this."), std::string::npos);
+  EXPECT_TRUE(audited("goal, 3 robots: Your rights do not include this."));
   RawSocket boss = super_user();
   boss.send(R"({"type":"edit","request":1,"do":"add","name":"a","pose":[0,0,0],"disc":1})");
   EXPECT_NE(boss.text_with("\"to\":\"edit\"").find("\"good\":true"), std::string::npos);
@@ -107,24 +106,18 @@ TEST_F(Hostile, MalformedOrdersNeverReachARun) {
   EXPECT_NE(ben.text_with("\"to\":\"message\"").find("a path has 10000 points; expected 2 to 1000"),
             std::string::npos);
   EXPECT_TRUE(run_->commands().empty());
-  const std::string log = audit();
-  EXPECT_NE(
-      log.find(
-          R"("what":"refused","why":"message","user":"ben","detail":"expected a JSON object")"),
-      std::string::npos)
-      << log;
-  EXPECT_NE(log.find("a path has 10000 points"), std::string::npos) << log;
-  EXPECT_EQ(log.find("cut_off"), std::string::npos) << log;
+  EXPECT_TRUE(
+      audited(R"("what":"refused","why":"message","user":"ben","detail":"expected a JSON object")"))
+      << audit();
+  EXPECT_TRUE(audited("a path has 10000 points")) << audit();
+  EXPECT_EQ(audit().find("cut_off"), std::string::npos) << audit();
 }
 
 TEST_F(Hostile, WhoSendsNonsenseIsCutOffByNameInTheLog) {
   RawSocket eve = socket(guest(Role::kObserver, "eve"));
   for (int i = 0; i < 30; ++i) eve.send(R"({"type":"hack"})");
   EXPECT_EQ(eve.close_code(), 4400);
-  const std::string log = audit();
-  EXPECT_NE(log.find(R"("what":"cut_off","why":"malformed messages","user":"eve")"),
-            std::string::npos)
-      << log;
+  EXPECT_TRUE(audited(R"("what":"cut_off","why":"malformed messages","user":"eve")")) << audit();
 }
 
 TEST_F(Hostile, TwoPagesOfOnePersonAreTwoForTheRun) {
@@ -190,10 +183,7 @@ TEST_F(Hostile, AFloodOfOrdersIsRefusedAndThenCutOff) {
     ben.send(R"({"type":"order","request":1,"kind":"goal","slots":[0,2],"points":[[0,0]]})");
   }
   EXPECT_EQ(ben.close_code(), 4429);
-  const std::string log = audit();
-  EXPECT_NE(log.find(R"("what":"cut_off","why":"too many messages","user":"ben")"),
-            std::string::npos)
-      << log;
+  EXPECT_TRUE(audited(R"("what":"cut_off","why":"too many messages","user":"ben")")) << audit();
 }
 
 TEST_F(Hostile, APageThatGoesLeavesNoRobotDriving) {
@@ -349,9 +339,7 @@ TEST_F(Hostile, APageThatComesHasThePanelsThatTheFileListsNow) {
   // A wrong file leaves the panels that are there, and the log says why.
   run_->change_components({}, "gui.yaml:3:5: unknown key");
   EXPECT_NE(socket(ben).text_with("\"hello\"").find("components/0/late.js"), std::string::npos);
-  EXPECT_NE(audit().find(R"("what":"components","why":"gui.yaml:3:5: unknown key")"),
-            std::string::npos)
-      << audit();
+  EXPECT_TRUE(audited(R"("what":"components","why":"gui.yaml:3:5: unknown key")")) << audit();
 }
 
 }  // namespace

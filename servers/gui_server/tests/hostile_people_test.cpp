@@ -50,7 +50,7 @@ TEST_F(Hostile, RequestsAboutPeopleAreOfSuperUsersAlone) {
   for (const char* const line : {R"("why":"account","user":"eve","detail":"change")",
                                  R"("why":"account","user":"ben","detail":"make")",
                                  R"("why":"account","user":"ben","detail":"audit")"}) {
-    EXPECT_NE(audit().find(line), std::string::npos) << line;
+    EXPECT_TRUE(audited(line)) << line;
   }
 }
 
@@ -104,10 +104,8 @@ TEST_F(Hostile, WhoLosesTheRoleLosesItOnOpenPages) {
   EXPECT_NE(cleo.text_with(R"("to":"disable")").find("your own role"), std::string::npos);
   boss.send(R"({"type":"account","request":4,"do":"disable","name":"cleo"})");
   EXPECT_EQ(cleo.close_code(), 4401);
-  EXPECT_NE(audit().find("cleo: observer, teams green (was super_user, teams green)"),
-            std::string::npos)
-      << audit();
-  EXPECT_NE(audit().find(R"("detail":"cleo: disabled")"), std::string::npos);
+  EXPECT_TRUE(audited("cleo: observer, teams green (was super_user, teams green)")) << audit();
+  EXPECT_TRUE(audited(R"("detail":"cleo: disabled")"));
 }
 
 TEST_F(Hostile, SessionsThatAreEndedAreOut) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {Palette, Selection} from '../../panel_api';
 import type {Placed} from '../../model/pose_history';
-import {RobotFlag} from '../../protocol/frames';
 import type {Body, Robot} from '../../protocol/messages';
 import {bodyState} from './body_state';
 import type {Camera} from './camera';
@@ -22,7 +21,8 @@ export function robotLabel(
   robot: Robot, slot: number, flags: number, x: number, y: number, r: number, selection: Selection, palette: Palette,
 ): Label {
   const marked = robot.kind === 'real' || robot.word !== '';
-  const stale = (flags & RobotFlag.stale) !== 0;
+  // Its state may be part of the label, so it comes before the names of robots that are well.
+  const troubled = bodyState(robot.kind, flags) !== 'plain';
   return {
     text: robot.name,
     x,
@@ -31,7 +31,7 @@ export function robotLabel(
     colour: marked ? palette.hue(slot).ink : palette.token('sim-ink'),
     weight: marked ? 600 : 400,
     always: selection.hovered === slot,
-    rank: selection.hovered === slot ? -1 : slot === selection.primary ? 0 : robot.kind === 'real' ? 1 : robot.word !== '' ? 2 : stale ? 3 : 5,
+    rank: selection.hovered === slot ? -1 : slot === selection.primary ? 0 : troubled ? 0.5 : robot.kind === 'real' ? 1 : robot.word !== '' ? 2 : 5,
   };
 }
 

@@ -37,8 +37,11 @@ class HeldRun : public ::testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     process_ = start_rave(words, {"XDG_RUNTIME_DIR=" + folder_.path().string()}, output_ + ".log");
     ASSERT_GT(process_, 0);
-    // Until all hosts are there.
-    wait_until([&] { return rave({"edit", "list"}).exit_code == 0; });
+    // Until all hosts are there, and the process that has the say has begun: it takes a pause.
+    wait_until([&] {
+      return rave({"edit", "list"}).exit_code == 0 && rave({"pause"}).exit_code == 0 &&
+             rave({"resume"}).exit_code == 0;
+    });
   }
   /// Gives up only when something is broken.
   template <class Holds>

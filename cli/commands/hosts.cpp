@@ -57,7 +57,9 @@ int robot(const RobotCommand& options) {
   how.run =
       start.run_options(run, control::own_run_name(scenario->scenario.name.value, options.host));
   how.begin_request = control::bus_requests_of(control);
-  how.on_command = control::commands_of(control, *scenario);
+  auto commands = control::commands_of(control, *scenario, options.host);
+  if (!commands) return complain(commands.error());
+  how.begin_command = *std::move(commands);
   start.serve(how.run.run_name, "host", "this host");
   const auto line = open_host_line(run.line, options.host, *bus, control, start.console());
   if (!line) {

@@ -10,17 +10,23 @@
 
 namespace rave::cli_test {
 
-/// This process on the bus of a run of the test, as somebody whom nobody knows. `apart`: what
+/// The bus of a run of the test, for somebody whom nobody knows. `apart`: what
 /// SharedWorld::apart() says.
-[[nodiscard]] inline Result<std::unique_ptr<bus::Bus>> open_stranger(
-    const std::vector<std::string>& apart, const bus::RunId& run) {
+[[nodiscard]] inline bus::BusConfig stranger_config(const std::vector<std::string>& apart,
+                                                    const bus::RunId& run) {
   bus::BusConfig config;
   config.participant = "stranger";
   config.run = run;
   config.max_processes = 114;
   config.tag = apart[1];
   config.domain = static_cast<std::uint32_t>(std::stoul(apart[3]));
-  return bus::Bus::open(config);
+  return config;
+}
+
+/// This process on that bus.
+[[nodiscard]] inline Result<std::unique_ptr<bus::Bus>> open_stranger(
+    const std::vector<std::string>& apart, const bus::RunId& run) {
+  return bus::Bus::open(stranger_config(apart, run));
 }
 
 }  // namespace rave::cli_test

@@ -20,15 +20,12 @@ void RequestBox::serve() {
   });
   // Fast path: most steps have no requests.
   if (heard == 0 && idle_) return;
-  for (RequestBook::Reply& reply : book_.take(RequestBook::Clock::now())) {
+  for (const RequestBook::Reply& reply : book_.take(RequestBook::Clock::now())) {
     RequestAnswer answer{};
     answer.target = reply.target;
     answer.number = reply.number;
     answer.taken = reply.taken;
-    // The wire type requires non-const octets.
-    answer.text._buffer = reinterpret_cast<std::uint8_t*>(reply.text.data());
-    answer.text._length = static_cast<std::uint32_t>(reply.text.size());
-    answer.text._maximum = answer.text._length;
+    borrow_text(answer.text, reply.text);
     // A lost answer is sent again when the request is repeated.
     static_cast<void>(answers_.write(answer));
   }

@@ -66,11 +66,21 @@ Status check_line(const Sequence& sequence, std::size_t most) {
   return invalid("text has control characters");
 }
 
-template <class Placed>
-Status check_pose(const Placed& sample) {
-  RAVE_TRY(check_number("x_m", sample.x_m, kMaxPosition_m));
-  RAVE_TRY(check_number("y_m", sample.y_m, kMaxPosition_m));
-  return check_number("yaw_rad", sample.yaw_rad, kMaxAngle_rad);
+/// A path has its own number of points, every other kind exactly one or none.
+Status check_points(const Command& sample) {
+  const auto points = elements(sample.points);
+  const bool has_one =
+      sample.kind == rave_wire_COMMAND_GOAL || sample.kind == rave_wire_COMMAND_PLACE;
+  const bool path = sample.kind == rave_wire_COMMAND_PATH;
+  const std::size_t expected = has_one ? 1 : 0;
+  if (!path && points.size() != expected) {
+    return invalid(fmt::format("points has {} entries, not {}", points.size(), expected));
+  }
+  for (const auto& point : points) {
+    RAVE_TRY(check_number("points.x_m", point.x_m, kMaxPosition_m));
+    RAVE_TRY(check_number("points.y_m", point.y_m, kMaxPosition_m));
+  }
+  return {};
 }
 
 }  // namespace
@@ -103,17 +113,21 @@ Status validate(const RosterEntry& sample) {
 Status validate(const Command& sample) {
   RAVE_TRY(check_writer(sample));
   RAVE_TRY(check_id("robot", sample.robot));
+  if (sample.kind > rave_wire_COMMAND_PLACE) return invalid("kind is unknown");
+  if (sample.number == 0) return invalid("number is 0");
   RAVE_TRY(check_label("author", sample.author, true));
-  RAVE_TRY(check_label("name", sample.name, sample.kind == rave_wire_COMMAND_PARAMETER));
-  if (sample.kind > rave_wire_COMMAND_PARAMETER) return invalid("kind is unknown");
-  RAVE_TRY(check_pose(sample));
-  RAVE_TRY(check_number("vx_mps", sample.vx_mps, kMaxSpeed_mps));
-  RAVE_TRY(check_number("vy_mps", sample.vy_mps, kMaxSpeed_mps));
-  RAVE_TRY(check_number("wz_radps", sample.wz_radps, kMaxTurn_radps));
-  // Axes of a game controller, which go from -1 to 1.
-  for (const double axis : elements(sample.axes)) RAVE_TRY(check_number("axes", axis, 1.0));
-  if (sample.lease_ns < 0) return invalid(fmt::format("lease_ns is {}", sample.lease_ns));
-  return {};
+  RAVE_TRY(check_label("text", sample.text, sample.kind == rave_wire_COMMAND_TEXT));
+  RAVE_TRY(check_points(sample));
+  RAVE_TRY(check_number("yaw_rad", sample.yaw_rad, kMaxAngle_rad));
+  RAVE_TRY(check_number("v_mps", sample.v_mps, kMaxSpeed_mps));
+  RAVE_TRY(check_number("w_radps", sample.w_radps, kMaxTurn_radps));
+  return check_number("speed_mps", sample.speed_mps, kMaxSpeed_mps);
+}
+
+Status validate(const CommandAnswer& sample) {
+  RAVE_TRY(check_address(sample));
+  RAVE_TRY(check_id("robot", sample.robot));
+  return check_line(sample.text, rave_wire_kMaxCommandAnswerBytes);
 }
 
 Status validate(const Packet& sample) {

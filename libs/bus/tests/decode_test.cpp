@@ -57,10 +57,10 @@ TEST(Decode, ASequenceThatClaimsMoreThanItsBoundIsRefused) {
 
 TEST(Decode, AnUnknownKindIsRefused) {
   Command command{};
-  command.kind = rave_wire_COMMAND_STOP;
+  command.kind = rave_wire_COMMAND_TEXT;
   auto bytes = encode(command);
-  Decoded<Command> stop;
-  ASSERT_TRUE(stop.decode(bytes));
+  Decoded<Command> text;
+  ASSERT_TRUE(text.decode(bytes));
   bytes[28] = std::byte{200};  // Behind run, writer and robot.
   Decoded<Command> unknown;
   EXPECT_FALSE(unknown.decode(bytes));

@@ -63,7 +63,8 @@ constexpr Receive kTopics[] = {receive<HostState>,
                                receive<Look>,
                                receive<Readings>,
                                receive<RunEvents>,
-                               receive<MapTile>};
+                               receive<MapTile>,
+                               receive<CommandAnswer>};
 
 }  // namespace
 

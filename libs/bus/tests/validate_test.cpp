@@ -163,18 +163,45 @@ TEST(Validate, RosterEntriesHaveNamesThatCanBeShown) {
 
 TEST(Validate, Commands) {
   auto command = written<Command>();
+  EXPECT_EQ(reason(command), "number is 0");
+  command.number = 1;
   EXPECT_EQ(reason(command), "author is empty");
   put_text(command.author, "bob");
+  EXPECT_EQ(reason(command), "accepted") << "a drive";
+  command.kind = rave_wire_COMMAND_GOAL;
+  EXPECT_EQ(reason(command), "points has 0 entries, not 1");
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<rave_wire_OrderPoint> points = {{0.5, kNan}};
+  borrow(command.points, points);
+  EXPECT_EQ(reason(command), "points.y_m is nan, not within +-10000000");
+  points[0].y_m = 1;
   EXPECT_EQ(reason(command), "accepted");
-  std::vector<double> axes = {0.5, -1.5};
-  borrow(command.axes, axes);
-  EXPECT_EQ(reason(command), "axes is -1.5, not within +-1");
-  axes[1] = 1;
-  command.lease_ns = -1;
-  EXPECT_EQ(reason(command), "lease_ns is -1");
-  command.lease_ns = 0;
-  command.kind = rave_wire_COMMAND_PARAMETER;
-  EXPECT_EQ(reason(command), "name is empty");
+  points.push_back({2, 2});
+  borrow(command.points, points);
+  EXPECT_EQ(reason(command), "points has 2 entries, not 1");
+  command.kind = rave_wire_COMMAND_PATH;
+  EXPECT_EQ(reason(command), "accepted");
+  command.speed_mps = kNan;
+  EXPECT_EQ(reason(command), "speed_mps is nan, not within +-10000");
+  command.speed_mps = 0;
+  command.points = {};
+  command.kind = rave_wire_COMMAND_TEXT;
+  EXPECT_EQ(reason(command), "text is empty");
+  put_text(command.text, "\x1b[2J");
+  EXPECT_EQ(reason(command), "text has control characters");
+}
+
+TEST(Validate, AnswersToCommands) {
+  auto answer = written<CommandAnswer>();
+  EXPECT_EQ(reason(answer), "target is 0");
+  answer.target = 7;
+  EXPECT_EQ(reason(answer), "number is 0");
+  answer.number = 1;
+  EXPECT_EQ(reason(answer), "text is empty");
+  borrow_text(answer.text, "r1 is sent to 1.00, 2.00");
+  EXPECT_EQ(reason(answer), "accepted");
+  answer.robot = rave_wire_kNone;
+  EXPECT_EQ(reason(answer), "robot is none");
 }
 
 TEST(Validate, Lines) {

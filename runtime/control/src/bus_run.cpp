@@ -12,6 +12,7 @@
 #include "rave/bus/sequence.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
+#include "repeat.hpp"
 
 namespace rave::control {
 namespace {
@@ -21,11 +22,6 @@ using std::chrono::milliseconds;
 
 /// When no new process has appeared for this long, the search for processes is complete.
 constexpr milliseconds kMoment{400};
-/// A request may be lost before its receiver has been discovered, so it is sent again: first after
-/// this time, then after doubled times up to kLongestAgain.
-constexpr milliseconds kFirstAgain{50};
-constexpr milliseconds kLongestAgain{500};
-
 /// The limit of messages about one request that are handled together.
 constexpr std::size_t kMostAtOnce = 16;
 
@@ -89,18 +85,9 @@ tl::unexpected<Error> silent(const BusPeer& peer, Duration patience) {
 struct Asked {
   BusPeer peer;
   std::uint64_t number = 0;
-  Clock::time_point send_at;
-  milliseconds again = kFirstAgain;
+  Repeat repeat{};
   std::optional<Result<Answer>> answer{};
 };
-
-/// The wire type refers to `line`, which must live as long as the request is used.
-void put_line(bus::Request& request, std::string& line) {
-  // The wire type has a pointer to mutable octets.
-  request.text._buffer = reinterpret_cast<std::uint8_t*>(line.data());
-  request.text._length = static_cast<std::uint32_t>(line.size());
-  request.text._maximum = request.text._length;
-}
 
 }  // namespace
 
@@ -126,9 +113,9 @@ struct BusRun::Impl {
     std::string text;
   };
   [[nodiscard]] std::vector<Said> take(const BusPeer& peer);
-  Status send(const BusPeer& peer, std::uint64_t request_number, std::string& line);
+  Status send(const BusPeer& peer, std::uint64_t request_number, std::string_view line);
   void take(std::vector<Asked>& asked);
-  std::optional<Clock::time_point> send_due(std::vector<Asked>& asked, std::string& line);
+  std::optional<Clock::time_point> send_due(std::vector<Asked>& asked, std::string_view line);
 };
 
 /// Reads which processes are present.
@@ -160,12 +147,13 @@ std::vector<BusRun::Impl::Said> BusRun::Impl::take(const BusPeer& peer) {
   return said;
 }
 
-Status BusRun::Impl::send(const BusPeer& peer, std::uint64_t request_number, std::string& line) {
+Status BusRun::Impl::send(const BusPeer& peer, std::uint64_t request_number,
+                          std::string_view line) {
   bus::Request request{};
   request.target = peer.writer;
   request.number = request_number;
   bus::put_text(request.from, from);
-  put_line(request, line);
+  bus::borrow_text(request.text, line);
   return requests.write(request);
 }
 
@@ -196,7 +184,7 @@ void BusRun::Impl::take(std::vector<Asked>& asked) {
 /// Sends the request to the processes that have not answered, repeating it when due; returns when
 /// to send next.
 std::optional<Clock::time_point> BusRun::Impl::send_due(std::vector<Asked>& asked,
-                                                        std::string& line) {
+                                                        std::string_view line) {
   std::optional<Clock::time_point> next;
   for (Asked& one : asked) {
     if (one.answer) continue;
@@ -204,15 +192,14 @@ std::optional<Clock::time_point> BusRun::Impl::send_due(std::vector<Asked>& aske
       one.answer = gone(one.peer);
       continue;
     }
-    if (Clock::now() >= one.send_at) {
+    if (const auto now = Clock::now(); one.repeat.due(now)) {
       if (Status sent = send(one.peer, one.number, line); !sent) {
         one.answer = tl::unexpected(std::move(sent).error());
         continue;
       }
-      one.send_at = Clock::now() + one.again;
-      one.again = std::min(2 * one.again, kLongestAgain);
+      one.repeat.sent(now);
     }
-    next = std::min(next.value_or(one.send_at), one.send_at);
+    next = std::min(next.value_or(one.repeat.next()), one.repeat.next());
   }
   return next;
 }
@@ -291,15 +278,13 @@ Result<Answer> BusRun::ask(const BusPeer& peer, const Request& request, Duration
   ++run.number;
   bus::AnswerParts parts;
   auto end = Clock::now() + std::chrono::nanoseconds(patience.ns);
-  auto send_at = Clock::now();
-  auto again = kFirstAgain;
+  Repeat repeat;
   while (Clock::now() < end) {
-    if (Clock::now() >= send_at) {
+    if (const auto now = Clock::now(); repeat.due(now)) {
       RAVE_TRY(run.send(peer, run.number, line));
-      send_at = Clock::now() + again;
-      again = std::min(2 * again, kLongestAgain);
+      repeat.sent(now);
     }
-    static_cast<void>(run.waits.wait(bus::left_until(std::min(send_at, end))));
+    static_cast<void>(run.waits.wait(bus::left_until(std::min(repeat.next(), end))));
     const std::size_t had = parts.text().size();
     for (const Impl::Said& said : run.take(peer)) {
       if (!said.taken) return Answer{false, said.text, {}};
@@ -308,10 +293,9 @@ Result<Answer> BusRun::ask(const BusPeer& peer, const Request& request, Duration
     }
     if (parts.text().size() > had) {
       line = bus::request_for_rest(parts.text().size());
-      send_at = Clock::now();
-      again = kFirstAgain;
+      repeat = {};
       // Repeated for each part; there are few.
-      end = send_at + std::chrono::nanoseconds(patience.ns);
+      end = Clock::now() + std::chrono::nanoseconds(patience.ns);
     }
     run.look();
     if (!run.knows(peer.writer)) return gone(peer);
@@ -335,7 +319,7 @@ std::vector<BusReply> BusRun::ask_each(const Request& request, const Meant& mean
     for (const BusPeer& peer : run.peers) {
       const bool before = std::ranges::any_of(
           asked, [&peer](const Asked& one) { return one.peer.writer == peer.writer; });
-      if (!before && meant(peer, run.scenario)) asked.push_back({peer, ++run.number, Clock::now()});
+      if (!before && meant(peer, run.scenario)) asked.push_back({peer, ++run.number});
     }
     run.take(asked);
     const auto next = run.send_due(asked, *line);

@@ -1,87 +1,134 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/control/commands.hpp"
 
-#include <algorithm>
+#include <array>
 #include <chrono>
+#include <future>
 #include <map>
 #include <memory>
-#include <string>
 #include <utility>
-#include <vector>
 
+#include "rave/base/control_characters.hpp"
 #include "rave/bus/sequence.hpp"
 #include "rave/control/host_leases.hpp"
+#include "rave/control/order_words.hpp"
+#include "rave/robot/order.hpp"
 
 namespace rave::control {
 namespace {
 
 using runtime::RunControl;
 using runtime::RunRequest;
-using Clock = std::chrono::steady_clock;
+using Kind = RunRequest::Kind;
 
-/// Drive commands that one process accepts per second, from all senders together; also the largest
-/// burst.
-constexpr double kMostInSecond = 5000;
+/// In the order of rave_wire_CommandKind.
+constexpr std::array kKinds = {Kind::kDrive,  Kind::kGoal, Kind::kPath,
+                               Kind::kCancel, Kind::kText, Kind::kPlace};
+static_assert(kKinds.size() == rave_wire_COMMAND_PLACE + 1);
 
-/// Limits the commands that a process accepts: no more than its run can handle, and none that is
-/// older than one already received.
-class Intake {
- public:
-  bool takes(const bus::Command& command, Clock::time_point now) {
-    const double passed_s = std::chrono::duration<double>(now - since_).count();
-    left_ = std::min(kMostInSecond, left_ + passed_s * kMostInSecond);
-    since_ = now;
-    if (left_ < 1) return false;
-    std::uint64_t& newest = newest_[{command.writer, command.robot}];
-    if (command.number <= newest && newest != 0) return false;
-    // Limits the memory that a sender with invented writer ids can use.
-    constexpr std::size_t kMostKnown = 100'000;
-    if (newest_.size() > kMostKnown) newest_.clear();
-    newest_[{command.writer, command.robot}] = command.number;
-    left_ -= 1;
-    return true;
-  }
+bus::CommandResult result_of(const Result<std::string>& result) {
+  std::string text = without_control_characters(result ? *result : result.error().message, " ");
+  if (text.size() > rave_wire_kMaxCommandAnswerBytes) text.resize(rave_wire_kMaxCommandAnswerBytes);
+  return {result.has_value(), std::move(text)};
+}
 
- private:
-  double left_ = kMostInSecond;
-  Clock::time_point since_ = Clock::now();
-  std::map<std::pair<std::uint64_t, std::uint32_t>, std::uint64_t> newest_;
-};
+bus::BegunCommand refused(Error error) {
+  return [result = result_of(tl::unexpected(std::move(error)))] { return std::optional(result); };
+}
 
-}  // namespace
-
-bus::OnCommand commands_of(RunControl& control, const config::ExpandedScenario& scenario) {
-  std::vector<std::string> robots;
-  for (const config::ExpandedRobot& robot : scenario.robots) robots.push_back(robot.name);
+bus::BegunCommand begin(RunControl& control, const bus::Command& command,
+                        const std::string& robot) {
+  auto order = order_of(command, robot);
+  // A drive gets no answer: its driver sees what the robot does, and renews it many times a second.
+  const bool drive = command.kind == rave_wire_COMMAND_DRIVE;
+  if (!order) return drive ? bus::BegunCommand() : refused(std::move(order).error());
+  auto posted = control.post(*std::move(order));
+  if (drive) return {};
+  if (!posted) return refused(std::move(posted).error());
   // shared_ptr because a std::function must be copyable, and it is shared with nothing else.
-  const auto intake = std::make_shared<Intake>();
-  return [&control, intake, robots = std::move(robots)](const bus::Command& command) {
-    if (command.kind != rave_wire_COMMAND_VELOCITY || command.robot >= robots.size()) return;
-    if (!intake->takes(command, Clock::now())) return;
-    RunRequest drive;
-    drive.kind = RunRequest::Kind::kDrive;
-    drive.robot = robots[command.robot];
-    drive.by = command.author;
-    // This name stands for the terminal on the run's own machine, so commands from the bus may not
-    // use it.
-    if (drive.by == runtime::HostLeases::kTerminal) return;
-    drive.v_mps = command.vx_mps;
-    drive.w_radps = command.wz_radps;
-    drive.page = command.lease;
-    static_cast<void>(control.post(std::move(drive)));
+  const auto awaited = std::make_shared<std::future<Result<std::string>>>(*std::move(posted));
+  return [awaited]() -> std::optional<bus::CommandResult> {
+    if (awaited->wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+      return std::nullopt;
+    }
+    return result_of(awaited->get());
   };
 }
 
-bus::Command drive_command(const RunRequest& drive, std::uint32_t robot, std::uint64_t number) {
-  bus::Command command{};
-  command.robot = robot;
-  command.kind = rave_wire_COMMAND_VELOCITY;
-  command.number = number;
-  bus::put_text(command.author, drive.by);
-  command.vx_mps = drive.v_mps;
-  command.wz_radps = drive.w_radps;
-  command.lease = drive.page;
-  return command;
+}  // namespace
+
+Result<bus::BeginCommand> commands_of(RunControl& control, const config::ExpandedScenario& scenario,
+                                      std::string_view host) {
+  std::map<std::uint32_t, std::string> robots;
+  RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
+  for (const config::PlannedHost& planned : hosts) {
+    if (planned.name != host) continue;
+    for (const std::size_t r : planned.robots) {
+      robots.emplace(static_cast<std::uint32_t>(r), scenario.robots[r].name);
+    }
+  }
+  if (host.empty()) {
+    for (std::uint32_t r = 0; r < scenario.robots.size(); ++r) {
+      robots.emplace(r, scenario.robots[r].name);
+    }
+  }
+  return [&control, robots = std::move(robots)](const bus::Command& command) -> bus::BegunCommand {
+    const auto robot = robots.find(command.robot);
+    if (robot == robots.end()) return {};
+    return begin(control, command, robot->second);
+  };
+}
+
+Status to_command(const RunRequest& order, bus::Command& command,
+                  std::vector<rave_wire_OrderPoint>& points) {
+  const auto* const kind = std::ranges::find(kKinds, order.kind);
+  if (kind == kKinds.end()) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` is not an order", to_string(order.kind));
+  }
+  if (order.kind == Kind::kPath) RAVE_TRY(runtime::check_path_size(order.points.size()));
+  command = {};
+  command.kind = static_cast<rave_wire_CommandKind>(kind - kKinds.begin());
+  command.page = order.page;
+  if (order.by.empty() || !bus::put_text(command.author, order.by)) {
+    return fail(ErrorCode::kInvalidArgument, "the author `{}`: expected 1 to {} bytes", order.by,
+                sizeof command.author - 1);
+  }
+  if (!bus::put_text(command.text, order.value)) {
+    return fail(ErrorCode::kInvalidArgument, "the text has {} bytes; expected at most {}",
+                order.value.size(), sizeof command.text - 1);
+  }
+  points.clear();
+  for (const Vec2 p_W : order.points) points.push_back({p_W.x, p_W.y});
+  bus::borrow(command.points, points);
+  command.has_yaw = order.yaw_rad.has_value();
+  command.yaw_rad = order.yaw_rad.value_or(0);
+  command.v_mps = order.v_mps;
+  command.w_radps = order.w_radps;
+  command.speed_mps = order.speed_mps;
+  return {};
+}
+
+Result<RunRequest> order_of(const bus::Command& command, std::string robot) {
+  RunRequest order;
+  order.kind = kKinds[command.kind];
+  order.robot = std::move(robot);
+  order.by = command.author;
+  // This name stands for the terminal on the run's own machine, so commands from the bus may not
+  // use it.
+  if (order.by == runtime::HostLeases::kTerminal) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` is not a valid name of a person", order.by);
+  }
+  if (order.kind == Kind::kPath) RAVE_TRY(runtime::check_path_size(command.points._length));
+  for (const auto& point : bus::elements(command.points)) {
+    order.points.push_back({point.x_m, point.y_m});
+  }
+  if (command.has_yaw) order.yaw_rad = command.yaw_rad;
+  order.value = command.text;
+  order.v_mps = command.v_mps;
+  order.w_radps = command.w_radps;
+  order.speed_mps = command.speed_mps;
+  order.page = command.page;
+  return order;
 }
 
 }  // namespace rave::control

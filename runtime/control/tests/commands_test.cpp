@@ -1,49 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drives that come over the bus: whose they are, which of them count, and how many.
+// Orders that come over the bus: whose they are, which robots they are for, and their answers.
 #include "rave/control/commands.hpp"
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <vector>
 
+#include "rave/bus/sequence.hpp"
 #include "rave/control/host_leases.hpp"
 
 namespace rave::control {
 namespace {
 
 using runtime::RunRequest;
+using Kind = RunRequest::Kind;
 
-/// A run of two robots that hears a writer of the bus.
+RunRequest order(Kind kind) {
+  RunRequest request;
+  request.kind = kind;
+  request.by = "lisa";
+  request.page = 7;
+  return request;
+}
+
+/// A run of three robots, each with a host of its own.
 class CommandsTest : public ::testing::Test {
  public:
   CommandsTest() {
-    scenario_.robots.resize(2);
-    scenario_.robots[0].name = "anna";
-    scenario_.robots[1].name = "bert";
+    for (const char* const name : {"anna", "bert", "carl"}) {
+      scenario_.robots.emplace_back().name = name;
+    }
+    scenario_.scenario.processes = 3;
     control_.begin({});
-    take_ = commands_of(control_, scenario_);
   }
   ~CommandsTest() override { control_.end(); }
 
  protected:
-  void hear(std::uint64_t writer, std::uint32_t robot, std::uint64_t number, double v_mps,
-            std::string by = "lisa") {
-    RunRequest drive;
-    drive.by = std::move(by);
-    drive.v_mps = v_mps;
-    drive.page = 7;
-    bus::Command command = drive_command(drive, robot, number);
-    command.writer = writer;
-    take_(command);
+  bus::BegunCommand begin(const RunRequest& request, std::uint32_t robot,
+                          std::string_view host = "") {
+    auto commands = commands_of(control_, scenario_, host);
+    EXPECT_TRUE(commands) << commands.error().text();
+    bus::Command command;
+    std::vector<rave_wire_OrderPoint> points;
+    const Status made = to_command(request, command, points);
+    EXPECT_TRUE(made) << made.error().text();
+    command.robot = robot;
+    return (*commands)(command);
   }
-  /// What the run is asked now.
-  std::vector<RunRequest> asked() {
+  /// What the run is asked now, each of which it answers with `answer`.
+  std::vector<RunRequest> asked(const Result<std::string>& answer = "done") {
     std::vector<RunRequest> asked;
     control_.serve(
-        [&asked](const RunRequest& request) -> Result<std::string> {
+        [&](const RunRequest& request) {
           asked.push_back(request);
-          return "done";
+          return answer;
         },
         [](runtime::RunStatus&) {});
     return asked;
@@ -51,52 +61,88 @@ class CommandsTest : public ::testing::Test {
 
   runtime::RunControl control_;
   config::ExpandedScenario scenario_;
-  bus::OnCommand take_;
 };
 
-TEST_F(CommandsTest, AreDrivesOfTheirAuthorAndPage) {
-  hear(1, 1, 1, 0.25);
-  const auto requests = asked();
-  ASSERT_EQ(requests.size(), 1U);
-  EXPECT_EQ(requests[0].kind, RunRequest::Kind::kDrive);
-  EXPECT_EQ(requests[0].robot, "bert");
-  EXPECT_EQ(requests[0].by, "lisa");
-  EXPECT_EQ(requests[0].v_mps, 0.25);
-  EXPECT_EQ(requests[0].page, 7U);
-  EXPECT_FALSE(requests[0].overrides) << "nobody is a super-user by what they say themselves";
+TEST_F(CommandsTest, EveryKindComesBackAsItWasSent) {
+  std::vector<RunRequest> sent;
+  sent.push_back(order(Kind::kDrive));
+  sent.back().v_mps = 0.25;
+  sent.back().w_radps = -0.5;
+  sent.push_back(order(Kind::kGoal));
+  sent.back().points = {{1.5, -2.25}};
+  sent.back().yaw_rad = 0.1;
+  sent.back().speed_mps = 0.3;
+  sent.push_back(order(Kind::kPath));
+  sent.back().points = {{1, 2}, {3, 4}, {5, 6}};
+  sent.push_back(order(Kind::kCancel));
+  sent.push_back(order(Kind::kText));
+  sent.back().value = "look out";
+  sent.push_back(order(Kind::kPlace));
+  sent.back().points = {{0, 0}};
+  for (RunRequest& request : sent) {
+    static_cast<void>(begin(request, 1));
+    request.robot = "bert";
+  }
+  EXPECT_EQ(asked(), sent) << "nobody is a super-user by what they say themselves";
 }
 
-TEST_F(CommandsTest, OfAWriterNothingOlderThanWhatItSaidLastCounts) {
-  hear(1, 0, 5, 0.5);
-  hear(1, 0, 4, 0.4);
-  hear(1, 0, 5, 0.6);
-  hear(1, 1, 3, 0.3);
-  hear(2, 0, 1, 0.1);
-  hear(1, 0, 6, 0.7);
-  std::vector<double> speeds;
-  for (const RunRequest& request : asked()) speeds.push_back(request.v_mps);
-  EXPECT_EQ(speeds, (std::vector<double>{0.5, 0.3, 0.1, 0.7}))
-      << "each writer counts for itself, and of each robot";
+TEST_F(CommandsTest, AnOrderIsAnsweredWithWhatTheRunSays) {
+  const bus::BegunCommand goal = begin(order(Kind::kCancel), 0);
+  ASSERT_TRUE(goal);
+  EXPECT_FALSE(goal()) << "the run has not answered yet";
+  static_cast<void>(asked(fail(ErrorCode::kState, "`anna` drives\nbert")));
+  const auto result = goal();
+  ASSERT_TRUE(result);
+  EXPECT_FALSE(result->accepted);
+  EXPECT_EQ(result->text, "`anna` drives bert") << "one line";
 }
 
-TEST_F(CommandsTest, NobodyOnTheBusIsTheTerminalAndOtherKindsAreNotTaken) {
-  hear(1, 0, 1, 0.5, std::string(runtime::HostLeases::kTerminal));
-  hear(1, 2, 1, 0.5);
+TEST_F(CommandsTest, ADriveHasNoAnswer) {
+  EXPECT_FALSE(begin(order(Kind::kDrive), 0));
+  EXPECT_EQ(asked().size(), 1U);
+}
+
+TEST_F(CommandsTest, RobotsOfOtherHostsAreLeftToThem) {
+  const auto hosts = config::plan_hosts(scenario_);
+  ASSERT_TRUE(hosts);
+  EXPECT_FALSE(begin(order(Kind::kCancel), 2, hosts->front().name));
+  EXPECT_FALSE(begin(order(Kind::kCancel), 3)) << "there is no such robot";
+  EXPECT_TRUE(begin(order(Kind::kCancel), 2, hosts->back().name));
+  EXPECT_EQ(asked().size(), 1U);
+}
+
+TEST_F(CommandsTest, WhatIsNoOrderIsRefused) {
+  bus::Command command;
+  std::vector<rave_wire_OrderPoint> points;
+  EXPECT_FALSE(to_command(order(Kind::kStop), command, points));
+  RunRequest path = order(Kind::kPath);
+  path.points.resize(10'000);
+  const Status made = to_command(path, command, points);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().message, "a path has 10000 points; expected 2 to 1000");
+  RunRequest nobody = order(Kind::kCancel);
+  nobody.by.clear();
+  EXPECT_FALSE(to_command(nobody, command, points));
+  RunRequest novel = order(Kind::kText);
+  novel.value.assign(1001, 'x');
+  EXPECT_FALSE(to_command(novel, command, points));
+}
+
+TEST_F(CommandsTest, NobodyOnTheBusIsTheTerminalAndAPathHasTwoPoints) {
+  RunRequest request = order(Kind::kCancel);
+  request.by = runtime::HostLeases::kTerminal;
+  const bus::BegunCommand terminal = begin(request, 0);
+  ASSERT_TRUE(terminal && terminal());
+  EXPECT_FALSE(terminal()->accepted);
   bus::Command command{};
-  command.kind = rave_wire_COMMAND_GOAL;
-  command.number = 9;
-  take_(command);
+  command.kind = rave_wire_COMMAND_PATH;
+  bus::put_text(command.author, "lisa");
+  std::vector<rave_wire_OrderPoint> points(1);
+  bus::borrow(command.points, points);
+  const auto path = order_of(command, "anna");
+  ASSERT_FALSE(path);
+  EXPECT_EQ(path.error().message, "a path has 1 points; expected 2 to 1000");
   EXPECT_TRUE(asked().empty());
-}
-
-TEST_F(CommandsTest, AProcessTakesFiveThousandInASecond) {
-  const auto begin = std::chrono::steady_clock::now();
-  for (std::uint64_t i = 1; i <= 20'000; ++i) hear(i % 8 + 1, 0, i, 0.1);
-  const double passed_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const std::size_t taken = asked().size();
-  EXPECT_GE(taken, 5000U);
-  EXPECT_LE(static_cast<double>(taken), 5001 + 5000 * passed_s);
 }
 
 }  // namespace

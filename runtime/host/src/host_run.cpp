@@ -192,7 +192,7 @@ Result<HostOutcome> run_stepped_host(const HostSetup& host, BuiltScenario& built
   if (file.on_lost_host != config::LostHost::kWait) patience.after_standstill = kAfterStandstill;
   RAVE_TRY_ASSIGN(const auto port,
                   HostPort::open(options.bus, std::move(self), &host.console, patience,
-                                 options.begin_request, options.on_command));
+                                 options.begin_request, options.begin_command));
   port->word().describe(file.name.value, steps_of(file), file.step_s.value);
   introduce_robots(port->roster(), engine->spec(), host.slot.robots, host.console);
   const auto make = [&](RunSession& run, const BusFace& /*face*/) {

@@ -231,7 +231,7 @@ Result<HostLink::Options> link_options(const HostSetup& host, const BuiltScenari
   options.manager_patience = host.options.manager_patience;
   options.log = &host.console;
   options.begin_request = host.options.begin_request;
-  options.on_command = host.options.on_command;
+  options.begin_command = host.options.begin_command;
   return options;
 }
 

@@ -9,7 +9,7 @@
 namespace rave::lock_step {
 
 Status HostConnection::open(const bus::BusConfig& config, bus::BeginRequest begin_request,
-                            bus::OnCommand on_command) {
+                            bus::BeginCommand begin_command) {
   RAVE_TRY_ASSIGN(bus, bus::Bus::open(config));
   RAVE_TRY(bus::open_all(*bus, own_info, infos, states));
   if (managed) RAVE_TRY(bus::open_all(*bus, runs, host_results));
@@ -17,7 +17,7 @@ Status HostConnection::open(const bus::BusConfig& config, bus::BeginRequest begi
   RAVE_TRY(pulse.open(*bus, self));
   RAVE_TRY(host_word.open(*bus, self.host, self.name));
   RAVE_TRY_ASSIGN(requests, bus::RequestBox::create(*bus, std::move(begin_request), log));
-  RAVE_TRY_ASSIGN(commands, bus::CommandBox::create(*bus, std::move(on_command)));
+  RAVE_TRY_ASSIGN(commands, bus::CommandBox::create(*bus, std::move(begin_command), log));
   return {};
 }
 

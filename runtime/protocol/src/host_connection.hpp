@@ -65,7 +65,7 @@ struct HostConnection {
 
   /// Joins the bus and opens what is common.
   Status open(const bus::BusConfig& config, bus::BeginRequest begin_request,
-              bus::OnCommand on_command);
+              bus::BeginCommand begin_command);
   /// Makes `waits` wake up for what is common, and introduces this process. From then on the
   /// manager answers, so all readers must exist.
   Status join(bus::WaitSet& waits);

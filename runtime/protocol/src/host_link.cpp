@@ -27,7 +27,7 @@ constexpr milliseconds kLeisure{1000};
 }  // namespace
 
 Status HostLink::Impl::open() {
-  RAVE_TRY(HostConnection::open(options.bus, options.begin_request, options.on_command));
+  RAVE_TRY(HostConnection::open(options.bus, options.begin_request, options.begin_command));
   RAVE_TRY_ASSIGN(waits, bus::WaitSet::create(*bus));
   if (managed) {
     // The obstacles are written by hosts and read by a manager that takes the place of a lost one:

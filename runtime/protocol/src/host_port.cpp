@@ -98,8 +98,8 @@ HostPort::HostPort(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 HostPort::~HostPort() = default;
 
 Status HostPort::Impl::open(const bus::BusConfig& config, bus::BeginRequest begin_request,
-                            bus::OnCommand on_command) {
-  RAVE_TRY(HostConnection::open(config, std::move(begin_request), std::move(on_command)));
+                            bus::BeginCommand begin_command) {
+  RAVE_TRY(HostConnection::open(config, std::move(begin_request), std::move(begin_command)));
   RAVE_TRY(bus::open_all(*bus, reports, last_worlds, worlds));
   RAVE_TRY_ASSIGN(waits, bus::WaitSet::create(*bus));
   RAVE_TRY(waits.add(worlds));
@@ -109,9 +109,9 @@ Status HostPort::Impl::open(const bus::BusConfig& config, bus::BeginRequest begi
 Result<std::unique_ptr<HostPort>> HostPort::open(const bus::BusConfig& config, Identity identity,
                                                  LogSink* log, Patience patience,
                                                  bus::BeginRequest begin_request,
-                                                 bus::OnCommand on_command) {
+                                                 bus::BeginCommand begin_command) {
   auto impl = std::make_unique<Impl>(std::move(identity), log, patience);
-  RAVE_TRY(impl->open(config, std::move(begin_request), std::move(on_command)));
+  RAVE_TRY(impl->open(config, std::move(begin_request), std::move(begin_command)));
   return std::unique_ptr<HostPort>(new HostPort(std::move(impl)));
 }
 

@@ -43,7 +43,7 @@ struct HostPort::Impl final : HostConnection {
   Impl(Identity identity, LogSink* sink, Patience its)
       : HostConnection(std::move(identity), sink, true), patience(its) {}
   Status open(const bus::BusConfig& config, bus::BeginRequest begin_request,
-              bus::OnCommand on_command);
+              bus::BeginCommand begin_command);
   bool serves() const override { return epoch != 0; }
   void meet_manager(const bus::HostInfo& info) override;
   void hear(const RunWord& word) override;

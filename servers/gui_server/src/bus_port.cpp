@@ -6,7 +6,9 @@
 #include <string_view>
 #include <utility>
 
+#include "rave/base/thread.hpp"
 #include "rave/control/order_desk.hpp"
+#include "rave/control/order_words.hpp"
 
 namespace rave::gui_server {
 
@@ -32,20 +34,33 @@ bool has_the_say(const control::BusPeer& peer, const std::string& /*scenario*/) 
 
 }  // namespace
 
-BusPort::BusPort(std::unique_ptr<control::BusRun> bus, std::unique_ptr<control::BusRun> status,
-                 std::unique_ptr<CommandLine> commands, std::map<std::string, std::string> host_of)
-    : bus_(std::move(bus)),
-      status_(std::move(status)),
-      commands_(std::move(commands)),
-      host_of_(std::move(host_of)),
-      thread_([this](const std::stop_token& stop) { work(stop); }),
-      watcher_([this](const std::stop_token& stop) { watch(stop); }) {}
+Result<std::unique_ptr<BusPort>> BusPort::open(std::unique_ptr<control::BusRun> bus,
+                                               std::unique_ptr<control::BusRun> status,
+                                               const bus::BusConfig& config,
+                                               const std::vector<std::string>& robots,
+                                               std::map<std::string, std::string> host_of) {
+  std::unique_ptr<BusPort> port(new BusPort(std::move(bus), std::move(status), std::move(host_of)));
+  BusPort* const self = port.get();
+  RAVE_TRY_ASSIGN(port->commands_,
+                  control::CommandSender::open(config, robots, [self] { self->stir(); }));
+  RAVE_TRY(start_thread(port->thread_, "the requests of the page",
+                        [self](const std::stop_token& stop) { self->work(stop); }));
+  RAVE_TRY(start_thread(port->watcher_, "the states of the robots",
+                        [self](const std::stop_token& stop) { self->watch(stop); }));
+  return port;
+}
 
 BusPort::~BusPort() {
   for (std::jthread* const thread : {&watcher_, &thread_}) {
     thread->request_stop();
-    thread->join();
+    if (thread->joinable()) thread->join();
   }
+}
+
+void BusPort::stir() {
+  const std::lock_guard lock(mutex_);
+  stirred_ = true;
+  changed_.notify_all();
 }
 
 std::vector<runtime::RunStatus::Robot> BusPort::robots() const {
@@ -74,19 +89,17 @@ void BusPort::watch(const std::stop_token& stop) {
 }
 
 Result<std::future<Result<std::string>>> BusPort::post(runtime::RunRequest request) {
-  const bool drives = request.kind == runtime::RunRequest::Kind::kDrive;
-  return drives && commands_ ? drive(request) : queue(std::move(request));
+  if (request.kind == runtime::RunRequest::Kind::kDrive) return drive(request);
+  // Only one order names no robot: a cancel of all, which is a request to each process.
+  const bool order = runtime::is_order(request.kind) && !request.robot.empty();
+  return order ? commands_->post(std::move(request)) : queue(std::move(request));
 }
 
 Result<std::future<Result<std::string>>> BusPort::drive(const runtime::RunRequest& request) {
-  RAVE_TRY(commands_->send(request));
+  RAVE_TRY_ASSIGN(auto sent, commands_->post(request));
   const auto now = std::chrono::steady_clock::now();
   auto& asked = asked_[request.robot];
-  if (now - asked < kAskDriver) {
-    std::promise<Answer> said;
-    said.set_value(fmt::format("sent to {}", request.robot));
-    return said.get_future();
-  }
+  if (now - asked < kAskDriver) return sent;
   asked = now;
   runtime::RunRequest take;
   take.kind = runtime::RunRequest::Kind::kTake;
@@ -112,9 +125,7 @@ void BusPort::work(const std::stop_token& stop) {
     waiting_.pop_front();
     lock.unlock();
     promise.set_value(ask(request));
-    lock.lock();
-    stirred_ = true;
-    changed_.notify_all();
+    stir();
   }
   for (auto& [request, promise] : waiting_) {
     promise.set_value(fail(ErrorCode::kState, "the server is shutting down"));

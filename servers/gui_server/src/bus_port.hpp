@@ -10,8 +10,8 @@
 #include <thread>
 #include <utility>
 
-#include "command_line.hpp"
 #include "rave/control/bus_run.hpp"
+#include "rave/control/command_sender.hpp"
 #include "run_port.hpp"
 
 namespace rave::gui_server {
@@ -20,10 +20,13 @@ namespace rave::gui_server {
 /// host.
 class BusPort final : public RunPort {
  public:
-  /// Two ends of the bus of the run; `commands`: the way of drives, which may be null.
-  /// `host_of`: the name of the host of each robot.
-  BusPort(std::unique_ptr<control::BusRun> bus, std::unique_ptr<control::BusRun> status,
-          std::unique_ptr<CommandLine> commands, std::map<std::string, std::string> host_of);
+  /// `bus`, `status`: two ends of the bus of the run, for requests and for questions. Orders have a
+  /// third, of `config`. `robots`: the names of all, by id. `host_of`: the name of the host of each
+  /// robot. Errors: those of control::CommandSender::open().
+  [[nodiscard]] static Result<std::unique_ptr<BusPort>> open(
+      std::unique_ptr<control::BusRun> bus, std::unique_ptr<control::BusRun> status,
+      const bus::BusConfig& config, const std::vector<std::string>& robots,
+      std::map<std::string, std::string> host_of);
   BusPort(const BusPort&) = delete;
   BusPort& operator=(const BusPort&) = delete;
   ~BusPort() override;
@@ -43,26 +46,32 @@ class BusPort final : public RunPort {
  private:
   using Answer = Result<std::string>;
 
+  BusPort(std::unique_ptr<control::BusRun> bus, std::unique_ptr<control::BusRun> status,
+          std::map<std::string, std::string> host_of)
+      : bus_(std::move(bus)), status_(std::move(status)), host_of_(std::move(host_of)) {}
+
   void work(const std::stop_token& stop);
   void watch(const std::stop_token& stop);
   [[nodiscard]] Answer ask(const runtime::RunRequest& request);
   /// What only the host of the robot can do.
   [[nodiscard]] Answer ask_host(const std::string& host, const control::Request& request);
-  /// A drive goes at once, by the topic without answers; now and then its robot is asked
-  /// whether it listens to this driver.
+  /// A drive gets no answer; now and then its robot is asked whether it listens to this driver.
   [[nodiscard]] Result<std::future<Answer>> drive(const runtime::RunRequest& request);
+  /// Lets watch() ask for the robots soon.
+  void stir();
   [[nodiscard]] Result<std::future<Answer>> queue(runtime::RunRequest request);
 
   std::unique_ptr<control::BusRun> bus_;
   std::unique_ptr<control::BusRun> status_;
-  std::unique_ptr<CommandLine> commands_;                               ///< Of the server's thread.
-  const std::map<std::string, std::string> host_of_;                    ///< By robot.
-  std::map<std::string, std::chrono::steady_clock::time_point> asked_;  ///< By robot; the same.
+  const std::map<std::string, std::string> host_of_;  ///< By robot.
+  /// By robot; of the server's thread.
+  std::map<std::string, std::chrono::steady_clock::time_point> asked_;
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<std::pair<runtime::RunRequest, std::promise<Answer>>> waiting_;
   std::vector<runtime::RunStatus::Robot> robots_;
   bool stirred_ = false;  ///< Something was done, so that `robots_` are to be asked for again.
+  std::unique_ptr<control::CommandSender> commands_;
   std::jthread thread_;
   std::jthread watcher_;
 };

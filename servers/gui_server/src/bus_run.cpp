@@ -82,14 +82,12 @@ Result<std::unique_ptr<BusPort>> port_to_hosts(const config::ExpandedScenario& s
   RAVE_TRY_ASSIGN(auto status, control::BusRun::open(bus, "GUI Server"));
   std::vector<std::string> names;
   for (const sim::RobotSpec& robot : built.spec.robots) names.push_back(robot.name);
-  RAVE_TRY_ASSIGN(auto commands, CommandLine::open(bus, names));
   RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
   std::map<std::string, std::string> host_of;
   for (const config::PlannedHost& host : hosts) {
     for (const std::size_t robot : host.robots) host_of[names[robot]] = host.name;
   }
-  return std::make_unique<BusPort>(std::move(asker), std::move(status), std::move(commands),
-                                   std::move(host_of));
+  return BusPort::open(std::move(asker), std::move(status), bus, names, std::move(host_of));
 }
 
 BusFeed::OnOver replays(OnOver on_over) {

@@ -35,6 +35,17 @@ template <class Sequence>
   return {reinterpret_cast<const char*>(octets._buffer), octets._length};
 }
 
+/// Makes a wire sequence of octets refer to text of the caller, without a copy. The text must outlive
+/// the use of the sample, which does not change it.
+template <class Sequence>
+void borrow_text(Sequence& sequence, std::string_view text) noexcept {
+  // The wire type requires non-const octets.
+  sequence._buffer = reinterpret_cast<std::uint8_t*>(const_cast<char*>(text.data()));
+  sequence._length = static_cast<std::uint32_t>(text.size());
+  sequence._maximum = sequence._length;
+  sequence._release = false;
+}
+
 /// Copies text into a bounded wire string. Text that does not fit is cut at a character boundary.
 /// Returns whether all of it fitted.
 template <std::size_t kSize>

@@ -30,6 +30,7 @@ using Obstacle = rave_wire_Obstacle;
 /// An obstacle that a host sends to a manager that restarts. Same type, another topic.
 struct LastObstacle : rave_wire_Obstacle {};
 using Command = rave_wire_Command;
+using CommandAnswer = rave_wire_CommandAnswer;
 using Packet = rave_wire_Packet;
 using HostInfo = rave_wire_HostInfo;
 using ProcessState = rave_wire_ProcessState;
@@ -103,6 +104,10 @@ inline TopicSpec topic_of<LastObstacle>() {
 template <>
 inline TopicSpec topic_of<Command>() {
   return {"rave/command", &rave_wire_Command_desc, kRecent};
+}
+template <>
+inline TopicSpec topic_of<CommandAnswer>() {
+  return {"rave/command_answer", &rave_wire_CommandAnswer_desc, kRecent};
 }
 template <>
 inline TopicSpec topic_of<Packet>() {

@@ -25,6 +25,7 @@ inline constexpr double kMaxTurn_radps = 1e4;
 [[nodiscard]] Status validate(const RosterEntry& sample);
 [[nodiscard]] Status validate(const Obstacle& sample);
 [[nodiscard]] Status validate(const Command& sample);
+[[nodiscard]] Status validate(const CommandAnswer& sample);
 [[nodiscard]] Status validate(const Packet& sample);
 [[nodiscard]] Status validate(const HostInfo& sample);
 [[nodiscard]] Status validate(const LineInfo& sample);

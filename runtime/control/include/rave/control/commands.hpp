@@ -1,24 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "rave/bus/command_box.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/control/run_control.hpp"
 
+/// Orders as commands on the bus (topic rave/command).
 namespace rave::control {
 
-/// A handler of the topic rave/command that lets users drive the robots of a process. It treats
-/// each command like a request at the control socket, so lease and rate are checked there. Other
-/// kinds of commands are ignored. `scenario`: scenario of the run. `control` must outlive the
-/// handler, which does not block.
-[[nodiscard]] bus::OnCommand commands_of(runtime::RunControl& control,
-                                         const config::ExpandedScenario& scenario);
+/// Lets users order the robots of a process: each command is treated like a request at the control
+/// socket, so lease and rate are checked there. Commands to robots of other hosts are ignored,
+/// because their hosts answer. `host`: the one of this process; empty: it runs all robots of the
+/// scenario. `control` must outlive the result. Errors: those of config::plan_hosts().
+[[nodiscard]] Result<bus::BeginCommand> commands_of(runtime::RunControl& control,
+                                                    const config::ExpandedScenario& scenario,
+                                                    std::string_view host);
 
-/// A drive request as a command for the bus, without run and writer, which its Writer sets.
-/// bus::validate() refuses non-finite numbers and names that are too long.
-[[nodiscard]] bus::Command drive_command(const runtime::RunRequest& drive, std::uint32_t robot,
-                                         std::uint64_t number);
+/// Converts an order. Run and writer are set by its Writer; robot and number by the caller. The
+/// command refers to `points`, which must outlive it. Errors: kInvalidArgument (not an order, no
+/// author, too many points, or a text that is too long).
+[[nodiscard]] Status to_command(const runtime::RunRequest& order, bus::Command& command,
+                                std::vector<rave_wire_OrderPoint>& points);
+
+/// The inverse of to_command(), for a command that bus::validate() accepts. Errors:
+/// kInvalidArgument (number of points, or an author that is reserved).
+[[nodiscard]] Result<runtime::RunRequest> order_of(const bus::Command& command, std::string robot);
 
 }  // namespace rave::control

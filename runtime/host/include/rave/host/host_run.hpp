@@ -32,7 +32,7 @@ struct HostOptions {
   /// Begins a request to this host that arrived on the bus, in the calling thread; empty: such
   /// requests are refused.
   bus::BeginRequest begin_request;
-  bus::OnCommand on_command;  ///< The same for commands (topic rave/command), which get no answer.
+  bus::BeginCommand begin_command;  ///< The same for orders (topic rave/command).
 };
 
 /// The outcome for this host. It writes result.json, events.log, scenario.yaml, results.cdr (from

@@ -50,8 +50,8 @@ class HostLink {
     LogSink* log = nullptr;  ///< Not owned; may be null.
     /// Handles bus requests of others, inside calls of this object; may be empty.
     bus::BeginRequest begin_request = {};
-    /// Handles bus commands of others, likewise; they get no answer.
-    bus::OnCommand on_command = {};
+    /// Begins the commands of others on the bus, likewise.
+    bus::BeginCommand begin_command = {};
   };
   /// Joins the bus. `world` receives the data of other robots inside calls of this object; not
   /// owned. Errors: those of bus::Bus::open().

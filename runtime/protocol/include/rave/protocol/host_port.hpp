@@ -48,13 +48,13 @@ class HostPort {
   };
 
   /// Joins the bus. `log` is not owned and may be null. `begin_request` handles bus requests of
-  /// others and `on_command` their commands, inside exchange(); both may be empty. Errors: those of
-  /// bus::Bus::open().
+  /// others and `begin_command` their commands, inside exchange(); both may be empty. Errors: those
+  /// of bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<HostPort>> open(const bus::BusConfig& bus,
                                                               Identity identity, LogSink* log,
                                                               Patience patience = {},
                                                               bus::BeginRequest begin_request = {},
-                                                              bus::OnCommand on_command = {});
+                                                              bus::BeginCommand begin_command = {});
   HostPort(const HostPort&) = delete;
   HostPort& operator=(const HostPort&) = delete;
   ~HostPort();

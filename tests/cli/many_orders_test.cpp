@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Orders of a person to all robots of a run at once, over the bus (topic rave/command): each is
+// answered by the host of its robot, however many they are.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <future>
+
+#include "bus_requests.hpp"
+#include "rave/control/command_sender.hpp"
+#include "stranger.hpp"
+
+namespace rave::cli_test {
+namespace {
+
+using runtime::RunRequest;
+using Kind = RunRequest::Kind;
+using Answer = std::future<Result<std::string>>;
+
+class ManyOrders : public BusRequests {
+ protected:
+  void start_with_sender(const std::string& scenario, Words more = {}) {
+    for (const char* const word : {"--duration", "100000", "--no-record", "--run"}) {
+      more.emplace_back(word);
+    }
+    more.push_back(run_.text());
+    start_all(scenario, more);
+    for (const char* const team : {"left", "right"}) {
+      for (int i = 1; i <= 100; ++i) robots_.push_back(fmt::format("{}-{}", team, i));
+    }
+    auto sender = control::CommandSender::open(stranger_config(apart(), run_), robots_);
+    ASSERT_TRUE(sender) << sender.error().text();
+    sender_ = *std::move(sender);
+  }
+  RunRequest order(Kind kind, const std::string& robot, const std::string& by = "lisa") const {
+    RunRequest request;
+    request.kind = kind;
+    request.robot = robot;
+    request.by = by;
+    if (kind == Kind::kGoal) request.points = {{0, 15}};
+    if (kind == Kind::kText) request.value = "hello";
+    return request;
+  }
+  std::string answer(RunRequest request) {
+    auto posted = sender_->post(std::move(request));
+    if (!posted) return "not sent: " + posted.error().message;
+    const auto result = posted->get();
+    return result ? "done: " + *result : "refused: " + result.error().message;
+  }
+  /// All orders are on their way before the first answer is looked at.
+  void order_all(Kind kind) {
+    std::vector<Answer> answers;
+    for (const std::string& robot : robots_) {
+      auto posted = sender_->post(order(kind, robot));
+      ASSERT_TRUE(posted) << posted.error().text();
+      answers.push_back(*std::move(posted));
+    }
+    for (std::size_t r = 0; r < robots_.size(); ++r) {
+      const auto result = answers[r].get();
+      ASSERT_TRUE(result) << robots_[r] << ": " << result.error().text();
+      EXPECT_NE(result->find(robots_[r]), std::string::npos) << *result;
+    }
+  }
+  [[nodiscard]] std::size_t robots_with(const std::string& text) const {
+    const std::string listed = near({"ps", "--robots"}).out;
+    std::size_t count = 0;
+    for (std::size_t at = listed.find(text); at != std::string::npos;
+         at = listed.find(text, at + 1))
+      ++count;
+    return count;
+  }
+
+  bus::RunId run_ = bus::RunId::random();
+  std::vector<std::string> robots_;
+  std::unique_ptr<control::CommandSender> sender_;
+};
+
+TEST_F(ManyOrders, InLockStepAllAreAnsweredAndObeyed) {
+  start_with_sender("many_orders.yaml", {"--pace", "1x"});
+  order_all(Kind::kGoal);
+  wait_until([this] { return robots_with("goal 0.00, 15.00") >= robots_.size(); }, "all go there");
+  // Who drives is decided at the hosts, for each of their robots.
+  EXPECT_EQ(answer(order(Kind::kGoal, "right-7", "mark")), "refused: `lisa` drives right-7");
+  EXPECT_EQ(answer(order(Kind::kText, "left-3")),
+            "refused: robot `left-3`, text: its program takes no texts");
+  order_all(Kind::kCancel);
+  wait_until([this] { return robots_with("goal 0.00, 15.00") == 0; }, "no order is left");
+  end_by_hand("env");
+}
+
+TEST_F(ManyOrders, InRealTimeAllAreAnsweredAndObeyed) {
+  start_with_sender("many_live_orders.yaml");
+  order_all(Kind::kGoal);
+  wait_until([this] { return robots_with("goal 0.00, 15.00") >= robots_.size(); }, "all go there");
+  order_all(Kind::kCancel);
+}
+
+TEST_F(ManyOrders, AHostThatIsGoneDoesNotAnswerAndTheSenderSaysSo) {
+  start_with_sender("many_live_orders.yaml");
+  EXPECT_EQ(answer(order(Kind::kGoal, "right-1")).substr(0, 5), "done:");
+  signal("two", SIGKILL);
+  static_cast<void>(end_of("two"));
+  EXPECT_EQ(answer(order(Kind::kGoal, "right-1")),
+            "refused: the host of right-1 has not answered for 5 s; the order may still be carried "
+            "out");
+  EXPECT_EQ(answer(order(Kind::kGoal, "left-1")).substr(0, 5), "done:");
+  EXPECT_EQ(answer(order(Kind::kGoal, "left-999")), "not sent: there is no robot `left-999`");
+}
+
+}  // namespace
+}  // namespace rave::cli_test

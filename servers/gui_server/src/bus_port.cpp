@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "rave/base/thread.hpp"
 #include "rave/control/order_desk.hpp"
 
 namespace rave::gui_server {
@@ -37,14 +38,19 @@ BusPort::BusPort(std::unique_ptr<control::BusRun> bus, std::unique_ptr<control::
     : bus_(std::move(bus)),
       status_(std::move(status)),
       commands_(std::move(commands)),
-      host_of_(std::move(host_of)),
-      thread_([this](const std::stop_token& stop) { work(stop); }),
-      watcher_([this](const std::stop_token& stop) { watch(stop); }) {}
+      host_of_(std::move(host_of)) {}
+
+Status BusPort::start() {
+  RAVE_TRY(start_thread(thread_, "requests of pages",
+                        [this](const std::stop_token& stop) { work(stop); }));
+  return start_thread(watcher_, "the status of robots",
+                      [this](const std::stop_token& stop) { watch(stop); });
+}
 
 BusPort::~BusPort() {
   for (std::jthread* const thread : {&watcher_, &thread_}) {
     thread->request_stop();
-    thread->join();
+    if (thread->joinable()) thread->join();
   }
 }
 

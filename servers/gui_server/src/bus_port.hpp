@@ -24,6 +24,8 @@ class BusPort final : public RunPort {
   /// `host_of`: the name of the host of each robot.
   BusPort(std::unique_ptr<control::BusRun> bus, std::unique_ptr<control::BusRun> status,
           std::unique_ptr<CommandLine> commands, std::map<std::string, std::string> host_of);
+  /// Once. Error kIo: the system grants no thread.
+  [[nodiscard]] Status start();
   BusPort(const BusPort&) = delete;
   BusPort& operator=(const BusPort&) = delete;
   ~BusPort() override;

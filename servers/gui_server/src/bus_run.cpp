@@ -33,6 +33,7 @@ class BusSource final : public LiveSource {
       : LiveSource(std::move(start), box, std::move(port)),
         feed_(std::move(observer), std::move(listener), box, std::move(world), std::move(on_over)) {
   }
+  [[nodiscard]] Status start_feed() { return feed_.start(); }
 
  private:
   BusFeed feed_;
@@ -88,8 +89,10 @@ Result<std::unique_ptr<BusPort>> port_to_hosts(const config::ExpandedScenario& s
   for (const config::PlannedHost& host : hosts) {
     for (const std::size_t robot : host.robots) host_of[names[robot]] = host.name;
   }
-  return std::make_unique<BusPort>(std::move(asker), std::move(status), std::move(commands),
-                                   std::move(host_of));
+  auto port = std::make_unique<BusPort>(std::move(asker), std::move(status), std::move(commands),
+                                        std::move(host_of));
+  RAVE_TRY(port->start());
+  return port;
 }
 
 BusFeed::OnOver replays(OnOver on_over) {
@@ -139,9 +142,11 @@ Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenar
   }
   // Who manages the run serves its page: without this process there is no run either.
   if (managed) start.about.relay = true;
-  return std::make_shared<BusSource>(std::move(start), std::make_shared<LiveBox>(), std::move(port),
-                                     std::move(observer), std::move(listener),
-                                     world_of(scenario, built), replays(std::move(on_over)));
+  auto source = std::make_shared<BusSource>(
+      std::move(start), std::make_shared<LiveBox>(), std::move(port), std::move(observer),
+      std::move(listener), world_of(scenario, built), replays(std::move(on_over)));
+  RAVE_TRY(source->start_feed());
+  return source;
 }
 
 }  // namespace rave::gui_server

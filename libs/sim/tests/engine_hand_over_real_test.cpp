@@ -233,9 +233,12 @@ TEST_F(BecomesReal, WithoutAThreadItsDriversAreOpenedByTheRun) {
 TEST_F(BecomesReal, WithoutAThreadForItsGuardItIsStopped) {
   Ears ears;
   spec_.log = &ears;
+  static constexpr HardwareActuatorOps kPlugged = detail::hardware_actuator_ops<Plugged>();
+  Plugged::cable_is_out = false;
   begin([](RobotType&, RobotType& real) {
     real.guard = GuardSpec{};
-    real.program = program<Drive>({{"v", 0.5}});
+    // Who obeys nobody needs no guard.
+    real.actuators[0].hardware_ops = &kPlugged;
   });
   ask();
   {

@@ -74,6 +74,7 @@ class Server:
     def end(self):
         self.process.send_signal(signal.SIGTERM)
         self.process.wait(20)
+        self.process.stdout.close()
 
 
 def masked(payload, opcode=1):

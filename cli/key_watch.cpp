@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "key_watch.hpp"
 
+#include <fmt/format.h>
 #include <poll.h>
 #include <pthread.h>
 #include <sys/eventfd.h>
@@ -11,6 +12,7 @@
 #include <csignal>
 
 #include "rave/base/thread.hpp"
+#include "terminal.hpp"
 
 namespace rave::cli {
 namespace {
@@ -41,9 +43,10 @@ KeyWatch::KeyWatch(bool keys)
     ::tcsetattr(STDIN_FILENO, TCSANOW, &single);
   }
   const Status started = start_thread(thread_, "the keys", [this] { watch(); });
-  // Without a thread no keys or signals are read: the latter then end the process as they do any
-  // other.
-  if (!started) give_back();
+  if (started) return;
+  give_back();
+  put(stderr, fmt::format("{}; no keys are read, and Ctrl-C ends the process at once\n",
+                          started.error().message));
 }
 
 void KeyWatch::give_back() const {

@@ -15,7 +15,9 @@ namespace rave::cli {
 /// the signals to it. One per process.
 class KeyWatch {
  public:
-  /// `keys`: the terminal behind the standard input gives each key at once, and shows none.
+  /// `keys`: the terminal behind the standard input gives each key at once, and shows none. Where
+  /// the system grants no thread, neither keys nor signals are read, and the latter end the process
+  /// as they do any other; standard error says so.
   explicit KeyWatch(bool keys);
   KeyWatch(const KeyWatch&) = delete;
   KeyWatch& operator=(const KeyWatch&) = delete;

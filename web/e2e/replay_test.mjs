@@ -2,7 +2,7 @@
 // A person looks at a recording: node replay_test.mjs RAVE SCENARIO FOLDER
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
+import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import http from 'node:http';
 import {join} from 'node:path';
 import WebSocket from 'ws';
@@ -148,6 +148,14 @@ try {
     await page.getByPlaceholder('source, text').fill('');
   });
 
+  await check('the recording is downloaded as it is', async () => {
+    const [download] = await Promise.all([page.waitForEvent('download'), page.getByLabel('Download the recording').click()]);
+    assert.equal(download.suggestedFilename(), 'mixed-reality.mcap');
+    const file = join(folder, 'downloaded.mcap');
+    await download.saveAs(file);
+    assert.ok(readFileSync(file).equals(readFileSync(join(run, 'run.mcap'))), 'the bytes differ');
+  });
+
   await check('a recording cannot be stopped, and the page says so', async () => {
     await page.getByText('View only').waitFor();
   });
@@ -160,7 +168,12 @@ try {
     await page.screenshot({path: join(folder, 'foxglove.png')});
     const first = await new Promise((resolve, reject) => {
       const socket = new WebSocket(address, ['foxglove.sdk.v1', 'foxglove.websocket.v1']);
-      socket.onmessage = ({data}) => { socket.close(); resolve(JSON.parse(data)); };
+      socket.onmessage = ({data}) => {
+        // What follows until the server has closed is binary, too.
+        socket.onmessage = null;
+        socket.close();
+        resolve(JSON.parse(data));
+      };
       socket.onerror = () => reject(new Error(`nothing serves at ${address}`));
     });
     assert.equal(first.op, 'serverInfo');

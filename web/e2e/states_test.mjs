@@ -2,13 +2,13 @@
 // All states of a page, of a made-up run: node states_test.mjs PAGE FOLDER
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
-import {gzipSync} from 'node:zlib';
+import {mkdirSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {launch} from './browser.mjs';
 import {app, check, report, showFailures, until, untilHere, watch} from './checks.mjs';
 import {FakeRun} from './fake_run.mjs';
 import {serveFake} from './fake_server.mjs';
+import {sizeOf, watchLoads} from './first_load.mjs';
 
 const [built, folder] = process.argv.slice(2);
 mkdirSync(folder, {recursive: true});
@@ -25,17 +25,12 @@ try {
   page.on('websocket', (socket) => {
     for (const way of ['framereceived', 'framesent']) socket.on(way, ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
   });
-  const loaded = new Set();
-  page.on('request', (request) => loaded.add(new URL(request.url()).pathname));
+  const loaded = watchLoads(page);
   await page.goto(server.origin);
   await until(page, `${app}?.model?.poses?.newest !== null`);
 
   await check('the first load is small: the renderer of the perspective comes when it is asked for', async () => {
-    const size = (path) => {
-      const bytes = readFileSync(join(built, path === '/' ? 'index.html' : path));
-      return /\.woff2$/.test(path) ? bytes.length : gzipSync(bytes).length;
-    };
-    const all = [...loaded].filter((path) => path !== '/ws' && path !== '/ticket').reduce((sum, path) => sum + size(path), 0);
+    const all = sizeOf(loaded, built);
     assert.ok(all < 400e3, `${all} bytes`);
     assert.ok(![...loaded].some((path) => path.includes('perspective')));
   });

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "dds_transmitter/air_options.hpp"
+#include "rave/base_testing/no_threads.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/live_testing/await.hpp"
@@ -62,6 +63,17 @@ struct Station {
   LivePort port;  // before what hands packets to it
   LiveTransmitter radio{"dds_transmitter"};
 };
+
+TEST(DdsTransmitter, WithoutAThreadIsAnErrorAndOpensLater) {
+  LivePort port;
+  LiveTransmitter radio("dds_transmitter");
+  ASSERT_EQ(radio.configure({{"network", network("none")}}), "");
+  {
+    const base_testing::NoThreads none;
+    EXPECT_EQ(radio.open(port).find("cannot start the thread of the network: "), 0U);
+  }
+  EXPECT_EQ(radio.open(port), "");
+}
 
 TEST(DdsTransmitter, CarriesPacketsBetweenProcessesAndWithinOne) {
   Station a("both");

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "rave/base_testing/no_threads.hpp"
 #include "rave/live_testing/await.hpp"
 #include "rave/live_testing/live_transmitter.hpp"
 
@@ -165,6 +166,20 @@ TEST_F(SerialTransmitter, UnpluggedAndPluggedInAgain) {
     EXPECT_EQ(modem.read(frame_size(4)).substr(2, 4), "back");
   }
   EXPECT_EQ(a.report()["losses"], 2);
+}
+
+TEST_F(SerialTransmitter, WithoutAThreadIsAnErrorAndOpensLater) {
+  const Modem modem(link("modem"));
+  LivePort port;
+  LiveTransmitter radio("serial_transmitter");
+  ASSERT_EQ(radio.configure({{"device", link("modem")}}), "");
+  {
+    const base_testing::NoThreads none;
+    EXPECT_EQ(radio.open(port).find("cannot start the thread of the line: "), 0U);
+  }
+  ASSERT_EQ(radio.open(port), "");
+  EXPECT_EQ(radio.send("hello"), "");
+  EXPECT_EQ(modem.read(frame_size(5)).size(), frame_size(5));
 }
 
 TEST_F(SerialTransmitter, SaysWhatIsWrong) {

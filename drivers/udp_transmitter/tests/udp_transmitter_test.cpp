@@ -2,6 +2,7 @@
 // Over real sockets of the loopback interface.
 #include <gtest/gtest.h>
 
+#include "rave/base_testing/no_threads.hpp"
 #include "rave/live_testing/live_transmitter.hpp"
 
 namespace rave::testing {
@@ -47,6 +48,17 @@ TEST(UdpTransmitter, CarriesPacketsBetweenPeersBothWays) {
   ASSERT_EQ(a.open(port_a), "");
   EXPECT_EQ(b.send("again"), "");
   ASSERT_TRUE(port_a.wait_packets(4));
+}
+
+TEST(UdpTransmitter, WithoutAThreadIsAnErrorAndOpensLater) {
+  LivePort port;
+  LiveTransmitter radio("udp_transmitter");
+  ASSERT_EQ(radio.configure({{"peers", "127.0.0.1:9"s}}), "");
+  {
+    const base_testing::NoThreads none;
+    EXPECT_EQ(radio.open(port).find("cannot start the thread of the socket: "), 0U);
+  }
+  EXPECT_EQ(radio.open(port), "");
 }
 
 /// Containers may have a loopback without multicast: the one thing that this test cannot make.

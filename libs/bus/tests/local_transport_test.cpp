@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "local_transport_pair.hpp"
+#include "rave/base_testing/no_threads.hpp"
 #include "rave/bus/wait_set.hpp"
 
 namespace rave::bus::testing {
@@ -46,6 +47,17 @@ TEST(LocalTransport, AWaitSetWakesFromBoth) {
     waits->ring();
     EXPECT_EQ(waits->wait(Duration{10'000'000'000}), Woken::kReady);
   }
+}
+
+TEST(LocalTransport, AWaitSetWithoutAThreadIsAnError) {
+  const Pair pair;
+  auto waits = WaitSet::create(*pair.right);
+  ASSERT_TRUE(waits);
+  const base_testing::NoThreads none;
+  const Status added = waits->add(*pair.reader);
+  ASSERT_FALSE(added);
+  EXPECT_NE(added.error().message.find("cannot start the thread of a wait set"), std::string::npos)
+      << added.error().text();
 }
 
 TEST(LocalTransport, ASleepEndsByTimeBellDatagramAndStop) {

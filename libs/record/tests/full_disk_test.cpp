@@ -6,6 +6,7 @@
 #include <csignal>
 
 #include "rave/base/random.hpp"
+#include "rave/base_testing/no_threads.hpp"
 #include "rave/record/mcap_reader.hpp"
 #include "rave/record/mcap_writer.hpp"
 #include "rave/record/run_reader.hpp"
@@ -39,6 +40,21 @@ class FullDisk {
  private:
   rlimit before_{};
 };
+
+TEST(McapWriterStart, WithoutAThreadIsAnErrorAndOpensLater) {
+  const TemporaryFile file;
+  {
+    const base_testing::NoThreads none;
+    const auto writer = McapWriter::open(file.path(), tiny_chunks());
+    ASSERT_FALSE(writer);
+    EXPECT_NE(writer.error().message.find("cannot start the thread of the recording"),
+              std::string::npos)
+        << writer.error().text();
+  }
+  auto writer = McapWriter::open(file.path(), tiny_chunks());
+  ASSERT_TRUE(writer) << writer.error().text();
+  EXPECT_TRUE(writer->close());
+}
 
 TEST(FullDisk, OfALongPieceThatDoesNotFitNothingIsLeft) {
   const TemporaryFile file;

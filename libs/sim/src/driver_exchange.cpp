@@ -243,9 +243,16 @@ void HandOvers::change_drivers(Twin& twin) {
   // when the old ones no longer know of the robot.
   close_other(twin);
   const Status guarded = site_.start_guards(group);
-  if (!guarded && spec_.log != nullptr) {
-    spec_.log->error("guard", "{}; from now on only the steps of the run guard it",
-                     guarded.error().text());
+  if (!guarded) {
+    // Steps that come late would guard it late: it stands until a person who knows that releases
+    // it.
+    guards_[r].stop();
+    if (spec_.log != nullptr) {
+      spec_.log->error("guard",
+                       "{}; the robot is stopped, and after a release only the steps of the "
+                       "run guard it",
+                       guarded.error().text());
+    }
   }
   ++twin.state.made;
   const double jump_m = distance_m(X_before, place.X_WR);
@@ -255,6 +262,7 @@ void HandOvers::change_drivers(Twin& twin) {
       reality_of(*twin.other.type), reality_of(type), place.X_WR.x, place.X_WR.y,
       rad_to_deg(place.X_WR.yaw), jump_m, rad_to_deg(turn_rad));
   if (!guards_[r].holds().armed) text += "; it stands until it is armed";
+  if (!guarded) text += "; it is stopped, because its guard has no thread";
   end(twin, EventKind::kHandedOver, std::move(text));
 }
 

@@ -3,10 +3,12 @@
 
 #include <chrono>
 #include <future>
+#include <memory>
 #include <thread>
 #include <utility>
 
 #include "rave/base/result.hpp"
+#include "rave/base/thread.hpp"
 
 namespace rave::sim {
 
@@ -16,12 +18,19 @@ class SideTask {
  public:
   SideTask() = default;
 
+  /// In a thread; where the system grants none, later.
   template <class Work>
   [[nodiscard]] static SideTask in_thread(Work&& work) {
     SideTask task;
-    std::packaged_task<Status()> packaged(std::forward<Work>(work));
-    task.result_ = packaged.get_future();
-    task.thread_ = std::jthread([packaged = std::move(packaged)]() mutable { packaged(); });
+    // Shared with the thread, and still here if there is none.
+    const auto packaged = std::make_shared<std::packaged_task<Status()>>(std::forward<Work>(work));
+    task.result_ = packaged->get_future();
+    if (!start_thread(task.thread_, "a side task", [packaged] { (*packaged)(); })) {
+      return later([packaged, result = std::move(task.result_)]() mutable {
+        (*packaged)();
+        return result.get();
+      });
+    }
     return task;
   }
   template <class Work>

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "rave/base/crash_note.hpp"
+#include "rave/base_testing/no_threads.hpp"
 #include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::sim::testing {
@@ -73,6 +74,14 @@ TEST(CloseWithin, ClosesAllInTheirOrder) {
   for (const char* name : {"a", "b", "c"}) drivers.add(0, name);
   EXPECT_EQ(drivers.close_within(kLong), Names());
   EXPECT_EQ(drivers.closed(), Names({"a", "b", "c"}));
+}
+
+TEST(CloseWithin, WithoutAThreadClosesAllByItself) {
+  Drivers drivers;
+  for (const char* name : {"a", "b"}) drivers.add(0, name);
+  const base_testing::NoThreads none;
+  EXPECT_EQ(drivers.close_within(kLong), Names());
+  EXPECT_EQ(drivers.closed(), (Names{"a", "b"}));
 }
 
 TEST(CloseWithin, ACrashInADriverWouldNameItAndItsRobot) {

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "hand_over_drivers.hpp"
+#include "rave/base_testing/no_threads.hpp"
 
 namespace rave::sim::testing {
 namespace {
@@ -218,6 +219,41 @@ class BecomesReal : public ::testing::Test {
   std::unique_ptr<Engine> engine_;
   std::vector<Event> events_;
 };
+
+TEST_F(BecomesReal, WithoutAThreadItsDriversAreOpenedByTheRun) {
+  begin();
+  {
+    const base_testing::NoThreads none;
+    ask();
+  }
+  while (under_way() && !is_late()) say(engine_->true_pose(robot_).x);
+  EXPECT_EQ(engine_->hand_over_state(robot_)->made, 1U);
+}
+
+TEST_F(BecomesReal, WithoutAThreadForItsGuardItIsStopped) {
+  Ears ears;
+  spec_.log = &ears;
+  static constexpr HardwareActuatorOps kPlugged = detail::hardware_actuator_ops<Plugged>();
+  Plugged::cable_is_out = false;
+  begin([](RobotType&, RobotType& real) {
+    real.guard = GuardSpec{};
+    // Who obeys nobody needs no guard.
+    real.actuators[0].hardware_ops = &kPlugged;
+  });
+  ask();
+  {
+    const base_testing::NoThreads none;
+    while (under_way() && !is_late()) say(engine_->true_pose(robot_).x);
+  }
+  const auto made = of_kind(events_, EventKind::kHandedOver);
+  ASSERT_EQ(made.size(), 1U);
+  EXPECT_NE(made[0].text.find("; it is stopped, because its guard has no thread"),
+            std::string::npos)
+      << made[0].text;
+  EXPECT_NE(ears.heard.find("cannot start the thread of the guard of robot"), std::string::npos)
+      << ears.heard;
+  EXPECT_TRUE(engine_->stopped(robot_));
+}
 
 TEST_F(BecomesReal, WhereItWasLongAgoIsNotWhereItIs) {
   begin([](RobotType& simulated, RobotType& real) {

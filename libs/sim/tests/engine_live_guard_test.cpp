@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "live_fixture.hpp"
+#include "rave/base_testing/no_threads.hpp"
 #include "rave/sim_testing/engine_fixture.hpp"
 
 namespace rave::sim::testing {
@@ -135,6 +136,17 @@ TEST_F(EngineLiveGuard, TheFenceHoldsWhileTheEngineStandsStill) {
   EXPECT_LE(cart_.farthest_m, 2 - 0.15 + 1e-3);
   EXPECT_GT(cart_.farthest_m, 1.7) << "nothing else has stopped it";
   EXPECT_EQ(of_kind(run(*engine, 1), EventKind::kGuardSlowed).size(), 1U);
+}
+
+TEST_F(EngineLiveGuard, ARealRobotDoesNotMoveWithoutAThreadForItsGuard) {
+  const base_testing::NoThreads none;
+  const auto engine = Engine::create(live_spec(cart_type(0.3)));
+  ASSERT_FALSE(engine);
+  EXPECT_NE(engine.error().text().find("cannot start the thread of the guard of robot"),
+            std::string::npos)
+      << engine.error().text();
+  EXPECT_TRUE(cart_.hand.told().empty());
+  EXPECT_EQ(cart_.farthest_m, 0);
 }
 
 TEST_F(EngineLiveGuard, AStepThatDoesNotComeIsAWorldThatIsLost) {

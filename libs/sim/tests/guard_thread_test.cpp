@@ -8,6 +8,7 @@
 
 #include "live_fixture.hpp"
 #include "rave/base/crash_note.hpp"
+#include "rave/base_testing/no_threads.hpp"
 
 namespace rave::sim::testing {
 namespace {
@@ -25,15 +26,18 @@ class Robot {
 
   void begin(GuardSpec limits = {}) {
     publish(0);
+    auto started = GuardThread::start(setup_of(std::move(limits)), "anna");
+    ASSERT_TRUE(started) << started.error().text();
+    guard = *std::move(started);
+  }
+  [[nodiscard]] GuardThread::Setup setup_of(GuardSpec limits) {
     GuardThread::Setup setup;
     setup.limits = std::move(limits);
     setup.pose = {&queue_, ReadingKind::kPose, {}, from_seconds(0.5)};
     setup.actuators = {{&Hand::ops(), &hand, "hand"}};
     setup.clock = &clock_;
     setup.period = from_seconds(0.001);
-    auto started = GuardThread::start(std::move(setup), "anna");
-    ASSERT_TRUE(started) << started.error().text();
-    guard = *std::move(started);
+    return setup;
   }
   void order(const Command& command) {
     GuardOrder& order = guard->next_order();
@@ -60,6 +64,19 @@ GuardSpec watchdog_alone() {
   limits.world_lost = WorldLostPolicy::kIgnore;
   limits.watchdog_s = 0.3;
   return limits;
+}
+
+TEST(GuardThread, WithoutAThreadThereIsNoGuardAndNobodyDrives) {
+  HandClock clock;
+  Robot robot(clock);
+  const base_testing::NoThreads none;
+  const auto started = GuardThread::start(robot.setup_of({}), "anna");
+  ASSERT_FALSE(started);
+  EXPECT_EQ(started.error().code, ErrorCode::kIo);
+  EXPECT_NE(started.error().message.find("cannot start the thread of the guard of robot `anna`"),
+            std::string::npos)
+      << started.error().text();
+  EXPECT_TRUE(robot.hand.told().empty());
 }
 
 TEST(GuardThread, TheWatchdogBitesThoughNoStepComes) {

@@ -59,6 +59,53 @@ std::string gzipped(const std::string& plain) {
   return packed;
 }
 
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
+}
+
+/// Cuts the first element off a list of a header, whose elements `separator` divides.
+std::string_view cut_first(std::string_view& list, char separator) {
+  const std::size_t end = list.find(separator);
+  const std::string_view first = trimmed(list.substr(0, end));
+  list = end == std::string_view::npos ? std::string_view() : list.substr(end + 1);
+  return first;
+}
+
+/// Whether a weight (`q=0.5`) is above zero; without one it is 1.
+bool is_wanted(std::string_view parameters) {
+  while (!parameters.empty()) {
+    const std::string_view one = cut_first(parameters, ';');
+    if (!one.starts_with("q=") && !one.starts_with("Q=")) continue;
+    return one.substr(2).find_first_not_of("0.") != std::string_view::npos;
+  }
+  return true;
+}
+
+/// Whether Accept-Encoding permits gzip (RFC 9110, section 12.5.3).
+bool accepts_gzip(std::string_view accepted) {
+  bool any = false;
+  while (!accepted.empty()) {
+    std::string_view element = cut_first(accepted, ',');
+    const std::string_view coding = cut_first(element, ';');
+    if (coding == "gzip") return is_wanted(element);
+    if (coding == "*") any = is_wanted(element);
+  }
+  return any;
+}
+
+/// Whether If-None-Match names `tag`; its comparison is the weak one (RFC 9110, section 13.1.2).
+bool names_tag(std::string_view known, std::string_view tag) {
+  while (!known.empty()) {
+    std::string_view one = cut_first(known, ',');
+    if (one == "*") return true;
+    if (one.starts_with("W/")) one.remove_prefix(2);
+    if (one == tag) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Result<StaticFiles> StaticFiles::load(const fs::path& folder) {
@@ -78,7 +125,7 @@ Result<StaticFiles> StaticFiles::load(const fs::path& folder) {
     }
     File file;
     file.type = type_of(it->path());
-    file.tag = fmt::format("\"{:016x}\"", content_hash(std::as_bytes(std::span(content))));
+    file.hash = content_hash(std::as_bytes(std::span(content)));
     std::string packed = gzipped(content);
     // Packed once, at the start; a small gain is not worth the work of the browser.
     if (!packed.empty() && packed.size() + 64 < content.size()) {
@@ -95,20 +142,21 @@ Response StaticFiles::serve(const Request& request) const {
   const auto found = files_.find(request.path == "/" ? "/index.html" : request.path);
   if (found == files_.end()) return text_response(404, "not found\n");
   const File& file = found->second;
-  Response response;
-  response.type = file.type;
-  response.headers.emplace_back("ETag", file.tag);
+  const bool packed = file.gzip && accepts_gzip(request.header("accept-encoding"));
+  // Bytes that differ have tags that differ: a cache must not take one for the other.
+  const std::string tag = fmt::format("\"{:016x}{}\"", file.hash, packed ? "-gzip" : "");
   // Names of built files contain a hash of their content, so such a file never changes.
   const bool forever = request.path.starts_with("/assets/") && !request.path.ends_with(".html");
+  Response response;
+  response.type = file.type;
+  response.headers.emplace_back("ETag", tag);
   response.headers.emplace_back("Cache-Control",
                                 forever ? "public, max-age=31536000, immutable" : "no-cache");
-  if (request.header("if-none-match") == file.tag) {
+  if (file.gzip) response.headers.emplace_back("Vary", "Accept-Encoding");
+  if (names_tag(request.header("if-none-match"), tag)) {
     response.status = 304;
     return response;
   }
-  const bool packed =
-      file.gzip && request.header("accept-encoding").find("gzip") != std::string_view::npos;
-  if (file.gzip) response.headers.emplace_back("Vary", "Accept-Encoding");
   if (packed) response.headers.emplace_back("Content-Encoding", "gzip");
   response.body = packed ? file.gzip : file.plain;
   return response;

@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "rave/base/file.hpp"
+#include "rave/base_testing/no_threads.hpp"
 
 namespace rave::web {
 namespace {
@@ -198,6 +199,26 @@ TEST_F(WebServer, EndsWithConnectionsThatSayNothing) {
   char byte = 0;
   EXPECT_LE(::recv(silent, &byte, 1, 0), 0);
   ::close(silent);
+}
+
+TEST(WebServerStart, WithoutAThreadIsAnErrorAndThePortIsFreeAgain) {
+  Echo handler;
+  ServerOptions options;
+  {
+    const auto first = Server::start({}, handler);
+    ASSERT_TRUE(first);
+    options.port = (*first)->port();
+  }
+  {
+    const base_testing::NoThreads none;
+    const auto refused = Server::start(options, handler);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("cannot start the thread of the web server"),
+              std::string::npos)
+        << refused.error().text();
+  }
+  const auto next = Server::start(options, handler);
+  ASSERT_TRUE(next) << next.error().text();
 }
 
 TEST(WebServerStart, TakesTheNextPortWhereOneIsTaken) {

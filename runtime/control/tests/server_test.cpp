@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../src/socket.hpp"
+#include "rave/base_testing/no_threads.hpp"
 #include "rave/control/client.hpp"
 #include "rave/control/folder.hpp"
 
@@ -88,6 +89,21 @@ TEST_F(ServerTest, AsksARunAndLists) {
   EXPECT_NE(find_run("test-1").error().message.find("did you mean `tests-1`"), std::string::npos);
   done_ = true;
   runner.join();
+}
+
+TEST_F(ServerTest, WithoutAThreadThereIsAnErrorAndNoSocket) {
+  runtime::RunControl control;
+  {
+    const base_testing::NoThreads none;
+    const auto server = Server::start("tests-1", control);
+    ASSERT_FALSE(server);
+    EXPECT_NE(server.error().message.find("cannot start the thread of requests of other terminals"),
+              std::string::npos)
+        << server.error().text();
+  }
+  EXPECT_TRUE(fs::is_empty(folder_ / "rave"));
+  EXPECT_EQ(running_runs().value(), std::vector<std::string>());
+  EXPECT_TRUE(Server::start("tests-1", control));
 }
 
 TEST_F(ServerTest, AHostOfARunIsNotTakenForIt) {

@@ -3,6 +3,7 @@
 #include <mutex>
 #include <thread>
 
+#include "rave/base/thread.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
@@ -26,15 +27,16 @@ struct BusEnds {
 class BusLines final : public Lines {
  public:
   BusLines(BusEnds ends, std::string run, RobotsOf robots_of)
-      : ends_(std::move(ends)),
-        run_(std::move(run)),
-        robots_of_(std::move(robots_of)),
-        thread_([this](const std::stop_token& stop) { work(stop); }) {}
+      : ends_(std::move(ends)), run_(std::move(run)), robots_of_(std::move(robots_of)) {}
+  [[nodiscard]] Status start() {
+    return start_thread(thread_, "the addresses of direct lines",
+                        [this](const std::stop_token& stop) { work(stop); });
+  }
   BusLines(const BusLines&) = delete;
   BusLines& operator=(const BusLines&) = delete;
   ~BusLines() override {
     thread_.request_stop();
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
   }
 
   [[nodiscard]] std::string run() const override { return run_; }
@@ -121,7 +123,9 @@ Result<std::unique_ptr<Lines>> lines_on_bus(bus::BusConfig config, RobotsOf robo
   RAVE_TRY(bus::open_all(*ends.bus, ends.infos, ends.withdrawals));
   RAVE_TRY_ASSIGN(ends.waits, bus::WaitSet::create(*ends.bus));
   RAVE_TRY(ends.waits.add(ends.infos));
-  return std::make_unique<BusLines>(std::move(ends), run, std::move(robots_of));
+  auto lines = std::make_unique<BusLines>(std::move(ends), run, std::move(robots_of));
+  RAVE_TRY(lines->start());
+  return std::unique_ptr<Lines>(std::move(lines));
 }
 
 }  // namespace rave::direct_line

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "page_key.hpp"
+#include "rave/base_testing/no_threads.hpp"
 #include "rave/direct_line_testing/page_of_test.hpp"
 #include "rave/web_testing/raw_client.hpp"
 #include "signed_text.hpp"
@@ -111,6 +112,26 @@ TEST_F(LinesOnBus, AWithdrawalEndsALineWithinASecond) {
   lines->withdraw("anna", sign_withdrawal({bus_.run.text(), "anna", 6}, signer_));
   EXPECT_EQ(anna.close_code(), 4403);
   EXPECT_LT(Clock::now() - before, std::chrono::seconds(1));
+}
+
+TEST_F(LinesOnBus, WithoutAThreadThereIsNoLineAndNothingIsAnnounced) {
+  const auto lines = gui();
+  LineOptions options;
+  options.run = bus_.run.text();
+  options.host = "left";
+  options.signer = signer_.open;
+  const auto server = line("left");
+  // The beacon asks for its thread before it opens a bus.
+  const base_testing::NoThreads none;
+  const auto started = LineServer::start(options, control_);
+  ASSERT_FALSE(started);
+  EXPECT_NE(started.error().message.find("cannot start the thread of the web server"),
+            std::string::npos);
+  const auto told = LineBeacon::start(bus_, "left", *server, control_, log_);
+  ASSERT_FALSE(told);
+  EXPECT_NE(told.error().message.find("cannot start the thread of the direct line"),
+            std::string::npos);
+  EXPECT_TRUE(lines->hosts().empty());
 }
 
 TEST_F(LinesOnBus, AHostThatComesLaterKnowsWhatWasWithdrawn) {

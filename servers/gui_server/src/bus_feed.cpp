@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "hosts_json.hpp"
+#include "rave/base/thread.hpp"
 #include "scene_json.hpp"
 
 namespace rave::gui_server {
@@ -97,8 +98,12 @@ BusFeed::BusFeed(std::unique_ptr<watch::Observer> observer, onlook::Listener lis
       listener_(std::move(listener)),
       box_(std::move(box)),
       world_(std::move(world)),
-      on_over_(std::move(on_over)),
-      thread_([this](const std::stop_token& stop) { work(stop); }) {}
+      on_over_(std::move(on_over)) {}
+
+Status BusFeed::start() {
+  return start_thread(thread_, "the page's feed",
+                      [this](const std::stop_token& stop) { work(stop); });
+}
 
 void BusFeed::work(const std::stop_token& stop) {
   while (!stop.stop_requested()) {

@@ -33,6 +33,8 @@ class BusFeed {
   /// `listener`: on the bus of the observer. `on_over` may be empty.
   BusFeed(std::unique_ptr<watch::Observer> observer, onlook::Listener listener,
           std::shared_ptr<LiveBox> box, World world, OnOver on_over);
+  /// Once. Error kIo: the system grants no thread.
+  [[nodiscard]] Status start();
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -43,9 +43,9 @@ Result<std::unique_ptr<BusPort>> BusPort::open(std::unique_ptr<control::BusRun> 
   BusPort* const self = port.get();
   RAVE_TRY_ASSIGN(port->commands_,
                   control::CommandSender::open(config, robots, [self] { self->stir(); }));
-  RAVE_TRY(start_thread(port->thread_, "the requests of the page",
+  RAVE_TRY(start_thread(port->thread_, "requests of pages",
                         [self](const std::stop_token& stop) { self->work(stop); }));
-  RAVE_TRY(start_thread(port->watcher_, "the states of the robots",
+  RAVE_TRY(start_thread(port->watcher_, "the status of robots",
                         [self](const std::stop_token& stop) { self->watch(stop); }));
   return port;
 }

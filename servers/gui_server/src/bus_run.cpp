@@ -33,6 +33,7 @@ class BusSource final : public LiveSource {
       : LiveSource(std::move(start), box, std::move(port)),
         feed_(std::move(observer), std::move(listener), box, std::move(world), std::move(on_over)) {
   }
+  [[nodiscard]] Status start_feed() { return feed_.start(); }
 
  private:
   BusFeed feed_;
@@ -137,9 +138,11 @@ Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenar
   }
   // Who manages the run serves its page: without this process there is no run either.
   if (managed) start.about.relay = true;
-  return std::make_shared<BusSource>(std::move(start), std::make_shared<LiveBox>(), std::move(port),
-                                     std::move(observer), std::move(listener),
-                                     world_of(scenario, built), replays(std::move(on_over)));
+  auto source = std::make_shared<BusSource>(
+      std::move(start), std::make_shared<LiveBox>(), std::move(port), std::move(observer),
+      std::move(listener), world_of(scenario, built), replays(std::move(on_over)));
+  RAVE_TRY(source->start_feed());
+  return source;
 }
 
 }  // namespace rave::gui_server

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slow_work.hpp"
 
+#include "rave/base/thread.hpp"
+
 namespace rave::gui_server {
 
 namespace {
 constexpr std::size_t kMostWaiting = 16;
 }
 
-SlowWork::SlowWork() : thread_([this] { run(); }) {}
-
 bool SlowWork::post(std::function<void()> call) {
   {
     const std::lock_guard lock(mutex_);
     if (ends_ || calls_.size() >= kMostWaiting) return false;
+    if (!thread_.joinable() && !start_thread(thread_, "slow work", [this] { run(); })) return false;
     calls_.push_back(std::move(call));
   }
   wake_.notify_one();

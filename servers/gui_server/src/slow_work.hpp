@@ -13,12 +13,13 @@ namespace rave::gui_server {
 /// refused, so that they cannot pile up. Destruction drops those that have not begun.
 class SlowWork {
  public:
-  SlowWork();
+  SlowWork() = default;
   SlowWork(const SlowWork&) = delete;
   SlowWork& operator=(const SlowWork&) = delete;
   ~SlowWork() { stop(); }
 
-  /// False: too many wait. Any thread.
+  /// The first call starts the thread. False: too many wait, or the system grants no thread; the
+  /// next call tries again. Any thread.
   [[nodiscard]] bool post(std::function<void()> call);
   /// Ends the thread after the call that it is at. Idempotent.
   void stop();

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "carmen/log.hpp"
+#include "rave/base_testing/no_threads.hpp"
 #include "recording/tests/played.hpp"
 
 namespace rave::carmen {
@@ -153,6 +154,20 @@ TEST(CarmenPlayers, ReportWhatTheyMended) {
   bool junk = false;
   for (const auto& repair : report["repairs"]) junk = junk || repair["what"] == "junk_stamp";
   EXPECT_TRUE(junk);
+}
+
+TEST(CarmenPlayers, WithoutAThreadIsAnErrorAndPlayLater) {
+  Player player("carmen_odometry");
+  ASSERT_EQ(player.configure(kLog, kFolder), "");
+  RecordingSink<OdometryReading> sink(10);
+  {
+    const base_testing::NoThreads none;
+    EXPECT_EQ(player.open(sink).find("cannot start the thread of the player: "), 0U);
+  }
+  ASSERT_EQ(player.open(sink), "");
+  sink.await_blocked();
+  sink.close();
+  player.close();
 }
 
 TEST(CarmenPlayers, NameWhatIsNotThere) {

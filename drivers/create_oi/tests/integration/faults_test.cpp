@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "create_bench.hpp"
+#include "rave/base_testing/no_threads.hpp"
 
 namespace rave::oi {
 namespace {
@@ -33,6 +34,21 @@ TEST(CreateFaults, GarbledFramesAreDropped) { EXPECT_GT(dropped(drive_with("garb
 TEST(CreateFaults, RepeatedBytesDoNotCountTwice) { (void)drive_with("repeat"); }
 TEST(CreateFaults, FramesThatPauseInTheMiddleAreWhole) {
   EXPECT_EQ(drive_with("delay")["bad_checksum"], 0);
+}
+
+TEST(CreateFaults, WithoutAThreadTheRobotIsNotOpenedAndStands) {
+  CreateBench bench;
+  ASSERT_EQ(bench.device.configure(bench.given, bench.host()), "");
+  ASSERT_EQ(bench.drive.open({}, bench.device.base()), "");
+  {
+    const base_testing::NoThreads none;
+    EXPECT_EQ(bench.device.open().find("cannot start the thread of the robot: "), 0U);
+    (void)bench.drive.write(velocity_command(0.2, 0));
+  }
+  const nlohmann::json now = bench.state();
+  EXPECT_EQ(now["left_mps"], 0);
+  EXPECT_EQ(now["right_mps"], 0);
+  ASSERT_NO_FATAL_FAILURE(bench.start());
 }
 
 TEST(CreateFaults, CommandsThatAreTornDoNotLastBecauseTheyAreRepeated) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "rave/base_testing/no_threads.hpp"
 #include "ros2_bench.hpp"
 
 namespace rave::ros2_driver {
@@ -27,6 +28,18 @@ TEST(Ros2Errors, WhoIsNotThereIsLookedForAndNamed) {
   EXPECT_EQ(tf.configure({{"base_frame", "gripper"}}, bench.device.base()),
             "`/tf` has no pose of the robot: no transform leads from `map` to `gripper`: `gripper` "
             "has no parent");
+}
+
+TEST(Ros2Errors, WithoutAThreadTheRobotIsNotOpenedAndLaterItIs) {
+  Ros2Bench bench;
+  ASSERT_EQ(bench.device.configure(bench.given, bench.host()), "");
+  {
+    const base_testing::NoThreads none;
+    EXPECT_EQ(bench.device.open().find("cannot start the thread of the robot: "), 0U);
+  }
+  ASSERT_EQ(bench.odometry.configure({}, bench.device.base()), "");
+  ASSERT_EQ(bench.laser.configure({}, bench.device.base()), "");
+  ASSERT_NO_FATAL_FAILURE(bench.open());
 }
 
 TEST(Ros2Errors, SatelliteNavigationNeedsAPlaceOfTheWorldAndAFix) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "laser_bench.hpp"
+#include "rave/base_testing/no_threads.hpp"
 
 namespace rave::scip {
 namespace {
@@ -23,6 +24,19 @@ TEST(ScipLaserErrors, ParametersThatDoNotFit) {
   bench.given["last_step"] = 726.0;
   EXPECT_EQ(bench.driver.configure(bench.given),
             "`first_step` 44 and `last_step` 726 do not lie within the device's 44 to 725");
+}
+
+TEST(ScipLaserErrors, WithoutAThreadItDoesNotOpenAndLaterItDoes) {
+  LaserBench bench;
+  ASSERT_EQ(bench.driver.configure(bench.given), "");
+  testing::LiveSink<float> sink(ReadingKind::kRanges, bench.driver.declaration().capacity);
+  {
+    const base_testing::NoThreads none;
+    EXPECT_EQ(bench.driver.open(sink).find("cannot start the thread of the laser: "), 0U);
+  }
+  ASSERT_EQ(bench.driver.open(sink), "");
+  sink.await_more(1);
+  bench.driver.close();
 }
 
 TEST(ScipLaserErrors, OpenedTooEarly) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <sstream>
 
+#include "rave/base_testing/no_threads.hpp"
 #include "rave/live_testing/live_driver.hpp"
 #include "rave/live_testing/live_sink.hpp"
 
@@ -150,6 +151,18 @@ TEST(UdpPose, SilenceIsReportedAndEnds) {
   bench.sink.await_more(20);
   bench.driver.close();
   EXPECT_EQ(bench.driver.report()["restarts"], 1);
+}
+
+TEST(UdpPose, WithoutAThreadIsAnErrorAndOpensLater) {
+  testing::LiveDriver driver("udp_pose");
+  testing::LiveSink<PoseReading> sink(ReadingKind::kPose, 1);
+  ASSERT_EQ(driver.configure({{"body", "robot"}, {"port", 0.0}}), "");
+  {
+    const base_testing::NoThreads none;
+    EXPECT_EQ(driver.open(sink).find("cannot start the thread of the pose stream: "), 0U);
+  }
+  EXPECT_EQ(driver.open(sink), "");
+  driver.close();
 }
 
 TEST(UdpPose, SaysWhatIsWrong) {

@@ -18,7 +18,7 @@ class CommandSender {
  public:
   /// `config.run` must be the id of the run. `robots`: the names of all, by id. `answered` is
   /// called after each answer, in a thread of the sender, and may be empty. Errors: those of
-  /// bus::Bus::open(), kState (no thread could be started).
+  /// bus::Bus::open(), kIo (the system grants no thread).
   [[nodiscard]] static Result<std::unique_ptr<CommandSender>> open(
       bus::BusConfig config, const std::vector<std::string>& robots,
       std::function<void()> answered = {});

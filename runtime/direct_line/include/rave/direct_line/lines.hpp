@@ -38,7 +38,8 @@ class Lines {
 
 /// The lines of a run on a bus, in a thread of its own: hosts announce them on `rave/line` and
 /// receive withdrawals on `rave/withdrawal`. `robots_of` returns the robots of a host by its name,
-/// empty for an unknown host; it is called in that thread. Errors: those of bus::Bus::open().
+/// empty for an unknown host; it is called in that thread. Errors: those of bus::Bus::open();
+/// kIo if the system grants no thread.
 [[nodiscard]] Result<std::unique_ptr<Lines>> lines_on_bus(
     bus::BusConfig bus, std::function<std::vector<std::string>(const std::string&)> robots_of);
 

@@ -45,6 +45,7 @@ EditCommand chosen_edit(const std::string& name, EditCommand edit) {
 }
 
 Command chosen_command(const CLI::App& root, const Everything& all) {
+  // CLI11 fills the structures of all subcommands; the chosen one is copied out of them here.
   const std::string name = root.get_subcommands().front()->get_name();
   if (name == "run") return all.runs.run;
   if (name == "robot") return all.runs.robot;

@@ -52,7 +52,7 @@ Result<bus::BusConfig> read_bus_options(const BusOptions& options, std::string p
 }
 
 void make_room(bus::BusConfig& config, std::size_t hosts, bus::Reach reach) {
-  // The manager, and those who look on.
+  // The manager, and monitors such as `rave top`: each of them is a participant, too.
   constexpr std::size_t kOthers = 14;
   constexpr std::size_t kMost = bus::BusConfig::kMostPlain;
   const bool crowd = hosts + kOthers > static_cast<std::size_t>(config.max_processes);

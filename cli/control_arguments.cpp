@@ -55,6 +55,7 @@ void add_arm(CLI::App& root, ArmCommand& c) {
 
 void add_set(CLI::App& root, SetCommand& c) {
   CLI::App& app = *root.add_subcommand("set", "Change a parameter of a robot during a run");
+  // One list of words: CLI11 has no optional positional before required ones.
   add_word(app, "words", c.words, "[RUN] ROBOT KEY VALUE", "WORD")->expected(3, 4);
   add_network_options(app, c.bus);
   app.footer(
@@ -158,9 +159,11 @@ void add_orders(CLI::App& root, ControlCommands& commands) {
   add_word(place, "robot", commands.place.robot, "Name of the robot", "ROBOT");
   add_word(place, "pose", commands.place.numbers, "Pose in the world frame, in metres and degrees",
            "X Y [YAW]")
+      // The heading may be left out; the robot then keeps the one that it has.
       ->expected(2, 3);
   add_order(place, commands.place);
   place.footer("Examples:\n  rave place prey 1.5 -2 90");
+  // Four commands share one structure, and this says which of them was given.
   commands.drive.what = OrderCommand::What::kDrive;
   commands.goal.what = OrderCommand::What::kGoal;
   commands.say.what = OrderCommand::What::kSay;
@@ -178,6 +181,7 @@ void add_place(CLI::App& app, std::string& at) {
 void add_edit(CLI::App& root, EditCommand& c) {
   CLI::App& app = *root.add_subcommand("edit", "Add, move and remove obstacles during a run");
   add_run_name(app, c.run);
+  // The name of the run is an argument of `edit` itself, so it stands before the subcommand.
   app.require_subcommand(1);
   CLI::App& add = *app.add_subcommand("add", "Add an obstacle");
   add_word(add, "shape", c.shape, "box, disc or polygon", "SHAPE")

@@ -53,6 +53,7 @@ void keep_what_can_be_drawn(const InputFile& input, runtime::BuiltScenario& buil
     // A real robot would wait for its pose source; here it stands where the file puts it.
     type.simulated = true;
   }
+  // One step of a few robots: a pool of threads would take longer to start.
   spec.threads = 1;
   spec.history = {};
   spec.live_clock = nullptr;
@@ -76,6 +77,7 @@ void add_rays(const sim::Engine& engine, RobotId robot, std::uint32_t index, Pic
   const Pose2 X_WS = compose(engine.true_pose(robot), info.X_RS);
   const auto* const ranges_m = static_cast<const float*>(sample.records);
   for (std::uint32_t i = 0; i < sample.header->count; ++i) {
+    // No return is +infinity: the ray is drawn to the end of the range.
     const double range_m = std::min(static_cast<double>(ranges_m[i]), info.range_max_m);
     report::PictureHit hit{X_WS.position(), {}, std::nullopt};
     hit.to_W = transform(X_WS, range_m * rotate(info.bearings_rad[i], {1, 0}));
@@ -96,6 +98,7 @@ Status add_robots(sim::EngineSpec spec, Picture& picture) {
     return counts;
   }();
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(spec)));
+  // Sensors read in a step; before the first one they have no sample.
   RAVE_TRY(engine->step());
   const world::WorldModel& world = engine->spec().world;
   for (std::uint32_t r = 0; r < world.robots.size(); ++r) {
@@ -132,6 +135,7 @@ Result<Picture> draw_world(const InputFile& input, runtime::BuiltScenario built)
     for (const world::Shape& shape : obstacle.body.shapes) {
       picture.bodies.push_back({outline_of(shape, obstacle.X_WB), kind_of(obstacle.body),
                                 std::move(label), obstacle.body.colour});
+      // A body of several shapes has its name once.
       label.clear();
     }
   }

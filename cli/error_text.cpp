@@ -52,6 +52,7 @@ std::string excerpt(const SourceLocation& where, const Terminal& terminal) {
   if (!line) return {};
   std::size_t column = static_cast<std::size_t>(std::max(where.column, 1)) - 1;
   column = std::min(column, line->size());
+  // A long line, such as a generated one, is cut on both sides so that the column stays in sight.
   if (column > kWidestLine / 2 && line->size() > kWidestLine) {
     std::size_t cut = column - kWidestLine / 2;
     while (cut < column && is_continuation((*line)[cut])) ++cut;
@@ -65,6 +66,8 @@ std::string excerpt(const SourceLocation& where, const Terminal& terminal) {
   }
   std::string blank;
   for (std::size_t i = 0; i < column; ++i) {
+    // Tabs stay tabs, so that the caret stands below its column whatever the width of a tab. A
+    // character of several bytes takes one blank.
     if ((*line)[i] == '\t') {
       blank += '\t';
     } else if (!is_continuation((*line)[i])) {
@@ -79,6 +82,7 @@ std::string excerpt(const SourceLocation& where, const Terminal& terminal) {
 }  // namespace
 
 PlacedMessage parse_message(std::string_view line) {
+  // The first colon that is followed by a number ends the name of the file: names may have colons.
   for (std::size_t colon = line.find(':'); colon != std::string_view::npos && colon > 0;
        colon = line.find(':', colon + 1)) {
     std::string_view rest = line.substr(colon + 1);

@@ -58,6 +58,7 @@ Result<std::filesystem::path> key_place(const LineArguments& arguments, const bu
 Result<LinePlace> parse_line_place(const std::string& text) {
   LinePlace place;
   if (text.empty()) return place;
+  // Digits alone are a port: `--web 8090`.
   const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
   const std::size_t bracket = text.rfind(']');
   const std::size_t colon = text.rfind(':');
@@ -91,6 +92,7 @@ Result<HostLineEnds> open_host_line(const LineArguments& arguments, const std::s
   options.run = bus.run.text();
   options.host = host;
   RAVE_TRY_ASSIGN(ends.server, direct_line::LineServer::start(options, control));
+  // After the server: the beacon announces the port that the system chose for it.
   RAVE_TRY_ASSIGN(ends.beacon,
                   direct_line::LineBeacon::start(bus, host, *ends.server, control, log));
   return ends;

@@ -86,6 +86,7 @@ manager::RunOptions options_of(const ManagedRun& run, std::vector<config::Planne
 /// What processes of hosts have sent goes to the host that it is of.
 void take_host_results(std::vector<lock_step::HostResults> host_results, ManagedEnd& end) {
   for (lock_step::HostResults& sent : host_results) {
+    // The number comes from another process.
     if (sent.host >= end.end.hosts.size()) continue;
     end.end.hosts[sent.host].results.push_back(std::move(sent.bytes));
   }
@@ -98,6 +99,7 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, runtime::BuiltScenario bu
   for (const config::PlannedHost& host : hosts) end.end.hosts.emplace_back().name = host.name;
   const config::ScenarioFile& file = run.scenario.scenario;
   manager::ManagerOptions how{options_of(run, std::move(hosts), false)};
+  // Rounded: 0.3 / 0.1 is a little less than 3.
   how.steps = static_cast<std::uint64_t>(std::llround(file.duration_s / file.step_s.value));
   how.on_lost_host = file.on_lost_host;
   how.pace = file.pace.is_max() ? 0 : file.pace.factor;

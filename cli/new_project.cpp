@@ -35,6 +35,7 @@ bool is_snake_case(std::string_view name) {
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
   for (std::size_t at = text.find(from); at != std::string::npos;
        at = text.find(from, at + to.size())) {
+    // Searching continues behind what was put in, so a name with the pattern in it cannot loop.
     text.replace(at, from.size(), to);
   }
 }

@@ -53,6 +53,7 @@ class Playing {
       RAVE_TRY_ASSIGN(RawNode entry, robot_entry(*robot));
       robots.push_back(std::move(entry));
     }
+    // After the robots: only then it is known which sensors were found in any of them.
     RAVE_TRY(check_anew());
     if (!arguments_.world) {
       std::string note = seen_.put_on_layer(original_.world);
@@ -90,11 +91,13 @@ class Playing {
     const config::RobotGroup& group = original_.group_of(expanded);
     config::RobotFile robot = group.robot;
     RAVE_TRY_ASSIGN(const auto track, record::read_poses(reader_, recorded.id));
+    // Before place(), which may add a sensor of its own that no recording describes.
     RAVE_TRY(replace_sensors(recorded, robot));
     const auto pose = place(recorded, expanded, track, robot);
     replace_actuators(recorded, robot);
     leave_out_devices(recorded, robot);
     replace_program(robot);
+    // Their values were put in when the scenario was expanded.
     robot.variables.clear();
     const fs::path file = fs::path("robots") / (recorded.name + ".yaml");
     played_.files.push_back({file, config::write_robot(robot)});
@@ -207,6 +210,7 @@ class Playing {
     for (const record::PoseTrackPoint& point : track) {
       const auto& known = point.true_pose ? point.true_pose : point.reported_pose;
       if (!origin && known) origin = in_degrees(*known);
+      // The newest pose up to the start, or the first one if there is none before it.
       if (point.reported_pose && (!start || point.time.seconds() <= arguments_.start_s)) {
         start = in_degrees(*point.reported_pose);
       }
@@ -231,6 +235,7 @@ class Playing {
     std::string name = "reported_pose";
     while (
         std::ranges::any_of(robot.sensors, [&](const auto& s) { return s.name.value == name; })) {
+      // The recorded robot may have a sensor of that name.
       name += "_";
     }
     config::SensorFile sensor;
@@ -299,8 +304,10 @@ class Playing {
     const double step_s = original_.scenario.step_s.value;
     const auto end = record::read_run_end(reader_);
     const auto last_s = static_cast<double>(reader_.statistics().end_ns) * 1e-9;
+    // A recording that broke off has no end; its last message says how far it goes.
     const double steps = end ? static_cast<double>(end->steps) : std::floor(last_s / step_s) + 1;
     const double duration_s = steps * step_s - arguments_.start_s;
+    // Written so that NaN is refused, too.
     if (!(duration_s >= step_s)) {
       return fail(ErrorCode::kInvalidArgument,
                   "the recording is {} s long; expected an earlier start than {} s", steps * step_s,
@@ -313,6 +320,7 @@ class Playing {
     const std::string world =
         arguments_.world ? path_from("", *arguments_.world) : std::string("world.yaml");
     root.append("world", RawNode::text(world));
+    // To nanoseconds, the resolution of times: the file shows 12.3 and not 12.299999999999999.
     root.append("duration_s", RawNode::number(std::round(duration_s * 1e9) / 1e9));
     root.append("step_s", RawNode::number(step_s));
     root.append("seed", RawNode::unsigned_integer(run_.seed));

@@ -42,6 +42,7 @@ void add_field_of_view(const plugin::ParamSet& params, Look& look) {
     if (name == "range_max_m") look.range_max_m = value.number;
     if (name == "range_min_m") look.range_min_m = value.number;
   }
+  // One edge alone says nothing about the field.
   if (found != 2) return;
   constexpr int kSteps = 32;
   for (int i = 0; i <= kSteps; ++i) {
@@ -67,6 +68,8 @@ std::vector<Look> looks_of(const sim::EngineSpec& spec) {
 /// What virtual range sensors say of themselves once they are made.
 Status add_rays(sim::EngineSpec spec, std::vector<Look>& looks) {
   sim::RobotType& type = spec.types[0];
+  // Rays are known only to a sensor that was made, and only virtual sensors can be made without a
+  // device. An engine with just these gives them the same start as a run.
   for (sim::SensorSpec& sensor : type.sensors) sensor = sim::virtual_half_of(std::move(sensor));
   std::erase_if(type.sensors, [](const auto& sensor) { return sensor.virtual_ops == nullptr; });
   type.actuators.clear();
@@ -78,6 +81,7 @@ Status add_rays(sim::EngineSpec spec, std::vector<Look>& looks) {
   std::uint32_t s = 0;
   for (Look& look : looks) {
     if (!look.is_virtual) continue;
+    // `s` counts the sensors that were left in the engine, which keep their order.
     const SensorInfo& info = *engine->sensor(RobotId(0), s++).info;
     if (info.kind != ReadingKind::kRanges || info.bearings_rad == nullptr) continue;
     look.bearings_rad.assign(info.bearings_rad, info.bearings_rad + info.capacity);
@@ -125,6 +129,7 @@ void add_sensor(const Look& look, const Pose2& X_WR, double body_m, double scale
   // distance too small to see.
   X_WS.x += 1e-6 * body_m * static_cast<double>(index);
   const Vec2 from_W = X_WS.position();
+  // A mark of 6 % of the body: visible on robots of any size.
   picture.instant->robots.push_back({disc_outline(from_W, 0.06 * body_m), X_WS, Kind::kSensor,
                                      look.name, std::string(report::robot_colour(index))});
   for (const double direction_rad : directions_of(look)) {

@@ -14,6 +14,7 @@ Result<bus::BusConfig> bus_of_run(const BusOptions& options, const std::string& 
                                   const config::ExpandedScenario& scenario, bus::Reach reach) {
   RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
   RAVE_TRY_ASSIGN(auto bus, bus_config(options, participant, runtime::shared_number(scenario)));
+  // Runs of many hosts need a higher limit of participants than the default.
   make_room(bus, hosts.size(), reach);
   return bus;
 }
@@ -24,11 +25,13 @@ RunStart::RunStart(RunFolder folder, bool quiet)
 Result<std::unique_ptr<RunStart>> RunStart::open(const RunCommand& options, std::string_view name) {
   RAVE_TRY_ASSIGN(auto folder, RunFolder::create(wanted_folder(options), name));
   std::unique_ptr<RunStart> start(new RunStart(std::move(folder), options.quiet));
+  // As soon as there is a folder, so that all later messages are in the file, too.
   RAVE_TRY(start->console_.open_file(start->path() / "console.log"));
   return start;
 }
 
 void RunStart::serve(const std::string& run_name, std::string_view source, std::string_view what) {
+  // A run without a control socket is still a run: the failure is a warning.
   auto server = control::Server::start(run_name, control_);
   if (server) {
     server_ = *std::move(server);

@@ -50,6 +50,7 @@ class Crew {
       if (*code == kGood) continue;
       console_.warn("run", "the process of host `{}` exited with {}", member.name,
                     *code < 0 ? fmt::format("signal {}", -*code) : fmt::format("code {}", *code));
+      // Limited: a host that dies at once, as for a missing plug-in, would be started for ever.
       if (!restarts_ || member.starts >= kMostStarts) continue;
       if (auto started = start(member); !started) {
         console_.error("run", "host `{}` could not be restarted: {}", member.name,
@@ -120,9 +121,11 @@ class Crew {
 
   Status start(Member& member) {
     ++member.starts;
+    // Each start has a folder of its own: what an earlier one recorded is a part of the results.
     member.folders.push_back(
         folder_ / "hosts" /
         (member.starts == 1 ? member.name : fmt::format("{}-{}", member.name, member.starts)));
+    // The program of this build, not the one that PATH finds: versions of processes must be equal.
     std::vector<std::string> words = {(executable_folder() / "rave").string(),
                                       "robot",
                                       (folder_ / "scenario.yaml").string(),

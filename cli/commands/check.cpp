@@ -126,8 +126,10 @@ class Checker {
     auto built = runtime::build(input->scenario, catalogue_, build_options);
     if (!built) {
       const Error first = built.error();
+      // A build ends at its first error. This looks for all of them, part by part.
       std::vector<Error> errors =
           build_errors(std::move(input->scenario), catalogue_, build_options);
+      // An error that no part shows by itself, as between two parts.
       if (errors.empty()) errors.push_back(first);
       for (const Error& error : errors) complain_about(error);
       return verdict(file, to_string(*kind));

@@ -85,6 +85,7 @@ int ask_controllers(const AskedRun& run, const Request& request, bool sure) {
   const auto controllers = run.controllers(sure);
   if (!controllers) return complain(controllers.error());
   std::vector<Reply> replies = ask_all(*controllers, request);
+  // In lock-step the manager stops all robots itself. In real time each host stops its own.
   const bool hosts = controllers->front().name() != run.name();
   if (hosts && robots_of(*controllers) != robots_of({run})) {
     replies.push_back({run.name(), run.ask(request)});
@@ -103,6 +104,7 @@ std::string pace_text(const runtime::RunStatus& status) {
 }
 
 std::string state_text(const runtime::RunStatus::Robot& robot) {
+  // A stop first: it also holds for a robot that is not armed, and is released separately.
   std::string text = robot.stopped ? "stopped" : robot.armed ? "free" : "not armed";
   if (robot.hand_over) {
     const auto& hand_over = *robot.hand_over;
@@ -243,12 +245,14 @@ int arm_robots(const ArmCommand& options) {
   if (!run) return complain(run.error());
   if (options.release) {
     const Request release = request_of({RunKind::kRelease, options.robot});
+    // Release first: if it fails, nothing is armed.
     if (const int code = ask_controllers(*run, release, true); code != kGood) return code;
   }
   return ask_controllers(*run, request_of({RunKind::kArm, options.robot}), true);
 }
 
 int set_parameter(const SetCommand& options) {
+  // Four words: the first is the run.
   const std::size_t first = options.words.size() == 4 ? 1 : 0;
   Request request = request_of({RunKind::kSet, options.words[first]});
   request.run.key = options.words[first + 1];

@@ -22,6 +22,7 @@ std::vector<double> numbers_in(std::string_view word, char mark) {
   while (true) {
     const std::string_view part = word.substr(0, word.find(mark));
     double number = 0;
+    // from_chars() does not depend on the locale: 0.5 is read alike everywhere.
     const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
     if (error != std::errc{} || end != part.data() + part.size()) return {};
     numbers.push_back(number);

@@ -37,6 +37,7 @@ class CsvFile {
   }
   /// Errors: kIo, as for a disk that is full.
   Status close() {
+    // The buffer is written here at last, so a full disk often shows only now.
     const bool bad = std::fflush(file_.get()) != 0 || std::ferror(file_.get()) != 0;
     if (bad) return fail(ErrorCode::kIo, "cannot write the output: {}", std::strerror(errno));
     return {};

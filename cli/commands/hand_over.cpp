@@ -117,6 +117,8 @@ int await(const AskedRun& run, const std::string& robot, const RunStatus::HandOv
     misses = 0;
     const auto now = hand_over_of(answer->status, robot);
     if (!now) return refused(run, "the run ended before the robot was handed over");
+    // The process counts hand-overs. A change of a counter, not the present drivers, says that this
+    // one is done: another request may have come before.
     if (now->made != before.made) {
       put(stdout, fmt::format("{}: {}: {}\n", run.name(), robot, now->last));
       return kGood;
@@ -165,6 +167,7 @@ int hand_over(const HandOverCommand& options) {
   if (!run) return complain(run.error());
   const auto status = run->status();
   if (!status) return complain(status.error());
+  // Before the request, or a fast hand-over would be missed.
   const auto before = hand_over_of(*status, options.robot).value_or(RunStatus::HandOver{});
   Request request = request_of({RunKind::kHandOver, options.robot});
   request.run.value = options.to;

@@ -35,7 +35,7 @@ Result<PlayedScenario> make(const PlayCommand& options) {
   return played_scenario(arguments, *catalogue);
 }
 
-/// The record that is played is still read while the run goes.
+/// The recording is read throughout the run, so `--replace` must not remove it.
 Status keeps_its_record(const PlayCommand& options) {
   if (!options.run.replace || options.run.output.empty()) return {};
   RAVE_TRY_ASSIGN(const fs::path record, record_file(options.file));

@@ -4,8 +4,9 @@
 
 The phrases stand in a table of docs/glossary.md: what is not written, what is written instead, and
 where: `pages` are all Markdown files, `sources` are also the texts in C++ and TypeScript, `messages`
-are only the texts of MESSAGE_FOLDERS, `comments` are the comments of the same folders. Code in
-pages does not count, nor do the change log and the pages that are generated from sources.
+are only the texts of MESSAGE_FOLDERS, `comments` are the comments of the same folders, of IDL files
+and of YAML files, and the descriptions in the schema of the page's messages. Code in pages does not
+count, nor do the change log and the pages that are generated from sources.
 """
 import re
 
@@ -23,10 +24,15 @@ CODE = re.compile(r"^(```|~~~).*?^\1[^\n]*$|`[^`\n]*`|(?<=\n\n)(?: {4}[^\n]*\n)+
 TEXT = re.compile(r'"(?:\\.|[^"\\\n])*"(?:\s*"(?:\\.|[^"\\\n])*")*')
 SCRIPT_TEXT = re.compile(r"'(?:\\.|[^'\\\n])*'|\"(?:\\.|[^\"\\\n])*\"|`(?:\\.|[^`\\])*`")
 COMMENT = re.compile(r"(?<![:\"'`\w])//[^\n]*(?:\n\s*//[^\n]*)*|/\*.*?\*/", re.DOTALL)
-COMMENT_SIGN = re.compile(r"\n\s*(?://[/!]?|\*)")
+YAML_COMMENT = re.compile(r"(?<![^\s])#[^\n]*(?:\n\s*#[^\n]*)*")
+DESCRIPTION = re.compile(r'(?<="description": )"(?:\\.|[^"\\\n])*"')
+COMMENT_SIGN = re.compile(r"\n\s*(?://[/!]?|\*|#)")
 # Made from schemas/gui by tools/gui_types.py.
 GENERATED = ("web/protocol/messages.ts",)
 MESSAGE_FOLDERS = ("cli/", "drivers/", "libs/", "ops/", "programs/", "runtime/", "servers/", "web/")
+# The files of configuration that are shipped, and the schema that the page's types are made from.
+YAML_FOLDERS = ("robots/", "scenarios/", "share/templates/", "worlds/")
+MESSAGES_SCHEMA = "schemas/gui/messages.schema.json"
 SCRIPT_FOLDERS = ("web/app/", "web/model/", "web/panels/", "web/panel_api/")
 
 
@@ -74,13 +80,16 @@ def texts_of(tree, name):
 
 def comments_of(tree, name):
     """(offset, text) of each comment; the lines of a block are one, and keep their length."""
-    for match in COMMENT.finditer(tree.read(name)):
+    pattern = YAML_COMMENT if name.endswith(".yaml") else DESCRIPTION if name.endswith(".json") else COMMENT
+    for match in pattern.finditer(tree.read(name)):
         yield match.start(), COMMENT_SIGN.sub(lambda sign: "\n" + " " * (len(sign.group(0)) - 1),
                                               match.group(0))
 
 
 def commented_sources(tree):
     for name in tree.files:
+        if name.endswith(".idl") or name == MESSAGES_SCHEMA or name.endswith(".yaml") and name.startswith(YAML_FOLDERS):
+            yield name
         if not name.startswith(MESSAGE_FOLDERS) or name.startswith(("web/e2e/", *GENERATED)):
             continue
         if name in tree.sources or name.endswith(".ts"):
@@ -157,6 +166,8 @@ CLEAN = {
     "libs/sim/a.cpp": "int a;  // it goes, on\n",
     "libs/sim/tests/a.cpp": "// it goes on\n",
     "web/app/b.ts": "const a = 'goes on';\n",
+    "robots/a.yaml": "title: a#goes on\n",
+    MESSAGES_SCHEMA: '{"title": "goes on"}\n',
     "cli/tests/a_test.cpp": 'auto a = "how they fare";\n',
     "web/app/a.ts": "// how they fare\nconst a = 'welfare';\n",
     "docs/explanation/a.md": "word " * MOST_WORDS + "\n",
@@ -171,6 +182,10 @@ BREACHES = [
     ("libs/sim/b.cpp:3: a comment says `goes on`",
      {GLOSSARY: WORDS, "libs/sim/b.cpp": "int a;\n// The run\n// goes\n/// on.\n"}),
     ("web/app/b.ts:2: a comment says `goes on`", {GLOSSARY: WORDS, "web/app/b.ts": "/** A run\n * goes on. */\n"}),
+    ("robots/a.yaml:2: a comment says `goes on`", {GLOSSARY: WORDS, "robots/a.yaml": "a: 1  # A run\n# goes on.\n"}),
+    ("schemas/idl/a.idl:1: a comment says `goes on`", {GLOSSARY: WORDS, "schemas/idl/a.idl": "/// It goes on.\n"}),
+    (f"{MESSAGES_SCHEMA}:1: a comment says `goes on`",
+     {GLOSSARY: WORDS, MESSAGES_SCHEMA: '{"description": "It goes on."}\n'}),
     ("there is no table", {GLOSSARY: "# G\n"}),
     ("1501 words", {"docs/explanation/a.md": "word " * (MOST_WORDS + 1)}),
 ]

@@ -15,9 +15,10 @@ constexpr std::array<const char*, 2> kVelocities{"recorded", "from_poses"};
 constexpr auto kParams = recording::join_params(
     kLogParams,
     std::array<ParamSpec, 1>{
-        choice_param("velocity", "recorded", kVelocities,
-                     "Velocities as logged, or, for a corrected log, which has none, the slope of "
-                     "the poses of the scans within 0.4 s."),
+        choice_param(
+            "velocity", "recorded", kVelocities,
+            "recorded: the velocities of the log; from_poses: the slope of the poses of the "
+            "scans within 0.4 s, for corrected logs, which have no velocities."),
     });
 
 /// Sets the body's velocity to the slope of the track; 0 if there are too few scans.

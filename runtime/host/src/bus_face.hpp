@@ -9,7 +9,7 @@
 
 namespace rave::runtime {
 
-/// Shows one of several hosts to those who look on at the run over its bus. It changes nothing of
+/// Shows one of several hosts to monitors on the bus of the run. It changes nothing of
 /// the run, and waits for no process.
 class BusFace final : public RunObserver {
  public:

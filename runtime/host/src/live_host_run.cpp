@@ -120,7 +120,7 @@ Result<bool> LiveExchange::begin() {
 
 /// Until the next step is due; the last step takes its time, too.
 Result<bool> LiveExchange::await_turn() {
-  // For those who look on at all hosts.
+  // For monitors of all hosts.
   const auto late = run_.late.status().value_or(RunStatus::Lateness());
   link_.note_lateness({late.deadlines, late.missed, from_seconds(late.worst_s).ns,
                        from_seconds(late.behind_s).ns, late.phase});

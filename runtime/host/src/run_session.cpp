@@ -63,7 +63,7 @@ void tell_progress(const RunSession& run) {
 }
 
 /// What others see of the run between two requests.
-void tell_onlookers(RunSession& run, Clock::time_point now) {
+void tell_status(RunSession& run, Clock::time_point now) {
   RunControl* const control = run.options.control;
   const bool changes = run.has_twins || run.observers.has_orders();
   if (control != nullptr && changes && now >= run.next_status) {
@@ -136,7 +136,7 @@ Status go_through(RunSession& run, WorldExchange& exchange) {
     RAVE_TRY(done);
     const auto now = Clock::now();
     run.wall_s = std::chrono::duration<double>(now - began).count();
-    tell_onlookers(run, now);
+    tell_status(run, now);
     run.late.step_done();
   }
   const auto last = static_cast<std::int64_t>(run.steps - 1) * run.engine.spec().step.ns;

@@ -13,7 +13,7 @@ namespace rave::runtime {
 namespace {
 
 constexpr std::array<std::string_view, 5> kParts = {"machine", "requests", "exchange", "record",
-                                                    "onlookers"};
+                                                    "observers"};
 
 std::int64_t ns_of(Lateness::Clock::duration duration) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(duration).count();

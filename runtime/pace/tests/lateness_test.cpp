@@ -102,7 +102,7 @@ TEST_F(LatenessTest, WhoIsCalledFromWithinTheEngineIsNotCountedAsItsNextIngest) 
   pass(milliseconds(1));
   lateness_.worked(total_, now_);
   lateness_.done(now_);
-  EXPECT_EQ(lateness_.facts().blame, (Blame{{"onlookers", 1}}));
+  EXPECT_EQ(lateness_.facts().blame, (Blame{{"observers", 1}}));
 }
 
 TEST_F(LatenessTest, StepsThatWereDueAndNeverDoneAreMissed) {

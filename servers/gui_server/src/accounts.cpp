@@ -32,6 +32,7 @@ class FileLock {
  public:
   static Result<FileLock> take(const fs::path& file) {
     const int fd = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    // flock() and not a lock file that is created and removed: that one would stay after a crash.
     if (fd < 0 || ::flock(fd, LOCK_EX) != 0) {
       const int code = errno;
       if (fd >= 0) ::close(fd);
@@ -96,6 +97,7 @@ void tidy(AccountsFile& file, std::int64_t now_s) {
 std::string begin_session(AccountsFile& file, const std::string& user, std::int64_t until_s) {
   const auto is_theirs = [&user](const SessionEntry& session) { return session.user == user; };
   if (std::ranges::count_if(file.sessions, is_theirs) >= kSessionsOfOne) {
+    // New ones are added at the end, so the first is the oldest.
     file.sessions.erase(std::ranges::find_if(file.sessions, is_theirs));
   }
   std::string secret = new_secret();
@@ -181,6 +183,7 @@ Status Accounts::change(const std::function<Status(AccountsFile&)>& how) {
   RAVE_TRY_ASSIGN(const FileLock file_lock, FileLock::take(folder_ / "lock"));
   // Under the lock, since another process may have changed the file.
   RAVE_TRY(read_if_changed());
+  // A copy: if `how` or the write fails, the state in memory is still that of the file.
   AccountsFile changed = state();
   RAVE_TRY(how(changed));
   return write(changed);
@@ -191,6 +194,7 @@ Status Accounts::write(const AccountsFile& changed) {
   // The folder is private already; this is for who copies the file.
   std::error_code ignored;
   fs::permissions(folder_ / "accounts", fs::perms::owner_read | fs::perms::owner_write, ignored);
+  // Read back what was written, so that memory and file cannot differ.
   stamp_.clear();
   return read_if_changed();
 }
@@ -259,6 +263,8 @@ Result<std::string> Accounts::join(std::string_view secret, const std::string& n
     if (found == file.invitations.end()) return fail(ErrorCode::kState, "{}", kUnknown);
     RAVE_TRY(check_free(file, name));
     file.accounts.push_back({{name, found->role, found->teams}, hash, false, clock_()});
+    // Account, uses and session change in one write: a crash cannot use up an invitation without an
+    // account.
     --found->uses;
     session = begin_session(file, name, clock_() + kSessionLife_s);
     return {};

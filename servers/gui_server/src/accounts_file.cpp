@@ -12,6 +12,8 @@ namespace rave::gui_server {
 namespace {
 
 constexpr std::string_view kFirstLine = "rave-accounts 1";
+// BLAKE2b-256 in hexadecimal (hash_of()). Invitations and sessions are kept as hashes of their
+// secrets, so who reads the file cannot enter with them.
 constexpr std::size_t kHashLetters = 64;
 
 using Columns = std::vector<std::string_view>;
@@ -92,6 +94,7 @@ class Reader {
   Result<Number> number(std::string_view text, Number most) {
     Number value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    // from_chars() stops at the first letter that is no digit, hence the comparison of the end.
     if (error != std::errc() || end != text.data() + text.size() || value < 0 || value > most) {
       return wrong("expected a number up to {}", most);
     }
@@ -105,11 +108,13 @@ class Reader {
     RAVE_TRY_ASSIGN(account.person.name, name(columns[1]));
     RAVE_TRY_ASSIGN(account.person.role, role(columns[2]));
     RAVE_TRY_ASSIGN(account.person.teams, teams(columns[3]));
+    // Guests enter by an invitation and have no password.
     if (columns[4] != "-") {
       if (!is_password_hash(columns[4])) return wrong("expected a hash by Argon2id, or - for none");
       account.password = columns[4];
     }
     if (columns.size() == 7) RAVE_TRY(state(columns, account));
+    // Two lines of one name could have two roles, and which counts would depend on their order.
     for (const Account& other : file_.accounts) {
       if (other.person.name == account.person.name) {
         return wrong("`{}` already has an account", account.person.name);
@@ -163,6 +168,7 @@ Result<AccountsFile> parse_accounts(std::string_view text, std::string_view file
   for (int number = 1;; ++number) {
     const std::string_view line = text.substr(0, text.find('\n'));
     RAVE_TRY(number == 1 ? reader.first(line) : reader.take(line, number));
+    // The last line: nothing is left behind it.
     if (line.size() == text.size()) return reader.finish();
     text.remove_prefix(line.size() + 1);
   }
@@ -174,6 +180,7 @@ std::string write_accounts(const AccountsFile& accounts) {
     text +=
         fmt::format("user\t{}\t{}\t{}\t{}", account.person.name, to_string(account.person.role),
                     account.person.teams.text(), account.password.empty() ? "-" : account.password);
+    // Only where needed, so that versions without these columns can read the file.
     if (account.disabled || account.seen_s > 0) {
       text += fmt::format("\t{}\t{}", account.disabled ? "disabled" : "enabled", account.seen_s);
     }
@@ -207,6 +214,7 @@ Status check_user_name(std::string_view name) {
 
 Status check_password(std::string_view password) {
   constexpr std::size_t kShortest = 10;
+  // The upper limit bounds the work of the hash for a request from the network.
   constexpr std::size_t kLongest = 256;
   if (password.size() >= kShortest && password.size() <= kLongest) return {};
   return fail(ErrorCode::kInvalidArgument, "a password has {} to {} characters", kShortest,

@@ -67,6 +67,7 @@ RobotState state_of(const watch::RobotView& robot) {
     state.variance_xy_m2 = static_cast<float>(report.variance_xy_m2);
     state.variance_yaw_rad2 = static_cast<float>(report.variance_yaw_rad2);
     set(report.known, kKnown);
+    // Stale by its own clock, or because its host is silent.
     set(report.stale || robot.stale, kStale);
     set(report.stopped, kStopped);
     set(!report.armed, kUnarmed);
@@ -74,6 +75,8 @@ RobotState state_of(const watch::RobotView& robot) {
     set(report.touches, kTouching);
     return state;
   }
+  // Without a report, as before the first one: the pose that its host resolved, and flags that are
+  // not known stay off.
   set(robot.x_m.has_value(), kKnown);
   state.x_m = robot.x_m.value_or(0);
   state.y_m = robot.y_m.value_or(0);
@@ -177,6 +180,7 @@ void BusFeed::tell_processes(const watch::RunView& view, LiveNews& news) {
         host.manager ? "the environment manager" : fmt::format("host `{}`", host.name);
     const bool here =
         host.standing == watch::Standing::kHere || host.standing == watch::Standing::kLate;
+    // A process that is seen for the first time is no news, and one that waits has not begun.
     const auto [known, fresh] = there_.try_emplace(name, here);
     if (fresh || known->second == here || host.standing == watch::Standing::kWaiting) continue;
     known->second = here;
@@ -214,6 +218,7 @@ void BusFeed::draw(const watch::RunView& view) {
     if (!host.manager && host.standing == watch::Standing::kGone) gone.insert(host.name);
   }
   for (const watch::RobotView& robot : view.robots) {
+    // Numbers come from other processes.
     if (robot.number >= world_.robots) continue;
     RobotState& state = picture.poses.robots[robot.number];
     state = state_of(robot);
@@ -226,6 +231,7 @@ void BusFeed::draw(const watch::RunView& view) {
   if (!end_text_.empty()) picture.standing->reason = end_text_;
   if (const auto now = Clock::now(); now >= next_hosts_) {
     next_hosts_ = now + kHostsInterval;
+    // Once a second, because people read the table: faster changes only flicker.
     hosts_ = hosts_json(view);
     ++hosts_revision_;
   }

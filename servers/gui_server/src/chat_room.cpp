@@ -54,6 +54,7 @@ std::optional<ChatRoom::Line> ChatRoom::line_of(const ChatText& text, const Cast
   line.name = text.name;
   line.text = text.text;
   for (std::uint32_t robot = 0; robot < cast.names.size(); ++robot) {
+    // Which robots a line concerns is not recorded: it follows from names, as when it was said.
     const bool meant = (line.to == ChatMessage::To::kRobot && cast.names[robot] == line.name) ||
                        (line.to == ChatMessage::To::kTeam && cast.teams[robot] == line.name);
     if (meant) line.robots.push_back(robot);
@@ -93,12 +94,15 @@ Status ChatRoom::say(Line line, std::chrono::steady_clock::time_point now) {
 
 bool ChatRoom::hears(const Listener& listener, const Line& line) {
   const auto& [person, view] = listener;
+  // The sender sees what was said, whatever the rights of the sender are.
   if (person.name == line.from.name) return true;
   switch (line.to) {
     case ChatMessage::To::kUser:
+      // A line to one person needs no right: the sender chose the receiver.
       return person.name == line.name;
     case ChatMessage::To::kRole:
       return view.may_any(InfoClass::kChat) &&
+             // Super-users see the lines of all roles.
              (to_string(person.role) == line.name || person.role == Role::kSuperUser);
     case ChatMessage::To::kAll:
       return view.may_any(InfoClass::kChat);
@@ -125,6 +129,8 @@ std::string ChatRoom::text_for(const Listener& listener, std::uint64_t number, b
          {"name", line.name},
          {"text", line.text}});
   }
+  // No message, where none of the new lines is for this listener. With `all` an empty list empties
+  // the page.
   if (!all && message["lines"].empty()) return {};
   return message.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }

@@ -23,6 +23,7 @@ constexpr std::size_t kMostCorners = 64;
 
 Result<double> number_within(Members& members, const char* name, double most) {
   RAVE_TRY_ASSIGN(const double value, members.number(name));
+  // Members::number() has refused what is not finite, so the comparison suffices.
   if (std::abs(value) > most) {
     return fail(ErrorCode::kParse, "`{}`: expected a number from {} to {}", name, -most, most);
   }
@@ -30,6 +31,8 @@ Result<double> number_within(Members& members, const char* name, double most) {
 }
 
 Result<Vec2> point_of(const PageJson& pair, const char* name) {
+  // JSON has no NaN, and a number that overflows is no JSON for the parser: the bound refuses the
+  // rest.
   const bool good = pair.is_array() && pair.size() == 2 && pair[0].is_number() &&
                     pair[1].is_number() && std::abs(pair[0].get<double>()) <= kFarthest_m &&
                     std::abs(pair[1].get<double>()) <= kFarthest_m;
@@ -56,6 +59,8 @@ Status take_slots(Members& members, CommandMessage& command) {
     RAVE_TRY_ASSIGN(const std::uint32_t index, Members::index_of(slot, "slots"));
     command.slots.push_back(index);
   }
+  // The order is kept: points and refusals belong to slots by place. A robot that is named twice
+  // would answer twice, and the count of missing answers would never be right.
   auto sorted = command.slots;
   std::sort(sorted.begin(), sorted.end());
   if (sorted.empty() || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
@@ -67,6 +72,7 @@ Status take_slots(Members& members, CommandMessage& command) {
 Status take_place(Members& members, CommandMessage& command) {
   const std::size_t robots = command.slots.size();
   RAVE_TRY_ASSIGN(command.points, points_of(members, "points", kMostCommanded));
+  // Several robots may drive to one goal, but cannot be placed at one point.
   const bool one = command.points.size() == 1 && command.kind == Command::kGoal;
   if (!one && command.points.size() != robots) {
     return fail(ErrorCode::kParse, "`points`: expected one for each robot, {}", robots);
@@ -80,6 +86,7 @@ Status take_place(Members& members, CommandMessage& command) {
 Status take_speed(Members& members, CommandMessage& command) {
   if (!members.has("speed")) return {};
   RAVE_TRY_ASSIGN(command.speed_mps, number_within(members, "speed", kFastestOrder));
+  // 0 means "not given". A path is driven forwards, so a negative speed has no meaning.
   if (command.speed_mps < 0) return fail(ErrorCode::kParse, "`speed`: expected 0 or more");
   return {};
 }
@@ -134,6 +141,7 @@ Result<CommandMessage> lease_of(Members& members) {
   if (word != "take" && word != "force" && word != "give") {
     return fail(ErrorCode::kParse, "`do`: expected take, force or give");
   }
+  // `force` is a word for the run, whose host decides who may force; for the server it is a take.
   command.kind = word == "give" ? Command::kGive : Command::kTake;
   if (word == "force") command.value = "force";
   if (word == "give" && members.has("to")) {
@@ -149,6 +157,7 @@ Result<std::string> parameter_value_of(Members& members) {
     auto text = value->get<std::string>();
     if (text.size() <= kLongestValue) return text;
   } else if (value->is_boolean() || (value->is_number() && std::isfinite(value->get<double>()))) {
+    // As text: only the run knows the type of the parameter.
     return value->dump();
   }
   return fail(ErrorCode::kParse, "`value`: expected a number, true, false or a short text");

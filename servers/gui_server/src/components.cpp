@@ -8,6 +8,8 @@
 namespace rave::gui_server {
 namespace {
 
+// Components are read again for each page, on the thread of the server: large ones would hold it
+// up.
 constexpr std::size_t kMostComponentBytes = std::size_t{1} << 20U;
 
 /// As it stands in an address: letters that need no escape.
@@ -55,6 +57,7 @@ std::vector<PageComponent> components_left(const config::GuiFile& gui) {
   std::vector<PageComponent> components;
   for (const config::GuiComponentFile& file : gui.components) {
     components.push_back(component_of(file));
+    // A recording may be shown on a machine without the files of its scenario.
     if (!is_there(components.back())) components.pop_back();
   }
   return components;
@@ -67,6 +70,7 @@ std::string component_path(std::size_t number, const PageComponent& component) {
 const PageComponent* component_at(const std::vector<PageComponent>& components,
                                   std::string_view path) {
   for (std::size_t i = 0; i < components.size(); ++i) {
+    // Compared with the known paths, so that no path from outside ever becomes a name of a file.
     if (path == "/" + component_path(i, components[i])) return &components[i];
   }
   return nullptr;

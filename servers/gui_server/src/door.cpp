@@ -39,6 +39,8 @@ std::optional<std::string> pasted_link(const std::string& name) {
     const std::size_t at = name.find(path);
     if (at == std::string::npos) continue;
     const std::string link = name.substr(at);
+    // Only the letters of a secret: a redirect to anything else would be an open door to other
+    // sites.
     const bool plain = link.find_first_not_of("0123456789abcdef", path.size()) == std::string::npos;
     if (plain) return link;
   }
@@ -117,6 +119,8 @@ web::Response Door::enter(const web::Request& request) {
 web::Response Door::welcome(const std::string& session) const {
   web::Response response = redirect("/");
   response.headers.emplace_back(
+      // HttpOnly: scripts, also those of components, cannot read the session. SameSite=Strict:
+      // requests that other sites cause come without it.
       "Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict; Max-Age={}{}", cookie_,
                                 session, Accounts::kSessionLife_s, options_.tls ? "; Secure" : ""));
   return response;
@@ -152,6 +156,8 @@ web::Response Door::slow_down(const web::Request& request) {
 bool Door::serve_later(const web::Request& request, const web::Reply& reply) {
   if (!options_.accounts || request.method != "POST") return false;
   if (request.path != "/login" && request.path != "/join") return false;
+  // By network and before the form is read: a guesser with many addresses of one network has one
+  // budget.
   if (!by_network_.take(web::network_of(request.peer), web::RateLimit::Clock::now())) {
     reply(slow_down(request));
   } else if (request.path == "/login") {
@@ -184,6 +190,7 @@ void Door::sign_in(const web::Request& request, const web::Reply& reply) {
   }
   work(
       [this, name, password = field(fields, "password"), peer = request.peer] {
+        // On a thread of its own, because Argon2id is slow on purpose.
         const auto session = options_.accounts->sign_in(name, password);
         if (session) {
           options_.audit->note("login", {{"user", name}, {"by", "password"}, {"from", peer}});

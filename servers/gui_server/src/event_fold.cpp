@@ -17,7 +17,7 @@ LogEvent::Level level_of(std::string_view kind) {
   }
   for (const std::string_view odd :
        {"pose stale", "guard stopped", "guard slowed", "change refused", "stopped",
-        "handed over refused", "panels not changed"}) {
+        "hand over refused", "panels not changed"}) {
     if (kind == odd) return LogEvent::Level::kWarn;
   }
   return LogEvent::Level::kInfo;
@@ -46,6 +46,7 @@ void EventFold::add(double t_s, int slot, std::string_view kind, std::string_vie
     subject = names_[static_cast<std::size_t>(slot)];
     event.slots.push_back(static_cast<std::uint32_t>(slot));
   }
+  // Texts of contacts begin with "with NAME", some with a colon and details behind it.
   if (rest.starts_with("with ")) {
     rest.remove_prefix(5);
     std::string other(trimmed(rest.substr(0, rest.find(':'))));
@@ -62,6 +63,7 @@ void EventFold::add(double t_s, int slot, std::string_view kind, std::string_vie
     event.text = rest.empty() ? fmt::format("{}: {}", subject, kind)
                               : fmt::format("{}: {}, {}", subject, kind, rest);
   }
+  // The text is the key: it has names, kind and details, so equal texts are repetitions.
   const auto last = last_.find(event.text);
   if (last != last_.end() && t_s - events_[last->second].until_s <= kFold_s) {
     events_[last->second].until_s = t_s;
@@ -69,6 +71,7 @@ void EventFold::add(double t_s, int slot, std::string_view kind, std::string_vie
     changed_[last->second] = ++revision_;
     return;
   }
+  // Warnings and alerts have room of their own, which a flood of contacts cannot take.
   if (events_.size() >= (event.level == LogEvent::Level::kInfo ? kMostEvents : kMostInAll)) {
     return leave_out(t_s);
   }

@@ -52,7 +52,10 @@ SceneJson empty_entity(const std::string& id, const std::string& frame, double t
   SceneJson entity = {{"timestamp", foxglove_stamp(time_s)},
                       {"frame_id", frame},
                       {"id", id},
+                      // 0: until it is replaced or deleted.
                       {"lifetime", {{"sec", 0}, {"nsec", 0}}},
+                      // It moves with its frame: a robot is drawn again only when its colour
+                      // changes, not with each pose.
                       {"frame_locked", true},
                       {"metadata", SceneJson::array()}};
   for (const char* const list :
@@ -73,6 +76,8 @@ bool add_cube(std::span<const Vec2> corners, const SceneJson& z, const Pose2& X_
   const Vec2 opposite{corners[1].x + across.x, corners[1].y + across.y};
   const double off = std::hypot(opposite.x - corners[2].x, opposite.y - corners[2].y);
   const double skew = std::abs(along.x * across.x + along.y * across.y);
+  // A parallelogram (`off` near 0) whose sides are perpendicular (their scalar product near 0), up
+  // to the rounding of files.
   if (off > 1e-6 * (length + width) || skew > 1e-6 * length * width) return false;
   const double z0 = z.at(0).get<double>();
   const double z1 = z.at(1).get<double>();
@@ -97,6 +102,8 @@ SceneJson prism_triangles(std::span<const Vec2> corners, double z0, double z1, c
     for (const std::size_t index : {a, b, c}) indices.push_back(index);
   };
   const std::size_t n = corners.size();
+  // A convex polygon is a fan about its first corner. The floor turns the other way round, so that
+  // all sides face outwards.
   for (std::size_t i = 1; i + 1 < n; ++i) {
     add(0, i + 1, i);
     add(n, n + i, n + i + 1);

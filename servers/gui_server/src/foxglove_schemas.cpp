@@ -6,6 +6,7 @@
 namespace rave::gui_server {
 namespace {
 
+// JSON Schemas of the messages. Clients recognise the types of the Foxglove SDK by their title.
 using SchemaJson = nlohmann::ordered_json;
 using Property = std::pair<const char*, SchemaJson>;
 
@@ -87,8 +88,10 @@ SchemaJson entity_schema() {
                                          {{"key", string_schema()}, {"value", string_schema()}}))},
                         {"arrows", array_schema(arrow)},
                         {"cubes", array_schema(cube)},
+                        // A sphere has the same fields as a cube.
                         {"spheres", array_schema(cube)},
                         {"cylinders", array_schema(cylinder)},
+                        // Never filled, so the items of lines and models stay undescribed.
                         {"lines", array_schema(object_schema({}))},
                         {"triangles", array_schema(triangles)},
                         {"texts", array_schema(text)},
@@ -122,6 +125,7 @@ const std::string& frame_transforms_schema() {
 const std::string& point_cloud_schema() {
   static const std::string kSchema = [] {
     SchemaJson bytes = string_schema();
+    // By this a client knows that the text is binary data.
     bytes["contentEncoding"] = "base64";
     return titled_schema(
         "foxglove.PointCloud",
@@ -150,6 +154,7 @@ const std::string& log_schema() {
 
 const std::string& poses_schema() {
   static const std::string kSchema = titled_schema(
+      // Types of our own: clients show them as plain data, in tables and plots.
       "rave.Poses",
       object_schema({{"timestamp", moment_schema("time")},
                      {"robots", array_schema(object_schema({{"name", string_schema()},

@@ -7,6 +7,9 @@
 namespace rave::gui_server {
 namespace {
 
+// The messages of the Foxglove WebSocket protocol, version 1
+// (docs/explanation/foxglove-protocol.md). Texts are JSON; binary messages begin with an opcode and
+// are little-endian.
 using FoxgloveJson = nlohmann::ordered_json;
 
 std::string foxglove_text(const FoxgloveJson& message) {
@@ -25,6 +28,8 @@ void add_little_endian(std::string& bytes, Number number) {
 std::string foxglove_server_info(std::string_view name, std::string_view session) {
   return foxglove_text({{"op", "serverInfo"},
                         {"name", name},
+                        // Only `time`: without `clientPublish` and `parameters` a client has
+                        // nothing to send but subscriptions.
                         {"capabilities", FoxgloveJson::array({"time"})},
                         {"metadata", FoxgloveJson::object()},
                         {"sessionId", session}});
@@ -57,6 +62,7 @@ std::string foxglove_status(FoxgloveLevel level, std::string_view text) {
 std::string foxglove_data(std::uint32_t subscription, std::uint64_t time_ns,
                           std::string_view message) {
   std::string bytes;
+  // Opcode 1 (message data), subscription (4 bytes), time (8 bytes), payload.
   bytes.reserve(13 + message.size());
   bytes += '\x01';
   add_little_endian(bytes, subscription);
@@ -65,12 +71,14 @@ std::string foxglove_data(std::uint32_t subscription, std::uint64_t time_ns,
 }
 
 std::string foxglove_time(std::uint64_t time_ns) {
+  // Opcode 2 (time).
   std::string bytes(1, '\x02');
   add_little_endian(bytes, time_ns);
   return bytes;
 }
 
 std::uint64_t foxglove_ns(double time_s) {
+  // Times are unsigned in the protocol.
   return time_s > 0 ? static_cast<std::uint64_t>(std::llround(time_s * 1e9)) : 0;
 }
 

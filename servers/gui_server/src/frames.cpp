@@ -50,6 +50,7 @@ std::uint16_t turn_of(double yaw_rad) {
 }
 
 std::int16_t speed_of(double speed_mps) {
+  // Clamped: a robot faster than 32.767 m/s shows that speed instead of a negative one.
   return static_cast<std::int16_t>(std::clamp(std::round(1000 * speed_mps), -32767.0, 32767.0));
 }
 
@@ -58,6 +59,8 @@ std::int16_t speed_of(double speed_mps) {
 std::string encode_poses(const PosesAt& poses, const PoseFrameHead& head) {
   const std::span<const RobotState> robots = head.truth ? poses.truth : poses.robots;
   const std::size_t n = robots.size();
+  // For each robot 14 bytes: x and y (4 each), yaw, speed and flags (2 each).
+  // docs/reference/gui-frames.md has the layout.
   std::string frame(kPoseHeader + 14 * n, '\0');
   // A world far from the origin keeps its resolution if frames count from one of its robots.
   double origin_x = 0;
@@ -70,6 +73,8 @@ std::string encode_poses(const PosesAt& poses, const PoseFrameHead& head) {
     }
     break;
   }
+  // As float, because the frame has four bytes for it: positions are divided by exactly the number
+  // that the page multiplies with.
   const auto quantum = static_cast<float>(quantum_for(robots, origin_x, origin_y));
   put(frame, 0, std::uint8_t{1});
   put(frame, 1, static_cast<std::uint8_t>((head.past ? 1 : 0) | (head.truth ? 2 : 0)));

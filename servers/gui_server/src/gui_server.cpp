@@ -84,6 +84,7 @@ class GuiServer::Impl final : public web::Handler {
     }
   }
   ~Impl() override {
+    // In this order: after stop() no request comes, and then the door waits for its work.
     if (server_) server_->stop();
     // What it still works at answers through the server, which is there until then.
     door_.stop();
@@ -98,8 +99,11 @@ class GuiServer::Impl final : public web::Handler {
     web_options.certificate = options.certificate;
     web_options.key = options.key;
     web_options.ports_to_try = kPortsToTry;
+    // The number is that of the protocol of the page.
     web_options.subprotocol = "rave.gui.1";
     RAVE_TRY_ASSIGN(server_, web::Server::start(web_options, *this));
+    // Only now the port is known: the one that was asked for may be in use. On the thread of the
+    // server, which owns the door.
     server_->post([this, port = server_->port()] { door_.set_port(port); });
     if (source) show(std::move(source));
     server_->every(kGlance, [this] { glance(); });
@@ -144,6 +148,7 @@ class GuiServer::Impl final : public web::Handler {
     if (request.path == "/healthz") return web::text_response(200, "ok\n");
     if (request.path == "/metrics") return metrics(request);
     if (auto answer = door_.serve(request)) return *std::move(answer);
+    // Before the refusal of POST: this is the one other path that takes it.
     if (request.path == "/ticket") return ticket(request);
     // Forms were answered by the door.
     if (request.method == "POST") return web::text_response(405, "method not allowed\n");

@@ -93,6 +93,7 @@ void LiveSource::halt(const HaltMessage& halt, const Author& author, Reply reply
   for (const std::uint32_t slot : halt.slots) {
     if (slot < start_.robots.size()) robots.push_back(start_.robots[slot]);
   }
+  // A request without a robot means all robots; the host decides which they are at that moment.
   if (halt.slots.empty()) robots.emplace_back();
   if (robots.empty()) return reply(false, "There is no such robot.");
   for (std::string& robot : robots) {
@@ -168,6 +169,8 @@ void LiveSource::answer_asked() {
 void LiveSource::learn_status(Playhead::Clock::time_point now) {
   if (now - status_at_ < kStatusInterval) return;
   status_at_ = now;
+  // A picture from the bus has `standing`. One from the engine in this process has the flags
+  // already, and none are added to it.
   flags_.assign(picture().standing ? start_.robots.size() : 0, 0);
   for (const runtime::RunStatus::Robot& robot : port_->robots()) {
     const auto slot = slots_.find(robot.name);
@@ -195,6 +198,7 @@ void LiveSource::learn_leases(const runtime::RunStatus::Robot& robot, std::uint3
   if (now.hand_over) now.hand_over->x_m = now.hand_over->y_m = now.hand_over->yaw_rad = 0;
   if (robot.shadow) now.shadow = rounded(*robot.shadow);
   DriveState& known = leases_[slot];
+  // The values come with events, not with the status, and must survive its update.
   now.values = known.values;
   if (known == now) return;
   known = std::move(now);

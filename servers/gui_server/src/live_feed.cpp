@@ -21,6 +21,7 @@ constexpr std::size_t kMostEvents = 100;
 
 void put_reading(LivePicture& picture, const LookedAt& looked, std::uint8_t part, ReadingKind kind,
                  const SampleHeader* header, const void* records) {
+  // Sequence 0: the sensor has given no sample yet.
   if (header == nullptr || header->sequence == 0) return;
   if (picture.reading_count == picture.readings.size()) picture.readings.emplace_back();
   ReadingAt& reading = picture.readings[picture.reading_count++];
@@ -138,6 +139,7 @@ void LiveFeed::draw(const sim::Engine& engine, int slower) {
 void LiveFeed::draw_poses(const sim::Engine& engine, PosesAt& poses) const {
   const sim::EngineSpec& spec = engine.spec();
   poses.time_s = engine.time().seconds();
+  // The number of the step that was computed last, not the count of steps.
   poses.step = engine.steps_done() == 0 ? 0 : engine.steps_done() - 1;
   poses.taken_us = taken_now_us();
   poses.robots.resize(spec.robots.size());
@@ -149,6 +151,8 @@ void LiveFeed::draw_poses(const sim::Engine& engine, PosesAt& poses) const {
     robot.variance_yaw_rad2 = static_cast<float>(reported.pose.variance_yaw_rad2);
     const Twist2 v_W = engine.snapshot().velocity_W(RobotId(r));
     const double ahead = v_W.vx * std::cos(robot.yaw_rad) + v_W.vy * std::sin(robot.yaw_rad);
+    // Negative when the robot drives backwards: the sign is that of the component along its
+    // heading.
     robot.speed_mps = std::copysign(std::hypot(v_W.vx, v_W.vy), ahead);
     const auto set = [&robot](bool on, RobotFlag flag) {
       if (on) robot.flags = static_cast<std::uint16_t>(robot.flags | flag);
@@ -185,6 +189,7 @@ void LiveFeed::draw_readings(const sim::Engine& engine, const LiveWants& wants,
   };
   for (const LookedAt& looked : wants.sensors) {
     const RobotId robot(looked.slot);
+    // Readings of robots of other hosts are in the engines of those hosts.
     if (looked.slot >= spec.robots.size() || !engine.is_local(robot)) continue;
     if (looked.sensor == onlook::kCommandsOf) {
       put_commands(picture, engine, looked);

@@ -38,8 +38,11 @@ class LiveCursor final : public Cursor {
     const auto& past = source_.past();
     if (time_s >= source_.poses().time_s) return {};
     const auto later = std::find_if(past.begin(), past.end(), [=](const PosesAt& poses) {
+      // Times of a run are multiples of the step, added up in doubles: two that are meant to be
+      // equal may differ in the last bits.
       return poses.time_s > time_s + 1e-9;
     });
+    // A time before the first one that is kept shows the present; the caller notices by the time.
     if (later != past.begin()) past_ = &*std::prev(later);
     return {};
   }
@@ -75,6 +78,7 @@ class LivePlayhead final : public Playhead {
   }
   PlayState look(Clock::time_point /*now*/) override {
     PlayState state = source_.state();
+    // The first look of a page jumps, so that the page gets the past for its trails.
     state.jumped = std::exchange(new_, false);
     return state;
   }
@@ -147,6 +151,7 @@ std::unique_ptr<Playhead> LiveSource::open_playhead() {
 void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience) {
   // Nothing else is published with it, so it needs no order.
   box_->watched.store(audience.any, std::memory_order_relaxed);
+  // Only what differs is published: the host's thread copies the wants each time.
   if (audience.looked_at != wants_.sensors || audience.parts != wants_.parts ||
       audience.truth != wants_.truth || audience.maps != wants_.maps ||
       audience.probes != wants_.probes) {
@@ -196,6 +201,7 @@ void LiveSource::take_picture(Playhead::Clock::time_point now) {
     poses_ = picture().poses;
     const PosesAt& poses = poses_;
     state_.now_s = state_.end_s = poses.time_s;
+    // A run in progress can show its present only; the page draws its timeline from these two.
     state_.begin_s = poses.time_s;
     state_.picture = poses.serial;
     if (past_.empty() || poses.time_s >= past_.back().time_s + kPastSpacing_s) {
@@ -203,6 +209,7 @@ void LiveSource::take_picture(Playhead::Clock::time_point now) {
       // Trails are of reported poses; the true ones would double the memory.
       past_.back().truth = {};
     }
+    // Two bounds: in time for small runs, and in memory for runs with thousands of robots.
     const std::size_t most = kMostPast / std::max<std::size_t>(1, poses.robots.size());
     while (!past_.empty() &&
            (past_.front().time_s < poses.time_s - kPast_s || past_.size() > most)) {
@@ -223,6 +230,8 @@ void LiveSource::write_bodies() {
     auto& bodies = start_.bodies;
     const auto known = std::find_if(bodies.begin(), bodies.end(),
                                     [&](const auto& body) { return body.first == change.id; });
+    // Changes that were applied before come again here. Each sets a whole body, so that does no
+    // harm.
     if (change.json.empty()) {
       if (known != bodies.end()) bodies.erase(known);
     } else if (known != bodies.end()) {
@@ -242,6 +251,8 @@ void LiveSource::write_bodies() {
 std::string LiveSource::bodies_changed_since(std::uint64_t revision) const {
   std::map<std::uint32_t, const std::string*> changed;
   for (const BodyChange& change : body_changes_) {
+    // Later changes come later in the list and replace earlier ones: a body that moved ten times
+    // since is sent once.
     if (change.revision > revision) changed[change.id] = &change.json;
   }
   std::string set;
@@ -267,8 +278,10 @@ std::string LiveSource::take(const TransportMessage& transport) {
       port_->pause();
       break;
     case Do::kStep:
+      // The bar of the page steps back as well, which only a replay can do.
       if (transport.value < 1) return "A run cannot go back in time.";
       port_->pause();
+      // Paused first: a run that is stepped while it runs would not stop after the steps.
       port_->step(static_cast<std::uint64_t>(std::min(std::round(transport.value), 1e6)));
       break;
     case Do::kPace:

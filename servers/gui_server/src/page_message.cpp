@@ -37,6 +37,7 @@ Result<PageMessage> look_of(Members& members) {
     RAVE_TRY_ASSIGN(looked.sensor, Members::index_of(pair[1], "readings"));
     look.readings.push_back(looked);
   }
+  // A sensor that is named twice would be sent twice, and sources expect each list sorted.
   std::sort(look.readings.begin(), look.readings.end());
   look.readings.erase(std::unique(look.readings.begin(), look.readings.end()), look.readings.end());
   if (members.has("variances")) {
@@ -57,6 +58,7 @@ Result<PageMessage> look_maps_of(Members& members) {
   RAVE_TRY_ASSIGN(const PageJson* const maps, members.array("maps", kMostLookedAtMaps));
   for (const PageJson& map : *maps) {
     MapName name;
+    // A number is the slot of a robot, whose local map is meant; a text names a global map.
     if (map.is_string()) {
       name.name = map.get<std::string>();
       if (name.name.empty() || name.name.size() > kLongestName) {
@@ -64,6 +66,7 @@ Result<PageMessage> look_maps_of(Members& members) {
       }
     } else {
       RAVE_TRY_ASSIGN(name.slot, Members::index_of(map, "maps"));
+      // The largest number is the slot that stands for a global map inside the server.
       if (name.global()) return fail(ErrorCode::kParse, "`maps`: there is no such slot");
     }
     look.maps.push_back(std::move(name));
@@ -89,6 +92,7 @@ Result<PageMessage> transport_of(Members& members) {
   TransportMessage transport;
   transport.what = found->second;
   const bool takes_value = transport.what != Do::kPlay && transport.what != Do::kPause;
+  // A value that is not needed is taken, too: finish() would refuse the message otherwise.
   if (takes_value || members.has("value")) {
     RAVE_TRY_ASSIGN(transport.value, members.number("value"));
   }
@@ -102,6 +106,8 @@ Result<PageMessage> halt_of(Members& members) {
     return fail(ErrorCode::kParse, "`do`: expected stop or release");
   }
   halt.stop = word == "stop";
+  // Slots that do not exist are not an error here. Whether a robot exists, and whether this user
+  // may stop it, only the source knows; an empty list means all robots.
   RAVE_TRY_ASSIGN(const PageJson* const slots, members.array("slots", kMostSlots));
   for (const PageJson& slot : *slots) {
     RAVE_TRY_ASSIGN(const std::uint32_t index, Members::index_of(slot, "slots"));
@@ -125,11 +131,13 @@ Status whose(Members& members, std::optional<Role>& role, std::string& user) {
       return fail(ErrorCode::kParse, "`user`: expected a name");
     }
   }
+  // With both, it would be unclear whose row of the table of rights changes.
   if (role && !user.empty()) return fail(ErrorCode::kParse, "expected `role` or `user`, not both");
   return {};
 }
 
 Result<std::optional<Reach>> reach_in(const PageJson& value) {
+  // null takes the change back: the default of the scenario or the role counts again.
   if (value.is_null()) return std::optional<Reach>();
   Reach reach;
   if (value.is_array() && value.size() <= kMostTeams) {
@@ -142,6 +150,7 @@ Result<std::optional<Reach>> reach_in(const PageJson& value) {
     }
     return std::optional<Reach>(std::move(reach));
   }
+  // kTeams is not among them: it has no word, but is an array of names.
   for (const auto kind : {Reach::Kind::kNone, Reach::Kind::kOwn, Reach::Kind::kAll}) {
     reach.kind = kind;
     if (value == to_string(kind)) return std::optional<Reach>(std::move(reach));
@@ -175,6 +184,7 @@ Result<PageMessage> chat_of(Members& members) {
   ChatMessage chat;
   RAVE_TRY_ASSIGN(chat.request, members.index("request"));
   RAVE_TRY_ASSIGN(chat.text, members.text("text", kLongestText, true));
+  // A line of blanks would appear in the chat as a name without words.
   if (chat.text.find_first_not_of(" \n") == std::string::npos) {
     return fail(ErrorCode::kParse, "`text`: expected a text that is not empty");
   }
@@ -193,6 +203,8 @@ Result<PageMessage> chat_of(Members& members) {
   }
   chat.to = to == "role" ? To::kRole : (to == "user" ? To::kUser : To::kTeam);
   RAVE_TRY_ASSIGN(chat.name, members.text("name", kLongestName));
+  // Roles are fixed, so a wrong one is a malformed message. Users and teams come and go; whether
+  // they exist is checked later, and a wrong one does not count as malformed.
   if (chat.to == To::kRole && !role_named(chat.name)) {
     return fail(ErrorCode::kParse, "`name`: expected observer, commander or super_user");
   }
@@ -208,6 +220,8 @@ Result<PageMessage> page_key_message_of(Members& members) {
 }  // namespace
 
 Result<PageMessage> parse_page_message(std::string_view text) {
+  // Without exceptions: a text that is not JSON, or a number that overflows, gives a discarded
+  // value, which is not an object.
   const PageJson json = PageJson::parse(text, nullptr, false);
   if (!json.is_object()) return fail(ErrorCode::kParse, "expected a JSON object");
   Members members(json);
@@ -241,6 +255,8 @@ Result<PageMessage> parse_page_message(std::string_view text) {
     message = eyes_of(members);
   } else if (type == "say") {
     message = chat_of(members);
+    // The last two return nothing for types that are not theirs, so each module knows its own
+    // types.
   } else if (auto command = command_of(type, members)) {
     if (!*command) return tl::unexpected(command->error());
     message = PageMessage(**std::move(command));

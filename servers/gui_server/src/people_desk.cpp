@@ -62,6 +62,7 @@ PeopleDesk::Outcome account_outcome(const PeopleDesk::Options& at, const Account
                                     const std::string& by) {
   const auto text = do_account(*at.accounts, asked);
   if (!text) return refused(asked, text.error().message);
+  // Noted only after the file was written: the log never claims a change that did not happen.
   at.audit->note("account", {{"user", by}, {"detail", *text}});
   return done(asked, *text);
 }
@@ -109,6 +110,7 @@ PeopleDesk::Outcome audit_outcome(const AuditLog& audit, const AuditMessage& ask
     message["lines"].push_back(std::move(entry));
   }
   PeopleDesk::Outcome outcome = done(asked, fmt::format("{} lines", page.lines.size()));
+  // Reading the log changes nothing, so the pages of other super-users need no news.
   outcome.changed = false;
   outcome.message = desk_text(message);
   return outcome;

@@ -7,6 +7,7 @@ namespace rave::gui_server {
 namespace {
 
 using AccountDo = AccountMessage::Do;
+// In the order of AccountDo, because word_of() uses it as index.
 constexpr std::array<std::pair<std::string_view, AccountDo>, 4> kAccountWords = {
     {{"change", AccountDo::kChange},
      {"disable", AccountDo::kDisable},
@@ -48,6 +49,7 @@ Result<PeopleMessage> account_of_message(Members& members) {
   }
   account.what = known->second;
   RAVE_TRY_ASSIGN(account.name, members.text("name", kLongestPersonName));
+  // The other actions take neither, and finish() refuses a message that has them.
   if (account.what == AccountDo::kChange) {
     RAVE_TRY_ASSIGN(account.role, role_in(members));
     RAVE_TRY_ASSIGN(account.teams, teams_in(members));

@@ -96,6 +96,7 @@ Status Recording::read(const std::filesystem::path& file) {
   RAVE_TRY_ASSIGN(const record::RunInfo run, record::read_run_info(reader_));
   RAVE_TRY_ASSIGN(const config::ExpandedScenario scenario,
                   config::expand_scenario_text(run.expanded_scenario, file));
+  // Slots index both lists. A file in which they differ was not written by one run.
   if (scenario.robots.size() != run.robots.size()) {
     return fail(ErrorCode::kParse, "`{}`: its scenario has {} robots, its recording {}",
                 file.string(), scenario.robots.size(), run.robots.size());
@@ -111,7 +112,9 @@ Status Recording::read(const std::filesystem::path& file) {
   about_.recording_whole = reader_.whole();
   about_.begin_s = static_cast<double>(reader_.statistics().start_ns) * 1e-9;
   about_.end_s = static_cast<double>(reader_.statistics().end_ns) * 1e-9;
+  // What was planned does not matter for a replay: its timeline ends where the recording ends.
   about_.duration_s = about_.end_s;
+  // Missing in a recording that broke off, which can be shown all the same.
   if (const auto end = record::read_run_end(reader_)) {
     about_.lock_step = end->hash.has_value();
     if (end->hash) about_.hash = fmt::format("{:016x}", *end->hash);
@@ -120,11 +123,13 @@ Status Recording::read(const std::filesystem::path& file) {
     real_.push_back(robot.kind == "simulated" ? 0 : 1);
   }
   for (const record::RecordedSensor& sensor : run.sensors) {
+    // A cursor that jumps must look back this far to find the last sample of each sensor.
     longest_period_s_ = std::max(longest_period_s_, sensor.period_s);
   }
   RAVE_TRY_ASSIGN(bodies_, bodies_of(scenario));
   RAVE_TRY(history_.read(reader_, scenario, bodies_));
   robots_ = robots_of(scenario, run, hybrids());
+  // Without robots: their local maps are not in a recording.
   maps_.emplace("[]", bodies_);
   RAVE_TRY(read_chat());
   return read_events(run);

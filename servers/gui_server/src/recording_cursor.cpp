@@ -47,6 +47,7 @@ void RecordingCursor::begin_at(double time_s) {
   filter.channels = {poses_channel_};
   if (percepts_channel_ && reads_percepts_) filter.channels.push_back(*percepts_channel_);
   if (variances_channel_) filter.channels.push_back(*variances_channel_);
+  // Poses come each step, but the last sample of a slow sensor may be one period old.
   filter.from_ns = ns_of(time_s - look_back_s_);
   cursor_ = reader_.messages(filter);
   ahead_.reset();
@@ -66,6 +67,7 @@ Status RecordingCursor::find_variances(std::uint64_t until_ns) {
   record::MessageCursor before = reader_.messages(filter);
   while (true) {
     RAVE_TRY_ASSIGN(const auto message, before.next());
+    // The last one before the moment counts, so all of them are read up to it.
     if (!message || message->log_time_ns > until_ns) return {};
     variances_.assign(message->bytes.begin(), message->bytes.end());
   }
@@ -93,6 +95,8 @@ Status RecordingCursor::read_until(double time_s) {
     if (!ahead_) {
       RAVE_TRY_ASSIGN(const auto message, cursor_->next());
       if (!message) break;
+      // A copy: the bytes of a message are valid until the next call of the reader only. The first
+      // message behind the moment stays here for the next call of go_to().
       ahead_.emplace(message->log_time_ns, message->channel,
                      Bytes(message->bytes.begin(), message->bytes.end()));
     }
@@ -156,6 +160,8 @@ Status RecordingCursor::show_variances() {
 void RecordingCursor::set_flags() {
   for (std::size_t r = 0; r < std::min(flags_.size(), poses_.robots.size()); ++r) {
     for (const FlagChange& change : flags_[r]) {
+      // The list is in order of time. Flags are set anew for each moment, because a replay also
+      // goes back.
       if (change.t_s > poses_.time_s + step_s_ / 2) break;
       std::uint16_t& flags = poses_.robots[r].flags;
       flags = static_cast<std::uint16_t>(change.on ? flags | change.flag : flags & ~change.flag);
@@ -168,6 +174,7 @@ std::vector<ReadingAt> RecordingCursor::readings(std::span<const LookedAt> senso
     // They are most of a recording, and most pages look at few.
     reads_percepts_ = true;
     if (!cursor_) return {};
+    // The cursor filters by channel while it reads, so it begins again with the percepts.
     begin_at(time_s_);
     if (!find_variances(ns_of(time_s_)) || !read_until(time_s_)) return {};
   }
@@ -187,6 +194,7 @@ std::vector<ReadingAt> RecordingCursor::readings(std::span<const LookedAt> senso
       reading.part = part;
       reading.stamp_s = static_cast<double>(percept.header.stamp_ns) * 1e-9;
       const auto kind = static_cast<ReadingKind>(percept.kind);
+      // Percepts are in order of time: a later one of the same sensor replaces the earlier.
       reading.values.clear();
       reading.fields = onlook::field_count(kind);
       reading.rows = onlook::add_rows(kind, percept.header.count, percept.records, reading.values);

@@ -82,6 +82,8 @@ bool allowed(const View& view, bool live, const std::string& power) {
       {"probe", InfoClass::kProbe},
   };
   if (const auto found = kOfSome.find(power); found != kOfSome.end()) {
+    // "Any": a power shows the control on the page. Whether it may be used on one robot is checked
+    // for each request.
     return view.may_any(found->second);
   }
   if (power == "recording") return view.may_all(InfoClass::kRecording);
@@ -139,6 +141,7 @@ std::string RestrictedSource::bodies_changed_since(std::uint64_t revision) const
 
 std::string RestrictedSource::cut_bodies(const std::string& change) const {
   if (change.empty()) return {};
+  // Fails closed: what cannot be read cannot be cut, so nothing is sent.
   const BodyJson all = BodyJson::parse(change, nullptr, false);
   if (!all.is_object()) return {};
   BodyJson mine = {
@@ -151,6 +154,7 @@ std::string RestrictedSource::cut_bodies(const std::string& change) const {
     mine["set"].back()["id"] = view_->body_id(id);
   }
   for (const BodyJson& id : all.at("gone")) {
+    // A number that was never shown would tell that a hidden body existed.
     if (shown_bodies_.contains(id)) mine["gone"].push_back(view_->body_id(id));
   }
   // That something changed which is withheld is not told either.
@@ -188,6 +192,7 @@ std::uint64_t RestrictedSource::events_revision() const noexcept { return all_->
 std::size_t RestrictedSource::events_changed_since(std::uint64_t revision) const noexcept {
   take_events();
   const std::size_t first = all_->events_changed_since(revision);
+  // The index counts the events of this user, that of the source all events.
   const auto place = std::lower_bound(event_places_.begin(), event_places_.end(), first);
   return static_cast<std::size_t>(place - event_places_.begin());
 }

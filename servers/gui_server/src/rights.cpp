@@ -131,6 +131,7 @@ const Reach& Rights::of(Role role, InfoClass what) const {
 }
 
 const Reach& Rights::of(const Person& person, InfoClass what) const {
+  // First, so that no line of a file can take a right from a super-user.
   if (person.role == Role::kSuperUser) return everything();
   // A line of the user's own goes before that of the role.
   if (const auto user = users_.find(person.name); user != users_.end()) {

@@ -12,6 +12,7 @@ constexpr std::string_view kFirstRightsLine = "rave-rights 1";
 constexpr std::string_view kTeamsWord = "teams:";
 
 std::string reach_text(const std::optional<Reach>& reach) {
+  // Of a user only: such a line takes back what the scenario gave them.
   if (!reach) return "usual";
   if (reach->kind != Reach::Kind::kTeams) return std::string(to_string(reach->kind));
   return std::string(kTeamsWord) + Teams{false, reach->teams}.text();
@@ -22,6 +23,7 @@ std::optional<std::optional<Reach>> reach_of(std::string_view text) {
   if (text == "usual") return std::optional<std::optional<Reach>>(std::in_place, std::nullopt);
   if (text.starts_with(kTeamsWord)) {
     auto teams = parse_teams(text.substr(kTeamsWord.size()));
+    // All teams have a word of their own, `all`. One form for each reach keeps files comparable.
     if (!teams || teams->all) return std::nullopt;
     return std::optional<Reach>(Reach{Reach::Kind::kTeams, teams->names});
   }
@@ -48,11 +50,13 @@ Result<KeptChange> change_of(std::string_view line, const SourceLocation& where)
   }
   KeptChange kept;
   kept.run = columns[0];
+  // The name is printed in messages, where control characters could change a terminal.
   if (has_control_characters(kept.run)) {
     return fail_at(where, ErrorCode::kParse, "the name of the run has control characters");
   }
   if (columns[1] == "role") {
     kept.change.role = role_named(columns[2]);
+    // A super-user always has every right; a line that says otherwise is a mistake or an attack.
     if (!kept.change.role || kept.change.role == Role::kSuperUser) {
       return fail_at(where, ErrorCode::kParse, "expected observer or commander");
     }

@@ -47,13 +47,16 @@ void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, boo
   commands_.begin(source_, greeting.author);
   playhead_ = source_->open_playhead();
   cursor_ = source_->open_cursor();
+  // Before the first time message, which would move the page to the beginning of a replay.
   if (same_run) keep_place(before);
+  // In this order: events and leases name robots by their slots in the roster.
   socket_.send_text(payload(hello_text(*source_, greeting)));
   socket_.send_text(texts.scene(source_));
   socket_.send_text(texts.roster(source_));
   socket_.send_text(texts.events(source_));
   told_events_ = source_->events_revision();
   told_bodies_ = source_->bodies_revision();
+  // Lower than any revision: the next news has the hosts.
   told_hosts_ = 0;
   send_leases(true);
   told_.clear();
@@ -93,6 +96,7 @@ void Session::received(std::string_view text) {
     answer("message", false, message.error().message);
     const bool cut = ++refusals_ > kMostRefusals;
     calls_.malformed(message.error().message, cut);
+    // The answer above goes first, so the page can show why it was closed.
     if (cut) socket_.close(kBadMessages, "too many malformed messages");
     return;
   }
@@ -128,6 +132,7 @@ void Session::take(const LookProbesMessage& look) {
     answer.slot = look.probes[place].slot;
     if (!source_) {
       answer.error = "No run is in progress.";
+      // Each probe is read and made once here to find its errors, which takes time of the server.
     } else if (!probe_limit_.take("", web::RateLimit::Clock::now())) {
       answer.error = "Too many changes at once. Try again in a second.";
     } else if (auto made = source_->probe(look.probes[place]); !made) {
@@ -220,11 +225,15 @@ void Session::tick(Clock::time_point now, SharedFrames& frames) {
   if (!look_.poses || broken_ || on_their_way_.size() >= kMostOnTheirWay) return;
   // Tiles are confirmed by the picture behind them.
   if (map_stream_.due(*source_)) changed_ = true;
+  // While the past is being sent, frames continue without a new picture: each acknowledgement asks
+  // for the next piece.
   const bool due = pace_.due(now, state.picture) && (state.picture != picture_ || past_);
   if (!due && !changed_) return;
   pace_.went(now);
   if (const auto gone = cursor_->go_to(state.now_s); !gone) {
     answer("replay", false, gone.error().text());
+    // A damaged recording would give the same error in each tick. The next transport message tries
+    // again.
     broken_ = true;
     return;
   }
@@ -245,6 +254,8 @@ void Session::tick(Clock::time_point now, SharedFrames& frames) {
 
 void Session::begin_past(double now_s) {
   past_due_ = false;
+  // A cursor of its own: going back with that of the present would read the recording twice per
+  // tick.
   past_ = Past{source_->open_cursor(), std::max(0.0, now_s - kPast_s), now_s - kPastSpacing_s / 2};
 }
 
@@ -301,6 +312,8 @@ void Session::send_readings() {
   for (const ReadingAt& reading : cursor_->readings(look_.readings, look_.parts)) {
     const auto [told, is_new] =
         told_.try_emplace({LookedAt{reading.slot, reading.sensor}, reading.part}, reading.stamp_s);
+    // The stamp names the reading. In a paused replay or between two samples of a slow sensor
+    // nothing is sent.
     if (!is_new && told->second == reading.stamp_s) continue;
     told->second = reading.stamp_s;
     socket_.send_binary(payload(encode_reading(reading, cursor_->poses().time_s)));
@@ -328,6 +341,7 @@ void Session::send_variances() {
   const PosesAt& poses = cursor_->poses();
   std::vector<VarianceAt> variances;
   for (const std::uint32_t slot : look_.variances) {
+    // The list is sorted, so all further slots are too large as well.
     if (slot >= poses.robots.size()) break;
     const RobotState& robot = poses.robots[slot];
     if (robot.variance_xy_m2 <= 0 && robot.variance_yaw_rad2 <= 0) continue;

@@ -72,6 +72,7 @@ web::Response page_of(int status, std::string_view title, std::string_view below
 
 }  // namespace
 
+// Quotes too, because texts also stand in attributes.
 std::string escaped_html(std::string_view text) {
   std::string out;
   for (const char c : text) {

@@ -25,6 +25,7 @@ web::Response json_response(int status, const TicketJson& json) {
   web::Response response = web::text_response(
       status, json.dump(-1, ' ', false, TicketJson::error_handler_t::replace) + "\n");
   response.type = "application/json";
+  // A ticket is a secret: no cache on the way may keep it.
   response.headers.emplace_back("Cache-Control", "no-store");
   return response;
 }
@@ -49,6 +50,8 @@ RobotSet robots_with(InfoClass what, const HostLine& line, const View& view,
     const auto index = indices.find(robot);
     if (index != indices.end() && view.may(what, index->second)) robots.names.insert(robot);
   }
+  // "All" keeps a ticket small for hosts with thousands of robots. An empty host has no robots to
+  // name, and must not give a ticket for all.
   robots.all = robots.names.size() == line.robots.size() && !line.robots.empty();
   if (robots.all) robots.names.clear();
   return robots;
@@ -87,6 +90,7 @@ web::Response TicketDesk::serve(const web::Request& request, const Asker& asker)
   const auto wanted = parse_ticket_request(request.body);
   if (!wanted) return refused(400, wanted.error().message);
   const std::string origin(request.header("origin"));
+  // The origin becomes a part of the ticket, so that a page of another site cannot use it.
   if (origin.empty()) return refused(400, "the request has no Origin header");
   if (asker.person.role == Role::kObserver) {
     audit_->note("refused",
@@ -146,6 +150,8 @@ void TicketDesk::check(const Rights& rights) {
 
 void TicketDesk::raise(const std::string& user) {
   if (!lines_) return;
+  // From the clock, so that it also rises over a restart of the server, which forgets the epochs.
+  // The maximum keeps it rising if the clock was set back.
   const std::uint64_t epoch = std::max(epoch_of(user) + 1, static_cast<std::uint64_t>(day_ms()));
   epochs_[user] = epoch;
   lines_->withdraw(user, direct_line::sign_withdrawal({lines_->run(), user, epoch}, key_));

@@ -44,6 +44,7 @@ Cast cast_of(const std::string& robots_json, const std::string& bodies_json) {
     cast.teams.push_back(robot.at("team").get<std::string>());
     std::uint32_t number = 0;
     for (const OrderedJson& sensor : robot.at("sensors")) {
+      // Readings of these name other robots, which this user may not see; reading() cuts them.
       if (sensor.at("kind") == "neighbours") cast.neighbour_sensors.insert({index, number});
       ++number;
     }
@@ -192,6 +193,7 @@ std::optional<LogEvent> View::event(const LogEvent& event) const {
   LogEvent mine = event;
   mine.slots.clear();
   if (event.slots.empty() && !may_any(InfoClass::kLog)) return std::nullopt;
+  // An event of two robots is shown only to who may see both: half of it would name the other.
   for (const std::uint32_t robot : event.slots) {
     if (!may(InfoClass::kLog, robot)) return std::nullopt;
     if (told && !may(*told, robot)) return std::nullopt;
@@ -247,6 +249,8 @@ std::int64_t View::body_id(std::int64_t id) const {
   std::array<unsigned char, sizeof id> bytes{};
   std::memcpy(bytes.data(), &id, sizeof id);
   std::array<unsigned char, crypto_shorthash_BYTES> hash{};
+  // SipHash-2-4 with a secret key. Numbers of bodies count up, so gaps would tell how many are
+  // hidden.
   crypto_shorthash(hash.data(), bytes.data(), bytes.size(), body_key().data());
   std::uint64_t number = 0;
   std::memcpy(&number, hash.data(), sizeof number);

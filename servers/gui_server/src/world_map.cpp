@@ -38,6 +38,7 @@ struct Box {
 std::vector<Piece> pieces_of(const std::string& bodies_json) {
   std::vector<Piece> pieces;
   for (const auto& body : nlohmann::json::parse(bodies_json)) {
+    // The map is that of what a real robot could sense.
     if (body.at("kind") == "virtual") continue;
     const auto& pose = body.at("pose");
     const Pose2 X_WB{pose[0].get<double>(), pose[1].get<double>(), pose[2].get<double>()};
@@ -61,6 +62,7 @@ std::vector<Piece> pieces_of(const std::string& bodies_json) {
 
 /// Whether a piece covers a cell about `p`, or a part of it; `half_m`: half of its side.
 bool covers(const Piece& piece, Vec2 p, double half_m) {
+  // A little more than a cell at the corners of its square, which does no harm on a map for people.
   if (piece.corners.size() == 1) {
     return std::hypot(p.x - piece.corners[0].x, p.y - piece.corners[0].y) <=
            piece.radius_m + half_m;
@@ -134,6 +136,7 @@ std::vector<maps::MapTile> world_map(const std::string& bodies_json) {
   Raster raster;
   maps::MapFrame& frame = raster.frame;
   frame.resolution_m = kFinest_m;
+  // Coarser for large worlds: the map goes to each page that looks at it.
   while (side_m / frame.resolution_m > kMostCells) frame.resolution_m *= 2;
   frame.origin_W = {box.low.x - kMargin_m, box.low.y - kMargin_m};
   const auto cells = [&](double low, double high) {

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "rave/sim/event.hpp"
+
 namespace rave::gui_server {
 namespace {
 
@@ -28,6 +30,22 @@ TEST(EventFold, WhatComesAgainLaterIsAnotherRow) {
   ASSERT_EQ(fold.events().size(), 2U);
   EXPECT_EQ(fold.events()[0].level, LogEvent::Level::kWarn);
   EXPECT_EQ(fold.events()[0].text, "real-1: pose stale, its last pose is from 0.5 s");
+}
+
+/// The kinds are those of the engine: a word that it does not use would never match.
+TEST(EventFold, KindsThatNeedAttentionStandOut) {
+  EventFold fold({"real-1"});
+  for (const sim::EventKind kind :
+       {sim::EventKind::kHandOverRefused, sim::EventKind::kChangeRefused, sim::EventKind::kStopped,
+        sim::EventKind::kPoseStale}) {
+    fold.add(1, 0, sim::to_string(kind), "");
+    EXPECT_EQ(fold.events().back().level, LogEvent::Level::kWarn) << sim::to_string(kind);
+  }
+  for (const sim::EventKind kind :
+       {sim::EventKind::kProgramFailed, sim::EventKind::kDriverFailed, sim::EventKind::kPinned}) {
+    fold.add(1, 0, sim::to_string(kind), "");
+    EXPECT_EQ(fold.events().back().level, LogEvent::Level::kAlert) << sim::to_string(kind);
+  }
 }
 
 TEST(EventFold, EventsOfTheWorldHaveNoRobot) {

@@ -37,9 +37,9 @@ struct TableColumn {
   Align align = Align::kLeft;
   /// If the table is too wide, the cells of this column are wrapped at spaces.
   bool may_wrap = false;
-  /// Not 0: if the table is too wide, whole columns with a weight are left out, the least weight
-  /// first; they are left out, too, if they have no text. A table with rules leaves them out before
-  /// it wraps a column that may be to less than `kComfortable` characters.
+  /// 0: the column always appears. Columns with a weight are left out if they have no text, or if
+  /// the table is too wide, the least weight first. A table with rules leaves them out before it
+  /// wraps a column to less than `kComfortable` characters.
   int weight = 0;
   /// Longer cells continue in the next line, also without a limit of the table; 0: no limit.
   std::size_t widest = 0;

@@ -126,8 +126,9 @@ class LocalReceiver {
   /// ended the wait and there is one sender: a further read that finds nothing would cost as much
   /// as this one, and the next wait notices later datagrams anyway.
   [[nodiscard]] std::size_t begin_take(std::size_t most) noexcept;
-  /// Whether this take may skip DDS; `got`: it received a datagram. True only after a wait that a
-  /// datagram ended and in which DDS had nothing; the next wait notices later samples.
+  /// Whether this take may leave out the readers of DDS. True only if it received a datagram
+  /// (`got`) after a wait that a datagram ended and in which DDS had nothing. The next wait notices
+  /// later samples.
   [[nodiscard]] bool leaves_dds(bool got) noexcept;
   /// True once per take: whether the take may look up the writers again. Datagrams of unknown
   /// senders cause no further look-ups.

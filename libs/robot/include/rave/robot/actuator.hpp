@@ -9,8 +9,8 @@ namespace rave {
 /// The input of a virtual actuator in one step.
 struct MotionInput {
   Command command;  ///< Command of the controller; kNone before the first.
-  Twist2 velocity;  ///< Actual body velocity of the last step, after the limits of the world; body
-                    ///< frame.
+  Twist2 velocity;  ///< Actual velocity in the last step, as the world permitted it; in the
+                    ///< body frame.
   double dt_s = 0;
   std::uint64_t seed = 0;
   std::uint32_t robot = 0;

@@ -20,7 +20,7 @@ class OrderedWay {
   enum class State : std::uint8_t {
     kNone,     ///< No order: the program follows its own task.
     kGoing,    ///< On the way to next().
-    kTurning,  ///< At the end; turning to the ordered heading by turn_radps().
+    kTurning,  ///< At the end, turning with turn_radps() to the ordered heading.
     kThere,    ///< At the end; standing until the next order.
   };
 

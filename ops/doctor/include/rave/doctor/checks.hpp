@@ -34,8 +34,8 @@ namespace rave::doctor {
                                   std::vector<std::string>& addresses);
 /// Whether there are free UDP ports for another process in the domain; binds and frees them.
 [[nodiscard]] Finding check_ports(const bus::BusConfig& config);
-/// Whether packets from this machine to a port of the domain on itself arrive; sends real packets.
-/// If not, a DDS process can neither discover its neighbours nor end.
+/// Whether this machine receives packets that it sends to itself, at a port of the domain; sends
+/// real packets. If not, a DDS process can neither discover its neighbours nor end.
 [[nodiscard]] Finding check_own_way(const Machine& machine, const bus::BusConfig& config);
 /// Whether multicast packets to the DDS group are received on the interface; sends real packets.
 [[nodiscard]] Finding check_multicast(const Machine& machine, const bus::BusConfig& config);

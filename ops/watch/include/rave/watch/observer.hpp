@@ -28,10 +28,11 @@ struct FoundRun {
 /// Returns true to stop the search; argument: the runs found so far.
 using Enough = std::function<bool(const std::vector<FoundRun>&)>;
 
-/// Finds the runs in the domain of `config`, whose run is ignored. Searches for `patience`, or
-/// until `enough`, called in the caller's thread for each new process, returns true. If null, it
-/// stops when no new process has appeared for a moment, which is fast but may miss slow ones. Runs
-/// with more processes come first. Errors: those of bus::Bus::open().
+/// Finds the runs in the domain of `config`, whose run is ignored. The search ends after
+/// `patience`, or earlier when `enough` returns true; it is called in the caller's thread for each
+/// new process. Without `enough` the search ends when no new process has appeared for a moment,
+/// which is fast but may miss slow ones. Runs with more processes come first. Errors: those of
+/// bus::Bus::open().
 [[nodiscard]] Result<std::vector<FoundRun>> find_runs(bus::BusConfig config, Duration patience,
                                                       const Enough& enough = {},
                                                       const std::stop_token& stop = {});

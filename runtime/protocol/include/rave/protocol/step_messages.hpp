@@ -24,8 +24,8 @@ struct WireParts {
 /// Inputs as members of bus messages. One owner thread.
 class InputParts {
  public:
-  /// The members borrow from the inputs and from this object. Errors: kInvalidArgument: an input
-  /// that the bus cannot carry; those before it are there.
+  /// The members borrow from the inputs and from this object. Errors: kInvalidArgument: the bus
+  /// cannot carry an input; inputs() then has those before it.
   Status fill(const std::vector<sim::WorldInput>& inputs);
   [[nodiscard]] std::vector<rave_wire_WorldInput>& inputs() noexcept { return inputs_; }
 

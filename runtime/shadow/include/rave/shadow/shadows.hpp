@@ -80,7 +80,7 @@ class Shadows final : public RunObserver {
     std::uint64_t ever_compared = 0;
     std::uint32_t starts = 0;
     bool reset_asked = false;
-    bool fresh = false;  ///< The last step compared something.
+    bool fresh = false;  ///< Robot and twin were compared in the last step.
     SimTime compared_at;
     Pose2 X_WR;  ///< Poses of the last comparison.
     Pose2 X_WS;

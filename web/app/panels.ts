@@ -29,6 +29,11 @@ export function allPanels(): readonly PanelKind[] {
   return [...kPanels, ...components];
 }
 
+/** Those that this person may not see: each says so, and whom to ask. */
+export function withheldPanels(model: RunModel): PanelKind[] {
+  return allPanels().filter((kind) => kind.needs !== undefined && !model.may(kind.needs) && (kind.needs === 'rights' || model.isWithheld(kind.needs)) && (kind.live !== true || model.live));
+}
+
 /** Those that this person may see. */
 export function panelsFor(model: RunModel): PanelKind[] {
   return [...kPanels, ...components].filter((kind) => (kind.needs === undefined || model.may(kind.needs)) && (kind.live !== true || model.live));

@@ -2,8 +2,10 @@
 import {LitElement, css, html, nothing, svg, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import {controls} from '../../app/styles';
+import {askText, holdersText, kUsualRights} from '../../model/withheld';
 import type {PanelContext} from '../../panel_api';
 import type {Host} from '../../protocol/messages';
+import {renderNote, withheldStyles} from '../withheld';
 import {kColumns, matches} from './columns';
 import {Rates, shortTime} from './rates';
 
@@ -40,9 +42,7 @@ export class HostsPanel extends LitElement {
 
   override render(): TemplateResult {
     const {model} = this.context;
-    if (model.hosts.length === 0) {
-      return html`<p>${model.live ? 'This run is one process: it has no other hosts.' : 'A recording does not say how its hosts were.'}</p>`;
-    }
+    if (model.hosts.length === 0) return this.renderNone();
     const late = model.hosts.filter((host) => host.state !== 'here');
     const shown = model.hosts.filter((host) => matches(host, this.text));
     return html`${model.hosts.length < kFilterFrom && this.text === '' ? nothing : this.renderFilter()}
@@ -52,6 +52,14 @@ export class HostsPanel extends LitElement {
       <tbody>${shown.map((host) => this.renderRow(host))}</tbody></table></div>
       ${shown.length === 0 ? html`<p>No host matches “${this.text}”.</p>` : nothing}
       ${late.length === 0 ? nothing : html`<div class="waits">${icon('hourglass', 15)}<span>${lateText(late)}</span></div>`}`;
+  }
+
+  private renderNone(): TemplateResult {
+    const {model} = this.context;
+    if (!model.live) return html`<p>A recording does not say how its hosts were.</p>`;
+    // They come before the first picture, if they come at all.
+    if (!model.seesLess || model.poses.newest === null) return html`<p>No host is known yet.</p>`;
+    return renderNote(this.context, `Not yours to see: hosts. They say how many robots they have, so only who sees all robots is told. ${holdersText(kUsualRights.pose)} ${askText(model.others)}`);
   }
 
   private renderRow(host: Host): TemplateResult {
@@ -81,6 +89,7 @@ export class HostsPanel extends LitElement {
 
   static override styles = [
     controls,
+    withheldStyles,
     css`
       :host { display: block; height: 100%; background: var(--bg-1); overflow: auto; font-size: var(--fs-12); container-type: inline-size; }
       .field { display: flex; margin: 8px 12px; }

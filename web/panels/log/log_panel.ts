@@ -5,6 +5,7 @@ import {controls} from '../../app/styles';
 import type {PanelContext} from '../../panel_api';
 import type {Event} from '../../protocol/messages';
 import {clockText} from '../../app/clock';
+import {renderWithheld, withheldStyles} from '../withheld';
 import {foldSame, shownSlots, type LogRow} from './same_events';
 
 const kRows = 300;
@@ -67,7 +68,7 @@ export class LogPanel extends LitElement {
       </div>
       <div class="rows">${rows}${lineDrawn || rows.length === 0 ? nothing : this.renderNow(now_s)}
         ${shown.length > kRows ? html`<p>${shown.length - kRows} older events: filter to see them.</p>` : nothing}
-        ${shown.length === 0 ? html`<p>${model.may('log') ? 'Nothing has happened yet.' : model.whyNot('log')}</p>` : nothing}
+        ${shown.length > 0 ? nothing : !model.may('log') ? renderWithheld(this.context, 'log') : html`<p>${all.length === 0 ? 'Nothing has happened yet.' : 'No event matches the filter.'}</p>`}
       </div>`;
   }
 
@@ -129,6 +130,7 @@ export class LogPanel extends LitElement {
 
   static override styles = [
     controls,
+    withheldStyles,
     css`
       :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); }
       .bar { display: flex; gap: 8px; padding: 8px 12px; }

@@ -3,9 +3,11 @@ import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import {controls, glyphs} from '../../app/styles';
 import type {Signal} from '../../model/signal';
+import {askText, holdersText, kUsualRights} from '../../model/withheld';
 import type {Reading} from '../../protocol/frames';
 import type {Robot, Sensor} from '../../protocol/messages';
 import {LookingPanel} from '../looking_panel';
+import {renderNote, renderWithheld, withheldStyles} from '../withheld';
 import {shortName} from '../world/name_layer';
 import {Surface, type Met} from '../world/surface';
 import {beamText, courseFieldsOf, type CourseField} from './course_fields';
@@ -82,9 +84,9 @@ export class SensorsPanel extends LookingPanel {
     const {model, palette} = this.context;
     const slot = this.shownSlot;
     const robot = slot === null ? undefined : model.robots[slot];
-    if (slot === null || robot === undefined) return html`<p class="none">No robot of this run has a sensor.</p>`;
-    if (!model.may('readings')) return html`<p class="none">${icon('lock', 15)} ${model.whyNot('readings')}</p>`;
-    if (robot.sensors.length === 0) return html`<p class="none">${robot.name} has no sensors.</p>`;
+    if (!model.may('readings')) return renderWithheld(this.context, 'readings');
+    if (slot === null || robot === undefined) return this.renderNone('No robot of this run');
+    if (robot.sensors.length === 0) return this.renderNone(robot.name);
     const index = this.sensorIndex(slot, robot);
     const sensor = robot.sensors[index];
     const reading = model.readings.of(slot, index);
@@ -110,6 +112,14 @@ export class SensorsPanel extends LookingPanel {
       ${this.asTable ? renderTable(sensor, reading) : this.renderPlots(slot, sensor, reading)}`;
   }
 
+  /** Robots whose readings are withheld have no sensors at all. */
+  private renderNone(whose: string): TemplateResult {
+    const {model} = this.context;
+    const many = whose.startsWith('No ');
+    if (!model.seesLess) return html`<p class="none">${whose} ${many ? 'has a sensor' : 'has no sensors'}.</p>`;
+    return renderNote(this.context, `${whose} ${many ? 'shows you a sensor' : 'shows you no sensors: it has none, or they are not yours to see'}. ${holdersText(kUsualRights.readings)} ${askText(model.others)}`);
+  }
+
   private choose(slot: number, index: number): void {
     this.chosen.set(slot, index);
     this.field = 0;
@@ -122,7 +132,8 @@ export class SensorsPanel extends LookingPanel {
     const ranges = sensor.kind === 'ranges';
     if (sensor.kind === 'sightings') return this.renderSightings(slot, sensor, reading);
     return html`
-      ${sensor.origin === 'hybrid' ? html`<p class="halves"><span><i class="line"></i>real half</span><span><i class="dot"></i>result from it</span><span><i class="square"></i>result from the virtual half</span></p>` : nothing}
+      ${sensor.origin === 'hybrid' && this.context.model.isWithheld('hybrid_parts') ? renderWithheld(this.context, 'hybrid_parts') : nothing}
+      ${sensor.origin === 'hybrid' ? html`<p class="halves">${this.context.model.may('hybrid_parts') ? html`<span><i class="line"></i>real half</span>` : nothing}<span><i class="dot"></i>result from it</span><span><i class="square"></i>result from the virtual half</span></p>` : nothing}
       ${ranges ? html`<canvas class="polar" role="img" aria-label="Ranges around the robot; the numbers are behind the button Show the numbers"></canvas>` : renderValues(sensor, reading)}
       ${ranges ? html`<p class="sentence">${this.nearest(slot, sensor, reading)}</p>` : nothing}
       ${this.renderCourse(sensor)}`;
@@ -231,6 +242,7 @@ export class SensorsPanel extends LookingPanel {
     glyphs,
     readingStyles,
     courseStyles,
+    withheldStyles,
     css`
       :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); overflow: hidden; }
       .head, .about { display: flex; align-items: center; gap: 8px; padding: 8px 12px 0; flex-wrap: wrap; }

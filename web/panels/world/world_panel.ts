@@ -232,6 +232,11 @@ export class WorldPanel extends LitElement {
     this.requestUpdate();
   }
 
+  private toggleMenu(): void {
+    this.menuOpen = !this.menuOpen;
+    this.requestUpdate();
+  }
+
   /** While Z is held. */
   lens(on: boolean): void {
     if (this.top.lens.on === on) return;
@@ -343,7 +348,7 @@ export class WorldPanel extends LitElement {
             @click=${() => void this.setMode(mode)}>${mode === 'top' ? 'Top' : '3-D'}</button>`)}
         </div><i class="rule"></i>
         ${this.orders.tools()}
-        ${renderLegend(this.context, this.layers, set)}
+        ${renderLegend(this.context, this.layers, set, () => this.toggleMenu())}
         <span class="space"></span>
         ${model.robots.length >= kCrowd ? this.renderColourBy() : nothing}
         <div class="tools">
@@ -351,7 +356,7 @@ export class WorldPanel extends LitElement {
           ${tool('maximize', 'Show everything', 'F', null, () => this.fit())}
           ${tool('crosshair', 'Follow the selected robot', 'C', selection.following, () => selection.follow(!selection.following), primary === null)}
           ${tool('ruler', 'Measure', 'M', this.top.measure.on, () => this.toggleMeasure())}
-          ${tool('layers', 'Layers', '', this.menuOpen, () => { this.menuOpen = !this.menuOpen; this.requestUpdate(); })}
+          ${tool('layers', 'Layers', '', this.menuOpen, () => this.toggleMenu())}
           ${tool('camera', 'Save a picture', 'P', null, () => this.picture())}
         </div>
       </div>
@@ -363,7 +368,7 @@ export class WorldPanel extends LitElement {
           : nothing}
         ${this.orders.render(this.stage.screenAt === undefined ? null : ([x, y]) => this.top.screenAt(x, y))}
         ${this.alone ? renderCard(this.context, this.placed) : nothing}
-        ${this.menuOpen ? renderMenu(model, this.layers, this.top.tint.scale(this.layers.colourBy), palette.theme, set) : nothing}
+        ${this.menuOpen ? renderMenu(this.context, this.layers, this.top.tint.scale(this.layers.colourBy), palette.theme, set) : nothing}
       </div>`;
   }
 

@@ -51,6 +51,15 @@ try {
     await until(page, `Math.abs(${app}.model.time.speed - 1) < 0.2`);
   });
 
+  await check('the person at the page is nobody else in the lists of people', async () => {
+    await page.evaluate(`${app}.context.show('chat')`);
+    await page.locator('rave-chat').getByRole('radio', {name: 'Super-users'}).waitFor();
+    await until(page, `${app}.model.people.some(({name}) => name === 'the operator')`);
+    assert.equal(await page.locator('rave-chat').getByRole('radio', {name: /operator/}).count(), 0);
+    assert.equal(await page.locator('rave-top-bar .people').count(), 0);
+    for (const id of ['log', 'world']) await page.evaluate(`${app}.context.show('${id}')`);
+  });
+
   await check('the page can be installed as an app', async () => {
     const client = await context.newCDPSession(page);
     const {installabilityErrors} = await client.send('Page.getInstallabilityErrors');

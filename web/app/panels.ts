@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {RunModel} from '../model/run_model';
+import {classOf, kUsualRights} from '../model/withheld';
 import type {PanelKind} from '../panel_api';
 
 /** The panels that come with the page, in the order of their keys. */
@@ -29,9 +30,12 @@ export function allPanels(): readonly PanelKind[] {
   return [...kPanels, ...components];
 }
 
-/** Those that this person may not see: each says so, and whom to ask. */
+/** Panels of information that rights withhold: each says so, and whom to ask. What a role may not do is not offered. */
 export function withheldPanels(model: RunModel): PanelKind[] {
-  return allPanels().filter((kind) => kind.needs !== undefined && !model.may(kind.needs) && (kind.needs === 'rights' || model.isWithheld(kind.needs)) && (kind.live !== true || model.live));
+  return allPanels().filter(({needs, live}) => {
+    const what = needs === undefined ? null : classOf(needs);
+    return what !== null && kUsualRights[what].to === 'see' && needs !== undefined && model.isWithheld(needs) && (live !== true || model.live);
+  });
 }
 
 /** Those that this person may see. */

@@ -55,7 +55,7 @@ const session = await browser.newBrowserCDPSession();
 for (const count of counts.length > 0 ? counts.map(Number) : [16, 1000, 10000]) {
   const server = await serveFake(built, new FakeRun(count, {now_s: 20}));
   const page = await (await browser.newContext({viewport: kViewport})).newPage();
-  if (process.env.RAVE_VIEW) await page.addInitScript((mode) => localStorage.setItem('rave.world.mode', mode), process.env.RAVE_VIEW);
+  if (process.env.RAVE_VIEW) await page.addInitScript((mode) => localStorage.setItem('rave.world.mode.Ada N.Watch', JSON.stringify(mode)), process.env.RAVE_VIEW);
   await page.goto(server.origin);
   await page.waitForTimeout(kWarm_ms);
   const before = await processorTime(session);

@@ -18,7 +18,7 @@ export interface RightsRow {
 }
 
 /** Classes of the table in docs/how-to/share-the-page.md that a page can name; a test compares them. The rights of
- * the present run are told to super-users alone. */
+ * the present run go to super-users alone. */
 export const kUsualRights = {
   pose: {what: 'robots', to: 'see', reach: ['all', 'all', 'all']},
   true_pose: {what: 'true poses', to: 'see', reach: ['none', 'none', 'all']},

@@ -52,6 +52,12 @@ export function renderLegend(context: PanelContext, layers: Layers, set: (layers
     })}</div>`;
 }
 
+/** How simulated robots are tinted, at hand without the menu. */
+export function renderColourBy(layers: Layers, set: (layers: Layers) => void): TemplateResult {
+  return html`<span class="colour-by">Colour by<div class="segments" role="radiogroup" aria-label="Colour by">${kColourBy.map((by) => html`
+    <button role="radio" aria-checked=${layers.colourBy === by} @click=${() => set({...layers, colourBy: by})}>${by}</button>`)}</div></span>`;
+}
+
 /** What is shown over the floor. */
 export function renderMenu(context: PanelContext, layers: Layers, scale: [string, string], theme: 'dark' | 'light', set: (layers: Layers) => void): TemplateResult {
   const {model} = context;
@@ -89,7 +95,7 @@ export function renderMenu(context: PanelContext, layers: Layers, scale: [string
 function renderLacking(context: PanelContext): TemplateResult | typeof nothing {
   const {model} = context;
   const lacking = (['obstacles', 'true_pose', 'readings', 'maps'] as const).filter((power) => model.isWithheld(power));
-  return lacking.length === 0 ? nothing : html`<hr>${lacking.map((power) => renderNote(context, model.whyNot(power), false))}`;
+  return lacking.length === 0 ? nothing : html`<hr>${lacking.map((power, i) => renderNote(context, model.whyNot(power), i === lacking.length - 1))}`;
 }
 
 /** Which map lies over the world, and how strong. */

@@ -112,7 +112,7 @@ export class RobotsPanel extends LitElement {
       if (!set.delete(team)) set.add(team);
       this.requestUpdate();
     };
-    return html`<div class="head">
+    return html`<div class="head ${many ? 'many' : ''}">
       <button class="team ${many ? 'many' : ''}" aria-expanded=${open} @click=${toggle}>
         <span class="turn ${open ? 'open' : ''}">${icon('chevronDown', 13)}</span>
         <span class="who"><span>${team === '' ? 'no team' : team} <em>${slots.length}</em></span>
@@ -259,7 +259,10 @@ export class RobotsPanel extends LitElement {
       .team.many { height: 40px; }
       .head { display: flex; align-items: center; }
       .head .team { flex: 1; min-width: 0; }
-      .halt { display: inline-flex; align-items: center; gap: 5px; flex: none; height: 22px; margin-right: 12px; padding: 0 8px; border-radius: var(--r-2); background: linear-gradient(var(--danger-soft) 0 0), var(--bg-1); color: var(--danger); font-size: var(--fs-12); }
+      .head:has(.halt) { margin: 4px 0; }
+      /* Histogram and mean need the width: the button stands below them, under the name. */
+      .head.many { flex-wrap: wrap; } .head.many .team { flex-basis: 100%; } .head.many .halt { margin: 0 0 4px 31px; }
+      .halt { display: inline-flex; align-items: center; gap: 5px; flex: none; height: 24px; margin: 0 12px 0 8px; padding: 0 10px; white-space: nowrap; border-radius: var(--r-2); background: linear-gradient(var(--danger-soft) 0 0), var(--bg-1); color: var(--danger); font-size: var(--fs-12); }
       .halt:disabled { opacity: 1; background: none; color: var(--text-2); }
       @media (pointer: coarse) { .halt { height: 40px; } }
       .who { display: flex; flex-direction: column; line-height: 1.3; }

@@ -7,6 +7,7 @@ import {askText, holdersText, kUsualRights} from '../../model/withheld';
 import type {Reading} from '../../protocol/frames';
 import type {Robot, Sensor} from '../../protocol/messages';
 import {LookingPanel} from '../looking_panel';
+import {isCurrent, strengthOf} from '../reading_age';
 import {renderNote, renderWithheld, withheldStyles} from '../withheld';
 import {shortName} from '../world/name_layer';
 import {Surface, type Met} from '../world/surface';
@@ -105,7 +106,7 @@ export class SensorsPanel extends LookingPanel {
       </div>
       <div class="about">
         ${sensor.origin === 'real' ? nothing : html`<span class="tag"><i class="glyph virtual"></i>${sensor.origin === 'virtual' ? 'virtual sensor' : 'hybrid sensor'}</span>`}
-        <span class="space"></span><span>${aboutText(sensor, reading, now_s)}</span>
+        <span class="space"></span><span class=${reading === null || isCurrent(now_s - reading.stamp_s, sensor.period_s) ? '' : 'old'}>${aboutText(sensor, reading, now_s)}</span>
         <button class="icon-button" title="Show the numbers" aria-label="Show the numbers" aria-pressed=${this.asTable}
           @click=${() => { this.asTable = !this.asTable; this.requestUpdate(); }}>${icon('list', 14)}</button>
       </div>
@@ -216,11 +217,11 @@ export class SensorsPanel extends LookingPanel {
     const halves = sensor.origin === 'hybrid' ? model.readings.of(slot, index, 1) : null;
     this.onCanvas('.polar', (ctx, width, height) => {
       drawPolar(ctx, width, height, sensor, reading, hue, palette, (ray) =>
-        reading === null ? null : this.met(slot, sensor, reading, ray), halves, this.field === 1 ? this.beamOf(sensor) : null);
+        reading === null ? null : this.met(slot, sensor, reading, ray), halves, this.field === 1 ? this.beamOf(sensor) : null, reading === null ? 1 : strengthOf(this.placed.time_s - reading.stamp_s, sensor.period_s));
     });
     this.onCanvas('.sightings', (ctx, width, height) => {
       const twin = twinOf(robot, index);
-      drawSightingsPlot(ctx, width, height, sensor, reading, twin === null ? null : model.readings.of(slot, twin), (code) => this.namedCode(code), palette);
+      drawSightingsPlot(ctx, width, height, sensor, reading, twin === null ? null : model.readings.of(slot, twin), (code) => this.namedCode(code), palette, this.placed.time_s);
     });
     this.paintCourse(slot, index, sensor, hue.ink);
   }
@@ -248,6 +249,7 @@ export class SensorsPanel extends LookingPanel {
       .head, .about { display: flex; align-items: center; gap: 8px; padding: 8px 12px 0; flex-wrap: wrap; }
       .about { color: var(--text-2); font-size: var(--fs-12); padding-top: 4px; flex-wrap: nowrap; white-space: nowrap; overflow: hidden; }
       .space { flex: 1; }
+      .old { color: var(--stale-ink); }
       :host([embedded]) .head > :is(.glyph, b, .icon-button, .space), :host([compact]) :is(.course, .fields) { display: none; }
       .tag { display: inline-flex; align-items: center; gap: 6px; padding: 1px 8px; border-radius: var(--r-2); background: var(--virtual-fill); color: var(--virtual-ink); }
       .polar { flex: 1 1 160px; min-height: 100px; width: 100%; }

@@ -174,7 +174,7 @@ export class RunBar extends LitElement {
         .card .pace { gap: 10px; } .card button { min-height: var(--h-control, 28px); }
       }
       @media (max-width: 599px) {
-        :host { gap: 8px; padding: 0 8px; border-radius: 0; }
+        :host { gap: 8px; padding: 0 8px; border-radius: 0; border-top: 1px solid var(--line-1); }
         .transport .icon-button { display: none; } .more > .icon-button { width: 44px; height: 44px; }
         .clock { position: absolute; left: 72px; top: 14px; min-width: 84px; } .clock span { display: none; }
         :host { position: relative; } .play { width: 44px; height: 44px; } rave-timeline { margin-top: 34px; }

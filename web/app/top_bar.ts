@@ -135,6 +135,7 @@ export class TopBar extends LitElement {
       @media (max-width: 700px) { h1 { flex: 0 1 auto; } }
       @media (max-width: 599px) {
         :host { padding: 0 10px; height: 52px; } .brand b, .find span, .find kbd, .rate { display: none; }
+        .find svg { width: 20px; height: 20px; }
         .find { flex: none; width: 40px; height: 40px; justify-content: center; background: none; border-color: transparent; }
         .theme, .foxglove, rave-bell { display: none; } .space ~ .space { display: none; } h1 { max-width: 46vw; } .state { order: 1; } .find { order: 2; } .person { order: 3; }
       }

@@ -152,6 +152,7 @@ export class ChatPanel extends LitElement {
       .targets { display: flex; gap: 6px; padding: 8px 10px; overflow-x: auto; flex: none; scrollbar-width: none; }
       .to { height: 26px; padding: 0 10px; border-radius: var(--r-2); background: var(--bg-2); color: var(--text-2); font-size: var(--fs-12); white-space: nowrap; flex: none; }
       .to[aria-checked='true'] { background: var(--intent-soft); color: var(--intent); font-weight: var(--fw-medium); }
+      @media (pointer: coarse) { .to { height: 36px; padding: 0 12px; } }
       .lines { flex: 1; min-height: 0; overflow: auto; padding: 2px 12px; font-size: var(--fs-12); }
       article { display: flex; gap: 10px; margin: 8px 0; }
       article div { min-width: 0; flex: 1; }

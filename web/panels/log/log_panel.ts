@@ -137,6 +137,7 @@ export class LogPanel extends LitElement {
       .bar .field { flex: 1; }
       .rows { flex: 1; overflow: auto; padding: 0 4px 8px; }
       .row { display: grid; grid-template-columns: 58px 16px 1fr auto; gap: 6px; width: 100%; padding: 4px 8px; text-align: left; font-size: var(--fs-12); border-radius: var(--r-2); line-height: 1.4; }
+      @media (pointer: coarse) { .row { padding: 12px 8px; } }
       .row:hover { background: var(--bg-2); }
       .row time { text-align: right; color: var(--text-3); }
       .row svg { margin-top: 1px; color: var(--text-3); }

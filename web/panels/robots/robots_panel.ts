@@ -264,7 +264,7 @@ export class RobotsPanel extends LitElement {
       .head.many { flex-wrap: wrap; } .head.many .team { flex-basis: 100%; } .head.many .halt { margin: 0 0 4px 31px; }
       .halt { display: inline-flex; align-items: center; gap: 5px; flex: none; height: 24px; margin: 0 12px 0 8px; padding: 0 10px; white-space: nowrap; border-radius: var(--r-2); background: linear-gradient(var(--danger-soft) 0 0), var(--bg-1); color: var(--danger); font-size: var(--fs-12); }
       .halt:disabled { opacity: 1; background: none; color: var(--text-2); }
-      @media (pointer: coarse) { .halt { height: 40px; } }
+      @media (pointer: coarse) { .halt { height: 40px; border-radius: var(--r-3); } .team:not(.many) { height: 44px; } }
       .who { display: flex; flex-direction: column; line-height: 1.3; }
       .who small { color: var(--text-3); font-size: var(--fs-11); }
       .heads { display: flex; justify-content: space-between; padding: 6px 12px 0; color: var(--text-3); font-size: var(--fs-11); }

@@ -98,7 +98,7 @@ export class SensorsPanel extends LookingPanel {
         <i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i>
         <b style="color:${hue.ink}">${robot.name}</b>
         <button class="icon-button" title="Keep this robot, whatever is selected" aria-label="Keep this robot" aria-pressed=${this.pinned !== null}
-          @click=${() => { this.pinned = this.pinned === null ? slot : null; this.requestUpdate(); }}>${icon('lock', 13)}</button>
+          @click=${() => { this.pinned = this.pinned === null ? slot : null; this.requestUpdate(); }}>${icon('pin', 14)}</button>
         <span class="space"></span>
         <div class="segments" role="radiogroup" aria-label="Sensor">
           ${robot.sensors.map((other, i) => html`<button role="radio" aria-checked=${i === index} @click=${() => this.choose(slot, i)}>${other.name}</button>`)}

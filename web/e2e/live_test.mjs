@@ -33,8 +33,12 @@ try {
   const errors = [];
   const said = [];
   page.on('pageerror', (error) => errors.push(String(error)));
+  let frames = 0;
   page.on('websocket', (socket) => {
-    socket.on('framereceived', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
+    socket.on('framereceived', ({payload}) => {
+      if (typeof payload === 'string') said.push(JSON.parse(payload));
+      else ++frames;
+    });
     socket.on('framesent', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
   });
   const run = join(folder, 'watched');
@@ -82,6 +86,13 @@ try {
     await until(page, `${newest}.step === ${step}`);
     await say(page, {type: 'transport', do: 'step', value: 1});
     await until(page, `${newest}.step === ${step} + 1`);
+  });
+
+  await check('this process is the host of a run of one process', async () => {
+    await until(page, `${app}.model.hosts.length === 1`);
+    const host = await page.evaluate(`${app}.model.hosts[0]`);
+    assert.deepEqual([host.name, host.state, host.real, host.simulated, host.pid], ['mixed-reality', 'here', 5, 11, live.child.pid]);
+    assert.ok(host.memory_mb > 1 && host.cpu >= 0 && host.machine !== '', JSON.stringify(host));
   });
 
   const scanIsThere = `(() => { const a = ${app}; const slot = a.selection.primary;

@@ -216,6 +216,9 @@ void LiveSource::take_picture(Playhead::Clock::time_point now) {
   measured_at_ = now;
   measured_s_ = state_.now_s;
   state_.pace = port_->pace();
+  if (const auto status = port_->own_status()) {
+    own_host_.look(now, start_.about.name, poses_.step, *status);
+  }
 }
 
 void LiveSource::write_bodies() {

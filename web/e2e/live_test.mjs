@@ -88,6 +88,14 @@ try {
     await until(page, `${newest}.step === ${step} + 1`);
   });
 
+  await check('while it is held and nobody does anything, the page gets the time and no frames', async () => {
+    await page.waitForTimeout(1000);
+    const before = [frames, said.filter((message) => message.type === 'time').length];
+    await page.waitForTimeout(2500);
+    assert.equal(frames, before[0]);
+    assert.ok(said.filter((message) => message.type === 'time').length > before[1]);
+  });
+
   await check('this process is the host of a run of one process', async () => {
     await until(page, `${app}.model.hosts.length === 1`);
     const host = await page.evaluate(`${app}.model.hosts[0]`);

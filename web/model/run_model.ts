@@ -267,7 +267,7 @@ export class RunModel {
     }
     if (this.mixed.length > 0 && !frame.past) this.followHandOvers(frame.flags);
     const before = this.poses.newest;
-    this.poses.add(frame, now_ms);
+    this.poses.add(frame, now_ms, this.time?.state === 'paused');
     // Readings of the moment come before its frame, so those are kept.
     if (before !== null && !frame.past && frame.time_s < before.time_s - 1e-9) this.readings.forgetAfter(frame.time_s);
     this.pictureChanged.emit();

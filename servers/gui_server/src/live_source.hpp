@@ -7,6 +7,7 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -103,6 +104,7 @@ class LiveSource : public Source {
     std::string json;  ///< Empty: it went.
   };
   void take_news();
+  [[nodiscard]] bool shows_other(const LivePicture& next);
   void take_picture(Playhead::Clock::time_point now);
   void write_bodies();
   void answer_asked();
@@ -122,6 +124,9 @@ class LiveSource : public Source {
   MapBook maps_;
   PosesAt poses_;
   OwnHost own_host_;
+  /// Which readings the last picture had, and of which time.
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t, double>> shown_readings_;
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t, double>> next_readings_;
   std::map<std::string, std::uint32_t, std::less<>> slots_;
   std::vector<std::uint16_t> flags_;  ///< By robot: what the port knows beside the picture.
   Playhead::Clock::time_point status_at_{};

@@ -69,6 +69,7 @@ export class Dock {
       },
     });
     this.name = this.lastName();
+    context.kept.belongTo(this.user, this.name);
     if (!this.restore()) this.resetWhenSized(host);
     this.view.onDidLayoutChange(() => {
       if (!this.restoring && !this.leaving) this.keep();
@@ -247,6 +248,7 @@ export class Dock {
 
   /** The kept arrangement of the present layout, or that which it has at first. */
   private takeKept(): void {
+    this.context.kept.belongTo(this.user, this.name);
     this.away = [];
     this.empty.clear();
     this.restoring = true;

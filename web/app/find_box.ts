@@ -3,6 +3,7 @@ import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
 import type {PanelContext, PanelKind} from '../panel_api';
 import {clockText} from './clock';
 import {icon, type IconName} from './icons';
+import {withheldPanels} from './panels';
 import {controls} from './styles';
 
 const kMost = 12;
@@ -42,6 +43,10 @@ export class FindBox extends LitElement {
     });
     for (const panel of this.panels) {
       if (fits(panel.title)) all.push({icon: panel.icon as IconName, text: panel.title, note: 'panel', act: () => this.context.show(panel.id)});
+    }
+    // Not in the list of everything: only who looks for one learns why it is not there.
+    for (const panel of words.length === 0 ? [] : withheldPanels(model)) {
+      if (fits(panel.title)) all.push({icon: 'lock', text: panel.title, note: 'panel, not yours to see', act: () => this.context.show(panel.id)});
     }
     if (fits('light or dark theme')) all.push({icon: 'sun', text: 'Light or dark', note: 'theme', act: () => this.dispatchEvent(new CustomEvent('theme'))});
     if (model.hello?.foxglove && fits('watch in foxglove lichtblick')) all.push({icon: 'share', text: 'Watch in Foxglove', note: 'address and steps', act: () => this.dispatchEvent(new CustomEvent('foxglove'))});

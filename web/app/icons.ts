@@ -32,6 +32,7 @@ import minus from 'lucide-static/icons/minus.svg?raw';
 import moon from 'lucide-static/icons/moon.svg?raw';
 import octagonX from 'lucide-static/icons/octagon-x.svg?raw';
 import pause from 'lucide-static/icons/pause.svg?raw';
+import pin from 'lucide-static/icons/pin.svg?raw';
 import play from 'lucide-static/icons/play.svg?raw';
 import plus from 'lucide-static/icons/plus.svg?raw';
 import radar from 'lucide-static/icons/radar.svg?raw';
@@ -71,7 +72,7 @@ import undo from 'lucide-static/icons/undo-2.svg?raw';
 
 const kIcons = {
   activity, bell, bot, camera, check, chevronDown, circleX, compass, crosshair, download, eye, fileText, filter, flask, hourglass, info,
-  layers, link, list, lock, map, maximize, maximize2, minimize2, minus, moon, octagonX, pause, play, plus, radar, refresh, rotateCcw, ruler, search, server, shield, skipBack, skipForward,
+  layers, link, list, lock, map, maximize, maximize2, minimize2, minus, moon, octagonX, pause, pin, play, plus, radar, refresh, rotateCcw, ruler, search, server, shield, skipBack, skipForward,
   stepBack, stepForward, sun, target, triangleAlert, wifiOff, x, zap,
   boxSelect, cornerDownLeft, gamepad, hand, joystick, keyboard, message, packageX, pointer, move, route, trash,
   copy, ellipsis, keyRound, userPlus, appWindow, share, undo,

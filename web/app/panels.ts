@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {RunModel} from '../model/run_model';
+import {classOf, kUsualRights} from '../model/withheld';
 import type {PanelKind} from '../panel_api';
 
 /** The panels that come with the page, in the order of their keys. */
@@ -27,6 +28,14 @@ export function addPanelKind(kind: PanelKind): void {
 /** All kinds, whether this person may see them or not. */
 export function allPanels(): readonly PanelKind[] {
   return [...kPanels, ...components];
+}
+
+/** Panels of information that rights withhold: each says so, and whom to ask. What a role may not do is not offered. */
+export function withheldPanels(model: RunModel): PanelKind[] {
+  return allPanels().filter(({needs, live}) => {
+    const what = needs === undefined ? null : classOf(needs);
+    return what !== null && kUsualRights[what].to === 'see' && needs !== undefined && model.isWithheld(needs) && (live !== true || model.live);
+  });
 }
 
 /** Those that this person may see. */

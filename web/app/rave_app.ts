@@ -5,6 +5,7 @@ import {DirectLines} from '../model/direct_lines';
 import {Link} from '../model/link';
 import {RunModel} from '../model/run_model';
 import type {PanelContext, PanelElement, PanelKind} from '../panel_api';
+import {Kept} from '../panel_api/kept';
 import {Palette} from '../panel_api/palette';
 import {Selection} from '../panel_api/selection';
 import {Windows} from '../panel_api/windows';
@@ -66,6 +67,7 @@ export class RaveApp extends LitElement {
     palette: this.palette,
     commands: this.commands,
     windows: this.windows,
+    kept: new Kept(),
     worldLayers: new Set(),
     seek: (time_s) => {
       if (this.model.may('seek')) this.link.send({type: 'transport', do: 'seek', value: time_s});
@@ -159,6 +161,7 @@ export class RaveApp extends LitElement {
   override updated(): void {
     const host = this.renderRoot.querySelector<HTMLElement>('.dock');
     if (host && this.dock === null) this.openDock(host);
+    if (this.phone.matches) this.context.kept.belongTo(this.model.user, '');
     if (this.model.user !== '') this.dock?.belongTo(this.model.user);
     this.retitle();
     const phone = this.renderRoot.querySelector<HTMLElement>('.phone');

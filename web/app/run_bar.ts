@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
 import type {PanelContext} from '../panel_api';
+import type {Power} from '../protocol/messages';
 import {bigClock} from './clock';
 import {icon} from './icons';
 import {nowOf, spanOf} from './moment';
@@ -95,8 +96,8 @@ export class RunBar extends LitElement {
     const [begin, end] = spanOf(model);
     const replay = !model.live;
     const goes = model.time?.state === 'running' || model.time?.state === 'waiting';
-    const may = (power: string) => model.may(power);
-    const button = (name: Parameters<typeof icon>[0], label: string, power: string, act: () => void) => html`
+    const may = (power: Power) => model.may(power);
+    const button = (name: Parameters<typeof icon>[0], label: string, power: Power, act: () => void) => html`
       <button class="icon-button" title=${may(power) ? label : model.whyNot(power)} aria-label=${label} ?disabled=${!may(power)} @click=${act}>${icon(name, 17)}</button>`;
     return html`
       <div class="transport">
@@ -141,7 +142,7 @@ export class RunBar extends LitElement {
     return html`<div class="pace">
       <div><span>Pace</span>${paces}</div>
       <small>${speed}${this.renderLink()}${model.may('recording') && replay
-        ? html` <a href="./recording" download title="Download the recording" aria-label="Download the recording">${icon('download', 14)}</a>` : nothing}</small>
+        ? html` <a href="./recording" download title="Download the recording" aria-label="Download the recording">${icon('download', 14)}</a>` : replay && model.isWithheld('recording') ? html` <span class="lacking" role="note" title=${model.whyNot('recording')}>${icon('lock', 13)} recording</span>` : nothing}</small>
     </div>`;
   }
 
@@ -163,6 +164,7 @@ export class RunBar extends LitElement {
       .pace > div { display: flex; align-items: center; gap: 8px; }
       .pace small { display: flex; align-items: center; gap: 8px; color: var(--text-3); font-size: var(--fs-12); white-space: nowrap; }
       .pace a { color: var(--text-2); }
+      .lacking { display: inline-flex; align-items: center; gap: 4px; }
       .text { display: inline-flex; gap: 6px; align-items: center; color: var(--text-2); }
       .text:hover { color: var(--text-1); }
       .more { position: relative; display: none; }
@@ -172,7 +174,7 @@ export class RunBar extends LitElement {
         .card .pace { gap: 10px; } .card button { min-height: var(--h-control, 28px); }
       }
       @media (max-width: 599px) {
-        :host { gap: 8px; padding: 0 8px; border-radius: 0; }
+        :host { gap: 8px; padding: 0 8px; border-radius: 0; border-top: 1px solid var(--line-1); }
         .transport .icon-button { display: none; } .more > .icon-button { width: 44px; height: 44px; }
         .clock { position: absolute; left: 72px; top: 14px; min-width: 84px; } .clock span { display: none; }
         :host { position: relative; } .play { width: 44px; height: 44px; } rave-timeline { margin-top: 34px; }

@@ -107,7 +107,7 @@ export class StopButton extends LitElement {
     const {model} = this.context;
     const last = lastStop(model);
     const own = this.stoppedAt_s;
-    const you = model.user;
+    const you = model.knownAs;
     if (own !== null && (last === null || last.who === you || last.who === '' || last.t_s < own)) return `stopped by you at ${bigClock(own).slice(0, 5)}`;
     if (last === null) return 'stopped';
     const who = last.who === '' ? '' : ` by ${last.who === you ? 'you' : last.who}`;
@@ -156,7 +156,7 @@ export class StopButton extends LitElement {
       circle { fill: none; stroke-width: 3; }
       .ring { stroke: var(--bg-4); }
       .done { stroke: var(--danger); }
-      .view-only { border: 1px dashed var(--line-2); color: var(--text-2); font-size: var(--fs-13); }
+      .view-only { border: 1px dashed var(--line-2); padding: 0 10px; color: var(--text-2); font-size: var(--fs-13); line-height: 1.3; }
       .view-only small { color: var(--text-3); }
       .spoken { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
       @media (max-width: 599px) { .stop, .view-only, .release { min-width: 140px; } .release:not(.large) { min-width: 0; padding: 0 8px; } .release:not(.large) span { display: none; } }

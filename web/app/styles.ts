@@ -113,6 +113,9 @@ export const controls = css`
       width: 40px;
       height: 40px;
     }
+    .segments button {
+      height: 34px;
+    }
   }
 `;
 

@@ -93,12 +93,12 @@ export class TopBar extends LitElement {
   }
 
   private renderPeople(): TemplateResult | typeof nothing {
-    const {people} = this.context.model;
-    if (people.length < 2) return nothing;
-    const title = people.map((person) => `${person.name}, ${roleText(person.role)}`).join('\n');
-    return html`<span class="people" title=${title} role="img" aria-label="${people.length} people watch">
-      ${people.slice(0, kFaces).map((person) => face(person, false))}
-      ${people.length > kFaces ? html`<i class="face">+${people.length - kFaces}</i>` : nothing}</span>`;
+    const {others} = this.context.model;
+    if (others.length === 0) return nothing;
+    const title = others.map((person) => `${person.name}, ${roleText(person.role)}`).join('\n');
+    return html`<span class="people" title=${title} role="img" aria-label="${others.length + 1} people watch, you among them">
+      ${others.slice(0, kFaces).map((person) => face(person, false))}
+      ${others.length > kFaces ? html`<i class="face">+${others.length - kFaces}</i>` : nothing}</span>`;
   }
 
   static override styles = [
@@ -135,6 +135,7 @@ export class TopBar extends LitElement {
       @media (max-width: 700px) { h1 { flex: 0 1 auto; } }
       @media (max-width: 599px) {
         :host { padding: 0 10px; height: 52px; } .brand b, .find span, .find kbd, .rate { display: none; }
+        .find svg { width: 20px; height: 20px; }
         .find { flex: none; width: 40px; height: 40px; justify-content: center; background: none; border-color: transparent; }
         .theme, .foxglove, rave-bell { display: none; } .space ~ .space { display: none; } h1 { max-width: 46vw; } .state { order: 1; } .find { order: 2; } .person { order: 3; }
       }

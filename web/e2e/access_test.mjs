@@ -100,6 +100,45 @@ try {
     }
   }
 
+  await check('an observer is told what is not theirs, who has it and whom to ask; nothing serious there either', async () => {
+    const observed = new FakeRun(6, {now_s: 20, role: 'observer', may: ['chat']});
+    for (const robot of observed.robots) Object.assign(robot, {sensors: [], yours: false});
+    observed.events = [];
+    const other = await serveFake(built, observed);
+    const page = await (await browser.newContext({viewport: {width: 1400, height: 900}, reducedMotion: 'reduce'})).newPage();
+    showFailures(page, join(folder, 'failed.png'));
+    await page.goto(other.origin);
+    await until(page, `${app}?.model?.poses?.newest`);
+    await page.evaluate(`${app}.selection.set([2])`);
+    await page.locator('rave-sensors').getByText('Not yours to see: sensors and their readings. By default observers and commanders have this right for robots of their teams, super-users for all robots. Ask a super-user for it; none is here now.').waitFor();
+    other.say({type: 'people', people: [{name: 'Ada N', role: 'observer'}, {name: 'Cora S', role: 'super_user'}]});
+    await page.locator('rave-sensors').getByText('Ask Cora S for it: super-user, here now.').waitFor();
+    await page.locator('rave-log').getByText('Not yours to see: the log.').waitFor();
+    await page.locator('rave-world').getByRole('button', {name: 'virtual obstacles'}).click();
+    await page.locator('rave-world .menu').getByText('Not yours to see: virtual obstacles.').waitFor();
+    await page.locator('rave-world .menu').getByText('Not yours to see: true poses. By default super-users have this right.').waitFor();
+    await look(page, 'withheld');
+    await page.screenshot({path: join(folder, 'withheld.png')});
+    for (const [panel, words] of [['map', 'maps'], ['hosts', 'Not yours to see: hosts.'], ['probe', 'try virtual sensors'], ['rights', 'Only super-users see rights']]) {
+      await page.evaluate((id) => document.querySelector('rave-app').context.show(id), panel);
+      await page.locator(panel === 'rights' ? 'rave-super-user' : `rave-${panel}`).getByText(words).waitFor();
+      await look(page, panel);
+    }
+    await page.keyboard.press('Control+k');
+    await page.keyboard.type('map');
+    await page.getByRole('option', {name: 'Map panel, not yours to see'}).waitFor();
+    await page.keyboard.press('Escape');
+    await page.evaluate(`${app}.context.show('hosts')`);
+    await page.locator('rave-hosts').getByRole('button', {name: 'Ask in the chat'}).click();
+    await page.locator('rave-chat').getByRole('radio', {name: 'Super-users', checked: true}).waitFor();
+    observed.may = [];
+    other.turnInto({});
+    await page.locator('rave-chat').getByText('Not yours to see: the chat.').waitFor();
+    await page.context().close();
+    await other.end();
+    assert.deepEqual(found.splice(0), []);
+  });
+
   await check('everything is reached by the keyboard alone', async () => {
     const page = await open(1400, 900, 'dark');
     const seen = watch(page, server.origin);

@@ -94,9 +94,10 @@ export class FakeRun {
   }
 
   hello() {
-    const why = {seek: 'A live run cannot be moved in time.', play: 'Only a super-user holds the run.', stop: 'Observers do not stop robots.', command: 'Observers do not command robots.', edit: 'Only a super-user edits the world.'};
-    const every = ['play', 'seek', 'pace', 'step', 'stop', 'release', 'true_pose', 'readings', 'hybrid_parts', 'obstacles', 'log', 'recording', 'rights', 'command', 'edit', 'chat'];
-    const why_not = Object.fromEntries(every.filter((power) => !this.may.includes(power)).map((power) => [power, why[power] ?? 'Not given to this role.']));
+    const recorded = 'This is a recording: it takes no orders.';
+    const why = this.source === 'live' ? {seek: 'A live run cannot be moved in time.'} : {stop: recorded, release: recorded, command: recorded, edit: recorded};
+    const every = ['play', 'seek', 'pace', 'step', 'stop', 'release', 'true_pose', 'readings', 'hybrid_parts', 'obstacles', 'log', 'recording', 'command', 'edit', 'chat', 'maps', 'probe'];
+    const why_not = Object.fromEntries(every.filter((power) => !this.may.includes(power)).map((power) => [power, why[power] ?? 'Your rights do not include this.']));
     return {type: 'hello', protocol: 1, server: 'fake 0', user: {name: 'Ada N', role: this.role}, ...(this.seenBy ? {user: this.seenBy.as, seen_by: this.seenBy.by} : {}), may: this.may, why_not, ...(this.components.length ? {components: this.components} : {}),
       run: {name: this.name, source: this.source, clock: 'lock_step', started: '', step_s: 0.01, seed: 1, hash: null, recording: null}};
   }

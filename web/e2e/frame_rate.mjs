@@ -62,7 +62,7 @@ async function round(count) {
   const server = await serveFake(built, new FakeRun(count, {now_s: 20}));
   const context = await browser.newContext({viewport: kViewport});
   const page = await context.newPage();
-  if (process.env.RAVE_VIEW) await page.addInitScript((mode) => localStorage.setItem('rave.world.mode', mode), process.env.RAVE_VIEW);
+  if (process.env.RAVE_VIEW) await page.addInitScript((mode) => localStorage.setItem('rave.world.mode.Ada N.Watch', JSON.stringify(mode)), process.env.RAVE_VIEW);
   const loaded = watchLoads(page);
   await page.goto(server.origin);
   await page.waitForTimeout(kWarm_ms);

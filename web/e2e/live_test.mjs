@@ -33,8 +33,12 @@ try {
   const errors = [];
   const said = [];
   page.on('pageerror', (error) => errors.push(String(error)));
+  let frames = 0;
   page.on('websocket', (socket) => {
-    socket.on('framereceived', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
+    socket.on('framereceived', ({payload}) => {
+      if (typeof payload === 'string') said.push(JSON.parse(payload));
+      else ++frames;
+    });
     socket.on('framesent', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
   });
   const run = join(folder, 'watched');
@@ -49,6 +53,15 @@ try {
     await until(page, `${newest}.time_s > ${before} + 1`);
     assert.ok((await page.evaluate(`${app}.model.bodies.size`)) > 10);
     await until(page, `Math.abs(${app}.model.time.speed - 1) < 0.2`);
+  });
+
+  await check('the person at the page is nobody else in the lists of people', async () => {
+    await page.evaluate(`${app}.context.show('chat')`);
+    await page.locator('rave-chat').getByRole('radio', {name: 'Super-users'}).waitFor();
+    await until(page, `${app}.model.people.some(({name}) => name === 'the operator')`);
+    assert.equal(await page.locator('rave-chat').getByRole('radio', {name: /operator/}).count(), 0);
+    assert.equal(await page.locator('rave-top-bar .people').count(), 0);
+    for (const id of ['log', 'world']) await page.evaluate(`${app}.context.show('${id}')`);
   });
 
   await check('the page can be installed as an app', async () => {
@@ -73,6 +86,21 @@ try {
     await until(page, `${newest}.step === ${step}`);
     await say(page, {type: 'transport', do: 'step', value: 1});
     await until(page, `${newest}.step === ${step} + 1`);
+  });
+
+  await check('while it is held and nobody does anything, the page gets the time and no frames', async () => {
+    await page.waitForTimeout(1000);
+    const before = [frames, said.filter((message) => message.type === 'time').length];
+    await page.waitForTimeout(2500);
+    assert.equal(frames, before[0]);
+    assert.ok(said.filter((message) => message.type === 'time').length > before[1]);
+  });
+
+  await check('this process is the host of a run of one process', async () => {
+    await until(page, `${app}.model.hosts.length === 1`);
+    const host = await page.evaluate(`${app}.model.hosts[0]`);
+    assert.deepEqual([host.name, host.state, host.real, host.simulated, host.pid], ['mixed-reality', 'here', 5, 11, live.child.pid]);
+    assert.ok(host.memory_mb > 1 && host.cpu >= 0 && host.machine !== '', JSON.stringify(host));
   });
 
   const scanIsThere = `(() => { const a = ${app}; const slot = a.selection.primary;

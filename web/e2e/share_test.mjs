@@ -104,6 +104,10 @@ try {
     const before = guest.messages.length;
     assert.equal(await setRight(boss.page, {role: 'observer', class: 'obstacles', reach: 'none'}), true);
     await untilHere(guest.page, () => guest.last('scene').hidden.includes('virtual'), 'no obstacles');
+    // The words of the server and those of the page are about the same.
+    const why = await guest.page.evaluate(`${app}.model.whyNot('obstacles')`);
+    assert.equal(why, 'Not yours to see: virtual obstacles. By default observers, commanders and super-users have this right. Ask ada for it: super-user, here now.');
+    await guest.page.getByRole('button', {name: 'virtual obstacles'}).waitFor();
     const since = JSON.stringify(guest.messages.slice(before));
     for (const {name, team} of boss.last('roster').robots) {
       if (team !== 'green') assert.ok(!since.includes(`"${name}"`), name);

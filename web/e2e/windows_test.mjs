@@ -66,6 +66,43 @@ try {
     await page.locator('rave-robots .row', {hasText: 'real-3'}).click();
   });
 
+  await check('each user has the layers of the World View that they chose, in each layout', async () => {
+    const user = await page.evaluate(`${app}.model.user`);
+    const layers = (what) => page.evaluate(`(({grid, names}) => [grid, names].join())(document.querySelector('rave-world').layers)`).then((now) => assert.equal(now, what));
+    const become = async (name) => {
+      await page.evaluate((other) => {
+        const rave = document.querySelector('rave-app');
+        rave.model.hello.user.name = other;
+        rave.requestUpdate();
+      }, name);
+      await page.waitForTimeout(200);
+    };
+    const press = async (name) => {
+      await page.getByRole('button', {name: 'Layers'}).click();
+      await page.locator('rave-world .menu').getByRole('switch', {name}).click();
+      await page.getByRole('button', {name: 'Layers'}).click();
+    };
+    await press('Grid');
+    await layers('false,true');
+    await page.getByRole('radio', {name: 'Analyse'}).click();
+    await layers('true,true');
+    await page.getByRole('radio', {name: 'Watch'}).click();
+    await layers('false,true');
+    await become('somebody');
+    await layers('true,true');
+    await press('Names');
+    await become(user);
+    await layers('false,true');
+    await page.reload();
+    await until(page, `${app}?.model?.poses?.newest != null && document.querySelector('rave-world') !== null`);
+    await layers('false,true');
+    await become('somebody');
+    await layers('true,false');
+    await become(user);
+    await press('Grid');
+    await page.locator('rave-robots .row', {hasText: 'real-3'}).click();
+  });
+
   let world;
   await check('the World View moves to a window of its own and goes on there', async () => {
     world = await moveOut(page, 'rave-world');

@@ -38,9 +38,17 @@ export class Commands {
   readonly changed = new Signal();
   /** Velocities that this page asked for. */
   readonly asked = new Asked();
+  /** For whom the next line of the chat is: `all`, `super-users` and other keys of the panel Chat. */
+  addressee = 'all';
+  readonly addresseeChanged = new Signal();
   private number = 0;
   private readonly open = new Map<number, (answer: Answer) => void>();
   private roster: readonly Robot[] = [];
+
+  address(key: string): void {
+    this.addressee = key;
+    this.addresseeChanged.emit();
+  }
 
   constructor(private readonly model: RunModel, private readonly link: Link) {
     model.answered.on((answer) => this.take(answer));

@@ -106,3 +106,20 @@ describe('the past', () => {
     expect(history.past.length).toBeLessThan(105);
   });
 });
+
+it('shows a step of a run that is held at once, however long the person thought about it', () => {
+  const history = new PoseHistory();
+  const placed = new Placed();
+  for (let i = 0; i <= 10; ++i) history.add(frame(0.03 * i, i), 33 * i);
+  for (let step = 1; step <= 6; ++step) {
+    const now = 330 + 900 * step;
+    history.add(frame(0.3 + 0.01 * step, 10 + step), now, true);
+    history.interpolate(now, placed);
+    expect(placed.x[0]).toBe(10 + step);
+    expect(history.moving(now)).toBe(false);
+  }
+  // When it goes on, pictures are as far behind as they were before.
+  for (let i = 1; i <= 10; ++i) history.add(frame(0.36 + 0.03 * i, 16 + i), 6000 + 33 * i);
+  history.interpolate(6330, placed);
+  expect(placed.x[0]).toBeGreaterThan(24.5);
+});

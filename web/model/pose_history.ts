@@ -30,8 +30,9 @@ export class PoseHistory {
   /** The highest speed of each robot while its pose was no stale one, metres per second. */
   private fastest = new Float32Array(0);
 
-  /** Takes a frame that arrived at `now_ms` (performance.now()). The past comes after the moment that it belongs to. */
-  add(frame: PoseFrame, now_ms: number): void {
+  /** Takes a frame that arrived at `now_ms` (performance.now()). The past comes after the moment that it belongs to.
+   * `held`: the run stands, and frames come with its steps alone, so the time between them says nothing. */
+  add(frame: PoseFrame, now_ms: number, held = false): void {
     const last = this.newest ?? this.past[this.past.length - 1] ?? null;
     const other = last !== null && (last.revision !== frame.revision || last.x.length !== frame.x.length);
     if (last !== null && (other || (!frame.past && frame.time_s < last.time_s - 1e-9))) this.clear();
@@ -41,7 +42,7 @@ export class PoseHistory {
       return;
     }
     this.keep(frame);
-    if (this.newest !== null && frame.time_s - this.newest.time_s < kJump_s) {
+    if (!held && this.newest !== null && frame.time_s - this.newest.time_s < kJump_s) {
       this.measure(now_ms - this.arrived_ms, frame.time_s - this.newest.time_s);
       if (this.recent.length === kRecent) this.recent.shift();
     } else {

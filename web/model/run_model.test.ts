@@ -77,3 +77,17 @@ it('shows a robot that was handed over as what it is now', () => {
   expect(model.robots[0]).toMatchObject({kind: 'simulated', handedOver: false});
   expect(told).toBe(2);
 });
+
+it('does not list the person at this page among the others, by whatever name they are known', () => {
+  const model = new RunModel();
+  const ben = {name: 'ben', role: 'observer'} as const;
+  model.takeMessage({...hello('live', []), user: {name: 'you', role: 'super_user'}});
+  model.takeMessage({type: 'people', people: [ben, {name: 'the operator', role: 'super_user'}]});
+  expect(model.knownAs).toBe('the operator');
+  expect(model.others).toEqual([ben]);
+  // Who looks as another person is still who they are.
+  model.takeMessage({...hello('live', []), user: ben, seen_by: {name: 'you', role: 'super_user'}});
+  expect(model.others).toEqual([ben]);
+  model.takeMessage({...hello('live', []), user: ben});
+  expect(model.others.map(({name}) => name)).toEqual(['the operator']);
+});

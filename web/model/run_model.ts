@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import {RobotFlag, decodeFrame, kFirstProbe, isMapTile, isPoseFrame, isVariances, type Variance} from '../protocol/frames';
-import type {Accounts, Answer, AuditLines, AuditWritten, Body, Chat, DriveState, Event, Hello, Host, Invited, Leases, Line, People, Person, Rights, Robot, Roster, ServerMessage, Time} from '../protocol/messages';
+import type {Accounts, Answer, AuditLines, AuditWritten, Body, Chat, DriveState, Event, Hello, Host, Invited, Leases, Line, People, Person, Power, Rights, Robot, Roster, ServerMessage, Time} from '../protocol/messages';
 import {Maps} from './maps';
 import {PoseHistory} from './pose_history';
 import {Probes} from './probes';
 import {Readings} from './readings';
 import {Signal} from './signal';
+import {askText, classOf, holdersText, kNotYours, kUsualRights, withheldText} from './withheld';
 
 /** A robot, with what has become of it since the run began. */
 export interface KnownRobot extends Robot {
@@ -91,23 +92,50 @@ export class RunModel {
     return (this.hello?.seen_by ?? this.hello?.user)?.name ?? '';
   }
 
+  /** The name that others know this person by: the run calls who has the link of the server the operator. */
+  get knownAs(): string {
+    const {user} = this;
+    const role = (this.hello?.seen_by ?? this.hello?.user)?.role;
+    return user === 'you' && role === 'super_user' ? 'the operator' : user;
+  }
+
+  /** The people who are here, but for the one at this page. */
+  get others(): Person[] {
+    const me = this.knownAs;
+    return this.people.filter(({name}) => name !== me);
+  }
+
   /** Why a robot does not take something from this person, in words; empty if it does. */
   whyNotTaken(slot: number, what: string): string {
     const robot = this.robots[slot];
     if (robot === undefined) return 'No robot is selected.';
     if (!this.live) return 'This is a recording: it takes no orders.';
     if (!this.may('command')) return this.whyNot('command');
-    if (robot.yours === false) return `You may not command ${robot.name}.`;
+    if (robot.yours === false) return `You may not command ${robot.name}. ${holdersText(kUsualRights.command)} ${askText(this.others)}`;
     if (robot.recorded) return `${robot.name} is recorded: it takes no orders.`;
     const takes = this.drives.get(slot)?.takes ?? [];
     if (takes.includes(what)) return '';
     return takes.length === 0 ? `${robot.name} takes no orders.` : `${robot.name} takes no ${what}; it takes ${takes.join(', ')}.`;
   }
 
-  /** Why something is not allowed, in words; empty if it is. */
-  whyNot(power: string): string {
+  /** Why something is not allowed, in words; empty if it is. Of what rights withhold: who has it, whom to ask. */
+  whyNot(power: Power): string {
     if (this.may(power)) return '';
-    return this.hello?.why_not[power] ?? 'Not available.';
+    if (power === 'rights') return `Only super-users see rights, people and the audit log. ${askText(this.others)}`;
+    const told = this.hello?.why_not[power] ?? 'Not available.';
+    const what = classOf(power);
+    return told === kNotYours && what !== null ? withheldText(what, this.others) : told;
+  }
+
+  /** Rights withhold it, and not, for instance, that this is a recording. */
+  isWithheld(power: Power): boolean {
+    return !this.may(power) && this.hello?.why_not[power] === kNotYours;
+  }
+
+  /** This person may be shown less than all robots, sensors and maps that there are. The server does not say what
+   * is left out, so where something is missing the page says that it may be withheld. */
+  get seesLess(): boolean {
+    return this.hello !== null && this.hello.user.role !== 'super_user';
   }
 
   takeMessage(message: ServerMessage): void {
@@ -239,7 +267,7 @@ export class RunModel {
     }
     if (this.mixed.length > 0 && !frame.past) this.followHandOvers(frame.flags);
     const before = this.poses.newest;
-    this.poses.add(frame, now_ms);
+    this.poses.add(frame, now_ms, this.time?.state === 'paused');
     // Readings of the moment come before its frame, so those are kept.
     if (before !== null && !frame.past && frame.time_s < before.time_s - 1e-9) this.readings.forgetAfter(frame.time_s);
     this.pictureChanged.emit();

@@ -5,11 +5,13 @@ import type {Link} from '../model/link';
 import type {RunModel} from '../model/run_model';
 import type {Power} from '../protocol/messages';
 import type {WorldLayer} from './component';
+import type {Kept} from './kept';
 import type {Palette} from './palette';
 import type {Selection} from './selection';
 import type {Windows} from './windows';
 
 export type {Component, ComponentPanel, WorldLayer} from './component';
+export type {Kept} from './kept';
 export type {Palette} from './palette';
 export type {Selection} from './selection';
 export type {Windows} from './windows';
@@ -27,6 +29,8 @@ export interface PanelContext {
   readonly commands: Commands;
   /** Where the page is shown: panels may be in windows of their own. */
   readonly windows: Windows;
+  /** What panels keep in the browser for this person. */
+  readonly kept: Kept;
   /** What components draw over the World View. A layer that throws is taken out. */
   readonly worldLayers: Set<WorldLayer>;
   /** Moves the replay; does nothing where the time cannot be moved. */

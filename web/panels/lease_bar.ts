@@ -65,10 +65,9 @@ export class LeaseBar extends LitElement {
       ${model.commands(this.robot) ? this.renderButtons(mine, other, drive?.lease ?? '') : nothing}</div>`;
   }
 
-  /** Of two pages of one person one has the lease. The run calls who has the link of the server the operator. */
+  /** Of two pages of one person one has the lease. */
   private isOwn(driver: string): boolean {
-    const name = this.context.model.hello?.user.name ?? '';
-    return driver === (name === 'you' ? 'the operator' : name);
+    return driver === this.context.model.knownAs;
   }
 
   private about(mine: boolean, other: boolean): string {
@@ -81,7 +80,7 @@ export class LeaseBar extends LitElement {
 
   private renderButtons(mine: boolean, other: boolean, driver: string): TemplateResult {
     if (mine) {
-      const others = this.context.model.people.filter((person) => person.role !== 'observer' && person.name !== driver);
+      const others = this.context.model.others.filter((person) => person.role !== 'observer' && person.name !== driver);
       return html`${others.length === 0 ? nothing : html`<select aria-label="Give the lease to" @change=${(event: Event) => void this.lease('give', (event.target as HTMLSelectElement).value)}>
         <option value="" selected disabled>Give to …</option>${others.map((person) => html`<option>${person.name}</option>`)}</select>`}
         <button class="plain" @click=${() => void this.lease('give')}>Give back</button>`;

@@ -196,14 +196,31 @@ void LiveSource::take_news() {
   }
 }
 
+/// A run that is held draws on, because pages may look elsewhere meanwhile. What they would be
+/// shown is the same then, but for its serial and the wall time.
+bool LiveSource::shows_other(const LivePicture& next) {
+  next_readings_.clear();
+  for (std::size_t i = 0; i < next.reading_count; ++i) {
+    const ReadingAt& reading = next.readings[i];
+    next_readings_.emplace_back(reading.slot, reading.sensor, reading.part, reading.stamp_s);
+  }
+  const PosesAt& poses = next.poses;
+  const bool other = poses.time_s != poses_.time_s || poses.step != poses_.step ||
+                     poses.robots != poses_.robots || poses.truth != poses_.truth ||
+                     next_readings_ != shown_readings_;
+  std::swap(next_readings_, shown_readings_);
+  return other;
+}
+
 void LiveSource::take_picture(Playhead::Clock::time_point now) {
   if (box_->pictures.take()) {
+    const bool other = shows_other(picture());
     poses_ = picture().poses;
     const PosesAt& poses = poses_;
     state_.now_s = state_.end_s = poses.time_s;
     // A run in progress can show its present only; the page draws its timeline from these two.
     state_.begin_s = poses.time_s;
-    state_.picture = poses.serial;
+    if (other || state_.picture == 0) state_.picture = poses.serial;
     if (past_.empty() || poses.time_s >= past_.back().time_s + kPastSpacing_s) {
       past_.push_back(poses);
       // Trails are of reported poses; the true ones would double the memory.
@@ -223,6 +240,9 @@ void LiveSource::take_picture(Playhead::Clock::time_point now) {
   measured_at_ = now;
   measured_s_ = state_.now_s;
   state_.pace = port_->pace();
+  if (const auto status = port_->own_status()) {
+    own_host_.look(now, start_.about.name, poses_.step, *status);
+  }
 }
 
 void LiveSource::write_bodies() {

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "event_fold.hpp"
 #include "live_box.hpp"
 #include "map_book.hpp"
+#include "own_host.hpp"
 #include "probe_desk.hpp"
 #include "run_port.hpp"
 #include "set_values.hpp"
@@ -57,9 +59,11 @@ class LiveSource : public Source {
   [[nodiscard]] std::uint64_t bodies_revision() const noexcept override { return bodies_revision_; }
   [[nodiscard]] std::string bodies_changed_since(std::uint64_t revision) const override;
   [[nodiscard]] std::uint64_t hosts_revision() const noexcept override {
-    return picture().hosts_revision;
+    return own_host_.revision() > 0 ? own_host_.revision() : picture().hosts_revision;
   }
-  [[nodiscard]] const std::string& hosts_json() const noexcept override { return picture().hosts; }
+  [[nodiscard]] const std::string& hosts_json() const noexcept override {
+    return own_host_.revision() > 0 ? own_host_.json() : picture().hosts;
+  }
   [[nodiscard]] std::vector<MapName> map_names() const override { return maps_.names(); }
   [[nodiscard]] std::uint64_t map_names_revision() const noexcept override {
     return maps_.names_revision();
@@ -100,6 +104,7 @@ class LiveSource : public Source {
     std::string json;  ///< Empty: it went.
   };
   void take_news();
+  [[nodiscard]] bool shows_other(const LivePicture& next);
   void take_picture(Playhead::Clock::time_point now);
   void write_bodies();
   void answer_asked();
@@ -118,6 +123,10 @@ class LiveSource : public Source {
   ComponentWatch component_watch_;
   MapBook maps_;
   PosesAt poses_;
+  OwnHost own_host_;
+  /// Which readings the last picture had, and of which time.
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t, double>> shown_readings_;
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t, double>> next_readings_;
   std::map<std::string, std::uint32_t, std::less<>> slots_;
   std::vector<std::uint16_t> flags_;  ///< By robot: what the port knows beside the picture.
   Playhead::Clock::time_point status_at_{};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <future>
+#include <optional>
 #include <string>
 
 #include "rave/base/result.hpp"
@@ -23,6 +24,8 @@ class RunPort {
   virtual void set_pace(double factor) = 0;
   /// Which robots are stopped or wait to be armed, by name; nothing if that is not known here.
   [[nodiscard]] virtual std::vector<runtime::RunStatus::Robot> robots() const = 0;
+  /// Of a run of this process, which is not on the bus; empty: the run is elsewhere.
+  [[nodiscard]] virtual std::optional<runtime::RunStatus> own_status() const { return {}; }
   /// kStop and kRelease. The answer comes later. Error: kState (no run is in progress).
   [[nodiscard]] virtual Result<std::future<Result<std::string>>> post(
       runtime::RunRequest request) = 0;
@@ -44,6 +47,9 @@ class LocalPort final : public RunPort {
   void set_pace(double factor) override { control_.set_pace(factor); }
   [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override {
     return control_.status().robots;
+  }
+  [[nodiscard]] std::optional<runtime::RunStatus> own_status() const override {
+    return control_.status();
   }
   [[nodiscard]] Result<std::future<Result<std::string>>> post(
       runtime::RunRequest request) override {

@@ -70,7 +70,8 @@ void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, boo
   changed_ = true;
   past_due_ = true;
   broken_ = false;
-  send_time(playhead_->look(Clock::now()));
+  const auto now = Clock::now();
+  send_time(playhead_->look(now), now);
 }
 
 void Session::set_author(Author author) {
@@ -175,7 +176,7 @@ void Session::take(const TransportMessage& transport) {
   const PlayState state = playhead_->look(now);
   past_due_ = past_due_ || state.jumped;
   if (past_due_) told_.clear();
-  send_time(state);
+  send_time(state, now);
 }
 
 void Session::take(const HaltMessage& halt) {
@@ -217,7 +218,7 @@ void Session::tick(Clock::time_point now, SharedFrames& frames) {
   const bool differs = state.kind != told_state_.kind || state.pace != told_state_.pace ||
                        state.reason != told_state_.reason;
   if (differs) changed_ = true;
-  if (differs || now - last_time_ >= std::chrono::seconds(1)) send_time(state);
+  if (differs || now - last_time_ >= std::chrono::seconds(1)) send_time(state, now);
   if (now - last_news_ >= kNewsInterval) {
     last_news_ = now;
     send_news();
@@ -385,8 +386,8 @@ void Session::send_leases(bool all) {
   socket_.send_text(payload(leases_text(changed, commands_.author(), all)));
 }
 
-void Session::send_time(const PlayState& state) {
-  last_time_ = Clock::now();
+void Session::send_time(const PlayState& state, Clock::time_point now) {
+  last_time_ = now;
   told_state_ = state;
   socket_.send_text(payload(time_text(state, source_->about())));
 }

@@ -129,7 +129,7 @@ class Session {
   void send_readings();
   void send_probes();
   void send_variances();
-  void send_time(const PlayState& state);
+  void send_time(const PlayState& state, Clock::time_point now);
   void send_news();
   void send_leases(bool all);
   void answer(std::string_view to, bool good, std::string_view text);

@@ -6,6 +6,7 @@ import {controls, glyphs} from '../../app/styles';
 import {initials} from '../../app/words';
 import type {PanelContext} from '../../panel_api';
 import type {Say} from '../../protocol/messages';
+import {renderWithheld, withheldStyles} from '../withheld';
 import {saidIn, type Said} from './said';
 
 /** For whom a line is. */
@@ -29,7 +30,6 @@ const kRoles: readonly Target[] = [
 /** People talk to each other, and to the robots that they command; robots answer. */
 export class ChatPanel extends LitElement {
   declare context: PanelContext;
-  private chosen = 'all';
   private note = '';
   private atEnd = true;
   private readonly ends: (() => void)[] = [];
@@ -37,9 +37,9 @@ export class ChatPanel extends LitElement {
   override connectedCallback(): void {
     super.connectedCallback();
     this.requestUpdate();
-    const {model, selection, palette} = this.context;
+    const {model, selection, palette, commands} = this.context;
     const update = () => this.requestUpdate();
-    for (const signal of [model.linesChanged, model.eventsChanged, model.rosterChanged, model.peopleChanged, model.runChanged, selection.changed, palette.changed]) this.ends.push(signal.on(update));
+    for (const signal of [model.linesChanged, model.eventsChanged, model.rosterChanged, model.peopleChanged, model.runChanged, selection.changed, palette.changed, commands.addresseeChanged]) this.ends.push(signal.on(update));
   }
 
   override disconnectedCallback(): void {
@@ -62,10 +62,7 @@ export class ChatPanel extends LitElement {
       targets.push({key: 'robot', label: robot.name, hint: commands ? `To ${robot.name}, and who sees it` : `About ${robot.name}, to who sees it`, to: {to: 'robot', slot}});
     }
     targets.push(...this.teams());
-    const me = model.hello?.user.name ?? '';
-    for (const person of model.people) {
-      if (person.name !== me) targets.push({key: `user ${person.name}`, label: person.name, hint: `To ${person.name} alone`, to: {to: 'user', name: person.name}});
-    }
+    for (const {name} of model.others) targets.push({key: `user ${name}`, label: name, hint: `To ${name} alone`, to: {to: 'user', name}});
     return targets;
   }
 
@@ -86,7 +83,7 @@ export class ChatPanel extends LitElement {
 
   private get target(): Target {
     const {targets} = this;
-    return targets.find(({key}) => key === this.chosen) ?? (targets[0] as Target);
+    return targets.find(({key}) => key === this.context.commands.addressee) ?? (targets[0] as Target);
   }
 
   private async send(area: HTMLTextAreaElement, target: Target): Promise<void> {
@@ -103,6 +100,8 @@ export class ChatPanel extends LitElement {
 
   override render(): TemplateResult {
     const {model} = this.context;
+    // In a replay there is nothing to write, but what was said may be withheld all the same.
+    if (model.isWithheld('chat')) return renderWithheld(this.context, 'chat');
     const said = saidIn(model).slice(-kShown);
     return html`
       ${model.live ? this.renderTargets() : nothing}
@@ -115,7 +114,7 @@ export class ChatPanel extends LitElement {
 
   private renderTargets(): TemplateResult {
     const target = this.target;
-    return html`<div class="targets" role="radiogroup" aria-label="To whom">${this.targets.map((one) => html`<button role="radio" class="to" aria-checked=${one.key === target.key} @click=${() => { this.chosen = one.key; this.requestUpdate(); }}>${one.label}</button>`)}</div>`;
+    return html`<div class="targets" role="radiogroup" aria-label="To whom">${this.targets.map((one) => html`<button role="radio" class="to" aria-checked=${one.key === target.key} @click=${() => this.context.commands.address(one.key)}>${one.label}</button>`)}</div>`;
   }
 
   private renderField(): TemplateResult {
@@ -147,11 +146,13 @@ export class ChatPanel extends LitElement {
   static override styles = [
     controls,
     glyphs,
+    withheldStyles,
     css`
       :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); }
       .targets { display: flex; gap: 6px; padding: 8px 10px; overflow-x: auto; flex: none; scrollbar-width: none; }
       .to { height: 26px; padding: 0 10px; border-radius: var(--r-2); background: var(--bg-2); color: var(--text-2); font-size: var(--fs-12); white-space: nowrap; flex: none; }
       .to[aria-checked='true'] { background: var(--intent-soft); color: var(--intent); font-weight: var(--fw-medium); }
+      @media (pointer: coarse) { .to { height: 36px; padding: 0 12px; } }
       .lines { flex: 1; min-height: 0; overflow: auto; padding: 2px 12px; font-size: var(--fs-12); }
       article { display: flex; gap: 10px; margin: 8px 0; }
       article div { min-width: 0; flex: 1; }

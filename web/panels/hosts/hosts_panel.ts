@@ -2,8 +2,10 @@
 import {LitElement, css, html, nothing, svg, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import {controls} from '../../app/styles';
+import {askText, holdersText, kUsualRights} from '../../model/withheld';
 import type {PanelContext} from '../../panel_api';
 import type {Host} from '../../protocol/messages';
+import {renderNote, withheldStyles} from '../withheld';
 import {kColumns, matches} from './columns';
 import {Rates, shortTime} from './rates';
 
@@ -40,18 +42,24 @@ export class HostsPanel extends LitElement {
 
   override render(): TemplateResult {
     const {model} = this.context;
-    if (model.hosts.length === 0) {
-      return html`<p>${model.live ? 'This run is one process: it has no other hosts.' : 'A recording does not say how its hosts were.'}</p>`;
-    }
+    if (model.hosts.length === 0) return this.renderNone();
     const late = model.hosts.filter((host) => host.state !== 'here');
     const shown = model.hosts.filter((host) => matches(host, this.text));
     return html`${model.hosts.length < kFilterFrom && this.text === '' ? nothing : this.renderFilter()}
       <div class="scroll" tabindex="0" role="region" aria-label="Hosts"><table>
-      <thead><tr><th>Host</th><th>State</th><th class="n">Real+sim</th><th class="n">Step</th><th class="n" colspan="2">Steps/s</th>
+      <thead><tr><th>Host</th><th>State</th><th class="n">Real+sim</th><th class="n wide">Step</th><th class="n">Steps/s</th><th class="wide"></th>
         ${kColumns.map((column) => html`<th class="n w${column.from}" title=${column.title}>${column.heading}</th>`)}</tr></thead>
       <tbody>${shown.map((host) => this.renderRow(host))}</tbody></table></div>
       ${shown.length === 0 ? html`<p>No host matches “${this.text}”.</p>` : nothing}
       ${late.length === 0 ? nothing : html`<div class="waits">${icon('hourglass', 15)}<span>${lateText(late)}</span></div>`}`;
+  }
+
+  private renderNone(): TemplateResult {
+    const {model} = this.context;
+    if (!model.live) return html`<p>A recording does not say how its hosts were.</p>`;
+    // They come before the first picture, if they come at all.
+    if (!model.seesLess || model.poses.newest === null) return html`<p>No host is known yet.</p>`;
+    return renderNote(this.context, `Not yours to see: hosts. They say how many robots they have, so only who sees all robots gets them. ${holdersText(kUsualRights.pose)} ${askText(model.others)}`);
   }
 
   private renderRow(host: Host): TemplateResult {
@@ -59,12 +67,12 @@ export class HostsPanel extends LitElement {
     const robots = host.real + host.simulated > 0;
     return html`<tr tabindex=${robots ? '0' : nothing} title=${robots ? 'Select its robots' : ''} @click=${() => this.select(host)}
         @keydown=${(event: KeyboardEvent) => { if (event.key === 'Enter') this.select(host); }}>
-      <td><b>${host.name}</b> <em>${host.machine}</em></td>
+      <td title=${host.machine}><b>${host.name}</b> <em class="wide">${host.machine}</em></td>
       <td><span class="state ${host.state}">${state}</span></td>
       <td class="n">${robots ? `${host.real}+${host.simulated}` : ''}</td>
-      <td class="n">${host.step}</td>
+      <td class="n wide">${host.step}</td>
       <td class="n">${Number(host.steps_per_s.toPrecision(3))}</td>
-      <td class="plot"><svg width=${kPlot[0]} height=${kPlot[1]} class=${host.state} aria-hidden="true">${svg`<polyline points=${this.rates.points(host.name, ...kPlot)} />`}</svg></td>
+      <td class="plot wide"><svg width=${kPlot[0]} height=${kPlot[1]} class=${host.state} aria-hidden="true">${svg`<polyline points=${this.rates.points(host.name, ...kPlot)} />`}</svg></td>
       ${kColumns.map((column) => html`<td class="n w${column.from} ${column.tone?.(host) ?? ''}">${column.text(host)}</td>`)}</tr>`;
   }
 
@@ -75,12 +83,14 @@ export class HostsPanel extends LitElement {
 
   private select(host: Host): void {
     const {model, selection} = this.context;
-    const slots = model.robots.flatMap((robot, slot) => (robot.host === host.name ? [slot] : []));
+    // Robots of a run of one process name no host: all are of this one.
+    const slots = model.robots.flatMap((robot, slot) => ((robot.host ?? host.name) === host.name ? [slot] : []));
     if (slots.length > 0) selection.set(slots);
   }
 
   static override styles = [
     controls,
+    withheldStyles,
     css`
       :host { display: block; height: 100%; background: var(--bg-1); overflow: auto; font-size: var(--fs-12); container-type: inline-size; }
       .field { display: flex; margin: 8px 12px; }
@@ -91,6 +101,8 @@ export class HostsPanel extends LitElement {
       @container (min-width: 820px) { .w820 { display: table-cell; } }
       @container (min-width: 980px) { .w980 { display: table-cell; } }
       @container (min-width: 1140px) { .w1140 { display: table-cell; } }
+      /* In a narrow column: is it here, how fast, and what it takes. */
+      @container (max-width: 420px) { .wide { display: none; } th, td { padding: 0 5px; } }
       .scroll { overflow-x: auto; }
       table { border-collapse: collapse; width: 100%; white-space: nowrap; }
       th { position: sticky; top: 0; height: 30px; background: var(--bg-1); color: var(--text-3); font-weight: 400; font-size: var(--fs-11); text-align: left; }

@@ -71,7 +71,10 @@ export class JoystickPanel extends LitElement {
   private whyNot(slot: number): string {
     const {model} = this.context;
     const drive = model.drives.get(slot);
-    if (drive !== undefined && drive.lease !== '' && !drive.yours) return `${drive.lease} drives ${model.robots[slot]?.name ?? ''}.`;
+    if (drive !== undefined && drive.lease !== '' && !drive.yours) {
+      const name = model.robots[slot]?.name ?? '';
+      return drive.lease === model.knownAs ? `You drive ${name} on another page.` : `${drive.lease} drives ${name}.`;
+    }
     return model.whyNotTaken(slot, 'drive');
   }
 

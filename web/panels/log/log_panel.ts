@@ -5,6 +5,7 @@ import {controls} from '../../app/styles';
 import type {PanelContext} from '../../panel_api';
 import type {Event} from '../../protocol/messages';
 import {clockText} from '../../app/clock';
+import {renderWithheld, withheldStyles} from '../withheld';
 import {foldSame, shownSlots, type LogRow} from './same_events';
 
 const kRows = 300;
@@ -67,7 +68,7 @@ export class LogPanel extends LitElement {
       </div>
       <div class="rows">${rows}${lineDrawn || rows.length === 0 ? nothing : this.renderNow(now_s)}
         ${shown.length > kRows ? html`<p>${shown.length - kRows} older events: filter to see them.</p>` : nothing}
-        ${shown.length === 0 ? html`<p>${model.may('log') ? 'Nothing has happened yet.' : model.whyNot('log')}</p>` : nothing}
+        ${shown.length > 0 ? nothing : !model.may('log') ? renderWithheld(this.context, 'log') : html`<p>${all.length === 0 ? 'Nothing has happened yet.' : 'No event matches the filter.'}</p>`}
       </div>`;
   }
 
@@ -129,12 +130,14 @@ export class LogPanel extends LitElement {
 
   static override styles = [
     controls,
+    withheldStyles,
     css`
       :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); }
       .bar { display: flex; gap: 8px; padding: 8px 12px; }
       .bar .field { flex: 1; }
       .rows { flex: 1; overflow: auto; padding: 0 4px 8px; }
       .row { display: grid; grid-template-columns: 58px 16px 1fr auto; gap: 6px; width: 100%; padding: 4px 8px; text-align: left; font-size: var(--fs-12); border-radius: var(--r-2); line-height: 1.4; }
+      @media (pointer: coarse) { .row { padding: 12px 8px; } }
       .row:hover { background: var(--bg-2); }
       .row time { text-align: right; color: var(--text-3); }
       .row svg { margin-top: 1px; color: var(--text-3); }

@@ -2,11 +2,13 @@
 import {html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import {controls, glyphs} from '../../app/styles';
+import {askText, holdersText, kUsualRights} from '../../model/withheld';
 import {keyOf, type MapKey} from '../../model/maps';
 import type {Signal} from '../../model/signal';
 import {RobotFlag} from '../../protocol/frames';
 import type {MapName} from '../../protocol/messages';
 import {LookingPanel} from '../looking_panel';
+import {renderNote, renderWithheld, withheldStyles} from '../withheld';
 import {Camera} from '../world/camera';
 import {drawGrid, drawScale} from '../world/grid_layer';
 import {RobotLayer} from '../world/robot_layer';
@@ -96,8 +98,8 @@ export class MapPanel extends LookingPanel {
   override render(): TemplateResult {
     const {model} = this.context;
     const {source} = this;
-    if (!model.may('maps')) return html`<p class="none">${icon('lock', 15)} ${model.whyNot('maps')}</p>`;
-    if (source === null) return html`<p class="none">${this.whyNone()}</p>`;
+    if (!model.may('maps')) return renderWithheld(this.context, 'maps');
+    if (source === null) return model.seesLess && model.live ? renderNote(this.context, this.whyNone()) : html`<p class="none">${this.whyNone()}</p>`;
     const over = this.isOver;
     // It may have been set in the World View.
     if (over) this.opacity = model.maps.overlay?.opacity ?? this.opacity;
@@ -152,7 +154,8 @@ export class MapPanel extends LookingPanel {
   private whyNone(): string {
     const {model} = this.context;
     if (!model.live) return 'No program of this run has published a map, and its world has nothing to map.';
-    return 'There is no map that you may see: no robot has a range sensor, and there is no global map.';
+    if (!model.seesLess) return 'There is no map: no robot has a range sensor, and there is no global map.';
+    return `There is no map that you may see. ${holdersText(kUsualRights.maps)} ${askText(model.others)}`;
   }
 
   private waits(source: MapName): string {
@@ -214,7 +217,7 @@ export class MapPanel extends LookingPanel {
     }
   }
 
-  static override styles = [controls, glyphs, mapStyles];
+  static override styles = [controls, glyphs, mapStyles, withheldStyles];
 }
 
 customElements.define('rave-map', MapPanel);

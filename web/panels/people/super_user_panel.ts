@@ -6,6 +6,7 @@ import './audit_view';
 import './invitations';
 import './people_list';
 import '../rights/rights_panel';
+import {renderWithheld, withheldStyles} from '../withheld';
 
 type Part = 'rights' | 'people' | 'invitations' | 'audit';
 /** From this width on the rights stand beside the others. */
@@ -29,7 +30,7 @@ export class SuperUserPanel extends LitElement {
       update();
     });
     size.observe(this);
-    this.ends.push(model.accountsChanged.on(update), model.runChanged.on(update), () => size.disconnect());
+    this.ends.push(model.accountsChanged.on(update), model.runChanged.on(update), model.peopleChanged.on(update), () => size.disconnect());
   }
 
   override disconnectedCallback(): void {
@@ -49,7 +50,7 @@ export class SuperUserPanel extends LitElement {
 
   override render(): TemplateResult {
     const {model} = this.context;
-    if (!model.may('rights')) return html`<p>Only a super-user sees rights, people, invitations and the audit log.</p>`;
+    if (!model.may('rights')) return renderWithheld(this.context, 'rights');
     const {parts} = this;
     const shown = parts.some(([part]) => part === this.chosen) ? this.chosen : parts[0][0];
     return html`${this.wide ? html`<section class="beside"><rave-rights .context=${this.context}></rave-rights></section>` : ''}
@@ -82,6 +83,7 @@ export class SuperUserPanel extends LitElement {
 
   static override styles = [
     controls,
+    withheldStyles,
     css`
       :host { display: flex; height: 100%; background: var(--bg-1); font-size: var(--fs-12); }
       section { flex: 1; min-width: 0; display: flex; flex-direction: column; }

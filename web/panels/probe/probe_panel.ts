@@ -9,6 +9,7 @@ import {LookingPanel} from '../looking_panel';
 import {usefulRange} from '../parameter_range';
 import {drawPolar} from '../sensors/polar_plot';
 import {aboutText, metBy, nearestText, readingStyles, renderValues} from '../sensors/reading_texts';
+import {renderWithheld, withheldStyles} from '../withheld';
 import {Surface} from '../world/surface';
 import {ProbeDraft, kMount, type MountKey, type Setting} from './probe_draft';
 
@@ -84,7 +85,7 @@ export class ProbePanel extends LookingPanel {
 
   override render(): TemplateResult {
     const {model, palette} = this.context;
-    if (!model.may('probe')) return html`<p class="none">${icon('lock', 15)} ${model.whyNot('probe')}</p>`;
+    if (!model.may('probe')) return renderWithheld(this.context, 'probe');
     const {driver, shownSlot: slot} = this;
     if (slot === null) return html`<p class="none">Select a robot, real or simulated, to try a virtual sensor on it.</p>`;
     if (driver === null) return html`<p class="none">${model.probes.drivers === null ? 'Asking for the virtual sensors that there are.' : 'There are no virtual sensors here.'}</p>`;
@@ -175,6 +176,7 @@ export class ProbePanel extends LookingPanel {
     controls,
     glyphs,
     readingStyles,
+    withheldStyles,
     css`
       :host { display: flex; flex-wrap: wrap; height: 100%; overflow: auto; background: var(--bg-1); font-size: var(--fs-12); align-content: flex-start; }
       .form { flex: 1 1 230px; max-width: 420px; padding: 10px 12px; box-sizing: border-box; }

@@ -4,8 +4,10 @@ import {icon} from '../../app/icons';
 import {controls, glyphs} from '../../app/styles';
 import {initials} from '../../app/words';
 import {kHistory_s} from '../../model/pose_history';
+import {askText, holdersText, kUsualRights} from '../../model/withheld';
 import type {PanelContext} from '../../panel_api';
 import {RobotFlag} from '../../protocol/frames';
+import {renderNote, withheldStyles} from '../withheld';
 import {parseFilter, type Filter} from './filter';
 import {stateOf, stoppable} from './robot_state';
 
@@ -84,9 +86,16 @@ export class RobotsPanel extends LitElement {
       ${robots.length > kMany ? html`<div class="heads"><span>By team</span><span>speed 0 … ${this.topSpeed.toFixed(1)}</span><span>mean</span></div>` : nothing}
       <div class="rows" role="group" aria-label="Robots">
         ${[...teams].map(([team, slots]) => this.renderTeam(team, slots, robots.length > kMany))}
-        ${teams.size === 0 ? html`<p class="none">${robots.length === 0 ? 'No robots in this run.' : 'No robot matches the filter.'}</p>` : nothing}
+        ${teams.size === 0 ? this.renderNone() : nothing}
       </div>
       ${this.renderDetail()}`;
+  }
+
+  private renderNone(): TemplateResult {
+    const {model} = this.context;
+    if (model.robots.length > 0) return html`<p class="none">No robot matches the filter.</p>`;
+    if (!model.seesLess) return html`<p class="none">No robots in this run.</p>`;
+    return renderNote(this.context, `There is no robot that you may see. ${holdersText(kUsualRights.pose)} ${askText(model.others)}`);
   }
 
   private setFilter(text: string): void {
@@ -103,7 +112,7 @@ export class RobotsPanel extends LitElement {
       if (!set.delete(team)) set.add(team);
       this.requestUpdate();
     };
-    return html`<div class="head">
+    return html`<div class="head ${many ? 'many' : ''}">
       <button class="team ${many ? 'many' : ''}" aria-expanded=${open} @click=${toggle}>
         <span class="turn ${open ? 'open' : ''}">${icon('chevronDown', 13)}</span>
         <span class="who"><span>${team === '' ? 'no team' : team} <em>${slots.length}</em></span>
@@ -179,8 +188,10 @@ export class RobotsPanel extends LitElement {
     const {model} = this.context;
     const drive = model.drives.get(slot);
     if (drive === undefined || drive.lease === '') return nothing;
-    const name = drive.yours ? (model.hello?.user.name ?? '') : drive.lease;
-    return html`<span class="driver ${drive.yours ? 'you' : ''}" title=${drive.yours ? 'You drive it' : `${name} drives it`}>${initials(name)}</span>`;
+    const own = drive.lease === model.knownAs;
+    const name = drive.yours || own ? (model.hello?.user.name ?? '') : drive.lease;
+    const title = drive.yours ? 'You drive it' : own ? 'You drive it on another page' : `${name} drives it`;
+    return html`<span class="driver ${drive.yours ? 'you' : ''}" title=${title}>${initials(name)}</span>`;
   }
 
   private rowKey(event: KeyboardEvent, slot: number): void {
@@ -235,6 +246,7 @@ export class RobotsPanel extends LitElement {
   static override styles = [
     controls,
     glyphs,
+    withheldStyles,
     css`
       :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); container-type: size; }
       @container (max-height: 460px) { .detail { display: none; } }
@@ -247,9 +259,12 @@ export class RobotsPanel extends LitElement {
       .team.many { height: 40px; }
       .head { display: flex; align-items: center; }
       .head .team { flex: 1; min-width: 0; }
-      .halt { display: inline-flex; align-items: center; gap: 5px; flex: none; height: 22px; margin-right: 12px; padding: 0 8px; border-radius: var(--r-2); background: linear-gradient(var(--danger-soft) 0 0), var(--bg-1); color: var(--danger); font-size: var(--fs-12); }
+      .head:has(.halt) { margin: 4px 0; }
+      /* Histogram and mean need the width: the button stands below them, under the name. */
+      .head.many { flex-wrap: wrap; } .head.many .team { flex-basis: 100%; } .head.many .halt { margin: 0 0 4px 31px; }
+      .halt { display: inline-flex; align-items: center; gap: 5px; flex: none; height: 24px; margin: 0 12px 0 8px; padding: 0 10px; white-space: nowrap; border-radius: var(--r-2); background: linear-gradient(var(--danger-soft) 0 0), var(--bg-1); color: var(--danger); font-size: var(--fs-12); }
       .halt:disabled { opacity: 1; background: none; color: var(--text-2); }
-      @media (pointer: coarse) { .halt { height: 40px; } }
+      @media (pointer: coarse) { .halt { height: 40px; border-radius: var(--r-3); } .team:not(.many) { height: 44px; } }
       .who { display: flex; flex-direction: column; line-height: 1.3; }
       .who small { color: var(--text-3); font-size: var(--fs-11); }
       .heads { display: flex; justify-content: space-between; padding: 6px 12px 0; color: var(--text-3); font-size: var(--fs-11); }

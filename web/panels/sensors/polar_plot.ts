@@ -16,11 +16,11 @@ function halfOpening(bearings: readonly number[], cone: number): number {
 }
 
 /** Draws a range reading with ahead up. `met` says what a ray hit, or null; `real` is the real half of a hybrid, `beam`
- * the one whose course is drawn. */
+ * the one whose course is drawn, `strength` how much of the reading is left of its age. */
 export function drawPolar(
   ctx: CanvasRenderingContext2D, width: number, height: number, sensor: Sensor, reading: Reading | null,
   hue: {fill: string; ink: string}, palette: Palette, met: (ray: number) => Met | null, real: Reading | null = null,
-  beam: number | null = null,
+  beam: number | null = null, strength = 1,
 ): void {
   const max = sensor.range?.[1] ?? 4;
   const bearings = bearingsOf(sensor, reading?.rows ?? sensor.bearings?.length ?? 0);
@@ -37,6 +37,7 @@ export function drawPolar(
     oy - r * Math.cos(bearing),
   ];
   drawRings(ctx, ox, oy, radius, half, max, palette);
+  ctx.globalAlpha = strength;
   if (reading !== null && reading.rows > 0) {
     ctx.beginPath();
     ctx.moveTo(ox, oy);
@@ -70,6 +71,7 @@ export function drawPolar(
       drawMark(ctx, hit?.mark ?? 'disc', x, y, 1.8);
     }
   }
+  ctx.globalAlpha = 1;
   if (beam !== null && bearings[beam] !== undefined) drawBeam(ctx, [ox, oy], at(bearings[beam], radius), palette);
   ctx.fillStyle = hue.fill;
   ctx.beginPath();

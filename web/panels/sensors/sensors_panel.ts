@@ -3,9 +3,12 @@ import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import {controls, glyphs} from '../../app/styles';
 import type {Signal} from '../../model/signal';
+import {askText, holdersText, kUsualRights} from '../../model/withheld';
 import type {Reading} from '../../protocol/frames';
 import type {Robot, Sensor} from '../../protocol/messages';
 import {LookingPanel} from '../looking_panel';
+import {isCurrent, strengthOf} from '../reading_age';
+import {renderNote, renderWithheld, withheldStyles} from '../withheld';
 import {shortName} from '../world/name_layer';
 import {Surface, type Met} from '../world/surface';
 import {beamText, courseFieldsOf, type CourseField} from './course_fields';
@@ -82,9 +85,9 @@ export class SensorsPanel extends LookingPanel {
     const {model, palette} = this.context;
     const slot = this.shownSlot;
     const robot = slot === null ? undefined : model.robots[slot];
-    if (slot === null || robot === undefined) return html`<p class="none">No robot of this run has a sensor.</p>`;
-    if (!model.may('readings')) return html`<p class="none">${icon('lock', 15)} ${model.whyNot('readings')}</p>`;
-    if (robot.sensors.length === 0) return html`<p class="none">${robot.name} has no sensors.</p>`;
+    if (!model.may('readings')) return renderWithheld(this.context, 'readings');
+    if (slot === null || robot === undefined) return this.renderNone('No robot of this run');
+    if (robot.sensors.length === 0) return this.renderNone(robot.name);
     const index = this.sensorIndex(slot, robot);
     const sensor = robot.sensors[index];
     const reading = model.readings.of(slot, index);
@@ -95,7 +98,7 @@ export class SensorsPanel extends LookingPanel {
         <i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i>
         <b style="color:${hue.ink}">${robot.name}</b>
         <button class="icon-button" title="Keep this robot, whatever is selected" aria-label="Keep this robot" aria-pressed=${this.pinned !== null}
-          @click=${() => { this.pinned = this.pinned === null ? slot : null; this.requestUpdate(); }}>${icon('lock', 13)}</button>
+          @click=${() => { this.pinned = this.pinned === null ? slot : null; this.requestUpdate(); }}>${icon('pin', 14)}</button>
         <span class="space"></span>
         <div class="segments" role="radiogroup" aria-label="Sensor">
           ${robot.sensors.map((other, i) => html`<button role="radio" aria-checked=${i === index} @click=${() => this.choose(slot, i)}>${other.name}</button>`)}
@@ -103,11 +106,19 @@ export class SensorsPanel extends LookingPanel {
       </div>
       <div class="about">
         ${sensor.origin === 'real' ? nothing : html`<span class="tag"><i class="glyph virtual"></i>${sensor.origin === 'virtual' ? 'virtual sensor' : 'hybrid sensor'}</span>`}
-        <span class="space"></span><span>${aboutText(sensor, reading, now_s)}</span>
+        <span class="space"></span><span class=${reading === null || isCurrent(now_s - reading.stamp_s, sensor.period_s) ? '' : 'old'}>${aboutText(sensor, reading, now_s)}</span>
         <button class="icon-button" title="Show the numbers" aria-label="Show the numbers" aria-pressed=${this.asTable}
           @click=${() => { this.asTable = !this.asTable; this.requestUpdate(); }}>${icon('list', 14)}</button>
       </div>
       ${this.asTable ? renderTable(sensor, reading) : this.renderPlots(slot, sensor, reading)}`;
+  }
+
+  /** Robots whose readings are withheld have no sensors at all. */
+  private renderNone(whose: string): TemplateResult {
+    const {model} = this.context;
+    const many = whose.startsWith('No ');
+    if (!model.seesLess) return html`<p class="none">${whose} ${many ? 'has a sensor' : 'has no sensors'}.</p>`;
+    return renderNote(this.context, `${whose} ${many ? 'shows you a sensor' : 'shows you no sensors: it has none, or they are not yours to see'}. ${holdersText(kUsualRights.readings)} ${askText(model.others)}`);
   }
 
   private choose(slot: number, index: number): void {
@@ -122,7 +133,8 @@ export class SensorsPanel extends LookingPanel {
     const ranges = sensor.kind === 'ranges';
     if (sensor.kind === 'sightings') return this.renderSightings(slot, sensor, reading);
     return html`
-      ${sensor.origin === 'hybrid' ? html`<p class="halves"><span><i class="line"></i>real half</span><span><i class="dot"></i>result from it</span><span><i class="square"></i>result from the virtual half</span></p>` : nothing}
+      ${sensor.origin === 'hybrid' && this.context.model.isWithheld('hybrid_parts') ? renderWithheld(this.context, 'hybrid_parts') : nothing}
+      ${sensor.origin === 'hybrid' ? html`<p class="halves">${this.context.model.may('hybrid_parts') ? html`<span><i class="line"></i>real half</span>` : nothing}<span><i class="dot"></i>result from it</span><span><i class="square"></i>result from the virtual half</span></p>` : nothing}
       ${ranges ? html`<canvas class="polar" role="img" aria-label="Ranges around the robot; the numbers are behind the button Show the numbers"></canvas>` : renderValues(sensor, reading)}
       ${ranges ? html`<p class="sentence">${this.nearest(slot, sensor, reading)}</p>` : nothing}
       ${this.renderCourse(sensor)}`;
@@ -205,11 +217,11 @@ export class SensorsPanel extends LookingPanel {
     const halves = sensor.origin === 'hybrid' ? model.readings.of(slot, index, 1) : null;
     this.onCanvas('.polar', (ctx, width, height) => {
       drawPolar(ctx, width, height, sensor, reading, hue, palette, (ray) =>
-        reading === null ? null : this.met(slot, sensor, reading, ray), halves, this.field === 1 ? this.beamOf(sensor) : null);
+        reading === null ? null : this.met(slot, sensor, reading, ray), halves, this.field === 1 ? this.beamOf(sensor) : null, reading === null ? 1 : strengthOf(this.placed.time_s - reading.stamp_s, sensor.period_s));
     });
     this.onCanvas('.sightings', (ctx, width, height) => {
       const twin = twinOf(robot, index);
-      drawSightingsPlot(ctx, width, height, sensor, reading, twin === null ? null : model.readings.of(slot, twin), (code) => this.namedCode(code), palette);
+      drawSightingsPlot(ctx, width, height, sensor, reading, twin === null ? null : model.readings.of(slot, twin), (code) => this.namedCode(code), palette, this.placed.time_s);
     });
     this.paintCourse(slot, index, sensor, hue.ink);
   }
@@ -231,11 +243,13 @@ export class SensorsPanel extends LookingPanel {
     glyphs,
     readingStyles,
     courseStyles,
+    withheldStyles,
     css`
       :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); overflow: hidden; }
       .head, .about { display: flex; align-items: center; gap: 8px; padding: 8px 12px 0; flex-wrap: wrap; }
       .about { color: var(--text-2); font-size: var(--fs-12); padding-top: 4px; flex-wrap: nowrap; white-space: nowrap; overflow: hidden; }
       .space { flex: 1; }
+      .old { color: var(--stale-ink); }
       :host([embedded]) .head > :is(.glyph, b, .icon-button, .space), :host([compact]) :is(.course, .fields) { display: none; }
       .tag { display: inline-flex; align-items: center; gap: 6px; padding: 1px 8px; border-radius: var(--r-2); background: var(--virtual-fill); color: var(--virtual-ink); }
       .polar { flex: 1 1 160px; min-height: 100px; width: 100%; }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import {expect, it} from 'vitest';
+import type {Palette} from '../../panel_api';
 import type {Reading} from '../../protocol/frames';
 import type {Robot, Sensor} from '../../protocol/messages';
-import {pairsOf, sightingsOf} from './sightings_plot';
+import {drawSightingsPlot, pairsOf, sightingsOf} from './sightings_plot';
 import {twinOf} from './twin';
 
 function reading(...rows: [number, number, number][]): Reading {
@@ -23,4 +24,31 @@ it('finds the twin of a camera, both ways', () => {
     sensors: [sensor('laser', 'ranges', 'virtual'), sensor('camera', 'sightings', 'real'), sensor('twin', 'sightings', 'virtual')],
   };
   expect([0, 1, 2].map((index) => twinOf(robot, index))).toEqual([null, 2, 1]);
+});
+
+it('draws what was seen long ago hollow and faint, and what is current full', () => {
+  const sensor: Sensor = {name: 'camera', kind: 'sightings', origin: 'real', driver: '', mount: [0, 0, 0], z: 0, period_s: 0.1, fields: []};
+  const palette = {token: (name: string) => name} as unknown as Palette;
+  const marks = (now_s: number) => {
+    const drawn: [string, number][] = [];
+    let arc = false;
+    const ctx = new Proxy({globalAlpha: 1} as Record<string, unknown>, {
+      get: (known, name) => {
+        const does = () => {
+          if (name === 'beginPath') arc = false;
+          if (name === 'arc') arc = true;
+          if (arc && (name === 'fill' || name === 'stroke')) drawn.push([name, known['globalAlpha'] as number]);
+          return {width: 20};
+        };
+        return name in known ? known[name as string] : does;
+      },
+    });
+    drawSightingsPlot(ctx as unknown as CanvasRenderingContext2D, 300, 200, sensor, reading([7, 1, 0]), null, () => ({name: 'a', colour: 'red'}), palette, now_s);
+    return drawn;
+  };
+  expect(marks(0.5)).toEqual([['fill', 1]]);
+  const [[how, strength]] = marks(3);
+  expect(how).toBe('stroke');
+  expect(strength).toBeLessThan(0.7);
+  expect(marks(60)).toEqual([['stroke', 0.25]]);
 });

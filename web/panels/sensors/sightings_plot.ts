@@ -2,6 +2,7 @@
 import type {Palette} from '../../panel_api';
 import type {Reading} from '../../protocol/frames';
 import type {Sensor} from '../../protocol/messages';
+import {strengthOf} from '../reading_age';
 import {kFont, LabelPlacer, type Label} from '../world/labels';
 import {roundStep} from '../world/ticks';
 
@@ -35,12 +36,16 @@ export function pairsOf(saw: Reading | null, expected: Reading | null): number {
   return sightingsOf(expected).filter((one) => codes.has(one.code)).length;
 }
 
-/** Range over bearing: discs were seen, squares are expected, a line joins a pair. */
+/** Range over bearing: discs were seen, squares are expected, a line joins a pair. What is old at `now_s` is faint and
+ * hollow. */
 export function drawSightingsPlot(
   ctx: CanvasRenderingContext2D, width: number, height: number, sensor: Sensor, reading: Reading | null,
-  twin: Reading | null, named: (code: number) => Named, palette: Palette,
+  twin: Reading | null, named: (code: number) => Named, palette: Palette, now_s: number,
 ): void {
-  const [saw, expected] = sensor.origin === 'virtual' ? [sightingsOf(twin), sightingsOf(reading)] : [sightingsOf(reading), sightingsOf(twin)];
+  const [ofCamera, ofTwin] = sensor.origin === 'virtual' ? [twin, reading] : [reading, twin];
+  const [saw, expected] = [sightingsOf(ofCamera), sightingsOf(ofTwin)];
+  const strength = (of: Reading | null) => (of === null ? 1 : strengthOf(now_s - of.stamp_s, sensor.period_s));
+  const [strengthOfSaw, strengthOfExpected] = [strength(ofCamera), strength(ofTwin)];
   const all = [...saw, ...expected];
   const half = Math.max(kLeast_rad, ...all.map((one) => Math.abs(one.bearing_rad))) * 1.12;
   const far = Math.max(1, ...all.map((one) => one.range_m)) * 1.1;
@@ -50,11 +55,13 @@ export function drawSightingsPlot(
   const seen = new Map(saw.map((one) => [one.code, one]));
   const placer = new LabelPlacer(width, height);
   const labels: Label[] = [];
-  const label = (one: Sighting, rank: number) => {
-    const {name, colour} = named(one.code);
+  const label = (one: Sighting, rank: number, fresh: boolean) => {
+    const {name, colour: own} = named(one.code);
+    const colour = fresh ? own : palette.token('text-3');
     placer.block(x(one.bearing_rad), y(one.range_m), 4);
     labels.push({text: name, x: x(one.bearing_rad), y: y(one.range_m), gap: 6, colour, weight: 400, rank});
   };
+  ctx.globalAlpha = strengthOfExpected;
   for (const one of expected) {
     const [px, py] = [x(one.bearing_rad), y(one.range_m)];
     const pair = seen.get(one.code);
@@ -67,16 +74,20 @@ export function drawSightingsPlot(
       ctx.stroke();
     }
     ctx.strokeRect(px - 3.5, py - 3.5, 7, 7);
-    label(one, 1);
+    label(one, 1, strengthOfExpected === 1);
   }
   const twinned = new Set(expected.map((one) => one.code));
+  ctx.globalAlpha = strengthOfSaw;
   for (const one of saw) {
-    ctx.fillStyle = named(one.code).colour;
+    ctx.fillStyle = ctx.strokeStyle = named(one.code).colour;
     ctx.beginPath();
     ctx.arc(x(one.bearing_rad), y(one.range_m), 3, 0, 2 * Math.PI);
-    ctx.fill();
-    if (!twinned.has(one.code)) label(one, 0);
+    // What is not current loses its fill.
+    if (strengthOfSaw === 1) ctx.fill();
+    else ctx.stroke();
+    if (!twinned.has(one.code)) label(one, 0, strengthOfSaw === 1);
   }
+  ctx.globalAlpha = 1;
   placer.draw(ctx, labels, palette.token('bg-1'));
 }
 

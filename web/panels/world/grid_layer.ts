@@ -5,6 +5,8 @@ import {kFont} from './labels';
 import {roundStep, tickText} from './ticks';
 
 const kSpacing_px = 64;
+/** Narrower pictures have the legend and the tools over their upper edge: container query of the World View. */
+const kNarrow_px = 520;
 
 /** Lines at round distances, with halves between them. */
 export function drawGrid(ctx: CanvasRenderingContext2D, camera: Camera, palette: Palette): void {
@@ -31,8 +33,9 @@ export function drawGrid(ctx: CanvasRenderingContext2D, camera: Camera, palette:
   lines(step, palette.token('grid-2'));
 }
 
-/** Numbers along the top and the left. */
+/** Numbers along the top and the left, where they have room. */
 export function drawTicks(ctx: CanvasRenderingContext2D, camera: Camera, palette: Palette): void {
+  if (camera.width <= kNarrow_px) return;
   const step = roundStep(kSpacing_px / camera.scale);
   const [x0, y1] = camera.toWorld(0, 0);
   const [x1, y0] = camera.toWorld(camera.width, camera.height);

@@ -4,12 +4,12 @@ import type {RunModel} from '../../model/run_model';
 import type {Palette, Selection} from '../../panel_api';
 import {RobotFlag, type Reading} from '../../protocol/frames';
 import type {Sensor} from '../../protocol/messages';
+import {isCurrent, kOldest_s, strengthOf} from '../reading_age';
 import type {Camera} from './camera';
 import type {Layers} from './layers';
 import {drawHits, drawScan, drawSightings, drawnSensors, mountOf} from './scan_layer';
 import type {Surface} from './surface';
 
-const kOldest_s = 5;
 /** The number of robots whose sensors are drawn at a time. */
 const kScanned = 12;
 
@@ -36,6 +36,8 @@ export interface Shown {
   /** Of the selected robot. */
   strong: boolean;
   fresh: boolean;
+  /** 1 while it is current, then less with its age. */
+  strength: number;
   /** Of a virtual sensor that is tried: no part of the run. */
   tried: boolean;
 }
@@ -50,7 +52,7 @@ export function shownReadings(model: RunModel, selection: Selection, placed: Pla
     if ((placed.flags[slot] & (RobotFlag.known | RobotFlag.stale)) !== RobotFlag.known) return;
     const tried = model.probes.sensor(index);
     if (tried !== undefined) {
-      if (tried.kind === 'ranges' || tried.kind === 'sightings') found.push({slot, sensor: tried, reading, strong: true, fresh: placed.time_s - reading.stamp_s < 1, tried: true});
+      if (tried.kind === 'ranges' || tried.kind === 'sightings') found.push({slot, sensor: tried, reading, strong: true, fresh: placed.time_s - reading.stamp_s < 1, strength: strengthOf(placed.time_s - reading.stamp_s, 0), tried: true});
       return;
     }
     const strong = slot === selection.primary;
@@ -58,9 +60,9 @@ export function shownReadings(model: RunModel, selection: Selection, placed: Pla
     if (!drawnSensors(robot).includes(index)) return;
     const sensor = robot.sensors[index];
     const age_s = placed.time_s - reading.stamp_s;
-    const fresh = age_s <= Math.max(1, 3 * sensor.period_s);
+    const fresh = isCurrent(age_s, sensor.period_s);
     if (!fresh && (!strong || age_s > kOldest_s)) return;
-    found.push({slot, sensor, reading, strong, fresh, tried: false});
+    found.push({slot, sensor, reading, strong, fresh, strength: strengthOf(age_s, sensor.period_s), tried: false});
   });
   return found.sort((a, b) => Number(a.strong) - Number(b.strong) || a.slot - b.slot);
 }
@@ -70,11 +72,11 @@ export function drawReadings(
   ctx: CanvasRenderingContext2D, camera: Camera, model: RunModel, selection: Selection, palette: Palette, placed: Placed,
   layers: Layers, surface: Surface | null, hits: boolean,
 ): void {
-  for (const {slot, sensor, reading, strong, fresh, tried} of shownReadings(model, selection, placed, layers)) {
+  for (const {slot, sensor, reading, strong, fresh, strength, tried} of shownReadings(model, selection, placed, layers)) {
     const mount = mountOf(placed, slot, sensor);
     const hue = tried ? {fill: palette.token('virtual'), ink: palette.token('virtual-ink')} : palette.hue(slot);
     if (sensor.kind === 'sightings') {
-      if (layers.sightings) drawSightings(ctx, camera, mount, reading, hue.ink);
+      if (layers.sightings) drawSightings(ctx, camera, mount, reading, hue.ink, strength);
       continue;
     }
     if (tried) ctx.setLineDash([4, 3]);

@@ -97,9 +97,9 @@ export function drawHits(
   }
 }
 
-/** Lines from a camera to what it read. */
+/** Lines from a camera to what it read; `strength` is 1 for what is current. */
 export function drawSightings(
-  ctx: CanvasRenderingContext2D, camera: Camera, mount: Mount, reading: Reading, hue: string,
+  ctx: CanvasRenderingContext2D, camera: Camera, mount: Mount, reading: Reading, hue: string, strength: number,
 ): void {
   ctx.save();
   ctx.strokeStyle = hue;
@@ -109,12 +109,12 @@ export function drawSightings(
     const a = mount.yaw + reading.values[row * reading.fields + 2];
     const x = camera.toScreenX(mount.x + range * Math.cos(a));
     const y = camera.toScreenY(mount.y + range * Math.sin(a));
-    ctx.globalAlpha = 0.7;
+    ctx.globalAlpha = 0.7 * strength;
     ctx.beginPath();
     ctx.moveTo(camera.toScreenX(mount.x), camera.toScreenY(mount.y));
     ctx.lineTo(x, y);
     ctx.stroke();
-    ctx.globalAlpha = 1;
+    ctx.globalAlpha = strength;
     ctx.beginPath();
     ctx.arc(x, y, 4, 0, 2 * Math.PI);
     ctx.stroke();

@@ -5,6 +5,7 @@ import {keyOf} from '../../model/maps';
 import type {RunModel} from '../../model/run_model';
 import type {PanelContext} from '../../panel_api';
 import {kColourBy, type ColourBy, type Flag, type Kind, type Layers} from './layers';
+import {renderNote, withheldStyles} from '../withheld';
 import {rampColour} from './ramp';
 
 const kKinds: readonly [Kind, string][] = [
@@ -35,7 +36,7 @@ function countKinds(context: PanelContext): Map<Kind, number> {
 }
 
 /** Kinds with their numbers; a click hides one. */
-export function renderLegend(context: PanelContext, layers: Layers, set: (layers: Layers) => void): TemplateResult {
+export function renderLegend(context: PanelContext, layers: Layers, set: (layers: Layers) => void, explain: () => void): TemplateResult {
   const {model} = context;
   const counts = countKinds(context);
   return html`<div class="legend" role="group" aria-label="Kinds; press to hide, with Alt to show alone">
@@ -43,7 +44,7 @@ export function renderLegend(context: PanelContext, layers: Layers, set: (layers
       const count = counts.get(kind);
       if (count === undefined) {
         if (kind !== 'virtual' || !model.hidden.includes('virtual')) return nothing;
-        return html`<span class="kind withheld" title=${model.whyNot('obstacles')}>${icon('lock', 13)} <i>virtual obstacles</i></span>`;
+        return html`<button class="kind lacking" title=${model.whyNot('obstacles')} @click=${explain}>${icon('lock', 13)} <i>virtual obstacles</i></button>`;
       }
       return html`<button class="kind" aria-pressed=${!layers.hidden.includes(kind)} title="Hide or show ${word}" aria-label="${count} ${word}"
         @click=${(event: MouseEvent) => set(withKind(layers, kind, event.altKey))}>
@@ -51,8 +52,15 @@ export function renderLegend(context: PanelContext, layers: Layers, set: (layers
     })}</div>`;
 }
 
+/** How simulated robots are tinted, at hand without the menu. */
+export function renderColourBy(layers: Layers, set: (layers: Layers) => void): TemplateResult {
+  return html`<span class="colour-by">Colour by<div class="segments" role="radiogroup" aria-label="Colour by">${kColourBy.map((by) => html`
+    <button role="radio" aria-checked=${layers.colourBy === by} @click=${() => set({...layers, colourBy: by})}>${by}</button>`)}</div></span>`;
+}
+
 /** What is shown over the floor. */
-export function renderMenu(model: RunModel, layers: Layers, scale: [string, string], theme: 'dark' | 'light', set: (layers: Layers) => void): TemplateResult {
+export function renderMenu(context: PanelContext, layers: Layers, scale: [string, string], theme: 'dark' | 'light', set: (layers: Layers) => void): TemplateResult {
+  const {model} = context;
   const flag = (name: Flag, text: string, note = '') => html`
     <label><span>${text}</span><em>${note}</em>
       <input type="checkbox" role="switch" .checked=${layers[name]} @change=${() => set({...layers, [name]: !layers[name]})}></label>`;
@@ -79,7 +87,15 @@ export function renderMenu(model: RunModel, layers: Layers, scale: [string, stri
     ${flag('names', 'Names')}
     ${flag('grid', 'Grid')}
     ${renderMaps(model)}
+    ${renderLacking(context)}
   </div>`;
+}
+
+/** What the world is drawn without for this person. */
+function renderLacking(context: PanelContext): TemplateResult | typeof nothing {
+  const {model} = context;
+  const lacking = (['obstacles', 'true_pose', 'readings', 'maps'] as const).filter((power) => model.isWithheld(power));
+  return lacking.length === 0 ? nothing : html`<hr>${lacking.map((power, i) => renderNote(context, model.whyNot(power), i === lacking.length - 1))}`;
 }
 
 /** Which map lies over the world, and how strong. */
@@ -105,6 +121,7 @@ function renderScale([low, high]: [string, string], theme: 'dark' | 'light'): Te
 }
 
 export const worldMenuStyles = css`
+  ${withheldStyles}
   .legend { display: flex; gap: 4px; overflow: hidden; }
   .kind { display: inline-flex; align-items: center; gap: 6px; height: 26px; padding: 0 8px; border-radius: var(--r-2); color: var(--text-2); font-size: var(--fs-12); white-space: nowrap; }
   .kind b { color: var(--text-1); font-weight: var(--fw-strong); }
@@ -113,8 +130,9 @@ export const worldMenuStyles = css`
   .kind[aria-pressed='false'] { text-decoration: line-through; color: var(--text-3); }
   .kind[aria-pressed='false'] b { color: var(--text-3); }
   .kind[aria-pressed='false'] .glyph { opacity: .4; }
-  .withheld { color: var(--text-3); }
-  .menu { position: absolute; right: 10px; top: 10px; z-index: 4; width: 260px; padding: 8px 14px; background: var(--bg-2); border: 1px solid var(--line-2); border-radius: var(--r-4); box-shadow: var(--shadow-pop); font-size: var(--fs-12); }
+  .lacking { color: var(--text-3); }
+  .menu .withheld { margin: 6px 0; font-size: var(--fs-11); }
+  .menu { position: absolute; right: 10px; top: 10px; z-index: 4; width: 260px; padding: 8px 14px; max-height: calc(100% - 20px); overflow: auto; box-sizing: border-box; background: var(--bg-2); border: 1px solid var(--line-2); border-radius: var(--r-4); box-shadow: var(--shadow-pop); font-size: var(--fs-12); }
   .menu header { display: flex; justify-content: space-between; padding: 4px 0 6px; font-weight: var(--fw-medium); color: var(--text-2); }
   .menu label { display: flex; align-items: center; gap: 8px; min-height: 28px; cursor: pointer; }
   .menu label span { flex: 1; }

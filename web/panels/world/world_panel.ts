@@ -5,21 +5,22 @@ import {controls, glyphs} from '../../app/styles';
 import {Placed} from '../../model/pose_history';
 import type {PanelContext} from '../../panel_api';
 import {viewOf} from '../../panel_api/windows';
-import {kColourBy, kLayers, readLayers, type Layers, type Poses} from './layers';
+import {kLayers, readLayers, type Layers, type Poses} from './layers';
 import {sensorsToRead} from './reading_layer';
 import {orderStyles} from './orders/order_cards';
 import type {Tool} from './orders/order_desk';
 import {WorldOrders} from './orders/world_orders';
+import {savePicture} from './save_picture';
 import type {Stage, StageContext} from './stage';
 import {TopStage} from './top_stage';
 import {takePlaces} from './truth_layer';
 import {renderCard, worldCardStyles} from './world_card';
 import {pressWorldKey} from './world_keys';
-import {renderLegend, renderMenu, worldMenuStyles} from './world_menu';
+import {renderColourBy, renderLegend, renderMenu, worldMenuStyles} from './world_menu';
 import {worldPanelStyles} from './world_panel_styles';
 
-const kKept = 'rave.world';
-const kKeptMode = 'rave.world.mode';
+const kKept = 'world';
+const kKeptMode = 'world.mode';
 /** From this number of robots on the colours are at hand without the menu. */
 const kCrowd = 100;
 /** From this share of the page on it is the only panel. */
@@ -61,8 +62,8 @@ export class WorldPanel extends LitElement {
     this.drawQueued = false;
     // The dock takes panels out while they are hidden: what came meanwhile is to be shown.
     this.requestUpdate();
-    const {model, palette, selection} = this.context;
-    this.layers = readLayers(JSON.parse(localStorage.getItem(kKept) ?? 'null'));
+    const {model, palette, selection, kept} = this.context;
+    this.layers = readLayers(kept.read(kKept));
     this.orders ??= new WorldOrders(this.context, () => this.refreshOrders(), () => void this.setMode('top'));
     this.ends.push(...this.orders.listen());
     this.top ??= new TopStage(this.stageContext());
@@ -83,6 +84,11 @@ export class WorldPanel extends LitElement {
       }),
       model.sceneChanged.on(refresh),
       palette.changed.on(refresh),
+      kept.changed.on(() => {
+        this.layers = readLayers(kept.read(kKept));
+        void this.setMode(this.keptMode);
+        refresh();
+      }),
       model.pictureChanged.on(() => this.draw()),
       model.maps.namesChanged.on(() => this.requestUpdate()),
       model.maps.overlayChanged.on(() => {
@@ -99,7 +105,7 @@ export class WorldPanel extends LitElement {
     this.stage.refresh();
     this.lookAround();
     this.resized.observe(this);
-    if (localStorage.getItem(kKeptMode) === '3d') void this.setMode('3d');
+    if (this.keptMode === '3d') void this.setMode('3d');
   }
 
   override disconnectedCallback(): void {
@@ -158,10 +164,14 @@ export class WorldPanel extends LitElement {
     return this.renderRoot.querySelector('.canvas') as HTMLElement;
   }
 
+  private get keptMode(): Mode {
+    return this.context.kept.read(kKeptMode) === '3d' ? '3d' : 'top';
+  }
+
   /** From above, or in perspective. The renderer of the latter is loaded when it is first asked for. */
   async setMode(mode: Mode): Promise<void> {
     this.mode = mode;
-    localStorage.setItem(kKeptMode, mode);
+    this.context.kept.write(kKeptMode, mode);
     this.requestUpdate();
     if (mode === '3d' && this.perspective === null) {
       const {PerspectiveStage} = await import('./perspective/perspective_stage');
@@ -208,14 +218,7 @@ export class WorldPanel extends LitElement {
 
   /** The picture as a PNG. */
   picture(): void {
-    this.stage.snapshot().toBlob((blob) => {
-      if (blob === null) return;
-      const anchor = document.createElement('a');
-      anchor.href = URL.createObjectURL(blob);
-      anchor.download = `${this.context.model.hello?.run.name ?? 'rave'}-${this.placed.time_s.toFixed(2)}s.png`;
-      anchor.click();
-      URL.revokeObjectURL(anchor.href);
-    });
+    savePicture(this.stage.snapshot(), `${this.context.model.hello?.run.name ?? 'rave'}-${this.placed.time_s.toFixed(2)}s.png`);
   }
 
   toggleMeasure(): void {
@@ -229,6 +232,11 @@ export class WorldPanel extends LitElement {
   private press(event: KeyboardEvent): void {
     if (!pressWorldKey(event, this.stage)) return;
     event.preventDefault();
+    this.requestUpdate();
+  }
+
+  private toggleMenu(): void {
+    this.menuOpen = !this.menuOpen;
     this.requestUpdate();
   }
 
@@ -324,7 +332,7 @@ export class WorldPanel extends LitElement {
 
   private setLayers(layers: Layers): void {
     this.layers = layers;
-    localStorage.setItem(kKept, JSON.stringify(layers));
+    this.context.kept.write(kKept, layers);
     this.lookAround();
     this.requestUpdate();
     this.draw();
@@ -343,15 +351,15 @@ export class WorldPanel extends LitElement {
             @click=${() => void this.setMode(mode)}>${mode === 'top' ? 'Top' : '3-D'}</button>`)}
         </div><i class="rule"></i>
         ${this.orders.tools()}
-        ${renderLegend(this.context, this.layers, set)}
+        ${renderLegend(this.context, this.layers, set, () => this.toggleMenu())}
         <span class="space"></span>
-        ${model.robots.length >= kCrowd ? this.renderColourBy() : nothing}
+        ${model.robots.length >= kCrowd ? renderColourBy(this.layers, set) : nothing}
         <div class="tools">
           <button class="icon-button mode" aria-label="Top or 3-D" @click=${() => this.toggleMode()}>${this.mode === 'top' ? '3-D' : 'Top'}</button>
           ${tool('maximize', 'Show everything', 'F', null, () => this.fit())}
           ${tool('crosshair', 'Follow the selected robot', 'C', selection.following, () => selection.follow(!selection.following), primary === null)}
           ${tool('ruler', 'Measure', 'M', this.top.measure.on, () => this.toggleMeasure())}
-          ${tool('layers', 'Layers', '', this.menuOpen, () => { this.menuOpen = !this.menuOpen; this.requestUpdate(); })}
+          ${tool('layers', 'Layers', '', this.menuOpen, () => this.toggleMenu())}
           ${tool('camera', 'Save a picture', 'P', null, () => this.picture())}
         </div>
       </div>
@@ -363,13 +371,8 @@ export class WorldPanel extends LitElement {
           : nothing}
         ${this.orders.render(this.stage.screenAt === undefined ? null : ([x, y]) => this.top.screenAt(x, y))}
         ${this.alone ? renderCard(this.context, this.placed) : nothing}
-        ${this.menuOpen ? renderMenu(model, this.layers, this.top.tint.scale(this.layers.colourBy), palette.theme, set) : nothing}
+        ${this.menuOpen ? renderMenu(this.context, this.layers, this.top.tint.scale(this.layers.colourBy), palette.theme, set) : nothing}
       </div>`;
-  }
-
-  private renderColourBy(): TemplateResult {
-    return html`<span class="colour-by">Colour by<div class="segments" role="radiogroup" aria-label="Colour by">${kColourBy.map((by) => html`
-      <button role="radio" aria-checked=${this.layers.colourBy === by} @click=${() => this.setLayers({...this.layers, colourBy: by})}>${by}</button>`)}</div></span>`;
   }
 
   private summary(): string {

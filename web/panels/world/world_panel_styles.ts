@@ -35,6 +35,7 @@ export const worldPanelStyles = css`
     .legend { position: absolute; left: 10px; top: 10px; z-index: 3; padding: 0 6px; background: var(--bg-2); border: 1px solid var(--line-1); border-radius: var(--r-full); gap: 0; }
     .tools { position: absolute; right: 10px; top: 10px; z-index: 3; flex-direction: column; padding: 2px; gap: 2px; background: var(--bg-2); border: 1px solid var(--line-1); border-radius: var(--r-4); }
     .tools .icon-button { width: 44px; height: 44px; }
+    .tools svg { width: 19px; height: 19px; }
     .mode { display: inline-grid; }
     .menu { right: 64px; max-width: calc(100% - 76px); }
     .note { top: 48px; left: 10px; }

@@ -121,7 +121,7 @@ export class Overlay {
     }
   }
 
-  private drawSightings(ctx: CanvasRenderingContext2D, {slot, sensor, reading}: Shown): void {
+  private drawSightings(ctx: CanvasRenderingContext2D, {slot, sensor, reading, strength}: Shown): void {
     const {placed, palette} = this.context;
     const mount = mountOf(placed, slot, sensor);
     const from = this.orbit.project(mount.x, mount.y, sensor.z);
@@ -133,16 +133,17 @@ export class Overlay {
       const a = mount.yaw + reading.values[row * reading.fields + 2];
       const to = this.orbit.project(mount.x + range * Math.cos(a), mount.y + range * Math.sin(a), sensor.z);
       if (to === null) continue;
-      ctx.globalAlpha = 0.6;
+      ctx.globalAlpha = 0.6 * strength;
       ctx.beginPath();
       ctx.moveTo(from.x, from.y);
       ctx.lineTo(to.x, to.y);
       ctx.stroke();
-      ctx.globalAlpha = 1;
+      ctx.globalAlpha = strength;
       ctx.beginPath();
       ctx.arc(to.x, to.y, 4, 0, 2 * Math.PI);
       ctx.stroke();
     }
+    ctx.globalAlpha = 1;
   }
 
   /** Where x, y and z point. */

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "rave/base/result.hpp"
+#include "rave/watch/process_row.hpp"
 #include "rave/watch/run_model.hpp"
 #include "rave/watch/run_view.hpp"
 
@@ -21,13 +22,13 @@ class LoneRun {
   [[nodiscard]] Result<RunView> look(bool with_robots);
 
  private:
-  void tell_process(HostView& host);
+  [[nodiscard]] HostView process_row(const runtime::RunStatus& status);
 
   std::string name_;
   RunView last_;
   bool seen_ = false;
   Rate time_;
-  Rate cpu_;
+  ProcessRow row_;
 };
 
 }  // namespace rave::watch

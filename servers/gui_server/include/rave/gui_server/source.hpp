@@ -82,6 +82,7 @@ struct RobotState {
   /// earlier versions.
   float variance_xy_m2 = 0;
   float variance_yaw_rad2 = 0;
+  friend bool operator==(const RobotState&, const RobotState&) = default;
 };
 
 /// The states of all robots at one time, by index of the roster.

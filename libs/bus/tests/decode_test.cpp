@@ -2,9 +2,6 @@
 // What the deserialiser of the bus does with bytes.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
-#include "rave/base/file.hpp"
 #include "rave/bus_testing/sample_messages.hpp"
 #include "receive_any.hpp"
 
@@ -65,22 +62,6 @@ TEST(Decode, AnUnknownKindIsRefused) {
   bytes[28] = std::byte{200};  // Behind run, writer and robot.
   Decoded<Command> unknown;
   EXPECT_FALSE(unknown.decode(bytes));
-}
-
-/// A fuzzer that begins with bytes which no reader accepts hardly comes past the first check.
-TEST(Decode, TheSeedsOfTheFuzzerAreValidSamplesOfEveryTopic) {
-  std::vector<bool> seeded(std::size(kTopics));
-  const std::filesystem::path corpus = RAVE_SOURCE_DIR "/libs/bus/tests/corpus_bus";
-  for (const auto& entry : std::filesystem::directory_iterator(corpus)) {
-    const auto seed = read_file(entry.path());
-    ASSERT_TRUE(seed && !seed->empty()) << entry.path();
-    const auto bytes = std::as_bytes(std::span(*seed));
-    EXPECT_TRUE(receive_any(bytes)) << entry.path();
-    seeded[(std::to_integer<std::size_t>(bytes[0]) & 0x7fU) % std::size(kTopics)] = true;
-  }
-  for (std::size_t topic = 0; topic < seeded.size(); ++topic) {
-    EXPECT_TRUE(seeded[topic]) << "no seed for topic " << topic << " of receive_any.hpp";
-  }
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ class LogLines final : public LogSink {
   std::vector<std::string> lines;
 };
 
-BusEvent refusal(std::uint64_t writer, std::string why) {
-  return {EventKind::kRefused, "rave/world", "", writer, std::move(why)};
+BusEvent refusal(std::uint64_t writer, const std::string& why) {
+  return {EventKind::kRefused, "rave/world", "", writer, why};
 }
 
 TEST(EventLog, WhoeverSendsWithoutEndDoesNotFillTheLog) {

@@ -70,7 +70,7 @@ struct PastWorld {
 /// is asked of a run between two steps is carried out by the classes that it holds.
 struct Engine::Impl final : private HandOvers::Site {
   explicit Impl(EngineSpec s);
-  ~Impl();
+  ~Impl() override;
 
   Status make();
   Status reset();

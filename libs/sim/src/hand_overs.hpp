@@ -40,6 +40,7 @@ class HandOvers {
     Site() = default;
     Site(const Site&) = delete;
     Site& operator=(const Site&) = delete;
+    virtual ~Site() = default;
     /// Tells hardware to stand that is about to leave.
     virtual void halt(RobotGroup& group) noexcept = 0;
     /// The drivers of the group are others now; its robot is there.
@@ -52,9 +53,6 @@ class HandOvers {
     virtual void before_closing(const RobotGroup& group) const = 0;
     /// False: some do not come to an end.
     [[nodiscard]] virtual bool close_all(std::vector<ToClose> drivers) = 0;
-
-   protected:
-    ~Site() = default;
   };
 
   /// All must outlive it. `spec` changes with the drivers: RobotSpec::type and twin.

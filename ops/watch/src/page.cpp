@@ -170,17 +170,17 @@ std::string timing_text(Timing timing) {
 /// The first line: parts that are left out from the end if it is too narrow.
 std::string title_of(const RunView& view, const PageOptions& options) {
   std::vector<TableCell> parts;
-  parts.push_back({view.scenario.empty() ? std::string("run") : view.scenario});
-  parts.push_back({std::string(to_string(view.phase)), tone_of(view.phase)});
+  parts.emplace_back(view.scenario.empty() ? std::string("run") : view.scenario);
+  parts.emplace_back(std::string(to_string(view.phase)), tone_of(view.phase));
   if (view.time_s && view.duration_s) {
-    parts.push_back({fmt::format("{:.2f} of {:.2f} s", *view.time_s, *view.duration_s)});
+    parts.emplace_back(fmt::format("{:.2f} of {:.2f} s", *view.time_s, *view.duration_s));
   }
-  if (view.speed) parts.push_back({fmt::format("{}x", number_text(*view.speed))});
-  parts.push_back({timing_text(view.timing)});
+  if (view.speed) parts.emplace_back(fmt::format("{}x", number_text(*view.speed)));
+  parts.emplace_back(timing_text(view.timing));
   if (view.step && view.steps && view.timing != Timing::kRealTime) {
-    parts.push_back({fmt::format("step {} of {}", *view.step, *view.steps)});
+    parts.emplace_back(fmt::format("step {} of {}", *view.step, *view.steps));
   }
-  parts.push_back({"run " + view.run.substr(0, view.timing == Timing::kAlone ? 40 : 8)});
+  parts.emplace_back("run " + view.run.substr(0, view.timing == Timing::kAlone ? 40 : 8));
   std::string line;
   std::size_t used = 0;
   for (const TableCell& part : parts) {

@@ -19,12 +19,22 @@ using Answer = std::future<Result<std::string>>;
 
 class ManyOrders : public BusRequests {
  protected:
-  void start_with_sender(const std::string& scenario, Words more = {}) {
-    for (const char* const word : {"--duration", "100000", "--no-record", "--run"}) {
-      more.emplace_back(word);
+  void start_with_sender(const std::string& scenario, bool live) {
+    Words more = {"--duration", "100000", "--no-record", "--run", run_.text()};
+    // In real time nothing of this scenario needs a manager.
+    if (!live) {
+      more.insert(more.end(), {"--pace", "1x"});
+      start("env", "env", scenario, more);
     }
-    more.push_back(run_.text());
-    start_all(scenario, more);
+    start_host("one", scenario, more);
+    start_host("two", scenario, more);
+    wait_until(
+        [this] {
+          const std::string listed = near({"ps", "--robots"}).out;
+          return listed.find("left-100") != std::string::npos &&
+                 listed.find("right-100") != std::string::npos;
+        },
+        "both hosts run");
     for (const char* const team : {"left", "right"}) {
       for (int i = 1; i <= 100; ++i) robots_.push_back(fmt::format("{}-{}", team, i));
     }
@@ -76,7 +86,7 @@ class ManyOrders : public BusRequests {
 };
 
 TEST_F(ManyOrders, InLockStepAllAreAnsweredAndObeyed) {
-  start_with_sender("many_orders.yaml", {"--pace", "1x"});
+  start_with_sender("many_orders.yaml", false);
   order_all(Kind::kGoal);
   wait_until([this] { return robots_with("goal 0.00, 15.00") >= robots_.size(); }, "all go there");
   // Who drives is decided at the hosts, for each of their robots.
@@ -89,14 +99,14 @@ TEST_F(ManyOrders, InLockStepAllAreAnsweredAndObeyed) {
 }
 
 TEST_F(ManyOrders, InRealTimeAllAreAnsweredAndObeyed) {
-  start_with_sender("many_live_orders.yaml");
+  start_with_sender("many_live_orders.yaml", true);
   order_all(Kind::kGoal);
   wait_until([this] { return robots_with("goal 0.00, 15.00") >= robots_.size(); }, "all go there");
   order_all(Kind::kCancel);
 }
 
 TEST_F(ManyOrders, AHostThatIsGoneDoesNotAnswerAndTheSenderSaysSo) {
-  start_with_sender("many_live_orders.yaml");
+  start_with_sender("many_live_orders.yaml", true);
   EXPECT_EQ(answer(order(Kind::kGoal, "right-1")).substr(0, 5), "done:");
   signal("two", SIGKILL);
   static_cast<void>(end_of("two"));

@@ -35,8 +35,8 @@ template <class Sequence>
   return {reinterpret_cast<const char*>(octets._buffer), octets._length};
 }
 
-/// Makes a wire sequence of octets refer to text of the caller, without a copy. The text must outlive
-/// the use of the sample, which does not change it.
+/// Makes a wire sequence of octets refer to text of the caller, without a copy. The text must
+/// outlive the use of the sample, which does not change it.
 template <class Sequence>
 void borrow_text(Sequence& sequence, std::string_view text) noexcept {
   // The wire type requires non-const octets.

@@ -54,7 +54,7 @@ void CommandBook::hear(const Command& command, Clock::time_point now) {
   open_.push_back({key, command.number, std::move(begun)});
 }
 
-/// An old command must not undo a newer one. Its sender is told, because it waits for an answer.
+/// An old command must not undo a newer one. Its sender waits for an answer, so it gets one.
 void CommandBook::hear_again(const Command& command, const Known& known) {
   if (command.kind == rave_wire_COMMAND_DRIVE) return;
   const auto kept = std::ranges::find(known.kept, command.number, &Reply::number);

@@ -125,8 +125,8 @@ class Threads(unittest.TestCase):
         self.addCleanup(run.send_signal, signal.SIGINT)
         code, said = 2, ""
         end = time.monotonic() + PATIENCE_S
-        while code == 2 and run.poll() is None and time.monotonic() < end:
-            # Until its socket is there no run is found.
+        while code != 0 and run.poll() is None and time.monotonic() < end:
+            # Until its socket is there no run is found, and until it has begun none is in progress.
             code, said = self.run_once(["stop", "--all"], 1, False)
         self.assertEqual(code, 0, said)
         self.assertIn("stopped", said)

@@ -14,10 +14,11 @@ namespace {
 namespace fs = std::filesystem;
 
 class KeptRecordings : public ::testing::Test {
- protected:
+ public:
   KeptRecordings() { fs::create_directories(folder_); }
   ~KeptRecordings() override { fs::remove_all(folder_); }
 
+ protected:
   fs::path folder_ =
       fs::temp_directory_path() / ("rave-kept-" + std::to_string(::getpid()) +
                                    ::testing::UnitTest::GetInstance()->current_test_info()->name());

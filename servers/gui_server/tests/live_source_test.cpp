@@ -6,23 +6,17 @@
 
 #include <vector>
 
+#include "fake_port.hpp"
+
 namespace rave::gui_server {
 namespace {
 
 using Answer = Result<std::string>;
 
 /// Keeps what it is asked.
-class FakePort final : public RunPort {
+class AskedPort final : public testing::FakePort {
  public:
-  explicit FakePort(std::vector<std::promise<Answer>>& asked) : asked_(asked) {}
-  [[nodiscard]] std::string why_not_held() const override { return ""; }
-  [[nodiscard]] bool paused() const override { return false; }
-  [[nodiscard]] double pace() const override { return 1; }
-  void pause() override {}
-  void resume() override {}
-  void step(std::uint64_t /*count*/) override {}
-  void set_pace(double /*factor*/) override {}
-  [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override { return {}; }
+  explicit AskedPort(std::vector<std::promise<Answer>>& asked) : asked_(asked) {}
   [[nodiscard]] Result<std::future<Answer>> post(runtime::RunRequest /*request*/) override {
     return asked_.emplace_back().get_future();
   }
@@ -38,7 +32,7 @@ TEST(LiveSource, AnswersThatAreFollowedByNewRequestsAreAllGiven) {
   start.robots = {"anna"};
   start.robots_json = "[]";
   LiveSource source(std::move(start), std::make_shared<LiveBox>(),
-                    std::make_unique<FakePort>(asked));
+                    std::make_unique<AskedPort>(asked));
   CommandMessage drive;
   drive.kind = CommandMessage::Kind::kDrive;
   drive.slots = {0};

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "fake_port.hpp"
 #include "live_source.hpp"
 
 namespace rave::gui_server {
@@ -28,27 +29,16 @@ class KeptSocket final : public web::Socket {
 };
 
 /// A run of this process that is held, or goes on.
-class HeldPort final : public RunPort {
+class HeldPort final : public testing::FakePort {
  public:
   explicit HeldPort(const bool& held) : held_(held) {}
-  [[nodiscard]] std::string why_not_held() const override { return ""; }
   [[nodiscard]] bool paused() const override { return held_; }
-  [[nodiscard]] double pace() const override { return 1; }
-  void pause() override {}
-  void resume() override {}
-  void step(std::uint64_t /*count*/) override {}
-  void set_pace(double /*factor*/) override {}
-  [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override { return {}; }
   [[nodiscard]] std::optional<runtime::RunStatus> own_status() const override {
     runtime::RunStatus status;
     status.scenario = "yard";
     status.robots.resize(2);
     status.robots[0].simulated = false;
     return status;
-  }
-  [[nodiscard]] Result<std::future<Result<std::string>>> post(
-      runtime::RunRequest /*request*/) override {
-    return fail(ErrorCode::kState, "no run");
   }
 
  private:

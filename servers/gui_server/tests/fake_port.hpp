@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <future>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "run_port.hpp"
+
+namespace rave::gui_server::testing {
+
+/// A port to no run: it is not paused, knows no robots, and refuses what it is asked. Tests
+/// override what they look at.
+class FakePort : public RunPort {
+ public:
+  [[nodiscard]] std::string why_not_held() const override { return ""; }
+  [[nodiscard]] bool paused() const override { return false; }
+  [[nodiscard]] double pace() const override { return 1; }
+  void pause() override {}
+  void resume() override {}
+  void step(std::uint64_t /*count*/) override {}
+  void set_pace(double /*factor*/) override {}
+  [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override { return {}; }
+  [[nodiscard]] Result<std::future<Result<std::string>>> post(
+      runtime::RunRequest /*request*/) override {
+    return fail(ErrorCode::kState, "no run");
+  }
+};
+
+}  // namespace rave::gui_server::testing

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <malloc.h>
+
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <thread>
 
 #include "arguments.hpp"
 #include "commands/version.hpp"
@@ -49,11 +53,19 @@ struct Dispatch {
   int operator()(const VersionCommand& /*options*/) const { return version(); }
 };
 
+/// The C library gives a thread that finds the heap locked a new one, up to eight for each core;
+/// the memory of a process with many short waits then grows for hours and is never returned.
+void limit_heaps() {
+  const auto cores = static_cast<int>(std::thread::hardware_concurrency());
+  mallopt(M_ARENA_MAX, std::max(cores, 1));
+}
+
 }  // namespace
 }  // namespace rave::cli
 
 int main(int argc, char** argv) {
   rave::install_crash_note();
+  rave::cli::limit_heaps();
   try {
     return std::visit(rave::cli::Dispatch{}, rave::cli::parse_arguments(argc, argv));
   } catch (const std::exception& e) {

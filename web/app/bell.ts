@@ -1,49 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
-import type {PanelContext} from '../panel_api';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import {foldSame} from '../panels/log/same_events';
 import type {Event} from '../protocol/messages';
 import {clockText} from './clock';
 import {icon} from './icons';
+import {LiveElement} from './live_element';
 import {nowOf} from './moment';
 import {controls} from './styles';
 
 const kShown = 8;
 
 /** Warnings and alerts that have not been looked at yet. */
-export class Bell extends LitElement {
-  declare context: PanelContext;
+export class Bell extends LiveElement {
   private open = false;
   /** The number of alerts that have been looked at. */
   private seen = 0;
   private count = -1;
-  private readonly ends: (() => void)[] = [];
   private readonly outside = (event: globalThis.Event) => {
     if (this.open && !event.composedPath().includes(this)) this.toggle();
   };
 
-  override connectedCallback(): void {
-    super.connectedCallback();
+  protected override listen(): (() => void)[] {
     const {model} = this.context;
-    this.ends.push(
+    document.addEventListener('pointerdown', this.outside);
+    return [
       model.runChanged.on(() => {
         this.seen = 0;
         this.requestUpdate();
       }),
-      model.eventsChanged.on(() => this.requestUpdate()),
+      ...this.renderAfter(model.eventsChanged),
       model.pictureChanged.on(() => {
         // A replay tells only what has happened up to its moment.
         if (model.live || this.alerts().length === this.count) return;
         this.requestUpdate();
       }),
-    );
-    document.addEventListener('pointerdown', this.outside);
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    document.removeEventListener('pointerdown', this.outside);
-    for (const end of this.ends.splice(0)) end();
+      () => document.removeEventListener('pointerdown', this.outside),
+    ];
   }
 
   private alerts(): Event[] {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
-import type {PanelContext, PanelElement} from '../panel_api';
+import {css, html, nothing, type TemplateResult} from 'lit';
+import type {PanelElement} from '../panel_api';
 import type {LoadedComponent} from './component_loader';
 import {icon} from './icons';
+import {LiveElement} from './live_element';
 import {controls} from './styles';
 
 /** A component with this number of failures within a minute stays off. */
@@ -10,31 +11,23 @@ const kMostFailures = 3;
 const kMinute_ms = 60_000;
 
 /** A panel of a component, or a box that says why it is not there. Nothing else of the page is affected. */
-export class ComponentPanelFrame extends LitElement {
-  declare context: PanelContext;
+export class ComponentPanelFrame extends LiveElement {
   loaded!: LoadedComponent;
   panelId = '';
   private error = '';
   private inner: PanelElement | null = null;
   private failures: number[] = [];
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
+  protected override listen(): (() => void)[] {
     const fail = (event: ErrorEvent | PromiseRejectionEvent) => this.caught(event);
     window.addEventListener('error', fail);
     window.addEventListener('unhandledrejection', fail);
-    this.ends.push(
+    this.fill();
+    return [
       this.loaded.changed.on(() => this.fill()),
       () => window.removeEventListener('error', fail),
       () => window.removeEventListener('unhandledrejection', fail),
-    );
-    this.fill();
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    for (const end of this.ends.splice(0)) end();
+    ];
   }
 
   /** An error of the page that comes from the module of this component. */

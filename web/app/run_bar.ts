@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
-import type {PanelContext} from '../panel_api';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import type {Power} from '../protocol/messages';
 import {bigClock} from './clock';
 import {icon} from './icons';
+import {LiveElement} from './live_element';
 import {nowOf, spanOf} from './moment';
 import './stop_button';
 import type {StopButton} from './stop_button';
@@ -17,24 +17,14 @@ const kRefresh_ms = 50;
 const kLivePaces = [0.5, 1, 4, 0];
 
 /** Transport, clock, timeline, pace and STOP. Always there. */
-export class RunBar extends LitElement {
-  declare context: PanelContext;
+export class RunBar extends LiveElement {
   private queued = false;
   /** The menu of narrow pages is open. */
   private menuOpen = false;
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
+  protected override listen(): (() => void)[] {
     const {model, link} = this.context;
-    const update = () => this.requestUpdate();
-    for (const signal of [model.timeChanged, model.runChanged, link.changed]) this.ends.push(signal.on(update));
-    this.ends.push(model.pictureChanged.on(() => this.queue()));
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    for (const end of this.ends.splice(0)) end();
+    return [...this.renderAfter(model.timeChanged, model.runChanged, link.changed), model.pictureChanged.on(() => this.queue())];
   }
 
   private queue(): void {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
-import type {PanelContext} from '../panel_api';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import {stateOf} from '../panels/robots/robot_state';
 import {icon} from './icons';
+import {LiveElement} from './live_element';
 import {controls, glyphs} from './styles';
 
 type Height = 'peek' | 'half' | 'full';
@@ -12,24 +12,13 @@ const kDrag_px = 40;
 const kRefresh_ms = 250;
 
 /** On a phone: the selected robot, over the lower part of the World View. */
-export class Sheet extends LitElement {
-  declare context: PanelContext;
+export class Sheet extends LiveElement {
   private height: Height = 'peek';
   private pressedY: number | null = null;
-  private timer = 0;
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
-    const update = () => this.requestUpdate();
-    this.ends.push(this.context.selection.changed.on(update), this.context.palette.changed.on(update), this.context.model.rosterChanged.on(update));
-    this.timer = window.setInterval(update, kRefresh_ms);
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    clearInterval(this.timer);
-    for (const end of this.ends.splice(0)) end();
+  protected override listen(): (() => void)[] {
+    const {model, selection, palette} = this.context;
+    return [...this.renderAfter(selection.changed, palette.changed, model.rosterChanged), this.every(kRefresh_ms, () => this.requestUpdate())];
   }
 
   private go(steps: number): void {

@@ -1,40 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import {countStopped, Hold, kTwice_ms, lastStop, Twice, type StopCount} from '../model/stop_state';
-import type {PanelContext} from '../panel_api';
 import {viewOf} from '../panel_api/windows';
 import {bigClock} from './clock';
 import {icon} from './icons';
+import {LiveElement} from './live_element';
 import {controls} from './styles';
 
 /** STOP, and once all robots stand, the button that is held to release them. */
-export class StopButton extends LitElement {
-  declare context: PanelContext;
+export class StopButton extends LiveElement {
   private readonly hold = new Hold();
   private readonly twice = new Twice();
   /** One press of Space has come; the second one stops. */
   private half = false;
   private stoppedAt_s: number | null = null;
   private shown = '';
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
+  protected override listen(): (() => void)[] {
     const {model, link} = this.context;
-    const update = () => this.requestUpdate();
-    for (const signal of [model.rosterChanged, model.runChanged, model.timeChanged, model.eventsChanged, link.changed, ...(link.direct ? [link.direct.changed] : [])]) this.ends.push(signal.on(update));
-    this.ends.push(model.pictureChanged.on(() => {
-      const count = countStopped(model);
-      const now = `${count.stopped} ${count.latched}`;
-      if (now === this.shown) return;
-      this.shown = now;
-      update();
-    }));
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    for (const end of this.ends.splice(0)) end();
+    return [
+      ...this.renderAfter(model.rosterChanged, model.runChanged, model.timeChanged, model.eventsChanged, link.changed, ...(link.direct ? [link.direct.changed] : [])),
+      model.pictureChanged.on(() => {
+        const count = countStopped(model);
+        const now = `${count.stopped} ${count.latched}`;
+        if (now === this.shown) return;
+        this.shown = now;
+        this.requestUpdate();
+      }),
+    ];
   }
 
   /** Space Space. Does nothing in a replay. */

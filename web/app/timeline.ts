@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
-import type {PanelContext} from '../panel_api';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import {roundStep} from '../panels/world/ticks';
 import type {Event} from '../protocol/messages';
 import {clockText, tickClock} from './clock';
+import {LiveElement} from './live_element';
 import {nowOf, spanOf} from './moment';
 import {controls} from './styles';
 
@@ -16,26 +16,19 @@ const kRefresh_ms = 50;
 const kEndSlack = 0.002;
 
 /** From the begin to the planned end: a knob to move in a replay, a head that goes by itself in a live run. */
-export class Timeline extends LitElement {
-  declare context: PanelContext;
+export class Timeline extends LiveElement {
   private dragging = false;
   private width = 800;
   private queued = false;
   private readonly resized = new ResizeObserver(() => this.measure());
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
+  protected override listen(): (() => void)[] {
     const {model, palette} = this.context;
-    const update = () => this.requestUpdate();
-    for (const signal of [model.timeChanged, model.eventsChanged, model.runChanged, palette.changed]) this.ends.push(signal.on(update));
-    this.ends.push(model.pictureChanged.on(() => this.queue()));
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    this.resized.disconnect();
-    for (const end of this.ends.splice(0)) end();
+    return [
+      ...this.renderAfter(model.timeChanged, model.eventsChanged, model.runChanged, palette.changed),
+      model.pictureChanged.on(() => this.queue()),
+      () => this.resized.disconnect(),
+    ];
   }
 
   override firstUpdated(): void {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
-import type {PanelContext} from '../panel_api';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import type {Person} from '../protocol/messages';
 import './bell';
+import {LiveElement} from './live_element';
 import './way_chip';
 import {kLayouts, type LayoutName} from './dock';
 import {icon} from './icons';
@@ -16,23 +16,14 @@ const kSlow_hz = 10;
 const kOld_ms = 300;
 
 /** The run and its state, find, the line, people, alerts, role. */
-export class TopBar extends LitElement {
-  declare context: PanelContext;
+export class TopBar extends LiveElement {
   /** The layout that was chosen last; empty where there is no dock. */
   declare layout: LayoutName | '';
   static override properties = {layout: {}};
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
+  protected override listen(): (() => void)[] {
     const {model, link, palette} = this.context;
-    const update = () => this.requestUpdate();
-    for (const signal of [model.runChanged, model.timeChanged, model.peopleChanged, link.changed, palette.changed]) this.ends.push(signal.on(update));
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    for (const end of this.ends.splice(0)) end();
+    return this.renderAfter(model.runChanged, model.timeChanged, model.peopleChanged, link.changed, palette.changed);
   }
 
   /** The state in a word, and the class that gives it its colour. */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import type {DirectLine} from '../model/direct_line';
-import type {PanelContext} from '../panel_api';
 import {icon} from './icons';
+import {LiveElement} from './live_element';
 import {controls} from './styles';
 
 /** The page of a host, where a browser asks whether its certificate is to be trusted. */
@@ -11,18 +11,10 @@ export function hostPage(line: DirectLine): string {
 }
 
 /** What to do about hosts whose certificate the browser does not trust. */
-export class TrustSheet extends LitElement {
-  declare context: PanelContext;
-  private end: (() => void) | null = null;
-
-  override connectedCallback(): void {
-    super.connectedCallback();
-    this.end = this.context.link.direct?.changed.on(() => this.requestUpdate()) ?? null;
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    this.end?.();
+export class TrustSheet extends LiveElement {
+  protected override listen(): (() => void)[] {
+    const {direct} = this.context.link;
+    return direct === null ? [] : this.renderAfter(direct.changed);
   }
 
   override firstUpdated(): void {

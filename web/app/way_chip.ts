@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
-import type {PanelContext} from '../panel_api';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from './icons';
+import {LiveElement} from './live_element';
 import {controls} from './styles';
 
 /** Which way the orders of this page go, and how long it takes. */
-export class WayChip extends LitElement {
-  declare context: PanelContext;
-  private readonly ends: (() => void)[] = [];
+export class WayChip extends LiveElement {
 
-  override connectedCallback(): void {
-    super.connectedCallback();
+  protected override listen(): (() => void)[] {
     const {link, model} = this.context;
-    const update = () => this.requestUpdate();
-    for (const signal of [link.changed, model.runChanged, ...(link.direct ? [link.direct.changed] : [])]) this.ends.push(signal.on(update));
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    for (const end of this.ends.splice(0)) end();
+    return this.renderAfter(link.changed, model.runChanged, ...(link.direct ? [link.direct.changed] : []));
   }
 
   override render(): TemplateResult | typeof nothing {

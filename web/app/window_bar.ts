@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
-import type {PanelContext} from '../panel_api';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import {bigClock} from './clock';
 import {icon} from './icons';
+import {LiveElement} from './live_element';
 import {nowOf} from './moment';
 import './stop_button';
 import {controls} from './styles';
@@ -10,18 +10,9 @@ import {controls} from './styles';
 const kRefresh_ms = 100;
 
 /** Below the panels of a window of its own: the run, its clock, whether the link holds, and STOP. */
-export class WindowBar extends LitElement {
-  declare context: PanelContext;
-  private timer = 0;
-
-  override connectedCallback(): void {
-    super.connectedCallback();
-    this.timer = window.setInterval(() => this.requestUpdate(), kRefresh_ms);
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    clearInterval(this.timer);
+export class WindowBar extends LiveElement {
+  protected override listen(): (() => void)[] {
+    return [this.every(kRefresh_ms, () => this.requestUpdate())];
   }
 
   override render(): TemplateResult {

@@ -1,34 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../app/icons';
+import {LiveElement} from '../app/live_element';
 import {controls} from '../app/styles';
 import {initials} from '../app/words';
-import type {PanelContext} from '../panel_api';
 
 /** Who drives a robot: take control, give it back, ask for it, take it. */
-export class LeaseBar extends LitElement {
-  declare context: PanelContext;
+export class LeaseBar extends LiveElement {
   static override properties = {robot: {type: Number}};
   declare robot: number;
   private note = '';
   private bad = false;
   /** A lease of another person is taken with a second press. */
   private sure = false;
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
+  protected override listen(): (() => void)[] {
     const {model} = this.context;
-    const update = () => this.requestUpdate();
-    this.ends.push(model.peopleChanged.on(update), model.drivesChanged.on(() => {
-      this.sure = false;
-      update();
-    }));
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    for (const end of this.ends.splice(0)) end();
+    return [...this.renderAfter(model.peopleChanged, model.drivesChanged), model.drivesChanged.on(() => (this.sure = false))];
   }
 
   override willUpdate(changed: Map<string, unknown>): void {

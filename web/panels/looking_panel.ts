@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement} from 'lit';
+import {LiveElement} from '../app/live_element';
 import {Placed} from '../model/pose_history';
 import type {Signal} from '../model/signal';
-import type {PanelContext} from '../panel_api';
 import {viewOf} from '../panel_api/windows';
 
 /** A panel that looks at something of the run and draws it. It subscribes when it comes into the page and leaves
  * nothing behind when it goes; the dock takes panels out while they are hidden. */
-export abstract class LookingPanel extends LitElement {
-  declare context: PanelContext;
+export abstract class LookingPanel extends LiveElement {
   protected readonly placed = new Placed();
   private drawQueued = false;
-  private timer = 0;
-  private readonly ends: (() => void)[] = [];
   private readonly resized = new ResizeObserver(() => this.draw());
 
   /** How often its texts are made anew, milliseconds. */
@@ -29,33 +25,24 @@ export abstract class LookingPanel extends LitElement {
   /** The slots may mean other robots. */
   protected rosterChanged(): void {}
 
-  override connectedCallback(): void {
-    super.connectedCallback();
+  protected override listen(): (() => void)[] {
     // A picture that another window was to draw does not come.
     this.drawQueued = false;
-    // What came while it was hidden is to be shown.
-    this.requestUpdate();
     const {model, selection, palette} = this.context;
     const changed = () => this.changed();
-    this.ends.push(
+    this.resized.observe(this);
+    changed();
+    return [
       model.rosterChanged.on(() => {
         this.rosterChanged();
         changed();
       }),
       ...[palette.changed, selection.changed, ...this.signals()].map((signal) => signal.on(changed)),
       model.pictureChanged.on(() => this.draw()),
-    );
-    this.timer = window.setInterval(() => this.requestUpdate(), this.refresh_ms);
-    this.resized.observe(this);
-    changed();
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    this.lookAway();
-    clearInterval(this.timer);
-    this.resized.disconnect();
-    for (const end of this.ends.splice(0)) end();
+      this.every(this.refresh_ms, () => this.requestUpdate()),
+      () => this.lookAway(),
+      () => this.resized.disconnect(),
+    ];
   }
 
   override updated(): void {

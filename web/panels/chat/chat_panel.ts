@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import {clockText} from '../../app/clock';
 import {icon} from '../../app/icons';
+import {LiveElement} from '../../app/live_element';
 import {controls, glyphs} from '../../app/styles';
 import {initials} from '../../app/words';
-import type {PanelContext} from '../../panel_api';
 import type {Say} from '../../protocol/messages';
 import {renderWithheld, withheldStyles} from '../withheld';
 import {saidIn, type Said} from './said';
@@ -28,23 +28,13 @@ const kRoles: readonly Target[] = [
 ];
 
 /** People talk to each other, and to the robots that they command; robots answer. */
-export class ChatPanel extends LitElement {
-  declare context: PanelContext;
+export class ChatPanel extends LiveElement {
   private note = '';
   private atEnd = true;
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
-    this.requestUpdate();
+  protected override listen(): (() => void)[] {
     const {model, selection, palette, commands} = this.context;
-    const update = () => this.requestUpdate();
-    for (const signal of [model.linesChanged, model.eventsChanged, model.rosterChanged, model.peopleChanged, model.runChanged, selection.changed, palette.changed, commands.addresseeChanged]) this.ends.push(signal.on(update));
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    for (const end of this.ends.splice(0)) end();
+    return this.renderAfter(model.linesChanged, model.eventsChanged, model.rosterChanged, model.peopleChanged, model.runChanged, selection.changed, palette.changed, commands.addresseeChanged);
   }
 
   override updated(): void {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, svg, type TemplateResult} from 'lit';
+import {css, html, nothing, svg, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
+import {LiveElement} from '../../app/live_element';
 import {controls} from '../../app/styles';
 import {askText, holdersText, kUsualRights} from '../../model/withheld';
-import type {PanelContext} from '../../panel_api';
 import type {Host} from '../../protocol/messages';
 import {renderNote, withheldStyles} from '../withheld';
 import {kColumns, matches} from './columns';
@@ -14,30 +14,20 @@ const kPlot = [40, 12] as const;
 const kFilterFrom = 4;
 
 /** The processes of the run, in the columns and words of `rave top`. */
-export class HostsPanel extends LitElement {
-  declare context: PanelContext;
+export class HostsPanel extends LiveElement {
   private readonly rates = new Rates();
   private text = '';
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
-    // The dock takes panels out while they are hidden: what came meanwhile is to be shown.
-    this.requestUpdate();
+  protected override listen(): (() => void)[] {
     const {model} = this.context;
     this.rates.add(model.hosts);
-    this.ends.push(
+    return [
       model.hostsChanged.on(() => {
         this.rates.add(model.hosts);
         this.requestUpdate();
       }),
-      model.runChanged.on(() => this.requestUpdate()),
-    );
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    for (const end of this.ends.splice(0)) end();
+      ...this.renderAfter(model.runChanged),
+    ];
   }
 
   override render(): TemplateResult {

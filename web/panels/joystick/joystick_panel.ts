@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
+import {LiveElement} from '../../app/live_element';
 import {controls, glyphs} from '../../app/styles';
-import type {PanelContext} from '../../panel_api';
 import '../lease_bar';
 import {kCommandsOf} from '../../protocol/frames';
 import {guardOf, type GuardAct} from '../robot/guard_act';
@@ -20,19 +20,14 @@ const kLayout = 'rave.joystick';
 const kTop_mps = [0.1, 0.2, 0.4, 0.8, 1.6];
 
 /** A stick for the selected robot: pointer, finger, pen, keys or gamepad; it drives only while held. */
-export class JoystickPanel extends LitElement {
-  declare context: PanelContext;
+export class JoystickPanel extends LiveElement {
   private loop!: DriveLoop;
   private readonly keys = new DriveKeys();
   private pad = '';
   private car!: CarDesk;
   private pedals = localStorage.getItem(kLayout) === 'pedals';
-  private timers: number[] = [];
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
-    this.requestUpdate();
+  protected override listen(): (() => void)[] {
     const {model, selection, commands, link, windows} = this.context;
     this.loop ??= new DriveLoop(commands, () => this.requestUpdate());
     this.car ??= new CarDesk(this.loop, this.keys);
@@ -47,19 +42,16 @@ export class JoystickPanel extends LitElement {
       this.requestUpdate();
     };
     choose();
-    this.ends.push(selection.changed.on(choose), model.drivesChanged.on(choose), model.runChanged.on(choose));
-    this.ends.push(link.changed.on(() => !link.reaches && this.letGo()));
-    // The dead-man: a page that is not visible does not drive.
-    this.ends.push(windows.left.on(() => this.letGo()));
-    this.timers = [window.setInterval(() => this.requestUpdate(), kRefresh_ms), window.setInterval(() => this.readPad(), kPad_ms)];
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    this.letGo();
-    this.context.link.look(this, []);
-    for (const timer of this.timers) clearInterval(timer);
-    for (const end of this.ends.splice(0)) end();
+    return [
+      () => this.letGo(),
+      () => link.look(this, []),
+      ...[selection.changed, model.drivesChanged, model.runChanged].map((signal) => signal.on(choose)),
+      link.changed.on(() => !link.reaches && this.letGo()),
+      // The dead-man: a page that is not visible does not drive.
+      windows.left.on(() => this.letGo()),
+      this.every(kRefresh_ms, () => this.requestUpdate()),
+      this.every(kPad_ms, () => this.readPad()),
+    ];
   }
 
   /** The robot that is driven: the one that was selected last, if it lets itself be driven. */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon, type IconName} from '../../app/icons';
+import {LiveElement} from '../../app/live_element';
 import {controls} from '../../app/styles';
-import type {PanelContext} from '../../panel_api';
 import type {Event} from '../../protocol/messages';
 import {clockText} from '../../app/clock';
 import {renderWithheld, withheldStyles} from '../withheld';
@@ -11,36 +11,23 @@ import {foldSame, shownSlots, type LogRow} from './same_events';
 const kRows = 300;
 
 /** What happened, newest on top. In a replay a line says where now is. */
-export class LogPanel extends LitElement {
-  declare context: PanelContext;
+export class LogPanel extends LiveElement {
   private alertsOnly = false;
   private text = '';
   private shownSecond = -1;
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
-    // The dock takes panels out while they are hidden: what came meanwhile is to be shown.
-    this.requestUpdate();
+  protected override listen(): (() => void)[] {
     const {model, palette} = this.context;
-    const update = () => this.requestUpdate();
-    this.ends.push(
-      model.eventsChanged.on(update),
-      model.rosterChanged.on(update),
-      palette.changed.on(update),
+    return [
+      ...this.renderAfter(model.eventsChanged, model.rosterChanged, palette.changed),
       model.pictureChanged.on(() => {
         // The line moves with the replay, but a second is fine enough for reading.
         const second = Math.floor(2 * (model.poses.newest?.time_s ?? 0));
         if (second === this.shownSecond) return;
         this.shownSecond = second;
-        update();
+        this.requestUpdate();
       }),
-    );
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    for (const end of this.ends.splice(0)) end();
+    ];
   }
 
   override render(): TemplateResult {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
+import {LiveElement} from '../../app/live_element';
 import {controls} from '../../app/styles';
-import type {PanelContext} from '../../panel_api';
 import type {AuditLine} from '../../protocol/messages';
 import {auditText, auditTime, kAuditKinds, whoText} from './people';
 import {peopleStyles} from './styles';
@@ -13,8 +13,7 @@ const kMost = 1000;
 const kWait_ms = 300;
 
 /** Who did what, newest first; for super-users. */
-export class AuditView extends LitElement {
-  declare context: PanelContext;
+export class AuditView extends LiveElement {
   private kind = '';
   private typed = '';
   private most = kFew;
@@ -24,20 +23,18 @@ export class AuditView extends LitElement {
   private timer = 0;
   private asking = false;
   private again = false;
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
+  protected override listen(): (() => void)[] {
     const {model} = this.context;
-    this.ends.push(model.auditChanged.on(() => this.soon()), model.accountsChanged.on(() => this.requestUpdate()), model.runChanged.on(() => this.soon()));
     void this.load();
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    clearTimeout(this.timer);
-    this.timer = 0;
-    for (const end of this.ends.splice(0)) end();
+    return [
+      ...this.renderAfter(model.accountsChanged),
+      ...[model.auditChanged, model.runChanged].map((signal) => signal.on(() => this.soon())),
+      () => {
+        clearTimeout(this.timer);
+        this.timer = 0;
+      },
+    ];
   }
 
   private soon(): void {

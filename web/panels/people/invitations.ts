@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
+import {LiveElement} from '../../app/live_element';
 import {controls} from '../../app/styles';
 import {roleText} from '../../app/words';
-import type {PanelContext} from '../../panel_api';
 import type {KnownInvitation} from '../../protocol/messages';
 import {endsText, teamsText, usesText} from './people';
 import {RoleDraft} from './role_form';
 import {peopleStyles} from './styles';
 
 /** Links that let others in: made, told once, listed, withdrawn; for super-users. */
-export class Invitations extends LitElement {
-  declare context: PanelContext;
+export class Invitations extends LiveElement {
   private draft = new RoleDraft('observer', '*', []);
   private uses = 1;
   private days = 7;
@@ -19,19 +18,9 @@ export class Invitations extends LitElement {
   private link = '';
   private copied = false;
   private note = '';
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
-    this.requestUpdate();
-    const {model} = this.context;
-    const update = () => this.requestUpdate();
-    this.ends.push(model.accountsChanged.on(update), model.runChanged.on(update));
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    for (const end of this.ends.splice(0)) end();
+  protected override listen(): (() => void)[] {
+    return this.renderAfter(this.context.model.accountsChanged, this.context.model.runChanged);
   }
 
   override render(): TemplateResult {

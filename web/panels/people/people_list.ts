@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
+import {LiveElement} from '../../app/live_element';
 import {controls} from '../../app/styles';
 import {initials, roleText} from '../../app/words';
-import type {PanelContext} from '../../panel_api';
 import type {ChangeAccount, KnownPerson} from '../../protocol/messages';
 import {peopleWith, seenText, teamsText} from './people';
 import {RoleDraft} from './role_form';
@@ -13,29 +13,16 @@ const kRefresh_ms = 10_000;
 const kMostShown = 300;
 
 /** Who has an account and who is here; for super-users. */
-export class PeopleList extends LitElement {
-  declare context: PanelContext;
+export class PeopleList extends LiveElement {
   private typed = '';
   /** Whose account is being changed. */
   private open = '';
   private draft: RoleDraft | null = null;
   private note: {good: boolean; text: string} | null = null;
-  private timer = 0;
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
-    this.requestUpdate();
+  protected override listen(): (() => void)[] {
     const {model} = this.context;
-    const update = () => this.requestUpdate();
-    this.ends.push(model.accountsChanged.on(update), model.runChanged.on(update), model.rightsChanged.on(update));
-    this.timer = window.setInterval(update, kRefresh_ms);
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    clearInterval(this.timer);
-    for (const end of this.ends.splice(0)) end();
+    return [...this.renderAfter(model.accountsChanged, model.runChanged, model.rightsChanged), this.every(kRefresh_ms, () => this.requestUpdate())];
   }
 
   private get teams(): readonly string[] {

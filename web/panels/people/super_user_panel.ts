@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, type TemplateResult} from 'lit';
+import {css, html, type TemplateResult} from 'lit';
+import {LiveElement} from '../../app/live_element';
 import {controls} from '../../app/styles';
-import type {PanelContext} from '../../panel_api';
 import './audit_view';
 import './invitations';
 import './people_list';
@@ -13,29 +13,19 @@ type Part = 'rights' | 'people' | 'invitations' | 'audit';
 const kWide_px = 1080;
 
 /** Rights, people, invitations and the audit log; for super-users. */
-export class SuperUserPanel extends LitElement {
-  declare context: PanelContext;
+export class SuperUserPanel extends LiveElement {
   private chosen: Part = 'rights';
   private wide = false;
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
-    this.requestUpdate();
+  protected override listen(): (() => void)[] {
     const {model} = this.context;
-    const update = () => this.requestUpdate();
     const size = new ResizeObserver(() => {
       if (this.wide === this.clientWidth >= kWide_px) return;
       this.wide = !this.wide;
-      update();
+      this.requestUpdate();
     });
     size.observe(this);
-    this.ends.push(model.accountsChanged.on(update), model.runChanged.on(update), model.peopleChanged.on(update), () => size.disconnect());
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    for (const end of this.ends.splice(0)) end();
+    return [...this.renderAfter(model.accountsChanged, model.runChanged, model.peopleChanged), () => size.disconnect()];
   }
 
   private get parts(): [Part, string][] {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
+import {LiveElement} from '../../app/live_element';
 import {controls} from '../../app/styles';
 import {roleText} from '../../app/words';
-import type {PanelContext} from '../../panel_api';
 import type {Reach, SetRight} from '../../protocol/messages';
 import {className, nextReach, reachText, rowsOf, type Cell, type Row} from './reach';
 
@@ -18,29 +18,19 @@ interface Change {
 }
 
 /** Who gets what: rows are roles and people, columns classes. For super-users. */
-export class RightsPanel extends LitElement {
-  declare context: PanelContext;
+export class RightsPanel extends LiveElement {
   private chosen = '';
   private change: Change | null = null;
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
-    // The dock takes panels out while they are hidden: what came meanwhile is to be shown.
-    this.requestUpdate();
+  protected override listen(): (() => void)[] {
     const {model} = this.context;
-    this.ends.push(
+    return [
       model.rightsChanged.on(() => {
         if (this.change !== null) this.change.took_s ??= (performance.now() - this.change.sent_ms) / 1000;
         this.requestUpdate();
       }),
-      model.runChanged.on(() => this.requestUpdate()),
-    );
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    for (const end of this.ends.splice(0)) end();
+      ...this.renderAfter(model.runChanged),
+    ];
   }
 
   override render(): TemplateResult {

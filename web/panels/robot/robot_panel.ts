@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, svg, type TemplateResult} from 'lit';
+import {css, html, nothing, svg, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
+import {LiveElement} from '../../app/live_element';
 import {controls, glyphs} from '../../app/styles';
-import type {PanelContext} from '../../panel_api';
 import {RobotFlag, kCommandsOf} from '../../protocol/frames';
 import type {Parameter} from '../../protocol/messages';
 import '../lease_bar';
@@ -17,34 +17,24 @@ const kRefresh_ms = 250;
 const kTakes = ['goal', 'path', 'drive', 'text', 'place'];
 
 /** One robot: who drives it, what it takes, its parameters, its guard and how fast it goes. */
-export class RobotPanel extends LitElement {
-  declare context: PanelContext;
+export class RobotPanel extends LiveElement {
   private readonly values = new SetValues();
   private readonly notes = new Map<string, string>();
   private readonly trace = new SpeedTrace();
-  private timer = 0;
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
-    this.requestUpdate();
+  protected override listen(): (() => void)[] {
     const {model, selection, palette, link} = this.context;
-    const update = () => this.requestUpdate();
     const look = () => {
       const slot = selection.primary;
       link.look(this, slot === null || !model.live ? [] : [[slot, kCommandsOf]]);
     };
-    for (const signal of [model.rosterChanged, model.drivesChanged, selection.changed, palette.changed]) this.ends.push(signal.on(update));
-    for (const signal of [model.rosterChanged, selection.changed]) this.ends.push(signal.on(look));
     look();
-    this.timer = window.setInterval(update, kRefresh_ms);
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    this.context.link.look(this, []);
-    clearInterval(this.timer);
-    for (const end of this.ends.splice(0)) end();
+    return [
+      ...this.renderAfter(model.rosterChanged, model.drivesChanged, selection.changed, palette.changed),
+      ...[model.rosterChanged, selection.changed].map((signal) => signal.on(look)),
+      () => link.look(this, []),
+      this.every(kRefresh_ms, () => this.requestUpdate()),
+    ];
   }
 
   override render(): TemplateResult {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
+import {LiveElement} from '../../app/live_element';
 import {controls} from '../../app/styles';
-import type {PanelContext} from '../../panel_api';
 import type {KnownRobot} from '../../model/run_model';
 import type {Shadow, Twin} from '../../protocol/messages';
 
@@ -21,8 +21,7 @@ export function differenceText(value: number, unit: string): string {
 }
 
 /** The two sets of drivers of a robot: hand-over, and the shadow while it is real. */
-export class TwinSection extends LitElement {
-  declare context: PanelContext;
+export class TwinSection extends LiveElement {
   static override properties = {robot: {type: Number}};
   declare robot: number;
   /** Of which robot a hand-over was pressed once. */
@@ -31,16 +30,9 @@ export class TwinSection extends LitElement {
   private readonly notes = new Map<string, string>();
   /** Refusals that were there before this page asked, by robot. */
   private readonly seen = new Map<string, number>();
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
-    this.ends.push(this.context.model.drivesChanged.on(() => this.requestUpdate()));
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    for (const end of this.ends.splice(0)) end();
+  protected override listen(): (() => void)[] {
+    return this.renderAfter(this.context.model.drivesChanged);
   }
 
   override willUpdate(changed: Map<string, unknown>): void {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, svg, type TemplateResult} from 'lit';
+import {css, html, nothing, svg, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
+import {LiveElement} from '../../app/live_element';
 import {controls, glyphs} from '../../app/styles';
 import {initials} from '../../app/words';
 import {kHistory_s} from '../../model/pose_history';
 import {askText, holdersText, kUsualRights} from '../../model/withheld';
-import type {PanelContext} from '../../panel_api';
 import {RobotFlag} from '../../protocol/frames';
 import {renderNote, withheldStyles} from '../withheld';
 import {parseFilter, type Filter} from './filter';
@@ -21,30 +21,16 @@ const kMostStopped = 5000;
 const kStands_mps = 0.02;
 
 /** All robots by team: what they are, how fast they go, and what is not normal about them. */
-export class RobotsPanel extends LitElement {
-  declare context: PanelContext;
+export class RobotsPanel extends LiveElement {
   private filterText = '';
   private filter: Filter = parseFilter('');
   private readonly closed = new Set<string>();
   private readonly opened = new Set<string>();
-  private timer = 0;
-  private readonly ends: (() => void)[] = [];
 
-  override connectedCallback(): void {
-    super.connectedCallback();
-    // The dock takes panels out while they are hidden: what came meanwhile is to be shown.
-    this.requestUpdate();
+  protected override listen(): (() => void)[] {
     const {model, selection, palette} = this.context;
-    const update = () => this.requestUpdate();
-    this.ends.push(model.rosterChanged.on(update), selection.changed.on(update), palette.changed.on(update));
     // Speeds change with each frame; a list that changed 60 times a second could not be read.
-    this.timer = window.setInterval(update, kRefresh_ms);
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    clearInterval(this.timer);
-    for (const end of this.ends.splice(0)) end();
+    return [...this.renderAfter(model.rosterChanged, selection.changed, palette.changed), this.every(kRefresh_ms, () => this.requestUpdate())];
   }
 
   private speed(slot: number): number {

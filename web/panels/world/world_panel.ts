@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, html, nothing, type TemplateResult} from 'lit';
+import {html, nothing, type TemplateResult} from 'lit';
 import {icon, type IconName} from '../../app/icons';
+import {LiveElement} from '../../app/live_element';
 import {controls, glyphs} from '../../app/styles';
 import {Placed} from '../../model/pose_history';
-import type {PanelContext} from '../../panel_api';
 import {viewOf} from '../../panel_api/windows';
 import {kLayers, readLayers, type Layers, type Poses} from './layers';
 import {sensorsToRead} from './reading_layer';
@@ -30,8 +30,7 @@ const kCard_ms = 250;
 type Mode = 'top' | '3d';
 
 /** Robots and bodies where they are, from above or in perspective. */
-export class WorldPanel extends LitElement {
-  declare context: PanelContext;
+export class WorldPanel extends LiveElement {
   readonly placed = new Placed();
   /** True poses, while they are drawn beside reported ones. */
   readonly truth = new Placed();
@@ -53,19 +52,14 @@ export class WorldPanel extends LitElement {
   private shownRun = '';
   private drawQueued = false;
   private cardAt_ms = 0;
-  private readonly ends: (() => void)[] = [];
   private readonly resized = new ResizeObserver(() => this.resize());
 
-  override connectedCallback(): void {
-    super.connectedCallback();
+  protected override listen(): (() => void)[] {
     // A picture that another window was to draw does not come.
     this.drawQueued = false;
-    // The dock takes panels out while they are hidden: what came meanwhile is to be shown.
-    this.requestUpdate();
-    const {model, palette, selection, kept} = this.context;
+    const {model, palette, selection, kept, link} = this.context;
     this.layers = readLayers(kept.read(kKept));
     this.orders ??= new WorldOrders(this.context, () => this.refreshOrders(), () => void this.setMode('top'));
-    this.ends.push(...this.orders.listen());
     this.top ??= new TopStage(this.stageContext());
     this.stage ??= this.top;
     const refresh = () => {
@@ -74,7 +68,13 @@ export class WorldPanel extends LitElement {
       this.requestUpdate();
       this.draw();
     };
-    this.ends.push(
+    this.shownRun = model.hello?.run.name ?? '';
+    this.stage.refresh();
+    this.lookAround();
+    this.resized.observe(this);
+    if (this.keptMode === '3d') void this.setMode('3d');
+    return [
+      ...this.orders.listen(),
       model.rosterChanged.on(() => {
         // The same run, as its replay or after a lost link, is shown from where the person looked.
         const run = model.hello?.run.name ?? '';
@@ -100,21 +100,13 @@ export class WorldPanel extends LitElement {
         this.requestUpdate();
         this.draw();
       }),
-    );
-    this.shownRun = model.hello?.run.name ?? '';
-    this.stage.refresh();
-    this.lookAround();
-    this.resized.observe(this);
-    if (this.keptMode === '3d') void this.setMode('3d');
-  }
-
-  override disconnectedCallback(): void {
-    super.disconnectedCallback();
-    this.context.link.look(this, []);
-    this.context.link.lookAtTruth(false);
-    this.context.link.lookAtVariances([]);
-    this.resized.disconnect();
-    for (const end of this.ends.splice(0)) end();
+      () => {
+        link.look(this, []);
+        link.lookAtTruth(false);
+        link.lookAtVariances([]);
+        this.resized.disconnect();
+      },
+    ];
   }
 
   override firstUpdated(): void {

@@ -84,14 +84,13 @@ export class TopStage implements Stage {
     ctx.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
     ctx.clearRect(0, 0, camera.width, camera.height);
     this.swarm.begin(0, camera);
-    this.view.drawLife(ctx, camera, placed, context.truth, context.layers(), this.swarm);
+    this.view.drawLife(ctx, camera, placed, context.truth, context.layers(), this.orderLayer, this.swarm);
     this.showSwarm();
-    this.orderLayer.draw(ctx, camera, placed);
     for (const layer of context.worldLayers) this.drawForeign(ctx, layer);
     this.paintMinimap(ctx);
     this.lens.draw(ctx, camera, context.palette, (other) => {
       this.view.drawBase(ctx, other, placed, context.layers());
-      this.view.drawLife(ctx, other, placed, context.truth, context.layers(), null);
+      this.view.drawLife(ctx, other, placed, context.truth, context.layers(), this.orderLayer, null);
     });
     this.paintBox(ctx);
     this.measure.draw(ctx, camera, context.palette);

@@ -12,6 +12,7 @@ import {drawGrid, drawScale, drawTicks} from './grid_layer';
 import {LabelPlacer} from './labels';
 import type {Layers} from './layers';
 import {bodyLabels, namesFit, robotLabels} from './name_layer';
+import type {OrderLayer} from './orders/order_layer';
 import {drawPlates, teamsOf, type Team} from './plates';
 import {bytesOf, rampBytes, rampColour} from './ramp';
 import {drawReadings} from './reading_layer';
@@ -91,8 +92,9 @@ export class TopView {
     return layers.density && camera.scale < kFar_px && placed.count > kCrowd;
   }
 
-  /** Robots and what they read. With `swarm`, far robots go there; it is empty where none is far. */
-  drawLife(ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed, truth: Placed, layers: Layers, swarm: Swarm | null): void {
+  /** Robots and what they read, their orders, and names over all lines. With `swarm`, far robots go there; it is empty
+   * where none is far. */
+  drawLife(ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed, truth: Placed, layers: Layers, orders: OrderLayer, swarm: Swarm | null): void {
     const {model, palette, selection} = this;
     if (this.surface !== null) this.surface.placed = placed;
     const cast = this.cast(camera, placed, layers, swarm !== null);
@@ -111,6 +113,7 @@ export class TopView {
       this.robots.draw(ctx, camera, placed, slot, robot, share === null ? null : rampColour(share, palette.theme));
     }
     if (truth.count > 0) drawTruth(ctx, camera, cast.whole, selection, palette, placed, truth, this.robots);
+    orders.draw(ctx, camera, placed);
     this.drawNames(ctx, camera, placed, layers, cast);
   }
 

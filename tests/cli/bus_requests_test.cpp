@@ -166,7 +166,7 @@ TEST_F(BusRequests, OfSeveralRunsOneHasToBeNamed) {
         "both are asked to stop");
   }
   // It waits for its hosts still, and says what it would say to those beside it.
-  refused({"edit", "morning", "list"}, "morning: no run is in progress");
+  refused({"edit", "morning", "list"}, "morning: the run has not begun yet");
   const Ended third = far_until({"edit", "night", "list"}, "there is no run `night`");
   EXPECT_EQ(third.exit_code, 2);
   EXPECT_NE(third.err.find("there is no run `night`"), std::string::npos) << third.err;

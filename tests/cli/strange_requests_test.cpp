@@ -157,7 +157,7 @@ TEST_F(StrangeRequests, AHostThatNeverAnswersMayBeTheOneThatHasIt) {
   start("env", "env", "crowd.yaml", {"--no-record", "--run", run_.text()});
   const auto pretender = pretend(1, "deaf host");
   ASSERT_TRUE(pretender) << pretender.error().text();
-  const std::string answer = run_.text().substr(0, 8) + ": no run is in progress";
+  const std::string answer = run_.text().substr(0, 8) + ": the run has not begun yet";
   wait_until(
       [&] {
         return far({"edit", run_.text(), "list"}).err.find(answer) != std::string::npos;

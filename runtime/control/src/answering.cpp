@@ -8,8 +8,8 @@ using What = Request::What;
 
 /// Pause, resume and step, which a live run refuses.
 Answer hold(runtime::RunControl& control, const Request& request) {
+  if (const auto idle = control.idle(); !idle.empty()) return {false, std::string(idle), {}};
   const runtime::RunStatus status = control.status();
-  if (status.scenario.empty()) return {false, "no run is in progress", {}};
   if (status.follows) {
     return {false, "this host follows its environment manager: send the request there", {}};
   }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "rave/base/control_characters.hpp"
+#include "rave/base/text_width.hpp"
 #include "rave/bus/sequence.hpp"
 #include "rave/control/host_leases.hpp"
 #include "rave/control/order_words.hpp"
@@ -28,7 +29,12 @@ static_assert(kKinds.size() == rave_wire_COMMAND_PLACE + 1);
 
 bus::CommandResult result_of(const Result<std::string>& result) {
   std::string text = without_control_characters(result ? *result : result.error().message, " ");
-  if (text.size() > rave_wire_kMaxCommandAnswerBytes) text.resize(rave_wire_kMaxCommandAnswerBytes);
+  if (text.size() > rave_wire_kMaxCommandAnswerBytes) {
+    text.resize(rave_wire_kMaxCommandAnswerBytes);
+    // A character that was cut in two would make the answer invalid, and it would not arrive at
+    // all.
+    for (int cut = 0; cut < 3 && !is_utf8(text); ++cut) text.pop_back();
+  }
   return {result.has_value(), std::move(text)};
 }
 

@@ -8,6 +8,8 @@ namespace {
 
 using Kind = RunRequest::Kind;
 
+constexpr std::string_view kEnded = "the run has ended";
+
 constexpr std::pair<Kind, std::string_view> kWords[] = {{Kind::kStop, "stop"},
                                                         {Kind::kRelease, "release"},
                                                         {Kind::kArm, "arm"},
@@ -93,7 +95,7 @@ Result<std::future<Result<std::string>>> RunControl::post(RunRequest request) {
   std::stop_source wake(std::nostopstate);
   {
     const std::lock_guard lock(mutex_);
-    if (!running_) return fail(ErrorCode::kState, "no run is in progress");
+    if (!idle_.empty()) return fail(ErrorCode::kState, "{}", idle_);
     Pending& pending = pending_.emplace_back();
     pending.request = std::move(request);
     pending.since = std::chrono::steady_clock::now();
@@ -137,11 +139,16 @@ RunStatus RunControl::status() const {
   return status;
 }
 
+std::string_view RunControl::idle() const {
+  const std::lock_guard lock(mutex_);
+  return idle_;
+}
+
 void RunControl::begin(RunStatus status) {
   const std::lock_guard lock(mutex_);
   status_ = std::move(status);
   sim_s_.store(0);
-  running_ = true;
+  idle_ = {};
 }
 
 void RunControl::serve(const Serve& serve, const std::function<void(RunStatus&)>& refresh) {
@@ -203,7 +210,7 @@ RunControl::Asked& RunControl::Asked::operator=(Asked&& other) noexcept {
 }
 
 // A promise without a value would throw `broken_promise` in the thread that waits for it.
-RunControl::Asked::~Asked() { answer(fail(ErrorCode::kState, "the run has ended")); }
+RunControl::Asked::~Asked() { answer(fail(ErrorCode::kState, "{}", kEnded)); }
 
 void RunControl::Asked::answer(Result<std::string> text) {
   if (std::exchange(open_, false)) promise_.set_value(std::move(text));
@@ -221,10 +228,10 @@ void RunControl::refresh(const std::function<void(RunStatus&)>& refresh) {
 
 void RunControl::end() {
   const std::lock_guard lock(mutex_);
-  running_ = false;
+  idle_ = kEnded;
   status_ = {};
   for (Pending& one : pending_) {
-    one.answer.set_value(fail(ErrorCode::kState, "the run has ended"));
+    one.answer.set_value(fail(ErrorCode::kState, "{}", kEnded));
   }
   pending_.clear();
   asked_.store(false);

@@ -97,6 +97,17 @@ TEST_F(CommandsTest, AnOrderIsAnsweredWithWhatTheRunSays) {
   EXPECT_EQ(result->text, "`anna` drives bert") << "one line";
 }
 
+TEST_F(CommandsTest, ALongAnswerEndsWithAWholeCharacter) {
+  const bus::BegunCommand cancel = begin(order(Kind::kCancel), 0);
+  ASSERT_TRUE(cancel);
+  std::string text = "x";
+  while (text.size() <= rave_wire_kMaxCommandAnswerBytes) text += "ü";
+  static_cast<void>(asked(fail(ErrorCode::kState, "{}", text)));
+  const auto result = cancel();
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->text, text.substr(0, rave_wire_kMaxCommandAnswerBytes - 1));
+}
+
 TEST_F(CommandsTest, ADriveHasNoAnswer) {
   EXPECT_FALSE(begin(order(Kind::kDrive), 0));
   EXPECT_EQ(asked().size(), 1U);

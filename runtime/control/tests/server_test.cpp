@@ -157,6 +157,18 @@ TEST(RunControlLater, ARunMayAnswerWhenItHasComeToIt) {
   EXPECT_EQ(answer, "later");
 }
 
+TEST(RunControlLater, BeforeAndAfterTheRunTheReasonIsSaid) {
+  runtime::RunControl control;
+  const auto refusal = [&control] { return control.ask({}).error().message; };
+  EXPECT_EQ(refusal(), "the run has not begun yet");
+  EXPECT_EQ(control.idle(), refusal());
+  control.begin({});
+  EXPECT_EQ(control.idle(), "");
+  control.end();
+  EXPECT_EQ(refusal(), "the run has ended");
+  EXPECT_EQ(control.idle(), refusal());
+}
+
 TEST(RunControlLater, WhoIsNeverAnsweredIsTold) {
   runtime::RunControl control;
   control.begin({"tests", "", 0, 10, 1, false, false, false, {}, {}});

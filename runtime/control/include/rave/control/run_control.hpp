@@ -191,6 +191,8 @@ class RunControl {
   Result<std::future<Result<std::string>>> post(RunRequest request);
   /// The present state; without a scenario before the run has begun and after it has ended.
   [[nodiscard]] RunStatus status() const;
+  /// Why requests are refused: the run has not begun yet, or has ended. Empty while it serves them.
+  [[nodiscard]] std::string_view idle() const;
 
   // The functions below are for the run.
   /// A request that is not answered yet. answer() may be called once; the destructor answers that
@@ -262,7 +264,7 @@ class RunControl {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool paused_ = false;
-  bool running_ = false;
+  std::string_view idle_ = "the run has not begun yet";  ///< Why nothing is served; empty: it is.
   std::uint64_t steps_ = 0;  ///< Number of single steps to execute.
   std::deque<Pending> pending_;
   std::vector<RunRequest> said_;

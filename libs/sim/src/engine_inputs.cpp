@@ -164,6 +164,16 @@ std::string Engine::parameter(RobotId robot, ParameterChange::Part part, std::ui
   return target ? present_text(*target, name).value_or(std::string()) : std::string();
 }
 
+bool Engine::has_changed_parameters(RobotId robot) const {
+  if (!is_local(robot)) return false;
+  const RobotGroup& group = impl_->roster.group_of(robot);
+  const auto is_changed = [m = impl_->roster.member_of(robot)](const auto& slots) {
+    return m < slots.changed.size() && slots.changed[m] != nullptr;
+  };
+  return is_changed(group.program) || std::ranges::any_of(group.controllers, is_changed) ||
+         std::ranges::any_of(group.actuators, is_changed) || impl_->truth.scale_of(robot) != 1;
+}
+
 std::uint64_t Engine::inputs_by_hand() const noexcept { return impl_->input_log.by_hand(); }
 void Engine::set_world_age(Duration age) noexcept { impl_->world_age = age; }
 void Engine::halt() noexcept { impl_->halt(); }

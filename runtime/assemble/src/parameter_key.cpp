@@ -148,4 +148,21 @@ std::vector<std::pair<std::string, std::string>> first_values(const sim::RobotTy
   return texts;
 }
 
+std::vector<std::pair<std::string, std::string>> changed_values(const sim::Engine& engine,
+                                                                RobotId robot) {
+  std::vector<std::pair<std::string, std::string>> changed;
+  if (!engine.has_changed_parameters(robot)) return changed;
+  const sim::EngineSpec& spec = engine.spec();
+  const sim::RobotType& type = spec.types[spec.robots[robot.value()].type];
+  const auto first = first_values(type);
+  for (const Known& known : known_parameters(type)) {
+    std::string value = engine.parameter(robot, known.part, known.index, known.spec->name);
+    // Nothing is known of a part that has failed.
+    if (value.empty() && known.spec->type != ParamType::kText) continue;
+    std::pair entry(known.key, std::move(value));
+    if (std::ranges::find(first, entry) == first.end()) changed.push_back(std::move(entry));
+  }
+  return changed;
+}
+
 }  // namespace rave::runtime

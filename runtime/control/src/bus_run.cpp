@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "rave/base/control_characters.hpp"
@@ -49,6 +50,8 @@ Result<Answer> read_answer(std::string_view line) {
     robot.lease = plain(robot.lease);
     robot.order = plain(robot.order);
     for (std::string& word : robot.takes) word = plain(word);
+    for (auto& [key, value] : robot.changed)
+      std::tie(key, value) = std::pair(plain(key), plain(value));
     if (robot.hand_over) robot.hand_over->last = plain(robot.hand_over->last);
     if (!robot.shadow) continue;
     for (auto& reading : robot.shadow->readings) {

@@ -174,6 +174,7 @@ void refresh_status(const sim::Engine& engine, RunStatus& status) {
     robot.lease.clear();
     robot.lease_page = 0;
     robot.order = engine.order_of(RobotId(r));
+    robot.changed = changed_values(engine, RobotId(r));
     write_takes(engine.takes(RobotId(r)), robot.takes);
     robot.name = spec.robots[r].name;
     robot.simulated = spec.types[spec.robots[r].type].simulated;

@@ -86,17 +86,32 @@ bool read_shadow(const Json& json, runtime::RunStatus::Shadow& shadow) {
   return good;
 }
 
-/// Which orders a robot accepts and executes; older processes do not report that.
+/// Who commands a robot and what; older processes do not report that.
 bool read_orders(const Json& item, runtime::RunStatus::Robot& robot) {
   if (item.contains("lease") && !read_text(item, "lease", robot.lease)) return false;
   if (item.contains("lease_page") && !read_count(item, "lease_page", robot.lease_page))
     return false;
   if (item.contains("order") && !read_text(item, "order", robot.order)) return false;
+  return true;
+}
+
+bool read_takes(const Json& item, runtime::RunStatus::Robot& robot) {
   if (!item.contains("takes")) return true;
   if (!item.at("takes").is_array()) return false;
   for (const Json& word : item.at("takes")) {
     if (!word.is_string()) return false;
     robot.takes.push_back(word.get<std::string>());
+  }
+  return true;
+}
+
+/// Parameters that the run has changed; older processes do not report them.
+bool read_changed(const Json& item, runtime::RunStatus::Robot& robot) {
+  if (!item.contains("changed")) return true;
+  if (!item.at("changed").is_object()) return false;
+  for (const auto& [key, value] : item.at("changed").items()) {
+    if (!value.is_string()) return false;
+    robot.changed.emplace_back(key, value.get<std::string>());
   }
   return true;
 }
@@ -135,6 +150,7 @@ Json status_json(const runtime::RunStatus& status) {
     if (robot.lease_page != 0) last["lease_page"] = robot.lease_page;
     if (!robot.takes.empty()) last["takes"] = robot.takes;
     if (!robot.order.empty()) last["order"] = robot.order;
+    for (const auto& [key, value] : robot.changed) last["changed"][key] = value;
   }
   return json;
 }
@@ -164,7 +180,7 @@ bool read_status(const Json& json, runtime::RunStatus& status) {
     if (good && item.contains("shadow")) {
       good = read_shadow(item.at("shadow"), *(robot.shadow = runtime::RunStatus::Shadow{}));
     }
-    good = good && read_orders(item, robot);
+    good = good && read_orders(item, robot) && read_takes(item, robot) && read_changed(item, robot);
     status.robots.push_back(std::move(robot));
   }
   return good;

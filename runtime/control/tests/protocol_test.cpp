@@ -227,6 +227,7 @@ TEST(Protocol, AStatusSaysWhoDrivesAndWhat) {
   robot.lease = "anna";
   robot.takes = {"drive", "goal"};
   robot.order = "goal 1.00, 2.00";
+  robot.changed = {{"body.scale", "2"}, {"program.mode", "fast, \"far\""}};
   std::string line = write_answer(answer);
   line.pop_back();
   const auto read = parse_answer(line);
@@ -235,10 +236,15 @@ TEST(Protocol, AStatusSaysWhoDrivesAndWhat) {
   EXPECT_EQ(read->status.robots[0].lease, "anna");
   EXPECT_EQ(read->status.robots[0].takes, robot.takes);
   EXPECT_EQ(read->status.robots[0].order, "goal 1.00, 2.00");
-  EXPECT_FALSE(parse_answer(
-      R"({"good":true,"text":"","status":{"scenario":"s","sim_s":0,"duration_s":1,"pace":1,)"
-      R"("live":false,"paused":false,"robots":[{"name":"a","simulated":true,"armed":true,)"
-      R"("stopped":false,"takes":"all"}]}})"));
+  EXPECT_EQ(read->status.robots[0].changed, robot.changed);
+  for (const char* const bad : {R"("takes":"all")", R"("changed":[])", R"("changed":{"a":1})"}) {
+    EXPECT_FALSE(parse_answer(
+        R"({"good":true,"text":"","status":{"scenario":"s","sim_s":0,"duration_s":1,"pace":1,)"
+        R"("live":false,"paused":false,"robots":[{"name":"a","simulated":true,"armed":true,)"
+        R"("stopped":false,)" +
+        std::string(bad) + "}]}}"))
+        << bad;
+  }
 }
 
 TEST(Protocol, RefusesWhatIsNotExactlyARequest) {

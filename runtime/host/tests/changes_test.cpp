@@ -56,8 +56,20 @@ TEST(Changes, ParametersHaveTheValuesOfTheFilesAtFirst) {
     return (*engine)->parameter(RobotId(0), change->part, change->index, change->name);
   };
   EXPECT_EQ(now(), named(first, "program.cruise_mps"));
+  EXPECT_TRUE(changed_values(**engine, RobotId(0)).empty());
   ASSERT_TRUE((*engine)->set_parameters(RobotId(0), std::span(&*change, 1)));
   EXPECT_EQ(now(), "0.25");
+  using Values = std::vector<std::pair<std::string, std::string>>;
+  EXPECT_EQ(changed_values(**engine, RobotId(0)), (Values{{"program.cruise_mps", "0.25"}}));
+  EXPECT_TRUE(changed_values(**engine, RobotId(1)).empty());
+  const auto scale =
+      parse_change((*engine)->spec().types[anna], "body.scale", config::RawNode::number(1.5));
+  const auto back =
+      parse_change((*engine)->spec().types[anna], "program.cruise_mps",
+                   config::RawNode::number(std::stod(named(first, "program.cruise_mps"))));
+  ASSERT_TRUE(scale && back);
+  ASSERT_TRUE((*engine)->set_parameters(RobotId(0), std::vector{*scale, *back}));
+  EXPECT_EQ(changed_values(**engine, RobotId(0)), (Values{{"body.scale", "1.5"}}));
 }
 
 TEST(Changes, ErrorsPointAtTheFileAndNameTheNearest) {

@@ -176,6 +176,7 @@ std::vector<runtime::RunStatus::Robot> ManagedPort::robots() const {
     robot->second->armed = told.armed;
     robot->second->takes = std::move(told.takes);
     robot->second->order = std::move(told.order);
+    robot->second->changed = std::move(told.changed);
   }
   return robots;
 }

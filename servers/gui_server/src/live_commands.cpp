@@ -183,13 +183,6 @@ void LiveSource::learn_status(Playhead::Clock::time_point now) {
   }
 }
 
-void LiveSource::learn_values(const LiveEvent& event) {
-  if (event.slot < 0 || event.kind != "changed") return;
-  const auto slot = static_cast<std::size_t>(event.slot);
-  if (slot >= leases_.size() || !set_values_.take(slot, event.text, leases_[slot].values)) return;
-  leases_changed_[slot] = ++leases_revision_;
-}
-
 void LiveSource::learn_leases(const runtime::RunStatus::Robot& robot, std::uint32_t slot) {
   DriveState now{slot,           robot.lease,      robot.takes,
                  robot.order,    robot.lease_page, robot.hand_over,
@@ -197,9 +190,8 @@ void LiveSource::learn_leases(const runtime::RunStatus::Robot& robot, std::uint3
   // Where it is is in the pictures.
   if (now.hand_over) now.hand_over->x_m = now.hand_over->y_m = now.hand_over->yaw_rad = 0;
   if (robot.shadow) now.shadow = rounded(*robot.shadow);
+  now.values = set_values_.of(slot, robot.changed);
   DriveState& known = leases_[slot];
-  // The values come with events, not with the status, and must survive its update.
-  now.values = known.values;
   if (known == now) return;
   known = std::move(now);
   leases_changed_[slot] = ++leases_revision_;

@@ -183,7 +183,6 @@ void LiveSource::take_news() {
   for (const auto& news : box_->news.take()) {
     for (const LiveEvent& event : news->events) {
       fold_.add(event.t_s, event.slot, event.kind, event.text);
-      learn_values(event);
     }
     for (const auto& [id, json] : news->set) {
       body_changes_.push_back({++bodies_revision_, id, json});

@@ -109,7 +109,6 @@ class LiveSource : public Source {
   void write_bodies();
   void answer_asked();
   void learn_status(Playhead::Clock::time_point now);
-  void learn_values(const LiveEvent& event);
   void learn_leases(const runtime::RunStatus::Robot& robot, std::uint32_t slot);
 
   Start start_;

@@ -3,13 +3,13 @@
 
 #include <map>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace rave::gui_server {
 
-/// Values that parameters were given during the run, as its events `changed` say. These
-/// come in the same way under each clock and over a bus, from any author.
+/// Values that parameters were given during the run, as its status has them: text, whatever their
+/// kind. The roster says the kind.
 class SetValues {
  public:
   /// Values by key, as JSON.
@@ -18,17 +18,13 @@ class SetValues {
   /// The array `robots` of a roster with the parameters of each robot.
   explicit SetValues(const std::string& robots_json);
 
-  /// Takes the values of an event of robot `slot`, such as `program.speed_mps: 0.2 -> 0.4,
-  /// body.scale: 1 -> 2 (by hand: anna)`, into `values`. Returns whether these changed. Parameters
-  /// that the roster does not describe are left out.
-  bool take(std::size_t slot, std::string_view text, Values& values) const;
+  /// The values of robot `slot`. Parameters that the roster does not describe are left out.
+  [[nodiscard]] Values of(std::size_t slot,
+                          const std::vector<std::pair<std::string, std::string>>& changed) const;
 
  private:
-  struct Known {
-    std::string key;
-    std::string kind;  ///< `number`, `integer`, `flag`, `choice` or `text`.
-  };
-  std::vector<std::vector<Known>> robots_;
+  /// By key: `number`, `integer`, `flag`, `choice` or `text`.
+  std::vector<std::map<std::string, std::string>> kinds_;
 };
 
 }  // namespace rave::gui_server

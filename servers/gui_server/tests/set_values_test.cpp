@@ -17,39 +17,35 @@ constexpr const char* kSetRobots =
     R"({"key":"program.words","kind":"text"}]},)"
     R"({"name":"r2","team":"","kind":"simulated","sensors":[]}])";
 
-TEST(SetValues, AreThoseOfTheEventWithoutItsAuthor) {
+using Changed = std::vector<std::pair<std::string, std::string>>;
+
+TEST(SetValues, HaveTheKindsOfTheRoster) {
   const SetValues set(kSetRobots);
-  SetValues::Values values;
-  EXPECT_TRUE(set.take(0, "program.v_mps: 0.2 -> 0.45 (by hand: anna)", values));
-  EXPECT_EQ(values, (SetValues::Values{{"program.v_mps", "0.45"}}));
-  EXPECT_FALSE(set.take(0, "program.v_mps: 0.2 -> 0.45", values)) << "the same again";
-  EXPECT_TRUE(
-      set.take(0,
-               "program.v_mps: 0.45 -> 0.5, program.bold: false -> 1, program.mode: slow -> "
-               "fast, program.words: a -> b, c -> d, controller.x.y: 1 -> 2 (by hand)",
-               values));
+  SetValues::Values values = set.of(0, Changed{{"program.v_mps", "0.5"},
+                                               {"program.bold", "true"},
+                                               {"program.mode", "fast"},
+                                               {"program.words", "b, \"c\" -> d"}});
   EXPECT_EQ(values["program.v_mps"], "0.5");
   EXPECT_EQ(values["program.bold"], "true");
   EXPECT_EQ(values["program.mode"], "\"fast\"");
-  EXPECT_TRUE(values["program.words"].starts_with("\"b, c -> d")) << values["program.words"];
+  EXPECT_EQ(values["program.words"], R"("b, \"c\" -> d")");
   EXPECT_EQ(values.size(), 4U);
 }
 
 TEST(SetValues, NothingElseIsTakenForAValue) {
   const SetValues set(kSetRobots);
-  SetValues::Values values;
-  EXPECT_FALSE(set.take(0, "program.v_mps: 0.2 -> fast", values));
-  EXPECT_FALSE(set.take(0, "program.v_mps", values));
-  EXPECT_FALSE(set.take(0, "", values));
-  EXPECT_FALSE(set.take(1, "program.v_mps: 0.2 -> 0.3", values)) << "it has none";
-  EXPECT_FALSE(set.take(7, "program.v_mps: 0.2 -> 0.3", values));
-  EXPECT_FALSE(SetValues("no JSON").take(0, "program.v_mps: 0.2 -> 0.3", values));
-  EXPECT_TRUE(values.empty());
+  const Changed one = {{"program.v_mps", "0.3"}};
+  EXPECT_TRUE(set.of(0, {{"program.v_mps", "fast"}, {"controller.x.y", "1"}}).empty());
+  EXPECT_TRUE(set.of(1, one).empty()) << "it has none";
+  EXPECT_TRUE(set.of(7, one).empty());
+  EXPECT_TRUE(SetValues("no JSON").of(0, one).empty());
+  EXPECT_EQ(set.of(0, one).size(), 1U);
 }
 
-/// A run that nobody asks anything.
-class NoPort final : public RunPort {
+/// A run whose first robot was given a speed before anybody looked.
+class SetPort final : public RunPort {
  public:
+  explicit SetPort(const std::string& speed) : speed_(speed) {}
   [[nodiscard]] std::string why_not_held() const override { return {}; }
   [[nodiscard]] bool paused() const override { return false; }
   [[nodiscard]] double pace() const override { return 1; }
@@ -61,12 +57,16 @@ class NoPort final : public RunPort {
     runtime::RunStatus::Robot robot;
     robot.name = "r1";
     robot.lease = "anna";
+    robot.changed = {{"program.v_mps", speed_}};
     return {robot};
   }
   [[nodiscard]] Result<std::future<Result<std::string>>> post(
       runtime::RunRequest /*request*/) override {
     return fail(ErrorCode::kState, "not here");
   }
+
+ private:
+  const std::string& speed_;
 };
 
 TEST(SetValues, PagesThatAreThereAndThatComeLaterAreTold) {
@@ -74,23 +74,23 @@ TEST(SetValues, PagesThatAreThereAndThatComeLaterAreTold) {
   LiveSource::Start start;
   start.robots_json = kSetRobots;
   start.robots = {"r1", "r2"};
-  LiveSource source(std::move(start), box, std::make_unique<NoPort>());
+  std::string speed = "0.7";
+  LiveSource source(std::move(start), box, std::make_unique<SetPort>(speed));
   const auto now = Playhead::Clock::now();
   source.tick(now, {});
+  const auto first = source.leases_changed_since(0);
+  ASSERT_FALSE(first.empty());
+  EXPECT_EQ(first[0].values.at("program.v_mps"), "0.7");
   const std::uint64_t before = source.leases_revision();
-  auto news = std::make_unique<LiveNews>();
-  news->events.push_back({1, 0, "changed", "program.v_mps: 0.2 -> 0.7 (by hand)"});
-  news->events.push_back({1, 0, "said", "program.v_mps: 0.2 -> 9"});
-  box->news.push(std::move(news));
-  source.tick(now, {});
+  source.tick(now + std::chrono::seconds(1), {});
+  EXPECT_TRUE(source.leases_changed_since(before).empty()) << "the same again";
+  speed = "0.9";
+  source.tick(now + std::chrono::seconds(2), {});
   const auto changed = source.leases_changed_since(before);
   ASSERT_EQ(changed.size(), 1U);
-  EXPECT_EQ(changed[0].values.at("program.v_mps"), "0.7");
-  EXPECT_EQ(changed[0].lease, "anna");
-  // A status that comes later leaves them.
-  source.tick(now + std::chrono::seconds(1), {});
+  EXPECT_EQ(changed[0].values.at("program.v_mps"), "0.9");
   const auto told = nlohmann::json::parse(leases_text(source.leases_changed_since(0), {}, true));
-  EXPECT_EQ(told["robots"][0]["values"]["program.v_mps"], 0.7);
+  EXPECT_EQ(told["robots"][0]["values"]["program.v_mps"], 0.9);
   EXPECT_FALSE(told["robots"][1].contains("values"));
 }
 

@@ -227,6 +227,8 @@ class Engine {
   /// The current value of a parameter; empty if it does not exist.
   [[nodiscard]] std::string parameter(RobotId robot, ParameterChange::Part part,
                                       std::uint32_t index, std::string_view name) const;
+  /// Whether a parameter of the robot or of its body was changed; false if it runs elsewhere.
+  [[nodiscard]] bool has_changed_parameters(RobotId robot) const;
   /// The number of inputs by hand.
   [[nodiscard]] std::uint64_t inputs_by_hand() const noexcept;
   /// Sets the age of the virtual world that sensors and guards see: 0 in one process. Guards

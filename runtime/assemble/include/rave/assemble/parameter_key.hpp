@@ -35,4 +35,8 @@ struct ChangeableParameter {
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> first_values(
     const sim::RobotType& type);
 
+/// The values that the run has changed, as text by key; nothing of a robot of another host.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> changed_values(
+    const sim::Engine& engine, RobotId robot);
+
 }  // namespace rave::runtime

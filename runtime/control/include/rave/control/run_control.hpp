@@ -125,6 +125,8 @@ struct RunStatus {
     std::vector<std::string> takes = {};
     /// The current order in words, such as `goal 1.20, 3.40`; empty: none.
     std::string order = {};
+    /// Parameters with other values than in the scenario: key and value as `rave set` takes them.
+    std::vector<std::pair<std::string, std::string>> changed = {};
   };
   std::string scenario;
   /// Of a run of several processes: its id, the same in all of them; else empty.

@@ -133,13 +133,19 @@ try {
     await until(other, `${app}.model.events.some((event) => event.kind === 'process back')`);
   });
 
-  await check('the server is killed and comes back, and the run takes no notice', async () => {
+  await check('the server is killed and comes back, knows what was set before, and the run takes no notice', async () => {
+    const other = context.pages().at(-1);
+    const {key, value, range} = await other.evaluate(`${app}.model.robots[7].parameters.find(({kind, range}) => kind === 'number' && range !== undefined)`);
+    const set = value / 2 >= range[0] && value > 0 ? value / 2 : range[1];
+    const answer = await other.evaluate((what) => document.querySelector('rave-app').commands.ask(what), {type: 'set', slots: [7], key, value: set});
+    assert.ok(answer.good, answer.text);
     servers[1].child.kill('SIGKILL');
     const again = await startServer(rave, ['gui', scenario, '--processes', '2', ...tag]);
     servers.push(again);
     const third = await context.newPage();
     await third.goto(again.link);
     await until(third, `${app}?.model?.time?.state === 'running' && ${newest} != null && [...${newest}.flags].every((flags) => flags & 1)`, 60000);
+    await until(third, `${app}.model.drives.get(7)?.values?.['${key}'] === ${set}`, 10000);
     assert.deepEqual(children.slice(1).map((child) => child.exitCode), [null, null, null]);
     await again.end();
   });

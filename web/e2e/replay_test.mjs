@@ -109,6 +109,13 @@ try {
       const laser = a.model.robots[slot].sensors.findIndex((sensor) => sensor.kind === 'ranges');
       return a.model.readings.of(slot, laser)?.rows === 121; })()`);
     await page.locator('rave-sensors').getByText('121 rays').waitFor();
+    // In a paused replay, too, its course is what it read in the seconds before.
+    await until(page, `(() => { const a = ${app}; const slot = a.selection.primary;
+      const laser = a.model.robots[slot].sensors.findIndex((sensor) => sensor.kind === 'ranges');
+      const course = a.model.readings.course(slot, laser);
+      const times = course.map(({time_s}) => time_s);
+      return course.length > 40 && times.every((time_s, i) => i === 0 || time_s > times[i - 1]) &&
+        times.at(-1) - times[0] > 10 && times.at(-1) <= a.model.poses.newest.time_s + 0.01; })()`);
   });
 
   await check('a click in the World View selects the robot that is there', async () => {

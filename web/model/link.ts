@@ -57,6 +57,8 @@ export class Link {
   private truePoses = false;
   private variances: readonly number[] = [];
   parts = false;
+  /** Sensors whose readings before the moment of a replay are drawn, too. */
+  courses: Interest = [];
 
   constructor(
     private readonly model: RunModel,
@@ -204,6 +206,7 @@ export class Link {
         poses: seen,
         true_poses: this.truePoses,
         readings: seen ? [...all.values()].slice(0, kMostLooked) : [],
+        courses: seen ? this.courses.map(([slot, sensor]) => [slot, sensor]) : [],
         variances: seen ? this.variances.slice(-kMostLooked) : [],
         parts: this.parts,
         max_hz: 30,

@@ -25,13 +25,14 @@ export class Readings {
 
   add(reading: Reading): void {
     const key = keyOf(reading.slot, reading.sensor, reading.part);
-    this.newest.set(key, reading);
     let course = this.courses.get(key);
     if (course === undefined) this.courses.set(key, (course = []));
+    if (reading.past) return addPast(course, reading);
+    this.newest.set(key, reading);
     const last = course[course.length - 1];
     if (last !== undefined && reading.stamp_s < last.time_s) course.length = 0;
     if (last !== undefined && reading.stamp_s === last.time_s) return;
-    course.push({time_s: reading.stamp_s, rows: reading.rows, fields: reading.fields, values: reading.values});
+    course.push(pointOf(reading));
     const kept_s = reading.sensor === kCommandsOf ? kToldCourse_s : kCourse_s;
     while (course.length > 1 && reading.stamp_s - course[0].time_s > kept_s) course.shift();
   }
@@ -72,6 +73,17 @@ export class Readings {
     this.newest.clear();
     this.courses.clear();
   }
+}
+
+function pointOf({stamp_s, rows, fields, values}: Reading): CoursePoint {
+  return {time_s: stamp_s, rows, fields, values};
+}
+
+/** Between those that are there. */
+function addPast(course: CoursePoint[], reading: Reading): void {
+  const next = course.findIndex(({time_s}) => time_s >= reading.stamp_s);
+  if (next >= 0 && course[next].time_s > reading.stamp_s) course.splice(next, 0, pointOf(reading));
+  // Later than what is there, it belongs to another moment, which the page has left meanwhile.
 }
 
 function keyOf(slot: number, sensor: number, part: number): string {

@@ -7,7 +7,7 @@ import {decodeFrame, isMapTile, isPoseFrame, isVariances, type MapTile, type Pos
 /** Frames that the server made, with what they mean: tests/data of the server writes them. */
 interface Conformance {
   poses: {hex: string; sequence: number; time_s: number; step: number; past: boolean; x: number[]; y: number[]; yaw: number[]; speed: number[]; flags: number[]}[];
-  readings: {hex: string; slot: number; sensor: number; part: number; stamp_s: number; rows: number; fields: number; values: (number | null)[]}[];
+  readings: {hex: string; slot: number; sensor: number; part: number; past: boolean; stamp_s: number; rows: number; fields: number; values: (number | null)[]}[];
   tiles: {hex: string; name: string; slot: number; stamp_s: number; origin: [number, number]; resolution_m: number; size: [number, number]; column: number; row: number; width: number; height: number; cells: number[]}[];
   variances: {hex: string; time_s: number; robots: [number, number, number][]}[];
 }
@@ -48,8 +48,8 @@ describe('readings', () => {
     expect(kData.readings.length).toBeGreaterThan(1);
     for (const known of kData.readings) {
       const reading = decodeFrame(bytesOf(known.hex)) as Reading;
-      expect([reading.slot, reading.sensor, reading.part, reading.stamp_s, reading.rows, reading.fields]).toEqual(
-        [known.slot, known.sensor, known.part, known.stamp_s, known.rows, known.fields]);
+      expect([reading.slot, reading.sensor, reading.part, reading.past, reading.stamp_s, reading.rows, reading.fields]).toEqual(
+        [known.slot, known.sensor, known.part, known.past, known.stamp_s, known.rows, known.fields]);
       known.values.forEach((value, i) => {
         if (value === null) expect(reading.values[i]).toBe(Infinity);
         else expect(reading.values[i]).toBeCloseTo(value, 5);

@@ -38,6 +38,8 @@ export interface Reading {
   slot: number;
   sensor: number;
   part: number;
+  /** Of a time before the moment of a replay, for plots over time. */
+  past: boolean;
   stamp_s: number;
   time_s: number;
   rows: number;
@@ -160,7 +162,8 @@ function decodeReading(buffer: ArrayBuffer, view: DataView): Reading {
     throw new RangeError(`reading of ${rows} x ${fields} values has ${buffer.byteLength} bytes`);
   }
   return {
-    part: view.getUint8(1),
+    part: view.getUint8(1) & 0x7f,
+    past: (view.getUint8(1) & 0x80) !== 0,
     sensor: view.getUint16(2, true),
     slot: view.getUint32(4, true),
     stamp_s: view.getFloat64(8, true),

@@ -525,6 +525,8 @@ export interface Look {
   true_poses: boolean;
   /** Slot and index of each sensor whose readings are shown; at most 256. */
   readings: [number, number][];
+  /** Sensors of a replay whose readings of the 20 s before the moment are sent, too. Missing: none. */
+  courses?: [number, number][];
   /** Slots of the robots whose variances of reported poses are shown; at most 256. Missing: none. */
   variances?: number[];
   /** Also send the readings of both halves of hybrid sensors. */

@@ -15,6 +15,8 @@ static_assert(std::endian::native == std::endian::little, "frames are written li
 
 constexpr std::size_t kPoseHeader = 48;
 constexpr std::size_t kReadingHeader = 32;
+/// In the byte of the part.
+constexpr unsigned kPastReading = 0x80;
 constexpr std::size_t kVarianceHeader = 16;
 constexpr std::size_t kVarianceBytes = 12;
 constexpr std::size_t kTileHeader = 64;
@@ -102,10 +104,10 @@ std::string encode_poses(const PosesAt& poses, const PoseFrameHead& head) {
   return frame;
 }
 
-std::string encode_reading(const ReadingAt& reading, double time_s) {
+std::string encode_reading(const ReadingAt& reading, double time_s, bool past) {
   std::string frame(kReadingHeader + 4 * reading.values.size(), '\0');
   put(frame, 0, std::uint8_t{2});
-  put(frame, 1, reading.part);
+  put(frame, 1, static_cast<std::uint8_t>(reading.part | (past ? kPastReading : 0U)));
   put(frame, 2, static_cast<std::uint16_t>(reading.sensor));
   put(frame, 4, reading.slot);
   put(frame, 8, reading.stamp_s);

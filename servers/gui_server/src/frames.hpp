@@ -21,7 +21,8 @@ struct PoseFrameHead {
 [[nodiscard]] std::string encode_poses(const PosesAt& poses, const PoseFrameHead& head);
 
 /// `time_s`: of the picture that the reading belongs to.
-[[nodiscard]] std::string encode_reading(const ReadingAt& reading, double time_s);
+[[nodiscard]] std::string encode_reading(const ReadingAt& reading, double time_s,
+                                         bool past = false);
 
 /// A tile of the map that a page knows by `name`; `map` holds the tile.
 [[nodiscard]] std::string encode_tile(const MapName& name, const MapShown& map, std::uint32_t row,

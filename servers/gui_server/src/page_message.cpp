@@ -18,6 +18,24 @@ constexpr std::size_t kMostSensors = 256;
 constexpr std::size_t kMostSlots = 100'000;
 constexpr std::size_t kLongestName = 64;
 
+Result<std::vector<LookedAt>> sensors_of(Members& members, const char* name) {
+  RAVE_TRY_ASSIGN(const PageJson* const pairs, members.array(name, kMostSensors));
+  std::vector<LookedAt> sensors;
+  for (const PageJson& pair : *pairs) {
+    if (!pair.is_array() || pair.size() != 2) {
+      return fail(ErrorCode::kParse, "`{}`: expected pairs of slot and sensor", name);
+    }
+    LookedAt looked;
+    RAVE_TRY_ASSIGN(looked.slot, Members::index_of(pair[0], name));
+    RAVE_TRY_ASSIGN(looked.sensor, Members::index_of(pair[1], name));
+    sensors.push_back(looked);
+  }
+  // A sensor that is named twice would be sent twice, and sources expect each list sorted.
+  std::sort(sensors.begin(), sensors.end());
+  sensors.erase(std::unique(sensors.begin(), sensors.end()), sensors.end());
+  return sensors;
+}
+
 Result<PageMessage> look_of(Members& members) {
   LookMessage look;
   RAVE_TRY_ASSIGN(look.poses, members.flag("poses"));
@@ -27,19 +45,10 @@ Result<PageMessage> look_of(Members& members) {
   if (look.max_hz < 1 || look.max_hz > 60) {
     return fail(ErrorCode::kParse, "`max_hz`: expected 1 to 60");
   }
-  RAVE_TRY_ASSIGN(const PageJson* const readings, members.array("readings", kMostSensors));
-  for (const PageJson& pair : *readings) {
-    if (!pair.is_array() || pair.size() != 2) {
-      return fail(ErrorCode::kParse, "`readings`: expected pairs of slot and sensor");
-    }
-    LookedAt looked;
-    RAVE_TRY_ASSIGN(looked.slot, Members::index_of(pair[0], "readings"));
-    RAVE_TRY_ASSIGN(looked.sensor, Members::index_of(pair[1], "readings"));
-    look.readings.push_back(looked);
+  RAVE_TRY_ASSIGN(look.readings, sensors_of(members, "readings"));
+  if (members.has("courses")) {
+    RAVE_TRY_ASSIGN(look.courses, sensors_of(members, "courses"));
   }
-  // A sensor that is named twice would be sent twice, and sources expect each list sorted.
-  std::sort(look.readings.begin(), look.readings.end());
-  look.readings.erase(std::unique(look.readings.begin(), look.readings.end()), look.readings.end());
   if (members.has("variances")) {
     RAVE_TRY_ASSIGN(const PageJson* const slots, members.array("variances", kMostSensors));
     for (const PageJson& slot : *slots) {

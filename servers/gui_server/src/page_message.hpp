@@ -22,6 +22,8 @@ struct LookMessage {
   bool parts = false;
   double max_hz = 30;
   std::vector<LookedAt> readings;  ///< At most 256, without repetitions.
+  /// Those of a replay whose readings before the moment are shown, too; as `readings`.
+  std::vector<LookedAt> courses;
   /// Robots whose variances are shown; at most 256, sorted, without repetitions.
   std::vector<std::uint32_t> variances;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "frames.hpp"
 #include "page_text.hpp"
@@ -63,6 +64,7 @@ void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, boo
   told_variances_.clear();
   // The slots are others now; the page says again what it looks at.
   look_.readings.clear();
+  look_.courses.clear();
   look_.variances.clear();
   map_stream_.look({});
   probes_.clear();
@@ -106,16 +108,19 @@ void Session::received(std::string_view text) {
 
 void Session::forget_foreign_sensors() {
   if (!source_) return;
-  std::erase_if(look_.readings, [this](const LookedAt& looked) {
+  const auto is_foreign = [this](const LookedAt& looked) {
     // Probes are looked at with a message of their own, which checks the right to them.
     return looked.slot >= source_->robot_count() || probe::is_probe(looked.sensor);
-  });
+  };
+  std::erase_if(look_.readings, is_foreign);
+  std::erase_if(look_.courses, is_foreign);
 }
 
 void Session::take(const LookMessage& look) {
-  look_ = look;
+  const std::vector<LookedAt> before = std::exchange(look_, look).courses;
   pace_.set_rate(look.max_hz);
   forget_foreign_sensors();
+  courses_due_ = courses_due_ || !std::ranges::includes(before, look_.courses);
   told_.clear();
   changed_ = true;
 }
@@ -249,15 +254,19 @@ void Session::tick(Clock::time_point now, SharedFrames& frames) {
   send_frame(frames);
   picture_ = state.picture;
   changed_ = false;
-  if (past_due_) begin_past(state.now_s);
+  // A run in progress keeps poses, but no readings.
+  if (past_due_ || (courses_due_ && !source_->about().live)) begin_past(state.now_s);
   send_past();
 }
 
 void Session::begin_past(double now_s) {
-  past_due_ = false;
+  // What was on its way with poses begins anew with them: its readings are others now.
+  const bool poses = past_due_ || (past_ && past_->poses);
+  past_due_ = courses_due_ = false;
   // A cursor of its own: going back with that of the present would read the recording twice per
   // tick.
-  past_ = Past{source_->open_cursor(), std::max(0.0, now_s - kPast_s), now_s - kPastSpacing_s / 2};
+  past_ = Past{source_->open_cursor(), std::max(0.0, now_s - kPast_s), now_s - kPastSpacing_s / 2,
+               poses};
 }
 
 /// Pieces of the past go behind frames, whose acknowledgements tell how much the line takes. The
@@ -271,18 +280,40 @@ void Session::send_past() {
     const double t = past_->next_s;
     past_->next_s += kPastSpacing_s;
     if (!past_->cursor->go_to(t)) break;
-    const PosesAt& poses = past_->cursor->poses();
-    // A time before the first that is kept gives a later moment, which has a turn of its own.
-    if (poses.robots.empty() || poses.time_s > t + kPastSpacing_s) continue;
-    PoseFrameHead head;
-    head.sequence = ++sequence_;
-    head.roster_revision = 1;
-    head.past = true;
-    web::Payload frame = payload(encode_poses(poses, head));
-    sent += frame->size();
-    socket_.send_binary(std::move(frame));
+    if (past_->poses) sent += send_past_poses(t);
+    if (!source_->about().live) sent += send_past_readings();
   }
   past_.reset();
+}
+
+std::size_t Session::send_past_poses(double t_s) {
+  const PosesAt& poses = past_->cursor->poses();
+  // A time before the first that is kept gives a later moment, which has a turn of its own.
+  if (poses.robots.empty() || poses.time_s > t_s + kPastSpacing_s) return 0;
+  PoseFrameHead head;
+  head.sequence = ++sequence_;
+  head.roster_revision = 1;
+  head.past = true;
+  web::Payload frame = payload(encode_poses(poses, head));
+  const std::size_t bytes = frame->size();
+  socket_.send_binary(std::move(frame));
+  return bytes;
+}
+
+std::size_t Session::send_past_readings() {
+  if (look_.courses.empty()) return 0;
+  std::size_t bytes = 0;
+  for (const ReadingAt& reading : past_->cursor->readings(look_.courses, look_.parts)) {
+    double& told_s =
+        past_->told.try_emplace({LookedAt{reading.slot, reading.sensor}, reading.part}, -1)
+            .first->second;
+    if (told_s == reading.stamp_s) continue;
+    told_s = reading.stamp_s;
+    web::Payload frame = payload(encode_reading(reading, past_->cursor->poses().time_s, true));
+    bytes += frame->size();
+    socket_.send_binary(std::move(frame));
+  }
+  return bytes;
 }
 
 void Session::send_frame(SharedFrames& frames) {

@@ -61,6 +61,9 @@ struct Past {
   std::unique_ptr<Cursor> cursor;  ///< Its own, so that that of the page continues at the present.
   double next_s = 0;
   double until_s = 0;
+  bool poses = false;  ///< Not only readings.
+  /// Stamps of the readings that were sent last, by sensor and part.
+  std::map<std::pair<LookedAt, std::uint8_t>, double> told{};
 };
 
 /// One page that is connected: what it looks at, its place in time, what is on its way to it. The
@@ -124,6 +127,8 @@ class Session {
   void forget_foreign_sensors();
   void begin_past(double now_s);
   void send_past();
+  std::size_t send_past_poses(double t_s);
+  std::size_t send_past_readings();
   void send_frame(SharedFrames& frames);
   void send_poses(SharedFrames& frames, std::uint32_t sequence, bool truth);
   void send_readings();
@@ -163,6 +168,7 @@ class Session {
   std::uint64_t picture_ = 0;  ///< Of the last frame.
   bool changed_ = true;        ///< Something is to be shown that has not been sent.
   bool past_due_ = true;       ///< The page has no past to draw trails with.
+  bool courses_due_ = false;   ///< The page has no past readings of `look_.courses`.
   bool broken_ = false;        ///< The source could not show this moment.
   unsigned refusals_ = 0;
   std::shared_ptr<const bool> alive_ =

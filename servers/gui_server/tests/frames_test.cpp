@@ -61,11 +61,12 @@ Json poses_json(const PosesAt& poses, const PoseFrameHead& head) {
   return json;
 }
 
-Json reading_json(const ReadingAt& reading) {
-  Json json = {{"hex", hex_of(encode_reading(reading, 17.5))},
+Json reading_json(const ReadingAt& reading, bool past) {
+  Json json = {{"hex", hex_of(encode_reading(reading, 17.5, past))},
                {"slot", reading.slot},
                {"sensor", reading.sensor},
                {"part", reading.part},
+               {"past", past},
                {"stamp_s", reading.stamp_s},
                {"rows", reading.rows},
                {"fields", reading.fields},
@@ -103,8 +104,9 @@ TEST(Frames, AreThoseThatThePageIsTestedWith) {
     ++sequence;
     json["poses"].push_back(poses_json(poses, {sequence, 1, sequence == 2, false}));
   }
-  for (const ReadingAt& reading : sample_readings())
-    json["readings"].push_back(reading_json(reading));
+  for (const ReadingAt& reading : sample_readings()) {
+    json["readings"].push_back(reading_json(reading, reading.part == 2));
+  }
   const std::vector<VarianceAt> variances = {{0, 0.25F, 0.0625F}, {70000, 4, 0}};
   json["variances"] = {
       {{"hex", hex_of(encode_variances(variances, 17.5, 1))},

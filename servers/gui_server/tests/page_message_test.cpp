@@ -270,13 +270,17 @@ INSTANTIATE_TEST_SUITE_P(
             "pairs"},
         Refused{
             R"({"type":"look","poses":true,"true_poses":false,"parts":true,"max_hz":9,"readings":[],"variances":[-1]})",
-            "`variances`: expected a whole number"}));
+            "`variances`: expected a whole number"},
+        Refused{
+            R"({"type":"look","poses":true,"true_poses":false,"parts":true,"max_hz":9,"readings":[],"courses":[7]})",
+            "`courses`: expected pairs of slot and sensor"}));
 
 TEST(PageMessage, VariancesAreLookedAtByRobotWhateverReadingsAre) {
   const auto message = parse_page_message(
-      R"({"type":"look","poses":true,"true_poses":false,"parts":false,"max_hz":25,"readings":[],"variances":[7,2,7]})");
+      R"({"type":"look","poses":true,"true_poses":false,"parts":false,"max_hz":25,"readings":[],"courses":[[1,2],[1,2]],"variances":[7,2,7]})");
   ASSERT_TRUE(message) << message.error().text();
   EXPECT_EQ(std::get<LookMessage>(*message).variances, (std::vector<std::uint32_t>{2, 7}));
+  EXPECT_EQ(std::get<LookMessage>(*message).courses, (std::vector<LookedAt>{{1, 2}}));
 }
 
 TEST(PageMessage, MapsAreLookedAtBySlotOrName) {

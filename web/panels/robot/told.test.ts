@@ -7,7 +7,7 @@ import {toldLines, toldOf} from './told';
 
 function at(time_s: number, ...told: [number, number[]][]): RunModel {
   const model = new RunModel();
-  for (const [stamp_s, values] of told) model.readings.add({slot: 0, sensor: kCommandsOf, part: 0, stamp_s, time_s: stamp_s, rows: 1, fields: 4, values: Float32Array.from(values)});
+  for (const [stamp_s, values] of told) model.readings.add({slot: 0, sensor: kCommandsOf, part: 0, past: false, stamp_s, time_s: stamp_s, rows: 1, fields: 4, values: Float32Array.from(values)});
   model.poses.newest = {time_s, speed: Float32Array.of(0.1), flags: Uint16Array.of(1)} as unknown as PoseFrame;
   return model;
 }

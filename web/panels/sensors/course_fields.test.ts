@@ -9,7 +9,7 @@ const sensor = (more: Partial<Sensor>): Sensor => ({name: 's', kind: 'values', o
 /** What each field of a sensor has been in readings of these rows. */
 function courses(of: Sensor, beam: number, ...readings: number[][][]): Record<string, number[]> {
   const model = new Readings();
-  readings.forEach((rows, i) => model.add({slot: 0, sensor: 0, part: 0, stamp_s: i, time_s: i, rows: rows.length, fields: of.fields.length, values: Float32Array.from(rows.flat())}));
+  readings.forEach((rows, i) => model.add({slot: 0, sensor: 0, part: 0, past: false, stamp_s: i, time_s: i, rows: rows.length, fields: of.fields.length, values: Float32Array.from(rows.flat())}));
   return Object.fromEntries(courseFieldsOf(of, beam).map((field) => [`${field.label} ${field.unit}`.trim(), model.course(0, 0).map((point) => Math.round(100 * field.of(point)) / 100)]));
 }
 

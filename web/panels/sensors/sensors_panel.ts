@@ -2,6 +2,7 @@
 import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import {controls, glyphs} from '../../app/styles';
+import type {Interest} from '../../model/link';
 import type {Signal} from '../../model/signal';
 import {askText, holdersText, kUsualRights} from '../../model/withheld';
 import type {Reading} from '../../protocol/frames';
@@ -43,6 +44,7 @@ export class SensorsPanel extends LookingPanel {
   }
 
   protected lookAway(): void {
+    this.context.link.courses = [];
     this.context.link.look(this, []);
     this.course.dispose();
   }
@@ -77,8 +79,9 @@ export class SensorsPanel extends LookingPanel {
     const twin = twinOf(robot, index);
     // Halves are asked for where they are shown: they triple the readings.
     link.parts = robot.sensors[index].origin === 'hybrid';
-    link.look(this, twin === null ? [[slot, index]] : [[slot, index], [slot, twin]]);
-    link.queueLook();
+    const looked: Interest = twin === null ? [[slot, index]] : [[slot, index], [slot, twin]];
+    link.courses = model.live ? [] : looked;
+    link.look(this, looked);
   }
 
   override render(): TemplateResult {

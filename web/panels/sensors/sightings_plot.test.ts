@@ -7,7 +7,7 @@ import {drawSightingsPlot, pairsOf, sightingsOf} from './sightings_plot';
 import {twinOf} from './twin';
 
 function reading(...rows: [number, number, number][]): Reading {
-  return {slot: 0, sensor: 0, part: 0, stamp_s: 0, time_s: 0, rows: rows.length, fields: 3, values: Float32Array.from(rows.flat())};
+  return {slot: 0, sensor: 0, part: 0, past: false, stamp_s: 0, time_s: 0, rows: rows.length, fields: 3, values: Float32Array.from(rows.flat())};
 }
 
 it('pairs what was seen with what was expected by its code', () => {

@@ -21,7 +21,7 @@ std::span<const ParamValue> present_values(const Slots& slots, std::size_t m) {
 
 Status updated(UpdateFunction update, void* instance, std::span<const ParamValue> values) {
   if (update == nullptr) {
-    return fail(ErrorCode::kInvalidArgument, "it takes no new parameters while it runs");
+    return fail(ErrorCode::kInvalidArgument, kTakesNoParameters);
   }
   ErrorText error;
   if (update(instance, values.data(), values.size(), &error) == 0) return {};

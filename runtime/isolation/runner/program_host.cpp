@@ -125,7 +125,7 @@ bool ProgramHost::update(std::string_view bytes) {
   const ProgramSetup& setup = setup_->setup();
   const ProgramOps& ops = file_->ops();
   ErrorText error;
-  error.set("it takes no new parameters while it runs");
+  error.set(kTakesNoParameters);
   const bool taken = ops.update != nullptr &&
                      ops.update(instance_.get(), setup.params, setup.param_count, &error) == 0;
   // The program keeps its old parameters, so this copy must hold them, too.

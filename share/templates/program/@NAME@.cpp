@@ -8,8 +8,13 @@
 rave::Status @CLASS@::start(const rave::Setup& setup) {
   RAVE_TRY_ASSIGN(ranges_, setup.sensor<float>());
   RAVE_TRY_ASSIGN(drive_, setup.controller(rave::CommandKind::kVelocity));
-  speed_mps_ = setup.params().number("speed_mps");
-  stop_m_ = setup.params().number("stop_m");
+  return parameters_changed(setup.params());
+}
+
+// Called again when somebody sets a parameter during a run. An error refuses the new values.
+rave::Status @CLASS@::parameters_changed(const rave::Params& params) {
+  speed_mps_ = params.number("speed_mps");
+  stop_m_ = params.number("stop_m");
   return {};
 }
 

@@ -9,6 +9,7 @@ class @CLASS@ : public rave::DecisionProcess {
  public:
   rave::Status start(const rave::Setup& setup) override;
   void decide(const rave::Percepts& percepts, rave::Commands& commands) override;
+  rave::Status parameters_changed(const rave::Params& params) override;
 
  private:
   rave::RangesHandle ranges_;

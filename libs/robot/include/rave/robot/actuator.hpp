@@ -33,7 +33,7 @@ class VirtualActuator {
   /// New parameter values while the robot runs, called between two steps with all parameters. An
   /// error refuses the change; the old values remain.
   virtual Status parameters_changed(const Params& /*params*/) {
-    return fail(ErrorCode::kInvalidArgument, "it takes no new parameters while it runs");
+    return fail(ErrorCode::kInvalidArgument, kTakesNoParameters);
   }
 };
 

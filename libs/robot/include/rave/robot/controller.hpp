@@ -46,7 +46,7 @@ class Controller {
   /// New parameter values while the robot runs, called between two steps with all parameters. An
   /// error refuses the change; the old values remain.
   virtual Status parameters_changed(const Params& /*params*/) {
-    return fail(ErrorCode::kInvalidArgument, "it takes no new parameters while it runs");
+    return fail(ErrorCode::kInvalidArgument, kTakesNoParameters);
   }
 };
 

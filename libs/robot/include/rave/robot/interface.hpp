@@ -75,6 +75,10 @@ struct InstanceOps {
   void (*destroy)(void* instance) = nullptr;
 };
 
+/// The answer to a change of parameters by a class without parameters_changed().
+inline constexpr char kTakesNoParameters[] =
+    "it takes no new parameters during a run: its class does not override parameters_changed()";
+
 namespace detail {
 
 /// Runs `body`, which returns a Status. A failure or an exception is written to `error`. Returns 0

@@ -25,7 +25,7 @@ class DecisionProcess {
   /// New parameter values while the robot runs, called between two decisions with all parameters.
   /// An error refuses the change; the old values remain.
   virtual Status parameters_changed(const Params& /*params*/) {
-    return fail(ErrorCode::kInvalidArgument, "it takes no new parameters while it runs");
+    return fail(ErrorCode::kInvalidArgument, kTakesNoParameters);
   }
 };
 

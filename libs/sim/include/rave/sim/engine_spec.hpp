@@ -42,7 +42,7 @@ class ProgramProcess {
   /// New values of all parameters and a new radius of the body, between two decisions. An error
   /// refuses the change; the old values remain.
   virtual Status update(std::span<const ParamValue> /*params*/, double /*radius_m*/) {
-    return fail(ErrorCode::kInvalidArgument, "it takes no new parameters while it runs");
+    return fail(ErrorCode::kInvalidArgument, kTakesNoParameters);
   }
 };
 using ProgramProcessFactory =

@@ -95,7 +95,8 @@ class Radio {
   Status open_line(RadioLine& line);
   [[nodiscard]] std::uint32_t team_of(std::uint32_t robot);
   [[nodiscard]] Error named(std::uint32_t robot, std::string_view kind, std::string_view name,
-                            std::string_view driver, Error error) const;
+                            std::string_view driver, const SourceLocation& where,
+                            Error error) const;
 
   // radio.cpp
   void hand_over(const RadioMoment& moment, Endpoint& to, MessageHead head, std::uint32_t packet);

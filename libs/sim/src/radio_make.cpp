@@ -28,7 +28,8 @@ Status check(const RadioDeclaration& radio) {
 }  // namespace
 
 Error Radio::named(std::uint32_t robot, std::string_view kind, std::string_view name,
-                   std::string_view driver, Error error) const {
+                   std::string_view driver, const SourceLocation& where, Error error) const {
+  if (error.where.file.empty()) error.where = where;
   return std::move(error).with_context(fmt::format("robot `{}`, {} `{}` (driver `{}`)",
                                                    spec_.robots[robot].name, kind, name, driver));
 }
@@ -67,8 +68,8 @@ Status Radio::make_models() {
       });
       if (status) status = check(model.declaration);
       if (!status) {
-        return tl::unexpected(
-            named(r, "communicator", communicator.name, communicator.driver, status.error()));
+        return tl::unexpected(named(r, "communicator", communicator.name, communicator.driver,
+                                    communicator.where, status.error()));
       }
       const RadioDeclaration& radio = model.declaration;
       longest_message_ = std::max(longest_message_, radio.max_message_bytes);
@@ -244,8 +245,8 @@ Status Radio::open() {
     if (!configured_) status = configure_line(line);
     if (status && line.declaration.in_process == 0) status = open_line(line);
     if (!status) {
-      return tl::unexpected(
-          named(line.robot, "transmitter", line.spec->name, line.spec->driver, status.error()));
+      return tl::unexpected(named(line.robot, "transmitter", line.spec->name, line.spec->driver,
+                                  line.spec->where, status.error()));
     }
   }
   if (!configured_) name_channels();

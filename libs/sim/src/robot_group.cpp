@@ -32,7 +32,9 @@ CrashNote crash_note_of(const GroupContext& context, RobotId id, const char* par
 }
 
 Error named_error(const GroupContext& context, RobotId id, std::string_view kind,
-                  std::string_view name, std::string_view driver, Error error) {
+                  std::string_view name, std::string_view driver, const SourceLocation& where,
+                  Error error) {
+  if (error.where.file.empty()) error.where = where;
   return std::move(error).with_context(fmt::format("robot `{}`, {} `{}` (driver `{}`)",
                                                    context.spec.robots[id.value()].name, kind, name,
                                                    driver));
@@ -96,7 +98,7 @@ Status make_devices(const GroupContext& context, RobotGroup& group) {
       const Status status = configure_device(context, group, slots, m);
       if (!status) {
         return tl::unexpected(named_error(context, group.members[m], "device", slots.spec->name,
-                                          slots.spec->driver, status.error()));
+                                          slots.spec->driver, slots.spec->where, status.error()));
       }
     }
   }
@@ -116,7 +118,7 @@ Status open_devices(const GroupContext& context, RobotGroup& group) {
           [&](ErrorText* error) { return slots.spec->ops->open(slots.instances.at(m), error); });
       if (!status) {
         return tl::unexpected(named_error(context, group.members[m], "device", slots.spec->name,
-                                          slots.spec->driver, status.error()));
+                                          slots.spec->driver, slots.spec->where, status.error()));
       }
     }
   }
@@ -153,7 +155,7 @@ Status start_controllers(const GroupContext& context, RobotGroup& group) {
       });
       if (!status) {
         return tl::unexpected(named_error(context, group.members[m], "controller", slots.spec->name,
-                                          slots.spec->driver, status.error()));
+                                          slots.spec->driver, slots.spec->where, status.error()));
       }
     }
   }
@@ -197,7 +199,7 @@ Status start_actuators(const GroupContext& context, RobotGroup& group) {
       const Status status = start_actuator(context, group, slots, m);
       if (!status) {
         return tl::unexpected(named_error(context, group.members[m], "actuator", slots.spec->name,
-                                          slots.spec->driver, status.error()));
+                                          slots.spec->driver, slots.spec->where, status.error()));
       }
     }
   }
@@ -278,7 +280,7 @@ Status start_programs(const GroupContext& context, RobotGroup& group) {
     }
     if (!status) {
       return tl::unexpected(named_error(context, group.members[m], "program", slots.spec->driver,
-                                        slots.spec->driver, status.error()));
+                                        slots.spec->driver, slots.spec->where, status.error()));
     }
   }
   return {};
@@ -304,7 +306,7 @@ Status make_body(GroupContext context, RobotGroup& group) {
     const Status status = make_sensor(context, group, slots);
     if (!status) {
       return tl::unexpected(named_error(context, group.members.front(), "sensor", slots.spec->name,
-                                        slots.spec->driver, status.error()));
+                                        slots.spec->driver, slots.spec->where, status.error()));
     }
   }
   group.actuators.resize(group.type->actuators.size());

@@ -15,9 +15,10 @@ namespace rave::sim {
 /// What a crash says of the driver or program of one robot; see CrashScope.
 [[nodiscard]] CrashNote crash_note_of(const GroupContext& context, RobotId id, const char* part,
                                       const std::string& driver);
-/// An error with robot, part and driver.
+/// An error with robot, part and driver, and with the place of the driver in the robot file.
 [[nodiscard]] Error named_error(const GroupContext& context, RobotId id, std::string_view kind,
-                                std::string_view name, std::string_view driver, Error error);
+                                std::string_view name, std::string_view driver,
+                                const SourceLocation& where, Error error);
 /// The object of the device that a sensor or actuator names; null if it names none.
 [[nodiscard]] HardwareDevice* device_of(const RobotGroup& group, std::optional<std::uint32_t> index,
                                         std::size_t member);

@@ -190,7 +190,8 @@ Status open_sensors(GroupContext context, RobotGroup& group) {
       });
       if (!status) {
         return tl::unexpected(named_error(context, group.members[m], "sensor", slots.spec->name,
-                                          slots.spec->hardware_driver(), status.error()));
+                                          slots.spec->hardware_driver(), slots.spec->where,
+                                          status.error()));
       }
       // After success only: a sensor that could not be opened is not closed, unlike a device.
       slots.open[m] = 1;

@@ -37,6 +37,7 @@ template <class File, class Spec>
                   find_driver(context, std::span(&kind, 1), file.driver));
   spec.name = file.name.value;
   spec.driver = driver->info.name;
+  spec.where = file.driver.where;
   spec.ops = static_cast<decltype(spec.ops)>(driver->ops);
   return driver;
 }

@@ -120,6 +120,7 @@ Status set_plain(const DeviceContext& context, const config::RobotGroup& group,
                                  DriverKind::kHybridSensor};
   RAVE_TRY_ASSIGN(const Driver* const driver, find_driver(context, kKinds, file.driver));
   sensor.driver = driver->info.name;
+  sensor.where = file.driver.where;
   if (driver->info.kind == DriverKind::kHybridSensor) {
     return fail_at(file.driver.where, ErrorCode::kInvalidArgument,
                    "the driver `{}` of sensor `{}` fuses two halves: expected `real:` and "
@@ -180,6 +181,7 @@ Status add_actuators(const DeviceContext& context, const config::RobotGroup& gro
     sim::ActuatorSpec actuator;
     actuator.name = file.name.value;
     actuator.driver = driver->info.name;
+    actuator.where = file.driver.where;
     if (driver->info.kind == DriverKind::kVirtualActuator) {
       if (simulated != nullptr) {
         return fail_at(file.name.where, ErrorCode::kInvalidArgument,

@@ -46,6 +46,7 @@ Status set_hybrid(const DeviceContext& context, const config::RobotGroup& group,
   RAVE_TRY_ASSIGN(const Driver* const imagined,
                   find_half(context, file, *file.imagined, DriverKind::kVirtualSensor, *fusing));
   sensor.driver = fusing->info.name;
+  sensor.where = file.driver.where;
   sensor.kind = kind_of(*fusing);
   // A hybrid has the timing and the device of its real half: the hardware says when there is a
   // sample, and the virtual half is asked for the same stamp.

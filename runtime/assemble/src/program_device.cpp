@@ -47,6 +47,7 @@ Status add_program(const DeviceContext& context, const config::RobotGroup& group
   RAVE_TRY_ASSIGN(const plugin::Driver* const driver, find_driver(context, kKinds, file.driver));
   sim::ProgramSpec program;
   program.driver = driver->info.name;
+  program.where = file.driver.where;
   program.ops = static_cast<const ProgramOps*>(driver->ops);
   RAVE_TRY_ASSIGN(program.params, read_params(*driver, file.params));
   program.param_specs = driver->info.param_specs();

@@ -54,6 +54,7 @@ struct DeviceSpec {
   std::string driver;
   const HardwareDeviceOps* ops = nullptr;
   plugin::ParamSet params;
+  SourceLocation where{};  ///< Of its driver in the robot file, for errors.
 };
 
 /// The additional parts of a hybrid sensor: the virtual half, and the driver that fuses both
@@ -91,6 +92,7 @@ struct SensorSpec {
   std::optional<double> max_age_s;
   ProcessingSpec processing;
   std::optional<HybridSpec> hybrid;
+  SourceLocation where{};  ///< Of its driver in the robot file, for errors.
 
   /// Name of the driver of `hardware_ops`.
   [[nodiscard]] const std::string& hardware_driver() const noexcept {
@@ -111,6 +113,7 @@ struct ControllerSpec {
   std::uint32_t actuator = 0;  ///< Index into RobotType::actuators.
   /// The parameters that may change during a run; valid as long as `ops`.
   std::span<const ParamSpec> param_specs;
+  SourceLocation where{};  ///< Of its driver in the robot file, for errors.
 };
 
 /// One actuator. Exactly one of the two ops is set.
@@ -123,6 +126,7 @@ struct ActuatorSpec {
   plugin::ParamSet params;
   /// The parameters that may change during a run; valid as long as `ops`.
   std::span<const ParamSpec> param_specs;
+  SourceLocation where{};  ///< Of its driver in the robot file, for errors.
 };
 
 struct ProgramSpec {
@@ -135,6 +139,7 @@ struct ProgramSpec {
   ProgramProcessFactory isolate;
   /// The parameters that may change during a run; valid as long as `ops`.
   std::span<const ParamSpec> param_specs;
+  SourceLocation where{};  ///< Of its driver in the robot file, for errors.
 
   /// The orders that the program accepts.
   [[nodiscard]] OrderSet takes() const { return ops == nullptr ? 0 : ops->takes; }

@@ -19,6 +19,7 @@ struct TransmitterSpec {
   std::string driver;
   const TransmitterOps* ops = nullptr;
   plugin::ParamSet params;
+  SourceLocation where{};  ///< Of its driver in the robot file, for errors.
 };
 
 /// A communicator of a robot type: the channel through which its program sends and receives.
@@ -28,6 +29,7 @@ struct CommunicatorSpec {
   const CommunicatorOps* ops = nullptr;
   plugin::ParamSet params;
   std::uint32_t transmitter = 0;  ///< Index into RobotType::transmitters.
+  SourceLocation where{};         ///< Of its driver in the robot file, for errors.
 };
 
 /// Counts of all messages of a run. For messages between robots of this host

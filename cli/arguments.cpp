@@ -2,6 +2,7 @@
 #include "arguments.hpp"
 
 #include <initializer_list>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "control_arguments.hpp"
 #include "error_text.hpp"
 #include "file_arguments.hpp"
+#include "help.hpp"
 #include "keys_arguments.hpp"
 #include "people_arguments.hpp"
 #include "record_arguments.hpp"
@@ -147,6 +149,7 @@ Command parse_arguments(int argc, const char* const* argv) {
   Everything all;
   bool version = false;
   CLI::App root("Real and simulated mobile robots in one world", "rave");
+  root.formatter(std::make_shared<Help>());
   root.require_subcommand(0, 1);
   root.add_flag("--version", version, "Print the version and exit");
   add_run_commands(root, all.runs);

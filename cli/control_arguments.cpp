@@ -56,7 +56,8 @@ void add_arm(CLI::App& root, ArmCommand& c) {
 void add_set(CLI::App& root, SetCommand& c) {
   CLI::App& app = *root.add_subcommand("set", "Change a parameter of a robot during a run");
   // One list of words: CLI11 has no optional positional before required ones.
-  add_word(app, "words", c.words, "[RUN] ROBOT KEY VALUE", "WORD")->expected(3, 4);
+  add_word(app, "words", c.words, "Robot, parameter and its new value", "[RUN] ROBOT KEY VALUE")
+      ->expected(3, 4);
   add_network_options(app, c.bus);
   app.footer(
       "KEY is program.PARAM, controller.NAME.PARAM, actuator.NAME.PARAM or body.scale.\n\n"

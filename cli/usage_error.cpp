@@ -47,6 +47,8 @@ std::string_view place_of(std::string_view word) {
 std::string unknown_option(const CLI::App& app, const std::string& extra) {
   const std::string word = extra.substr(0, extra.find('='));
   if (!word.starts_with("-")) return fmt::format("unexpected argument `{}`", word);
+  if (word == "--no-gui")
+    return "`--no-gui` belongs to `./run`; `rave run` has no page without --gui";
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
     // Without a group: an option that help hides.
@@ -72,6 +74,17 @@ std::string missing_argument(const CLI::App& app) {
   if (views.empty()) return {};
   return fmt::format("missing subcommand of `rave {}`: there are {}", app.get_name(),
                      join_names(views));
+}
+
+/// What an argument of several words expects; empty if there is none.
+std::string several_words(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (!option->get_positional() || option->get_expected_min() < 2) continue;
+    return fmt::format("found {} word{}, expected {}: {}", option->count(),
+                       option->count() == 1 ? "" : "s", option->get_type_name(),
+                       option->get_description());
+  }
+  return {};
 }
 
 /// Messages of CLI11 about a value, in the words of this program.
@@ -130,6 +143,9 @@ Finished usage_error(const CLI::App& root, const CLI::ParseError& e) {
                           suggestion(extras.front(), subcommands));
   } else if (dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr && !extras.empty()) {
     message = unknown_option(app, extras.front());
+  } else if (dynamic_cast<const CLI::ArgumentMismatch*>(&e) != nullptr) {
+    const std::string several = several_words(app);
+    if (!several.empty()) message = several;
   } else if (dynamic_cast<const CLI::RequiredError*>(&e) != nullptr) {
     const std::string missing = missing_argument(app);
     if (!missing.empty()) message = missing;

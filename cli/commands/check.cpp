@@ -110,7 +110,7 @@ class Checker {
   /// devices, so only runs without any are tried.
   [[nodiscard]] Status try_start(const InputFile& input, const runtime::BuildOptions& how) {
     RAVE_TRY_ASSIGN(auto built, runtime::build(input.scenario, catalogue_, how));
-    if (input.kind != FileKind::kScenario || !built.live_reason.empty()) return {};
+    if (input.kind == FileKind::kWorld || !built.live_reason.empty()) return {};
     RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
     return {};
   }
@@ -133,6 +133,9 @@ class Checker {
       if (errors.empty()) errors.push_back(first);
       for (const Error& error : errors) complain_about(error);
       return verdict(file, to_string(*kind));
+    }
+    if (auto found = config::find_components(input->scenario.scenario.gui); !found) {
+      return bad(file, to_string(*kind), found.error());
     }
     if (auto started = try_start(*input, build_options); !started) {
       return bad(file, to_string(*kind), started.error());

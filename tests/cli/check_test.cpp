@@ -83,6 +83,34 @@ TEST(Check, ARobotThatSensesNothingAroundItIsNoted) {
       << ended.out;
 }
 
+TEST(Check, AComponentOfThePageThatIsNoFileHasItsPlace) {
+  const TemporaryFolder folder;
+  const std::string scenario = folder.path() / "scenario.yaml";
+  std::ofstream(scenario) << "name: a\nrobots:\n  - name: r\n    pose: {}\n    robot:\n"
+                             "      body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}\n"
+                             "gui:\n  components: [{module: gone.mjs, roles: [observer]}]\n";
+  const Ended ended = run_rave({"check", scenario});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_NE(ended.err.find("scenario.yaml:8:25: `module`: the component `"), std::string::npos)
+      << ended.err;
+  EXPECT_NE(ended.err.find("gone.mjs` of the page is not a file"), std::string::npos) << ended.err;
+}
+
+TEST(Check, ARobotAloneIsStartedAndWhatIsRefusedHasItsPlace) {
+  const TemporaryFolder folder;
+  const std::string robot = folder.path() / "robot.yaml";
+  std::ofstream(robot) << "body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}\n"
+                          "sensors: [{name: odometry, driver: virtual_odometry}]\n"
+                          "actuators: [{name: wheels, driver: differential_drive}]\n"
+                          "controllers: [{name: drive, driver: velocity, actuator: wheels}]\n"
+                          "program: {driver: flock, period_s: 0.1}\n";
+  const Ended ended = run_rave({"check", robot});
+  EXPECT_EQ(ended.exit_code, 2) << ended.out;
+  EXPECT_NE(ended.err.find("robot.yaml:5:19: robot `"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("`, program `flock` (driver `flock`): robot `"), std::string::npos)
+      << ended.err;
+}
+
 TEST(Check, NamesOfDriversWithTheWordAreNamed) {
   const TemporaryFolder folder;
   const std::string robot = folder.path() / "robot.yaml";
@@ -99,9 +127,8 @@ TEST(Check, AllUnknownDriversAndParametersAtOnce) {
   const std::string own =
       "; the folder of your own plug-ins is given with --plugins or RAVE_PLUGIN_PATH\n";
   EXPECT_EQ(text.substr(0, text.find(own)),
-            "unknown_driver.yaml:4:26: there is no sensor or virtual sensor or hybrid sensor "
-            "`virtul_laser`; did you "
-            "mean `virtual_laser`?");
+            "unknown_driver.yaml:4:26: there is no sensor driver `virtul_laser`; did you mean "
+            "`virtual_laser`?");
   EXPECT_NE(
       text.find(own +
                 "    4 |   - {name: eyes, driver: virtul_laser}\n"

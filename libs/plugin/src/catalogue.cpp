@@ -29,14 +29,14 @@ bool wanted(std::span<const DriverKind> kinds, DriverKind kind) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
-/// `sensor or virtual sensor`; `driver` if any kind is permitted.
+/// Of more names the message would fill the terminal, and its advice would be lost.
+constexpr std::size_t kMostNames = 10;
+
+/// `program`; `sensor driver` for real, virtual and hybrid sensors, which begin with the plain
+/// kind; `driver` if any kind is permitted.
 std::string kinds_text(std::span<const DriverKind> kinds) {
-  std::string text;
-  for (const DriverKind kind : kinds) {
-    if (!text.empty()) text += " or ";
-    text += to_string(kind);
-  }
-  return text.empty() ? "driver" : text;
+  if (kinds.empty()) return "driver";
+  return std::string(to_string(kinds.front())) + (kinds.size() > 1 ? " driver" : "");
 }
 
 Result<std::vector<fs::path>> plugin_files_of(const fs::path& folder) {
@@ -102,6 +102,8 @@ struct Catalogue::Impl {
   std::map<fs::path, std::unique_ptr<PluginFile>> files;  ///< By canonical path.
   std::vector<PluginFile*> load_order;
   std::vector<Group> groups{1};  ///< First the files of load(), then one group per folder.
+  std::vector<fs::path>
+      empty_folders;  ///< Without plug-ins, such as a project instead of its build.
   std::vector<RejectedPlugin> rejected;
 };
 
@@ -196,10 +198,18 @@ Error Catalogue::Impl::unknown(std::span<const DriverKind> kinds, std::string_vi
     std::ranges::copy_if(names, std::back_inserter(alike), [&](std::string_view each) {
       return !name.empty() && each.find(name) != std::string_view::npos;
     });
-    message += alike.empty() ? fmt::format("; there are {}", join_names(names))
-                             : fmt::format("; names with it: {}", join_names(alike));
+    if (!alike.empty()) {
+      message += fmt::format("; names with it: {}", join_names(alike));
+    } else if (names.size() > kMostNames) {
+      message += fmt::format("; `rave drivers` lists the {} that there are", names.size());
+    } else {
+      message += fmt::format("; there are {}", join_names(names));
+    }
   }
   message += "; the folder of your own plug-ins is given with --plugins or RAVE_PLUGIN_PATH";
+  for (const fs::path& folder : empty_folders) {
+    message += fmt::format("; there is no plug-in in `{}`", folder.string());
+  }
   for (const RejectedPlugin& plugin : rejected) message += "; " + plugin.error.message;
   return Error{ErrorCode::kNotFound, std::move(message), {}};
 }
@@ -217,6 +227,7 @@ Catalogue::~Catalogue() = default;
 
 Status Catalogue::add_folder(const std::filesystem::path& folder) {
   RAVE_TRY_ASSIGN(const std::vector<fs::path> paths, plugin_files_of(folder));
+  if (paths.empty()) impl_->empty_folders.push_back(folder);
   Group group;
   for (const fs::path& path : paths) {
     const auto [file, is_new] = impl_->note(path);

@@ -25,15 +25,21 @@ TEST_F(CatalogueTest, AnUnknownNameGetsTheNearestAndAllOfItsKind) {
             "plug-ins is given "
             "with --plugins or RAVE_PLUGIN_PATH");
   EXPECT_EQ(message(catalogue_.find(kSensors, "zzzzzzzzz")),
-            "there is no sensor or virtual sensor `zzzzzzzzz`; there are ear; "
+            "there is no sensor driver `zzzzzzzzz`; there are ear; "
             "the folder of your own plug-ins is given with --plugins or RAVE_PLUGIN_PATH");
 }
 
 TEST_F(CatalogueTest, ANameOfAnotherKindIsSaidToBeOne) {
   ASSERT_TRUE(catalogue_.add_folder(built("good")));
   const std::string text = message(catalogue_.find(kSensors, "sleeper"));
-  expect_says(text, "there is no sensor or virtual sensor `sleeper`");
+  expect_says(text, "there is no sensor driver `sleeper`");
   expect_says(text, "good/pair.so` is a program");
+}
+
+TEST_F(CatalogueTest, AFolderWithoutPluginsIsNamedIfADriverIsMissing) {
+  ASSERT_TRUE(catalogue_.add_folder(own_));
+  expect_says(message(catalogue_.find(kProgram, "zzzzzzzzz")),
+              "there is no plug-in in `" + own_.string() + "`");
 }
 
 TEST_F(CatalogueTest, AnUnknownNameListsTheRejectedFilesWithReasons) {

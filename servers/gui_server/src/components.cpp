@@ -42,13 +42,10 @@ bool is_there(const PageComponent& component) {
 }  // namespace
 
 Result<std::vector<PageComponent>> components_of(const config::GuiFile& gui) {
+  RAVE_TRY(config::find_components(gui));
   std::vector<PageComponent> components;
   for (const config::GuiComponentFile& file : gui.components) {
     components.push_back(component_of(file));
-    if (!is_there(components.back())) {
-      return fail(ErrorCode::kNotFound, "the component `{}` of the page is not a file",
-                  components.back().file.string());
-    }
   }
   return components;
 }

@@ -76,4 +76,8 @@ struct GuiFile {
 /// file:line:column for errors in its content.
 [[nodiscard]] Result<GuiFile> read_gui_text(std::string_view text, std::string_view file_name);
 
+/// Whether the modules of an expanded scenario are files. A run without a page does not need them.
+/// Error: kNotFound at the entry of the first that is missing.
+[[nodiscard]] Status find_components(const GuiFile& gui);
+
 }  // namespace rave::config

@@ -118,7 +118,8 @@ class Search {
       const auto uses = [&](const auto& item) { return item.device && item.device->value == name; };
       // With a device goes what is part of it.
       for (std::size_t i = robot.sensors.size(); i-- > 0;) {
-        if (uses(robot.sensors[i])) erase(robot, 0, i);
+        const config::SensorFile& sensor = robot.sensors[i];
+        if (uses(sensor) || (sensor.real && uses(*sensor.real))) erase(robot, 0, i);
       }
       for (std::size_t i = robot.actuators.size(); i-- > 0;) {
         if (uses(robot.actuators[i])) erase(robot, 1, i);

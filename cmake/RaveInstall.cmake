@@ -121,6 +121,9 @@ add_custom_command(OUTPUT "${CMAKE_BINARY_DIR}/pages.stamp"
   COMMENT "Pages of the documentation" VERBATIM)
 add_custom_target(rave_pages ALL DEPENDS "${CMAKE_BINARY_DIR}/pages.stamp")
 install(DIRECTORY "${RAVE_DOC_DIR}" DESTINATION share/doc COMPONENT doc)
+# Beside their pages, to be copied.
+install(DIRECTORY "${CMAKE_SOURCE_DIR}/examples" DESTINATION share/doc/rave COMPONENT doc
+  PATTERN "*.md" EXCLUDE)
 
 # All that ./run needs, and nothing that only tests need.
 add_custom_target(rave_runtime)

@@ -111,6 +111,22 @@ TEST(Check, ARobotAloneIsStartedAndWhatIsRefusedHasItsPlace) {
       << ended.err;
 }
 
+TEST(Check, WhatUsesABadDeviceIsNotComplainedOfAsWell) {
+  const TemporaryFolder folder;
+  const std::string robot = folder.path() / "robot.yaml";
+  std::ofstream(robot) << "body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}\n"
+                          "devices: [{name: base, driver: ros2, params: {multicast: on}}]\n"
+                          "sensors:\n  - {name: odometry, driver: ros2_odometry, device: base}\n"
+                          "  - name: laser\n    driver: hybrid_ranges\n"
+                          "    real: {driver: ros2_laser, device: base}\n"
+                          "    virtual: {driver: virtual_laser}\n"
+                          "pose_from: odometry\n";
+  const Ended ended = run_rave({"check", robot});
+  EXPECT_NE(ended.err.find("robot.yaml:2:"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("`multicast`: found"), std::string::npos) << ended.err;
+  EXPECT_EQ(ended.err.find("there is no device"), std::string::npos) << ended.err;
+}
+
 TEST(Check, NamesOfDriversWithTheWordAreNamed) {
   const TemporaryFolder folder;
   const std::string robot = folder.path() / "robot.yaml";

@@ -2,6 +2,7 @@
 import {css, html, nothing, type TemplateResult} from 'lit';
 import type {Person} from '../protocol/messages';
 import './bell';
+import './run_clock';
 import {LiveElement} from './live_element';
 import './way_chip';
 import {kLayouts, type LayoutName} from './dock';
@@ -66,7 +67,7 @@ export class TopBar extends LiveElement {
       <rave-way .context=${this.context}></rave-way>
       ${this.renderRate()}
       ${this.renderPeople()}
-      ${model.live ? html`<span class="pen">${([['chat', 'Chat', 'message'], ['robots', 'Robots', 'list'], ['world', 'World View', 'compass']] as const).map(([id, label, glyph]) => html`
+      ${model.live ? html`<span class="pen"><rave-clock .context=${this.context}></rave-clock>${([['chat', 'Chat', 'message'], ['robots', 'Robots', 'list'], ['world', 'World View', 'compass']] as const).map(([id, label, glyph]) => html`
         <button class="icon-button" aria-label=${label} title=${label} @click=${() => this.context.show(id)}>${icon(glyph, 20)}</button>`)}</span>` : nothing}
       ${model.hello?.foxglove ? html`<button class="icon-button foxglove" title="Watch in Foxglove" aria-label="Watch in Foxglove" @click=${() => ask('foxglove')}>${icon('share')}</button>` : nothing}
       <rave-bell .context=${this.context}></rave-bell>
@@ -116,7 +117,7 @@ export class TopBar extends LiveElement {
       .person { display: flex; align-items: center; gap: 8px; font-size: var(--fs-12); white-space: nowrap; }
       .people { display: flex; }
       .pen { display: none; }
-      @media (max-width: 599px) and (max-height: 700px) { .pen { display: flex; } .find, .person { display: none !important; } }
+      @media (max-width: 599px) and (max-height: 700px) { .pen { display: flex; align-items: center; } rave-clock { margin-right: 8px; font-weight: var(--fw-strong); font-variant-numeric: tabular-nums; } .find, .person { display: none !important; } }
       .face { display: grid; place-items: center; width: 24px; height: 24px; border-radius: 50%; background: var(--bg-4); color: var(--text-1); font-style: normal; font-size: 10px; font-weight: 600; }
       .face.you { background: var(--intent-fill); color: #fff; }
       .people .face { margin-left: -4px; box-shadow: 0 0 0 2px var(--bg-0); }

@@ -228,7 +228,7 @@ export class JoystickPanel extends LiveElement {
     const {delays_ms} = this.loop;
     const top = Math.max(50, ...delays_ms);
     const points = delays_ms.map((delay, i) => `${i * 1.6},${14 - (12 * delay) / top}`).join(' ');
-    return html`<span class="space"></span><svg width="64" height="16" aria-hidden="true"><polyline points=${points} /></svg><b>${Math.round(this.loop.delay_ms)} ms</b>`;
+    return html`<span class="delay"><svg width="64" height="16" aria-hidden="true"><polyline points=${points} /></svg><b>${Math.round(this.loop.delay_ms)} ms</b></span>`;
   }
 
   static override styles = [
@@ -265,6 +265,7 @@ export class JoystickPanel extends LiveElement {
       .track u { position: absolute; top: -3px; width: 2px; height: 12px; background: var(--warn); }
       footer { display: flex; flex-wrap: wrap; align-items: center; gap: 6px 10px; padding: 8px 12px; border-top: 1px solid var(--line-1); font-size: var(--fs-12); flex: none; }
       .chip.direct { background: linear-gradient(var(--ok-soft) 0 0), var(--bg-1); color: var(--ok); }
+      .delay { display: flex; align-items: center; gap: 8px; margin-left: auto; white-space: nowrap; }
       polyline { fill: none; stroke: var(--ok); stroke-width: 1.25; }
       .empty { display: grid; place-content: center; justify-items: center; gap: 4px; height: 100%; color: var(--text-3); font-size: var(--fs-12); }
     `,

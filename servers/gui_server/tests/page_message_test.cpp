@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <set>
+
+#include "rave/base/file.hpp"
+
 namespace rave::gui_server {
 namespace {
 
@@ -310,6 +315,20 @@ TEST(PageMessage, APathHasAThousandPointsAndNoMore) {
   ASSERT_FALSE(path(10'000));
   EXPECT_NE(path(10'000).error().message.find("10000 points; expected 2 to 1000"),
             std::string::npos);
+}
+
+// A fuzzer that begins with messages nobody accepts hardly comes past the first check.
+TEST(PageMessage, SeedsOfTheFuzzerAreOfEveryKind) {
+  std::set<std::size_t> kinds;
+  for (const auto& file : std::filesystem::directory_iterator(
+           RAVE_SOURCE_DIR "/servers/gui_server/tests/corpus_page")) {
+    const auto text = read_file(file.path());
+    ASSERT_TRUE(text) << text.error().text();
+    const auto message = parse_page_message(*text);
+    ASSERT_TRUE(message) << file.path() << ": " << message.error().text();
+    kinds.insert(message->index());
+  }
+  EXPECT_EQ(kinds.size(), std::variant_size_v<PageMessage>);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ const kFirstRetry_ms = 500;
 const kLongestRetry_ms = 8000;
 const kProbeRest_ms = 120;
 
-/** `refused`: this person may not come in. `empty`: the server has no run. */
+/** `refused`: the user has no access. `empty`: the server has no run. */
 export type LinkState = 'opening' | 'open' | 'lost' | 'refused' | 'empty';
 
 const kNotSignedIn = 4401;
@@ -21,10 +21,10 @@ const kNoRun = 4404;
 /** The server takes no more sensors, and no more robots, in one message. */
 const kMostLooked = 256;
 
-/** Something that shows readings says which: slot and index of each sensor. */
+/** The sensors whose readings something shows: slot of the robot and index of the sensor. */
 export type Interest = readonly [number, number][];
 
-/** The WebSocket to the GUI Server: comes back by itself, says what the page looks at. */
+/** The WebSocket to the GUI Server. It reconnects by itself, and tells the server what the page looks at. */
 export class Link {
   state: LinkState = 'opening';
   /** performance.now() when the link was lost, and when it is tried again. */
@@ -52,7 +52,7 @@ export class Link {
   private bytes = 0;
   private probeTimer = 0;
   private probesSaid = false;
-  /** A panel shows which virtual sensors there are. */
+  /** Whether a panel shows which virtual sensors exist. */
   wantsCatalogue = false;
   private truePoses = false;
   private variances: readonly number[] = [];
@@ -109,7 +109,7 @@ export class Link {
     };
   }
 
-  /** Whether something that is asked of robots gets through, over whatever way. */
+  /** Whether orders can reach robots, over the server or a direct line. */
   get reaches(): boolean {
     return this.state === 'open' || (this.direct?.open.length ?? 0) > 0;
   }
@@ -131,7 +131,8 @@ export class Link {
     if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
   }
 
-  /** `owner` wants these sensors; an empty list ends that. */
+  /** `owner` shows the readings of these sensors from now on, and no others; an empty list ends that. Without an owner
+   * that looks at a sensor the server does not send its readings. */
   look(owner: object, sensors: Interest): void {
     if (sensors.length === 0) this.interests.delete(owner);
     else this.interests.set(owner, sensors);

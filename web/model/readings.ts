@@ -18,7 +18,7 @@ export interface CoursePoint {
   values: Float32Array;
 }
 
-/** The newest reading of each sensor that is looked at, and how it came to be. */
+/** The newest reading of each sensor that a panel looks at, and its course: the readings of the last seconds. */
 export class Readings {
   private readonly newest = new Map<string, Reading>();
   private readonly courses = new Map<string, CoursePoint[]>();
@@ -41,7 +41,7 @@ export class Readings {
     return this.newest.get(keyOf(slot, sensor, part)) ?? null;
   }
 
-  /** The newest reading of each sensor, halves of hybrids left out. */
+  /** Visits the newest reading of each sensor, without halves of hybrids. */
   each(visit: (slot: number, sensor: number, reading: Reading) => void): void {
     for (const reading of this.newest.values()) if (reading.part === 0) visit(reading.slot, reading.sensor, reading);
   }
@@ -50,7 +50,7 @@ export class Readings {
     return this.courses.get(keyOf(slot, sensor, part)) ?? [];
   }
 
-  /** Forgets the readings of sensors from this number on. */
+  /** Removes the readings of sensors from this number on. */
   forgetFrom(sensor: number): void {
     for (const [key, reading] of this.newest) {
       if (reading.sensor < sensor) continue;
@@ -59,7 +59,7 @@ export class Readings {
     }
   }
 
-  /** Forgets what is later than this time of the run, as after a jump back; the courses begin anew. */
+  /** Removes readings later than this time of the run, as after a jump back; their courses begin again. */
   forgetAfter(time_s: number): void {
     for (const [key, reading] of this.newest) {
       if (reading.stamp_s <= time_s + kMoment_s) continue;
@@ -68,7 +68,7 @@ export class Readings {
     }
   }
 
-  /** Forgets everything. */
+  /** Removes all readings. */
   clear(): void {
     this.newest.clear();
     this.courses.clear();

@@ -61,15 +61,15 @@ export class RunModel {
   readonly peopleChanged = new Signal();
   readonly rightsChanged = new Signal();
   readonly accountsChanged = new Signal();
-  /** The audit log has lines that were not told. */
+  /** The audit log has lines that this page has not received. */
   readonly auditChanged = new Signal();
   readonly drivesChanged = new Signal();
   readonly linesChanged = new Signal();
-  /** A frame or reading came: there is something new to draw. */
+  /** A frame or a reading arrived: there is something new to draw. */
   readonly pictureChanged = new Signal();
   readonly answered = new Signal<Answer>();
 
-  /** The robots were told at least once; before that, none says nothing about the run. */
+  /** Whether a roster arrived. Before that, an empty `robots` does not mean that the run has no robots. */
   rosterCame = false;
 
   /** The run is in progress; otherwise what is shown is its recording. */

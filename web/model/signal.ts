@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
-/** Calls those who listen. Listeners are called in the order in which they came. */
+/** Calls its listeners, in the order in which they were added. */
 export class Signal<T = void> {
   private readonly listeners = new Set<(value: T) => void>();
 
-  /** Returns the function that ends the listening. */
+  /** Adds a listener; returns a function that removes it. */
   on(listener: (value: T) => void): () => void {
     this.listeners.add(listener);
     return () => this.listeners.delete(listener);

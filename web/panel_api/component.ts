@@ -19,6 +19,6 @@ export interface Component {
   name: string;
   version: string;
   panels?: ComponentPanel[];
-  /** Adds to panels that there are; returns what takes it back. */
+  /** Extends existing panels; returns a function that undoes it. */
   extend?(context: PanelContext): (() => void) | void;
 }

@@ -27,11 +27,11 @@ export interface PanelContext {
   readonly palette: Palette;
   /** Orders, leases, parameters, obstacles and words, each with the answer of the run. */
   readonly commands: Commands;
-  /** Where the page is shown: panels may be in windows of their own. */
+  /** The windows that show the page: panels may be in windows of their own. */
   readonly windows: Windows;
-  /** What panels keep in the browser for this person. */
+  /** Values that panels keep in the browser for this user. */
   readonly kept: Kept;
-  /** What components draw over the World View. A layer that throws is taken out. */
+  /** Functions of components that draw over the World View. A layer that throws is removed. */
   readonly worldLayers: Set<WorldLayer>;
   /** Moves the replay; does nothing where the time cannot be moved. */
   seek(time_s: number): void;
@@ -55,13 +55,13 @@ export interface PanelKind {
   tag: string;
   /** Makes the element of a kind whose tag several share. */
   make?(): PanelElement;
-  /** What its tab on a phone is called; without one it has none. */
+  /** Title of its tab on a phone; without it the panel has no tab there. */
   short?: string;
-  /** Only who has this power sees the panel. */
+  /** Right that a user needs to see the panel. */
   needs?: Power;
-  /** Panel that it is opened beside, as another tab, if that is open; otherwise where the person is. */
+  /** Panel beside which it is opened as another tab; if that is not open, beside the panel in use. */
   beside?: string;
-  /** Of a run in progress; a replay does not show it. */
+  /** Only for a run in progress; a replay does not show it. */
   live?: boolean;
   /** Number beside the title; none if undefined. */
   count?(context: PanelContext): number;

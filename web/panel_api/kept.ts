@@ -6,7 +6,7 @@ import {Signal} from '../model/signal';
 export class Kept {
   private user = '';
   private layout = '';
-  /** What is read may be another now: another person came to the page, or another layout. */
+  /** The user or the layout of the page changed: read() may return other values from now on. */
   readonly changed = new Signal();
 
   /** `layout`: empty where there are no layouts, as on a phone. */

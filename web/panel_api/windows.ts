@@ -3,9 +3,9 @@ import {Signal} from '../model/signal';
 
 /** The windows that show the page: its own, and those that panels were moved to. All share one model and one thread. */
 export class Windows {
-  /** A window came, went, was hidden or is shown again. */
+  /** A window was added or removed, hidden, or shown again. */
   readonly changed = new Signal();
-  /** A window lost the keys, is hidden or goes: what is held there is let go. */
+  /** A window lost the keyboard focus, is hidden or was closed: stop what a held key or button does there. */
   readonly left = new Signal();
   private readonly windows: Window[] = [];
 
@@ -17,12 +17,12 @@ export class Windows {
     return this.windows;
   }
 
-  /** One that a person can see; undefined if there is none. */
+  /** A window that is not hidden; undefined if there is none. */
   get visible(): Window | undefined {
     return this.windows.find((known) => known.document.visibilityState !== 'hidden');
   }
 
-  /** Returns what takes the window out again. */
+  /** Adds a window; returns a function that removes it. */
   add(view: Window): () => void {
     const left = () => this.left.emit();
     const shown = () => {

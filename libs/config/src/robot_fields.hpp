@@ -9,18 +9,11 @@ namespace rave::config {
 
 inline constexpr double kLongest_s = 1.0e6;
 
-constexpr FieldOptions period_s() {
-  return {.doc = "Time between two samples, a multiple of the step; null: the step.",
-          .min = 0,
-          .exclusive_min = true,
-          .max = kLongest_s,
-          .unit = "s"};
+constexpr FieldOptions period_s(std::string_view doc) {
+  return {.doc = doc, .min = 0, .exclusive_min = true, .max = kLongest_s, .unit = "s"};
 }
-constexpr FieldOptions phase_s() {
-  return {.doc = "Time of the first sample, a multiple of the step, less than the period.",
-          .min = 0,
-          .max = kLongest_s,
-          .unit = "s"};
+constexpr FieldOptions phase_s(std::string_view doc) {
+  return {.doc = doc, .min = 0, .max = kLongest_s, .unit = "s"};
 }
 constexpr FieldOptions error_size(std::string_view doc, std::string_view unit) {
   return {.doc = doc, .min = 0, .unit = unit};
@@ -47,10 +40,16 @@ void validate(const MountFile& c, CheckContext& check);
 template <class V>
 void describe(V& v, NoiseFile& c) {
   v.field("length_sigma_m", c.length_sigma_m,
-          error_size("Standard deviation of lengths and coordinates.", "m"));
-  v.field("angle_sigma_deg", c.angle_sigma_deg, error_size("Standard deviation of angles.", "deg"));
+          error_size("Standard deviation of lengths and coordinates: of ranges, sightings, poses, "
+                     "odometry and neighbours.",
+                     "m"));
+  v.field("angle_sigma_deg", c.angle_sigma_deg,
+          error_size("Standard deviation of angles: of sightings, poses, odometry and neighbours.",
+                     "deg"));
   v.field("velocity_sigma_mps", c.velocity_sigma_mps,
-          error_size("Standard deviation of velocities.", "m/s"));
+          error_size("Standard deviation of velocities in m/s: of odometry, neighbours and "
+                     "velocities. Turning rates are not changed.",
+                     "m/s"));
   v.field("length_quantum_m", c.length_quantum_m,
           error_size("Step that lengths are rounded to; 0: not rounded.", "m"));
   v.field("angle_quantum_deg", c.angle_quantum_deg,
@@ -58,7 +57,10 @@ void describe(V& v, NoiseFile& c) {
   v.field("velocity_quantum_mps", c.velocity_quantum_mps,
           error_size("Step that velocities are rounded to; 0: not rounded.", "m/s"));
   v.field("dropout_probability", c.dropout_probability,
-          {.doc = "Probability that a reading is lost.", .min = 0, .max = 1});
+          {.doc = "Probability that a ray has no return, that a sighting or neighbour is missing, "
+                  "or that a sample of another kind is empty.",
+           .min = 0,
+           .max = 1});
 }
 
 template <class V>
@@ -122,23 +124,30 @@ void describe(V& v, SensorFile& c) {
   v.field("real", c.real, {.doc = "Real half of a hybrid sensor; null: not hybrid."});
   v.field("virtual", c.imagined, {.doc = "Virtual half of a hybrid sensor; null: not hybrid."});
   v.field("mount", c.mount, {.doc = "Pose in the body frame."});
-  v.field("period_s", c.period_s, period_s());
-  v.field("phase_s", c.phase_s, phase_s());
+  v.field("period_s", c.period_s,
+          period_s("Time between two samples, a multiple of the step; null: the step."));
+  v.field("phase_s", c.phase_s,
+          phase_s("Time of the first sample, a multiple of the step, less than the period."));
   v.field("senses", c.senses,
           {.doc = "Layers of the world that a virtual sensor senses; null: all.", .min_items = 1});
   v.field("params", c.params, driver_params());
-  v.field("noise", c.noise, {.doc = "Noise added to every reading."});
+  v.field("noise", c.noise,
+          {.doc = "Noise added to the readings. A key without effect on the kind of the sensor is "
+                  "refused; contacts and plain values take `dropout_probability` only."});
   v.field("latency_s", c.latency_s,
           {.doc = "Delay of the readings.", .min = 0, .max = kLongest_s, .unit = "s"});
   v.field("max_age_s", c.max_age_s,
           {.doc = "Age of the newest sample of a real sensor after which the robot is stopped; "
-                  "null: three periods of the sensor, at least 0.2 s. A range sensor whose driver "
-                  "does not know the period needs it.",
+                  "null: three periods of the sensor, at least 0.2 s. Required for a range sensor "
+                  "whose driver does not know the period.",
            .min = 0,
            .exclusive_min = true,
            .max = kLongest_s,
            .unit = "s"});
-  v.field("filters", c.filters, {.doc = "Filters, applied in this order.", .max_items = 16});
+  v.field("filters", c.filters,
+          {.doc = "Filters, applied in this order; for ranges, poses, odometry, velocities and "
+                  "values.",
+           .max_items = 16});
 }
 
 void validate(const SensorFile& c, CheckContext& check);
@@ -241,8 +250,10 @@ void describe(V& v, GuardFile& c) {
 template <class V>
 void describe(V& v, ProgramFile& c) {
   v.required("driver", c.driver, driver_name());
-  v.field("period_s", c.period_s, period_s());
-  v.field("phase_s", c.phase_s, phase_s());
+  v.field("period_s", c.period_s,
+          period_s("Time between two decisions, a multiple of the step; null: the step."));
+  v.field("phase_s", c.phase_s,
+          phase_s("Time of the first decision, a multiple of the step, less than the period."));
   v.field("isolate", c.isolate, {.doc = "Whether the program runs in its own process."});
   v.field("params", c.params, driver_params());
 }

@@ -11,7 +11,9 @@ rave::Status @CLASS@::configure(const rave::VirtualSensorSetup& setup,
   return {};
 }
 
-// One sample of one robot. Noise, delay and filters are set in the robot file, not here.
+// One sample of one robot. The robot file adds latency, filters and drop-out. It adds no noise to a
+// sensor of plain values: that would be here, `sigma * rave::gaussian(random)` with `auto random =
+// item.random();` and <rave/math/gaussian.hpp>.
 void @CLASS@::sample(const rave::WorldView& /*world*/, const rave::SampleItem& item) const {
   const double distance_m = std::sqrt(rave::squared_norm(p_WB_ - item.X_WS.position()));
   *static_cast<double*>(item.records) = distance_m;

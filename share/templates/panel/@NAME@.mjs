@@ -28,7 +28,7 @@ class @CLASS@ extends Element {
   show() {
     const {model, selection} = this.context;
     const rows = fastest(model).map(({slot, name, speed}) => {
-      const row = document.createElement('button');
+      const row = this.ownerDocument.createElement('button');
       row.textContent = `${name}  ${speed.toFixed(2)} m/s`;
       row.style.cssText = 'display: block; width: 100%; padding: 5px 0; border: 0; background: none; color: inherit; font: inherit; text-align: left; cursor: pointer';
       row.addEventListener('click', () => selection.set([slot]));

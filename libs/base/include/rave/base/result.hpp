@@ -13,7 +13,7 @@ namespace rave {
 
 /// The value of a fallible call, or an Error. Every public function that can fail returns a Result
 /// or Status; no exception crosses a library boundary. The compiler refuses a call that drops the
-/// result; who means to drop it writes `static_cast<void>(...)` and why.
+/// result; to drop it on purpose, write `static_cast<void>(...)` and the reason.
 template <class T>
 class [[nodiscard]] Result : public tl::expected<T, Error> {
  public:

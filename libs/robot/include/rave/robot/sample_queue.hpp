@@ -68,7 +68,8 @@ class SampleQueue final : public SampleSink {
 
   /// Takes the oldest sample out if its stamp is at most `up_to`; false: there is none. `records`
   /// must have room for `max_records`. `header->sequence` numbers published samples from 1;
-  /// `dropped` is the number of records lost since the last successful call; `fresh` is 0.
+  /// `dropped` is the number of records lost since the last successful call; `fresh` is 0, and the
+  /// engine sets it when it delivers the sample.
   [[nodiscard]] bool next(SimTime up_to, SampleHeader* header, void* records);
 
   /// The newest published sample, also after next() has returned it; false: there is none. `record`

@@ -80,8 +80,8 @@ class VirtualSensor {
  public:
   virtual ~VirtualSensor() = default;
   virtual Status configure(const VirtualSensorSetup& setup, VirtualDeclaration& declaration) = 0;
-  /// Writes the records of one robot. Not called for a sensor with a fan: only a range sensor that
-  /// declares one may leave it out.
+  /// Writes the records of one robot. Not called for a sensor that declares a fan: only a range
+  /// sensor with a fan may omit sample().
   virtual void sample(const WorldView& /*world*/, const SampleItem& /*item*/) const {}
 };
 

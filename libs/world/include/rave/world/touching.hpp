@@ -17,7 +17,9 @@ namespace rave::world {
                                     const Pose2& X_WB) noexcept;
 
 /// The part of its motion that body `a` can make from X_WA until it comes within `limits.skin_m` of
-/// body `b` at X_WB; see rave/math/time_of_impact.hpp, whose rules also apply to discs.
+/// body `b` at X_WB, over all pairs of their shapes. For polygons and discs alike: if they start
+/// nearer than the skin, only motions that do not bring them nearer are free, and no motion passes
+/// through a body; see rave/math/time_of_impact.hpp.
 [[nodiscard]] Impact time_of_impact(const Body& a, const Pose2& X_WA, const Motion2& motion_W,
                                     const Body& b, const Pose2& X_WB,
                                     const ImpactLimits& limits = {}) noexcept;

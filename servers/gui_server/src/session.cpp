@@ -260,60 +260,17 @@ void Session::tick(Clock::time_point now, SharedFrames& frames) {
 }
 
 void Session::begin_past(double now_s) {
-  // What was on its way with poses begins anew with them: its readings are others now.
-  const bool poses = past_due_ || (past_ && past_->poses);
+  PastStream::Wanted wanted{past_due_ || (past_ && past_->has_poses()), {}, look_.parts};
+  if (!source_->about().live) wanted.readings = look_.courses;
   past_due_ = courses_due_ = false;
-  // A cursor of its own: going back with that of the present would read the recording twice per
-  // tick.
-  past_ = Past{source_->open_cursor(), std::max(0.0, now_s - kPast_s), now_s - kPastSpacing_s / 2,
-               poses};
+  past_.emplace(source_->open_cursor(), now_s, std::move(wanted));
 }
 
 /// Pieces of the past go behind frames, whose acknowledgements tell how much the line takes. The
 /// frame of the moment does not wait for it.
 void Session::send_past() {
-  if (!past_) return;
-  const auto begin = Clock::now();
-  std::size_t sent = 0;
-  while (past_->next_s < past_->until_s) {
-    if (sent >= past_bytes_ || Clock::now() - begin > kPastTime) return;
-    const double t = past_->next_s;
-    past_->next_s += kPastSpacing_s;
-    if (!past_->cursor->go_to(t)) break;
-    if (past_->poses) sent += send_past_poses(t);
-    if (!source_->about().live) sent += send_past_readings();
-  }
-  past_.reset();
-}
-
-std::size_t Session::send_past_poses(double t_s) {
-  const PosesAt& poses = past_->cursor->poses();
-  // A time before the first that is kept gives a later moment, which has a turn of its own.
-  if (poses.robots.empty() || poses.time_s > t_s + kPastSpacing_s) return 0;
-  PoseFrameHead head;
-  head.sequence = ++sequence_;
-  head.roster_revision = 1;
-  head.past = true;
-  web::Payload frame = payload(encode_poses(poses, head));
-  const std::size_t bytes = frame->size();
-  socket_.send_binary(std::move(frame));
-  return bytes;
-}
-
-std::size_t Session::send_past_readings() {
-  if (look_.courses.empty()) return 0;
-  std::size_t bytes = 0;
-  for (const ReadingAt& reading : past_->cursor->readings(look_.courses, look_.parts)) {
-    double& told_s =
-        past_->told.try_emplace({LookedAt{reading.slot, reading.sensor}, reading.part}, -1)
-            .first->second;
-    if (told_s == reading.stamp_s) continue;
-    told_s = reading.stamp_s;
-    web::Payload frame = payload(encode_reading(reading, past_->cursor->poses().time_s, true));
-    bytes += frame->size();
-    socket_.send_binary(std::move(frame));
-  }
-  return bytes;
+  const auto send = [this](std::string frame) { socket_.send_binary(payload(std::move(frame))); };
+  if (past_ && !past_->send(past_bytes_, kPastTime, sequence_, send)) past_.reset();
 }
 
 void Session::send_frame(SharedFrames& frames) {

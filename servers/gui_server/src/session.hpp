@@ -19,6 +19,7 @@
 #include "page_commands.hpp"
 #include "page_message.hpp"
 #include "page_text.hpp"
+#include "past_stream.hpp"
 #include "rave/gui_server/person.hpp"
 #include "rave/gui_server/source.hpp"
 #include "rave/web/rate_limit.hpp"
@@ -54,16 +55,6 @@ struct ProbeShown {
   std::uint32_t place = 0;  ///< In the page's list.
   probe::Asked asked;
   double told_s = -1;  ///< Stamp of the reading that was sent last.
-};
-
-/// The past of a page, as far as it has not been sent.
-struct Past {
-  std::unique_ptr<Cursor> cursor;  ///< Its own, so that that of the page continues at the present.
-  double next_s = 0;
-  double until_s = 0;
-  bool poses = false;  ///< Not only readings.
-  /// Stamps of the readings that were sent last, by sensor and part.
-  std::map<std::pair<LookedAt, std::uint8_t>, double> told{};
 };
 
 /// One page that is connected: what it looks at, its place in time, what is on its way to it. The
@@ -127,8 +118,6 @@ class Session {
   void forget_foreign_sensors();
   void begin_past(double now_s);
   void send_past();
-  std::size_t send_past_poses(double t_s);
-  std::size_t send_past_readings();
   void send_frame(SharedFrames& frames);
   void send_poses(SharedFrames& frames, std::uint32_t sequence, bool truth);
   void send_readings();
@@ -153,7 +142,7 @@ class Session {
   std::uint32_t sequence_ = 0;
   /// Frames that are not acknowledged: their number, and when they were sent.
   std::deque<std::pair<std::uint32_t, Clock::time_point>> on_their_way_;
-  std::optional<Past> past_;
+  std::optional<PastStream> past_;       ///< As far as it has not been sent.
   std::size_t past_bytes_ = kLeastPast;  ///< Of the past, behind the next frame.
   std::map<std::pair<LookedAt, std::uint8_t>, double> told_;  ///< Stamp of what was sent last.
   std::vector<VarianceAt> told_variances_;

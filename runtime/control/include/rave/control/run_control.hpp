@@ -267,7 +267,7 @@ class RunControl {
   std::condition_variable changed_;
   bool paused_ = false;
   std::string_view idle_ = "the run has not begun yet";  ///< Why nothing is served; empty: it is.
-  std::uint64_t steps_ = 0;  ///< Number of single steps to execute.
+  std::uint64_t steps_ = 0;                              ///< Number of single steps to execute.
   std::deque<Pending> pending_;
   std::vector<RunRequest> said_;
   std::stop_source wake_;  ///< The source of asked().

@@ -307,7 +307,10 @@ bool Bus::speaks_for(dds_entity_t reader, dds_instance_handle_t from, std::uint6
   return participants_->speaks_for(participant, writer);
 }
 
-const Standstill& Bus::standstill() const noexcept { return participants_->standstill(); }
+const Standstill& Bus::standstill() const noexcept {
+  participants_->standstill().look();
+  return participants_->standstill();
+}
 
 void Bus::collect_matches(Endpoint& endpoint) {
   std::uint32_t status = 0;

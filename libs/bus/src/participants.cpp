@@ -130,9 +130,11 @@ void Participants::collect(std::vector<BusEvent>& events) {
 
 /// Reports lost participants, unless this process stood still.
 void Participants::judge(std::vector<BusEvent>& events) {
-  // Checked after reading, because participants lost through a standstill are read after it.
+  // Checked after reading, because participants lost through a standstill are read after it. The
+  // time before the look: after it this process may stand still again.
+  const auto now = Standstill::Clock::now();
   standstill_.look();
-  if (Standstill::Clock::now() < standstill_.silence_counts_from()) {
+  if (now < standstill_.silence_counts_from()) {
     // Others may have lost this process even if it has received from them again.
     const bool long_enough = 2 * standstill_.stood().ns > lease_.ns;
     if ((missed_.empty() && !long_enough) || std::exchange(told_, true)) return;

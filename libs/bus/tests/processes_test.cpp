@@ -52,6 +52,16 @@ TEST(Processes, APacketGoesThereAndBack) {
   EXPECT_EQ(peer.end(), 0);
 }
 
+TEST(Processes, AStandstillSinceTheLastWaitIsKnownToWhoJudgesSilence) {
+  const TestDomain domain;
+  const auto bus = Bus::open(domain.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  static_cast<void>((*bus)->take_events());
+  const auto before = std::chrono::steady_clock::now();
+  std::this_thread::sleep_for(std::chrono::nanoseconds((*bus)->config().lease.ns));
+  EXPECT_GT((*bus)->standstill().silence_counts_from(), before);
+}
+
 TEST(Processes, WhoLooksForHubsFindsTheseAloneAndIsFoundByOthers) {
   const TestDomain domain;
   PeerProcess first(domain, "idle", "first", {"reach=hub"});

@@ -101,7 +101,7 @@ TEST_F(CatalogueTest, AMissingSymbolAndAMissingEntryPointAreNamed) {
   const std::string entry = message(catalogue_.load(built("bad/no_entry.so")));
   expect_says(entry, built("bad/no_entry.so").string());
   expect_says(entry, "entry point `rave_register_plugin` is missing");
-  EXPECT_FALSE(is_mapped("bad/no_entry.so"));
+  expect_unmapped("bad/no_entry.so");
 }
 
 struct Fault {
@@ -118,7 +118,7 @@ TEST_P(FaultyPlugin, IsRefusedAndUnloaded) {
   EXPECT_EQ(status.error().code, ErrorCode::kPlugin);
   expect_says(message(status), "cannot use plug-in `" + file.string() + "`");
   expect_says(message(status), GetParam().reason);
-  EXPECT_FALSE(is_mapped(file.string()));
+  expect_unmapped(file.string());
   ASSERT_EQ(catalogue_.rejected().size(), 1U);
   EXPECT_TRUE(catalogue_.all().empty());
   EXPECT_EQ(message(catalogue_.load(file)), message(status));

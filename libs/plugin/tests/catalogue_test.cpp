@@ -31,15 +31,15 @@ TEST_F(CatalogueTest, MapsOnlyTheFileThatIsNeededAndUnmapsItAtTheEnd) {
   {
     Catalogue catalogue(host());
     ASSERT_TRUE(catalogue.add_folder(built("good")));
-    EXPECT_FALSE(is_mapped("good/pair.so"));
+    expect_unmapped("good/pair.so");
     ASSERT_TRUE(catalogue.find(kProgram, "sleeper"));
     EXPECT_TRUE(is_mapped("good/pair.so"));
-    EXPECT_FALSE(is_mapped("good/bystander.so"));
+    expect_unmapped("good/bystander.so");
     ASSERT_TRUE(catalogue.find(kController, "bystander"));
     EXPECT_TRUE(is_mapped("good/bystander.so"));
   }
-  EXPECT_FALSE(is_mapped("good/pair.so"));
-  EXPECT_FALSE(is_mapped("good/bystander.so"));
+  expect_unmapped("good/pair.so");
+  expect_unmapped("good/bystander.so");
 }
 
 TEST_F(CatalogueTest, WhatIsToStayIsNotUnmappedAtTheEnd) {
@@ -54,7 +54,7 @@ TEST_F(CatalogueTest, WhatIsToStayIsNotUnmappedAtTheEnd) {
     if (stays) keep_loaded((*driver)->ops);
   };
   use(false);
-  EXPECT_FALSE(is_mapped("stays.so"));
+  expect_unmapped("stays.so");
   use(true);
   EXPECT_TRUE(is_mapped("stays.so"));
   keep_loaded(nullptr);
@@ -79,7 +79,7 @@ TEST_F(CatalogueTest, TheEarlierFolderWins) {
   ASSERT_TRUE(catalogue_.add_folder(built("override")));
   ASSERT_TRUE(catalogue_.add_folder(built("good")));
   EXPECT_STREQ(catalogue_.find(kController, "bystander").value()->info.version, "2.0");
-  EXPECT_FALSE(is_mapped("good/bystander.so"));
+  expect_unmapped("good/bystander.so");
   EXPECT_EQ(catalogue_.all().size(), 3U);
 
   Catalogue reversed(host());

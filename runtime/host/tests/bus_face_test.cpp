@@ -290,7 +290,8 @@ TEST_F(BusFaceTest, WhatConcernsTheWorldIsHeardOnceOfSeveralHosts) {
   look_on();
   // Of the robot both have told.
   const auto stops = [&] {
-    return std::ranges::count(events_, sim::EventKind::kStopped, &onlook::HeardEvent::kind) == 2;
+    return std::ranges::count(events_, sim::EventKind::kStopped, &onlook::HeardEvent::kind) == 2 &&
+           !obstacles_.empty();
   };
   ASSERT_TRUE(until(stops));
   EXPECT_EQ(std::ranges::count(events_, sim::EventKind::kObstacleMoved, &onlook::HeardEvent::kind),

@@ -60,7 +60,8 @@ void LiveRun::begin_if_ready() {
     first_host_ = {};
     return;
   }
-  if (first_host_ == Clock::time_point{}) first_host_ = Clock::now();
+  const auto now = Clock::now();
+  if (first_host_ == Clock::time_point{}) first_host_ = now;
   const std::string waits_for = missing();
   // The patience for missing hosts counts from the first host, not from the start of this process:
   // people may start the manager long before the hosts. A standstill of this process is not the
@@ -69,7 +70,7 @@ void LiveRun::begin_if_ready() {
     begin_in(kLead);
     edits_->begin(false);
     log(LogLevel::kInfo, "all hosts have joined: the run begins");
-  } else if (Clock::now() - std::max(first_host_, endpoint_.silence_counts_from()) >
+  } else if (now - std::max(first_host_, endpoint_.silence_counts_from()) >
              std::chrono::nanoseconds(options_.host_timeout.ns)) {
     begin_in(kLead);
     edits_->begin(false);

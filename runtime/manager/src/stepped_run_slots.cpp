@@ -218,9 +218,11 @@ void SteppedRun::look_at_roster() {
 /// Who has not answered for too long.
 void SteppedRun::look_at_clock(Clock::time_point since) {
   const auto patience = std::chrono::nanoseconds(options_.host_timeout.ns);
-  // They may have answered while this process stood still.
+  // They may have answered while this process stood still, which it may also do between these
+  // lines: the time is older than what is known of standstills.
+  const auto now = Clock::now();
   since = std::max(since, endpoint_.silence_counts_from());
-  if (!begun_ || Clock::now() - since < patience) return;
+  if (!begun_ || now - since < patience) return;
   for (HostSlot& slot : slots_) {
     if (slot.reported || slot.state != SlotState::kRuns) continue;
     if (options_.on_lost_host != LostHost::kWait) {

@@ -106,8 +106,9 @@ void HostConnection::look() {
 
 void HostConnection::look_at_patience(Duration longest, const char* why) {
   if (!managed || ending || longest.ns <= 0 || manager != 0) return;
+  const auto now = Clock::now();
   const auto since = std::max(alone_since, bus->standstill().silence_counts_from());
-  if (Clock::now() - since < std::chrono::nanoseconds(longest.ns)) return;
+  if (now - since < std::chrono::nanoseconds(longest.ns)) return;
   ending = RunEnding{
       false, fmt::format("there was no environment manager for {:g} s{}", longest.seconds(), why)};
   tell_once(LogLevel::kError, "gives up: " + ending->text);

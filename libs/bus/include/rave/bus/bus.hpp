@@ -55,8 +55,8 @@ class Bus {
   /// The other processes in the domain, of this and of other runs, as of the last take_events().
   [[nodiscard]] std::vector<BusProcess> processes() const;
 
-  /// When this process was last unable to run. Silence of others during that time does not mean
-  /// that they are lost.
+  /// When this process was last unable to run, up to this call. Silence of others during that time
+  /// does not mean that they are lost: who judges it compares a time from before this call.
   [[nodiscard]] const Standstill& standstill() const noexcept;
 
   /// The number of ignored samples: those of other runs, and datagrams of unknown senders on the

@@ -36,7 +36,7 @@ class CatalogueTest : public testing::Test {
     return read_file("/proc/self/maps").value().find(file) != std::string::npos;
   }
   /// The thread sanitizer needs what it has seen until the end, so there plug-ins stay.
-  static void expect_unmapped(std::string_view file) {
+  static void expect_unmapped([[maybe_unused]] std::string_view file) {
 #if !defined(__SANITIZE_THREAD__)
     EXPECT_FALSE(is_mapped(file)) << file;
 #endif

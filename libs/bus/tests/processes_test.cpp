@@ -10,6 +10,7 @@
 #include "rave/bus/host_claims.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/sequence.hpp"
+#include "rave/bus/standstill.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/bus_testing/peer_process.hpp"

@@ -33,7 +33,7 @@ OPTION = re.compile(r"^(--[a-z][a-z-]*)")
 VALUES = {"N": "2", "S": "2", "SECONDS": "2", "X": "1", "Y": "1", "V": "0.1", "W": "0.1", "PORT": "9000",
           "X,Y": "1,2", "HZ": "10", "KB": "10", "T": "1", "DOMAIN": "1"}
 # What is left out, in an error message.
-MISSING = re.compile(r": missing |: found nothing, expected |At least \d+ required but received")
+MISSING = re.compile(r": missing |: found nothing, expected |: found \d+ words?, expected ")
 NINJA = re.compile(r"\bninja\s+-C\s+build/\S+((?:[ \t]+[\w-]+)+)")
 CTEST = re.compile(r"\bctest\b[^`\n]*?\s-R\s+(?:'([^']+)'|\"([^\"]+)\"|([^\s`]+))")
 

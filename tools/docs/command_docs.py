@@ -79,7 +79,9 @@ def usage(words, command):
     if flags(command):
         parts.append("[OPTIONS]")
     for option in positionals(command):
-        name = value_of(option)[0] + ("..." if option["repeatable"] else "")
+        name = value_of(option)[0]
+        # A name of several words says itself what follows what.
+        name += "..." if option["repeatable"] and " " not in name else ""
         parts.append(name if option["required"] else f"[{name}]")
     return " ".join(parts + (["COMMAND"] if command["commands"] else []))
 

@@ -26,12 +26,20 @@ const std::filesystem::path kFolder = RAVE_SOURCE_DIR "/runtime/protocol/tests";
 class ProtocolSeeds : public ::testing::Test {
  protected:
   ProtocolSeeds() {
-    ReportMessage report;
-    add("corpus_lock_step/report", 0, report.fill(example_report(), 6, 77));
-    WorldMessage step;
-    auto filled = step.fill(example_world(), example_authority(), 9);
+    const sim::HostReport report = example_report();
+    ReportMessage report_message;
+    bus::HostReport& wire = report_message.fill(report, 6, 77);
+    wire.writer = 1;
+    add("corpus_lock_step/report", 0, wire);
+    const sim::WorldStep step = example_world();
+    const sim::AuthorityState authority = example_authority();
+    WorldMessage step_message;
+    auto filled = step_message.fill(step, authority, 9);
     EXPECT_TRUE(filled) << filled.error().text();
-    if (filled) add("corpus_lock_step/world", 1, static_cast<const bus::WorldStep&>(**filled));
+    if (filled) {
+      (*filled)->writer = 1;
+      add("corpus_lock_step/world", 1, static_cast<const bus::WorldStep&>(**filled));
+    }
     bus::World world{};
     world.writer = 1;
     bus::testing::RobotArrays robots(3, 1);
@@ -39,7 +47,7 @@ class ProtocolSeeds : public ::testing::Test {
     add("corpus_real_time/world", 1, world);
     const bus::testing::NewBox box(4);
     add("corpus_real_time/obstacle", 2, box.sample);
-    const sim::SentPackets sent = example_report().sent;
+    const sim::SentPackets& sent = report.sent;
     const auto bytes = sent.bytes_of(sent.packets[0]);
     bus::Packet packet = real_time::packet_of(sent.packets[0], bytes, 12, Duration{100});
     packet.writer = 1;

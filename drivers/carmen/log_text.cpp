@@ -34,7 +34,7 @@ constexpr std::array<std::string_view, 20> kMessages{
     "LASER3",    "LASER4",    "ROBOTLASER1", "ROBOTLASER2", "RAWLASER1", "RAWLASER2", "RAWLASER3",
     "RAWLASER4", "RAWLASER5", "BASEODOM",    "SIM_TRUE",    "NMEAGGA",   "NMEARMC"};
 
-class LogParser : recording::LineParser {
+class LogParser final : recording::LineParser {
  public:
   LogParser(const std::string& file, bool accept_cut) : LineParser(file, accept_cut) {}
 

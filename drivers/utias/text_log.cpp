@@ -120,7 +120,7 @@ class RowReader {
   std::span<const Column> columns_;
 };
 
-class LogParser : recording::LineParser {
+class LogParser final : recording::LineParser {
  public:
   LogParser(const std::string& file, std::span<const Column> columns, bool accept_cut)
       : LineParser(file, accept_cut), reader_(columns) {}

@@ -19,7 +19,7 @@ class LineParser {
  protected:
   /// `file` is not owned. `accept_cut`: leave out a truncated last line, and report it.
   LineParser(const std::string& file, bool accept_cut) : file_(file), accept_cut_(accept_cut) {}
-  virtual ~LineParser() = default;
+  ~LineParser() = default;
 
   Status parse_lines(const UnpackedText& log);
 

@@ -42,13 +42,10 @@ class Seeds {
  private:
   template <class Message>
   void add(const std::string& name, const Message& message, std::string_view head = {}) {
-    const bool local = !head.empty();
-    const Receive receiver = [local]() -> Receive {
-      if constexpr (std::is_same_v<Message, HostReport> || std::is_same_v<Message, WorldStep>) {
-        if (local) return receive_local<Message>;
-      }
-      return receive<Message>;
-    }();
+    Receive receiver = receive<Message>;
+    if constexpr (std::is_same_v<Message, HostReport> || std::is_same_v<Message, WorldStep>) {
+      if (!head.empty()) receiver = receive_local<Message>;
+    }
     const auto* const topic = std::find(std::begin(kTopics), std::end(kTopics), receiver);
     std::string bytes(1, static_cast<char>(topic - std::begin(kTopics)));
     bytes += head;

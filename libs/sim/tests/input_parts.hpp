@@ -32,7 +32,7 @@ struct InputParts : private HandOvers::Site {
     }
     truth.begin();
   }
-  virtual ~InputParts() = default;
+  ~InputParts() override = default;
 
   /// The events of what was asked since the last call.
   std::vector<Event> told() {

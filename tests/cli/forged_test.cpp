@@ -2,6 +2,8 @@
 // Reports that no host has sent: a run is never left hanging by them.
 #include <algorithm>
 #include <csignal>
+#include <string>
+#include <vector>
 
 #include "onlooker.hpp"
 #include "rave/bus/sequence.hpp"
@@ -11,13 +13,11 @@
 namespace rave::cli_test {
 namespace {
 
-using Words = std::vector<std::string>;
-
 /// Speaks in the name of a host that is there.
 class Forger {
  public:
   [[nodiscard]] static Result<std::unique_ptr<Forger>> open(const bus::RunId& run,
-                                                            const Words& apart) {
+                                                            const std::vector<std::string>& apart) {
     RAVE_TRY_ASSIGN(auto bus, join_as_onlooker(run, apart));
     RAVE_TRY_ASSIGN(auto infos, bus::Reader<bus::HostInfo>::create(*bus));
     RAVE_TRY_ASSIGN(auto reports, bus::Writer<bus::HostReport>::create(*bus));
@@ -58,12 +58,12 @@ class Forger {
 class Forged : public SharedWorld {
  protected:
   bus::RunId run_ = bus::RunId::random();
-  Words words_ = {"--run", run_.text()};
+  std::vector<std::string> words_ = {"--run", run_.text()};
 };
 
 TEST_F(Forged, ReportsInTheNameOfAHostChangeNothing) {
   const std::string alone = hash_alone("crowd.yaml", {});
-  Words words = words_;
+  std::vector<std::string> words = words_;
   words.insert(words.end(), {"--pace", "1x"});
   start("env", "env", "crowd.yaml", words);
   start_host("one", "crowd.yaml", words);

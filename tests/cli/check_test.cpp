@@ -83,13 +83,19 @@ TEST(Check, ARobotThatSensesNothingAroundItIsNoted) {
       << ended.out;
 }
 
-TEST(Check, AComponentOfThePageThatIsNoFileHasItsPlace) {
+/// Checks a file of this text.
+Ended check_text(const char* name, std::string_view text) {
   const TemporaryFolder folder;
-  const std::string scenario = folder.path() / "scenario.yaml";
-  std::ofstream(scenario) << "name: a\nrobots:\n  - name: r\n    pose: {}\n    robot:\n"
-                             "      body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}\n"
-                             "gui:\n  components: [{module: gone.mjs, roles: [observer]}]\n";
-  const Ended ended = run_rave({"check", scenario});
+  const std::string file = folder.path() / name;
+  std::ofstream(file) << text;
+  return run_rave({"check", file});
+}
+
+TEST(Check, AComponentOfThePageThatIsNoFileHasItsPlace) {
+  const Ended ended = check_text("scenario.yaml",
+                                 "name: a\nrobots:\n  - name: r\n    pose: {}\n    robot:\n"
+                                 "      body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}\n"
+                                 "gui:\n  components: [{module: gone.mjs, roles: [observer]}]\n");
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_NE(ended.err.find("scenario.yaml:8:25: `module`: the component `"), std::string::npos)
       << ended.err;
@@ -97,14 +103,13 @@ TEST(Check, AComponentOfThePageThatIsNoFileHasItsPlace) {
 }
 
 TEST(Check, ARobotAloneIsStartedAndWhatIsRefusedHasItsPlace) {
-  const TemporaryFolder folder;
-  const std::string robot = folder.path() / "robot.yaml";
-  std::ofstream(robot) << "body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}\n"
-                          "sensors: [{name: odometry, driver: virtual_odometry}]\n"
-                          "actuators: [{name: wheels, driver: differential_drive}]\n"
-                          "controllers: [{name: drive, driver: velocity, actuator: wheels}]\n"
-                          "program: {driver: flock, period_s: 0.1}\n";
-  const Ended ended = run_rave({"check", robot});
+  const Ended ended =
+      check_text("robot.yaml",
+                 "body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}\n"
+                 "sensors: [{name: odometry, driver: virtual_odometry}]\n"
+                 "actuators: [{name: wheels, driver: differential_drive}]\n"
+                 "controllers: [{name: drive, driver: velocity, actuator: wheels}]\n"
+                 "program: {driver: flock, period_s: 0.1}\n");
   EXPECT_EQ(ended.exit_code, 2) << ended.out;
   EXPECT_NE(ended.err.find("robot.yaml:5:19: robot `"), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("`, program `flock` (driver `flock`): robot `"), std::string::npos)
@@ -112,27 +117,24 @@ TEST(Check, ARobotAloneIsStartedAndWhatIsRefusedHasItsPlace) {
 }
 
 TEST(Check, WhatUsesABadDeviceIsNotComplainedOfAsWell) {
-  const TemporaryFolder folder;
-  const std::string robot = folder.path() / "robot.yaml";
-  std::ofstream(robot) << "body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}\n"
-                          "devices: [{name: base, driver: ros2, params: {multicast: on}}]\n"
-                          "sensors:\n  - {name: odometry, driver: ros2_odometry, device: base}\n"
-                          "  - name: laser\n    driver: hybrid_ranges\n"
-                          "    real: {driver: ros2_laser, device: base}\n"
-                          "    virtual: {driver: virtual_laser}\n"
-                          "pose_from: odometry\n";
-  const Ended ended = run_rave({"check", robot});
+  const Ended ended =
+      check_text("robot.yaml",
+                 "body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}\n"
+                 "devices: [{name: base, driver: ros2, params: {multicast: on}}]\n"
+                 "sensors:\n  - {name: odometry, driver: ros2_odometry, device: base}\n"
+                 "  - name: laser\n    driver: hybrid_ranges\n"
+                 "    real: {driver: ros2_laser, device: base}\n"
+                 "    virtual: {driver: virtual_laser}\n"
+                 "pose_from: odometry\n");
   EXPECT_NE(ended.err.find("robot.yaml:2:"), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("`multicast`: found"), std::string::npos) << ended.err;
   EXPECT_EQ(ended.err.find("there is no device"), std::string::npos) << ended.err;
 }
 
 TEST(Check, NamesOfDriversWithTheWordAreNamed) {
-  const TemporaryFolder folder;
-  const std::string robot = folder.path() / "robot.yaml";
-  std::ofstream(robot) << "body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}\n"
-                          "sensors: [{name: eyes, driver: laser, params: {}}]\n";
-  const Ended ended = run_rave({"check", robot});
+  const Ended ended = check_text("robot.yaml",
+                                 "body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}\n"
+                                 "sensors: [{name: eyes, driver: laser, params: {}}]\n");
   EXPECT_NE(ended.err.find("names with it: "), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("scip_laser"), std::string::npos) << ended.err;
   EXPECT_EQ(ended.err.find("virtual_sonar"), std::string::npos) << ended.err;

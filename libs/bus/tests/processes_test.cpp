@@ -59,6 +59,7 @@ TEST(Processes, AStandstillSinceTheLastWaitIsKnownToWhoJudgesSilence) {
   ASSERT_TRUE(bus) << bus.error().text();
   static_cast<void>((*bus)->take_events());
   const auto before = std::chrono::steady_clock::now();
+  // This is the standstill: as if suspended, nothing waits or looks meanwhile.
   std::this_thread::sleep_for(std::chrono::nanoseconds((*bus)->config().lease.ns));
   EXPECT_GT((*bus)->standstill().silence_counts_from(), before);
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fake_port.hpp"
 #include "live_source.hpp"
 #include "nlohmann/json.hpp"
 #include "page_text.hpp"
@@ -43,26 +44,15 @@ TEST(SetValues, NothingElseIsTakenForAValue) {
 }
 
 /// A run whose first robot was given a speed before anybody looked.
-class SetPort final : public RunPort {
+class SetPort final : public testing::FakePort {
  public:
   explicit SetPort(const std::string& speed) : speed_(speed) {}
-  [[nodiscard]] std::string why_not_held() const override { return {}; }
-  [[nodiscard]] bool paused() const override { return false; }
-  [[nodiscard]] double pace() const override { return 1; }
-  void pause() override {}
-  void resume() override {}
-  void step(std::uint64_t /*count*/) override {}
-  void set_pace(double /*factor*/) override {}
   [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override {
     runtime::RunStatus::Robot robot;
     robot.name = "r1";
     robot.lease = "anna";
     robot.changed = {{"program.v_mps", speed_}};
     return {robot};
-  }
-  [[nodiscard]] Result<std::future<Result<std::string>>> post(
-      runtime::RunRequest /*request*/) override {
-    return fail(ErrorCode::kState, "not here");
   }
 
  private:

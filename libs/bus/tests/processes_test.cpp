@@ -10,7 +10,6 @@
 #include "rave/bus/host_claims.hpp"
 #include "rave/bus/reader.hpp"
 #include "rave/bus/sequence.hpp"
-#include "rave/bus/standstill.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/bus_testing/peer_process.hpp"
@@ -51,17 +50,6 @@ TEST(Processes, APacketGoesThereAndBack) {
   ASSERT_TRUE(bus) << bus.error().text();
   EXPECT_EQ(round_trip(**bus), std::string(64, 'r'));
   EXPECT_EQ(peer.end(), 0);
-}
-
-TEST(Processes, AStandstillSinceTheLastWaitIsKnownToWhoJudgesSilence) {
-  const TestDomain domain;
-  const auto bus = Bus::open(domain.config());
-  ASSERT_TRUE(bus) << bus.error().text();
-  static_cast<void>((*bus)->take_events());
-  const auto before = std::chrono::steady_clock::now();
-  // This is the standstill: as if suspended, nothing waits or looks meanwhile.
-  std::this_thread::sleep_for(std::chrono::nanoseconds((*bus)->config().lease.ns));
-  EXPECT_GT((*bus)->standstill().silence_counts_from(), before);
 }
 
 TEST(Processes, WhoLooksForHubsFindsTheseAloneAndIsFoundByOthers) {

@@ -74,6 +74,8 @@ export class FakeRun {
     this.reason = '';
     this.pace = 1;
     this.stopped = new Set();
+    /** Robots from this slot on have no pose yet. */
+    this.known = options.known ?? Infinity;
     this.components = [];
     /** Velocities that came: slot, m/s, rad/s. */
     this.driven = [];
@@ -248,7 +250,7 @@ export class FakeRun {
       yaw[i] = Math.round(((((a % turn) + turn) % turn) / turn) * 65536) & 0xffff;
       const stopped = this.stopped.has(i);
       speed[i] = stopped || this.state !== 'running' ? 0 : 200;
-      flags[i] = 1 + (stopped ? 4 : 0) + (this.robots[i].kind === 'real' ? 16 : 0);
+      flags[i] = i >= this.known ? 0 : 1 + (stopped ? 4 : 0) + (this.robots[i].kind === 'real' ? 16 : 0);
     }
     return buffer;
   }

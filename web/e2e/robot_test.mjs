@@ -75,7 +75,7 @@ try {
     await other.goto(new URL('/', server.link).href);
     await until(other, `${app}?.model?.drives?.get(0)?.values?.['program.cruise_mps'] === 0.1`, 30000);
     await other.close();
-    execFileSync(rave, ['set', 'twins', 'rosie', 'program.cruise_mps', '0.15'], {stdio: ['ignore', 'ignore', 'inherit']});
+    execFileSync(rave, ['set', 'rosie', 'program.cruise_mps', '0.15', '--run', 'twins'], {stdio: ['ignore', 'ignore', 'inherit']});
     await page.waitForFunction(() => document.querySelector('rave-robot').renderRoot.querySelector('input[aria-label="program.cruise_mps, value"]').value === '0.15');
     await slider.fill('-3');
     await slider.press('Enter');

@@ -255,6 +255,27 @@ try {
     await other.end();
   });
 
+  await check('the World View shows robots whose poses come after the world, host by host', async () => {
+    const slow = new FakeRun(16, {name: 'slow', known: 0});
+    const other = await serveFake(built, slow);
+    const early = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
+    await early.goto(other.origin);
+    await until(early, `${app}?.model?.bodies?.size > 0 && ${app}.model.poses.newest !== null`);
+    const inside = `(() => {
+      const world = document.querySelector('rave-world');
+      const {placed, stage} = world;
+      const {clientWidth, clientHeight} = world.renderRoot.querySelector('.canvas');
+      return Array.from(placed.x, (x, i) => [placed.flags[i] & 1, ...stage.screenAt(x, placed.y[i])])
+        .filter(([known, x, y]) => known && x > 0 && y > 0 && x < clientWidth && y < clientHeight).length;
+    })()`;
+    for (const known of [5, 16]) {
+      slow.known = known;
+      await until(early, `${inside} === ${known}`);
+    }
+    await early.close();
+    await other.end();
+  });
+
   await check('a super-user changes a right, takes it back, and sees as somebody else', async () => {
     server.run.role = 'super_user';
     server.run.seeAs(null);

@@ -5,6 +5,7 @@ import {LiveElement} from '../../app/live_element';
 import {controls, glyphs} from '../../app/styles';
 import {Placed} from '../../model/pose_history';
 import {viewOf} from '../../panel_api/windows';
+import {RobotFlag} from '../../protocol/frames';
 import {kLayers, readLayers, type Layers, type Poses} from './layers';
 import {sensorsToRead} from './reading_layer';
 import {orderStyles} from './orders/order_cards';
@@ -46,7 +47,8 @@ export class WorldPanel extends LiveElement {
   private perspective: Stage | null = null;
   private layers: Layers = kLayers;
   private menuOpen = false;
-  private fitted = false;
+  /** Robots with a pose when the picture was fitted last, -1: it was not. On the bus poses come after the world, host by host. */
+  private fittedRobots = -1;
   /** The person has chosen what is shown: it is not fitted again by itself. */
   private moved = false;
   private shownRun = '';
@@ -78,7 +80,10 @@ export class WorldPanel extends LiveElement {
       model.rosterChanged.on(() => {
         // The same run, as its replay or after a lost link, is shown from where the person looked.
         const run = model.hello?.run.name ?? '';
-        if (run !== this.shownRun) this.fitted = this.moved = false;
+        if (run !== this.shownRun) {
+          this.fittedRobots = -1;
+          this.moved = false;
+        }
         this.shownRun = run;
         refresh();
       }),
@@ -177,7 +182,7 @@ export class WorldPanel extends LiveElement {
     if (!this.hasUpdated) return;
     this.place().append(this.stage.element);
     this.resize();
-    if (mode === '3d' && !this.moved) this.fitted = false;
+    if (mode === '3d') this.fittedRobots = -1;
     this.draw();
   }
 
@@ -197,7 +202,7 @@ export class WorldPanel extends LiveElement {
   }
 
   lookFrom(text: string): void {
-    this.moved = this.fitted = true;
+    this.moved = true;
     void this.setMode(text.startsWith('3d') ? '3d' : 'top').then(() => {
       this.stage.lookFrom(text);
       this.draw();
@@ -262,7 +267,7 @@ export class WorldPanel extends LiveElement {
     if (clientWidth === 0 || clientHeight === 0) return;
     this.stage.resize(clientWidth, clientHeight);
     this.requestUpdate();
-    if (!this.moved) this.fitted = false;
+    this.fittedRobots = -1;
     this.paint();
   }
 
@@ -288,6 +293,14 @@ export class WorldPanel extends LiveElement {
     truth.resize(0);
   }
 
+  /** Shows all robots as soon as they have poses, unless the person has chosen what is shown. */
+  private fitMore(): void {
+    const {flags, count} = this.placed;
+    let known = 0;
+    for (let slot = 0; slot < count; ++slot) known += flags[slot] & RobotFlag.known ? 1 : 0;
+    if (known > this.fittedRobots && this.stage.fit(false)) this.fittedRobots = known;
+  }
+
   private draw(): void {
     if (this.drawQueued) return;
     this.drawQueued = true;
@@ -303,9 +316,7 @@ export class WorldPanel extends LiveElement {
     const {model} = this.context;
     model.poses.interpolate(now_ms, this.placed);
     this.placeTruth(now_ms);
-    if (!this.fitted && model.poses.newest !== null && (this.placed.count > 0 || model.bodies.size > 0)) {
-      this.fitted = this.stage.fit(false);
-    }
+    if (!this.moved && this.fittedRobots < this.placed.count && model.poses.newest !== null) this.fitMore();
     const going = this.stage.paint(now_ms);
     // Cards stand beside things that move.
     if ((this.orders.desk.draft !== null || this.context.commands.pending.length > 0) && now_ms - this.cardAt_ms > 60) {

@@ -16,6 +16,9 @@ export const near = (page, slot, x, y, m) => until(page, `Math.hypot(${newest}.x
 /** Sends a robot to a place by a click and waits until it is there. */
 export async function sendByClick(page, name, x, y) {
   const slot = await slotOf(page, name);
+  // Before, the picture still fits itself to who comes, and the place would be elsewhere.
+  await until(page, `${newest}.flags.every((flags) => flags & 1)`);
+  await page.waitForTimeout(100);
   await choose(page, slot);
   await page.keyboard.press('g');
   await clickAt(page, x, y);

@@ -6,7 +6,7 @@ import {bodyState} from './body_state';
 import type {Camera} from './camera';
 import {LabelPlacer, type Label} from './labels';
 import type {Kind, Layers} from './layers';
-import {radiusOf} from './outlines';
+import {boxOf} from './outlines';
 
 const kNearNames_px = 60;
 const kFewRobots = 40;
@@ -45,15 +45,15 @@ export function bodyLabels(
     if (layers.hidden.includes(kind as Kind) || kind === 'wall') continue;
     if (kind === 'landmark' && !near) continue;
     for (const body of group.bodies) {
-      const x = camera.toScreenX(body.pose[0]);
-      const y = camera.toScreenY(body.pose[1]);
-      const r = radiusOf(body.shapes) * camera.scale;
+      const box = boxOf(body);
+      const x = camera.toScreenX(box.x);
+      const y = camera.toScreenY(box.y);
       const virtual = kind === 'virtual';
       labels.push({
         text: virtual ? body.name : shortName(body.name),
         x,
         y,
-        gap: virtual ? r * 0.75 : Math.max(r, 4) + 3,
+        gap: virtual ? box.hy * camera.scale : Math.max(box.hx * camera.scale, 4) + 3,
         colour: palette.token(virtual ? 'virtual-ink' : 'landmark-ink'),
         weight: 500,
         rank: virtual ? 4 : 6,

@@ -5,7 +5,7 @@ import {Camera, type Bounds} from './camera';
 import {Lens} from './lens';
 import {Measure} from './measure';
 import {Minimap, mostAreOutside} from './minimap';
-import {radiusOf} from './outlines';
+import {boxOf} from './outlines';
 import {bodyAt, OrderHands} from './orders/order_hands';
 import {OrderLayer} from './orders/order_layer';
 import type {Stage, StageContext} from './stage';
@@ -189,7 +189,10 @@ export class TopStage implements Stage {
       if (bounds.x0 <= bounds.x1) add((bounds.x0 + bounds.x1) / 2, (bounds.y0 + bounds.y1) / 2, kAround * largest);
       for (const body of model.bodies.values()) {
         // A building is larger than what happens in it.
-        if (body.kind !== 'wall' || placed.count === 0) add(body.pose[0], body.pose[1], radiusOf(body.shapes));
+        if (body.kind === 'wall' && placed.count > 0) continue;
+        const {x, y, hx, hy} = boxOf(body);
+        add(x - hx, y - hy, 0);
+        add(x + hx, y + hy, 0);
       }
     }
     return bounds.x0 <= bounds.x1 ? bounds : null;

@@ -3,6 +3,7 @@ import {RobotFlag} from '../../../protocol/frames';
 import {bodyState} from '../body_state';
 import {kFont, LabelPlacer, type Label} from '../labels';
 import {robotLabel, shortName} from '../name_layer';
+import {boxOf} from '../outlines';
 import type {Shown} from '../reading_layer';
 import {drawStopped} from '../robot_layer';
 import {bearingsOf, drawMark, mountOf} from '../scan_layer';
@@ -90,7 +91,8 @@ export class Overlay {
     const labels: Label[] = [];
     for (const body of model.bodies.values()) {
       if (body.kind === 'wall' || layers.hidden.includes(body.kind)) continue;
-      const at = this.orbit.project(body.pose[0], body.pose[1], topOf(body.shapes));
+      const {x, y} = boxOf(body);
+      const at = this.orbit.project(x, y, topOf(body.shapes));
       if (at === null) continue;
       const virtual = body.kind === 'virtual';
       const alpha = virtual ? 1 : Math.min(Math.max((1.6 * kFadeTo_m - at.distance) / 3, 0), 1);

@@ -106,7 +106,7 @@ try {
     await untilHere(guest.page, () => guest.last('scene').hidden.includes('virtual'), 'no obstacles');
     // The words of the server and those of the page are about the same.
     const why = await guest.page.evaluate(`${app}.model.whyNot('obstacles')`);
-    assert.equal(why, 'Not yours to see: virtual obstacles. By default observers, commanders and super-users have this right. Ask ada for it: super-user, here now.');
+    assert.equal(why, 'You may not see virtual obstacles. By default observers, commanders and super-users have this right. Ask a super-user who is here: ada.');
     await guest.page.getByRole('button', {name: 'virtual obstacles'}).waitFor();
     const since = JSON.stringify(guest.messages.slice(before));
     for (const {name, team} of boss.last('roster').robots) {

@@ -66,7 +66,7 @@ export class TwinSection extends LiveElement {
     const refused = twin.refused > (this.seen.get(robot.name) ?? 0) && !twin.under_way;
     const note = this.notes.get(robot.name);
     return html`<h4>Hand-over<span class="space"></span><em class=${twin.simulated ? '' : 'real'}>${serves}</em></h4>
-      ${twin.under_way ? html`<p role="status">${icon('refresh', 14)} Hand-over in progress: the other drivers are opened, and the robot is stopped.</p>` : html`<div class="row">
+      ${twin.under_way ? html`<p role="status">${icon('refresh', 14)} Hand-over in progress: the other drivers are opened, and the robot slows down until it stands.</p>` : html`<div class="row">
         ${this.sure === this.robot
           ? html`<button class="main" @click=${() => void this.ask('hand_over', to)}>Hand over now</button><button class="plain" @click=${() => { this.sure = null; this.requestUpdate(); }}>Keep</button>`
           : html`<button class="plain" @click=${() => { this.sure = this.robot; this.requestUpdate(); }}>${icon('refresh', 14)} Hand over to ${word} …</button>`}</div>

@@ -88,7 +88,7 @@ export class TopBar extends LiveElement {
     const {others} = this.context.model;
     if (others.length === 0) return nothing;
     const title = others.map((person) => `${person.name}, ${roleText(person.role)}`).join('\n');
-    return html`<span class="people" title=${title} role="img" aria-label="${others.length + 1} people watch, you among them">
+    return html`<span class="people" title=${title} role="img" aria-label="${others.length + 1} people watch, including you">
       ${others.slice(0, kFaces).map((person) => face(person, false))}
       ${others.length > kFaces ? html`<i class="face">+${others.length - kFaces}</i>` : nothing}</span>`;
   }

@@ -125,7 +125,7 @@ try {
     await boss.page.keyboard.type('super-user');
     await boss.page.keyboard.press('Enter');
     await part('Invitations');
-    await boss.page.getByText('No invitation is out').waitFor();
+    await boss.page.getByText('There are no open invitations').waitFor();
     await boss.page.getByLabel('Role').selectOption('commander');
     await boss.page.getByLabel('People', {exact: true}).fill('2');
     await boss.page.getByRole('button', {name: 'Make a link'}).click();
@@ -141,7 +141,7 @@ try {
     await untilHere(guest.page, () => guest.last('hello')?.user.name === 'ben', 'a commander');
     await boss.page.getByText('for one person').waitFor();
     await boss.page.getByRole('button', {name: /Withdraw/}).click();
-    await boss.page.getByText('No invitation is out').waitFor();
+    await boss.page.getByText('There are no open invitations').waitFor();
     assert.doesNotMatch(readFileSync(join(accounts, 'audit.jsonl'), 'utf8'), new RegExp(secret));
   });
 

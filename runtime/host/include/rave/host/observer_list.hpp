@@ -102,8 +102,8 @@ class ObserverList {
   void refresh(RunStatus& status) const;
   /// Notes in the recording what was asked of the run and counts from this step on.
   void keep(const RunRequest& request, std::uint64_t step);
-  /// Ends the recording. `hash`: none for a live run. Returns why it is not whole; empty if it is,
-  /// or if there is none.
+  /// Ends the recording. `hash`: none for a live run. Returns why it is incomplete; empty if it is
+  /// complete, or if there is no recording.
   [[nodiscard]] std::string end_record(std::optional<std::uint64_t> hash);
 
  private:

@@ -42,8 +42,8 @@ struct RunOptions {
   std::string run_id{};
 };
 
-/// Runs a scenario to its end in the calling thread. Errors: what keeps it from starting, and a
-/// stepped driver that stops answering. A run that is merely not whole is no Error.
+/// Runs a scenario to its end in the calling thread. Errors: a reason why it cannot start, and a
+/// stepped driver that stops answering. A run that is only incomplete is no Error.
 [[nodiscard]] Result<RunOutcome> run(const config::ExpandedScenario& scenario,
                                      plugin::Catalogue& catalogue, const RunOptions& options);
 

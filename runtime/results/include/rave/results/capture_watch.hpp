@@ -11,8 +11,8 @@
 
 namespace rave::runtime {
 
-/// Detects when a predator comes near enough to a prey. Each prey is caught once. It uses the poses
-/// that others sense: true ones of simulated robots, reported ones of real robots.
+/// Detects when a predator comes near enough to a prey. Each prey is captured once. It uses the
+/// poses that other robots sense: true poses of simulated robots, reported poses of real robots.
 class CaptureWatch final : public RunObserver {
  public:
   CaptureWatch(const config::CaptureCheckFile& check, const config::ExpandedScenario& scenario);

@@ -51,10 +51,10 @@ struct Comparison {
 [[nodiscard]] Result<std::filesystem::path> find_rave(const std::filesystem::path& build);
 
 /// Runs both builds in turn; the order changes with each round. Each uses its own plug-ins,
-/// independent of RAVE_PLUGIN_PATH and RAVE_SHARE, and writes messages to the standard error of this
-/// process. Errors: kNotFound (a build), kIo (a build cannot be started), kState (a run that failed
-/// or had unexpected output, a build that gives two hashes for the same run, builds with different
-/// hashes unless that is allowed).
+/// independent of RAVE_PLUGIN_PATH and RAVE_SHARE, and writes messages to the standard error of
+/// this process. Errors: kNotFound (a build), kIo (a build cannot be started), kState (a run that
+/// failed or had unexpected output, a build that gives two hashes for the same run, builds with
+/// different hashes unless that is allowed).
 [[nodiscard]] Result<Comparison> compare(const CompareOptions& options);
 
 /// One line of JSON without a newline; docs/benchmarks.md explains the keys.

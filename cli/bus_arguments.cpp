@@ -13,7 +13,8 @@ void add_network_options(CLI::App& app, BusOptions& c) {
   add_values(app, "--peer", c.peers,
              "Address of a machine with other processes of the run; repeatable", "ADDR");
   add_value(app, "--multicast", c.multicast,
-            "Use of multicast: off, discovery (only to find processes) or on [off]", "USE");
+            "Use of multicast: none, discovery (only to find processes) or data (for both) [none]",
+            "USE");
   add_value(app, "--security", c.security,
             "Encrypt; folder with the certificates of this process, made by `rave keys`", "DIR");
   // Not for people: keeps tests on one machine apart, and lets a benchmark count what goes by DDS.

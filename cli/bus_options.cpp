@@ -2,20 +2,19 @@
 #include "bus_options.hpp"
 
 #include <algorithm>
-#include <array>
+#include <string_view>
 
 #include "rave/base/names.hpp"
 
 namespace rave::cli {
 namespace {
 
-Result<bus::Multicast> multicast_of(const std::string& word) {
-  if (word == "off") return bus::Multicast::kOff;
-  if (word == "discovery") return bus::Multicast::kDiscovery;
-  if (word == "on") return bus::Multicast::kOn;
-  constexpr std::array<std::string_view, 3> kWords = {"off", "discovery", "on"};
+Result<bus::Multicast> read_multicast(const std::string& word) {
+  if (const auto use = bus::multicast_of(word)) return *use;
+  const std::vector<std::string_view> names(bus::kMulticastNames.begin(),
+                                            bus::kMulticastNames.end());
   return fail(ErrorCode::kInvalidArgument, "--multicast: found `{}`{}", word,
-              suggestion(word, kWords));
+              suggestion(word, names));
 }
 
 }  // namespace
@@ -43,7 +42,7 @@ Result<bus::BusConfig> read_bus_options(const BusOptions& options, std::string p
   config.security = options.security;
   config.tag = options.tag;
   config.local_transport = !options.dds_only;
-  RAVE_TRY_ASSIGN(config.multicast, multicast_of(options.multicast));
+  RAVE_TRY_ASSIGN(config.multicast, read_multicast(options.multicast));
   const auto digits = bus::RunId::parse(options.run);
   config.run = digits                ? *digits
                : options.run.empty() ? bus::run_of_number(scenario)

@@ -16,7 +16,7 @@ struct BusOptions {
   std::uint32_t domain = 0;
   std::string interface = "127.0.0.1";
   std::vector<std::string> peers;
-  std::string multicast = "off";
+  std::string multicast = "none";
   std::string security;   ///< A folder with certificates; empty: none.
   bool dds_only = false;  ///< No local transport between processes of one machine; to measure.
   std::string tag;        ///< Hides the run from processes with another one; for tests.

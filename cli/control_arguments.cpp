@@ -12,6 +12,12 @@ void add_run_name(CLI::App& app, std::string& run) {
             "RUN");
 }
 
+/// For commands whose first argument is a robot.
+void add_run_option(CLI::App& app, std::string& run) {
+  add_value(app, "--run", run,
+            "Name, process id or scenario of the run, or RUN@HOST [the only run]", "RUN");
+}
+
 void add_robot_name(CLI::App& app, std::string& robot) {
   add_value(app, "--robot", robot, "Only this robot [all]", "NAME");
 }
@@ -55,15 +61,17 @@ void add_arm(CLI::App& root, ArmCommand& c) {
 
 void add_set(CLI::App& root, SetCommand& c) {
   CLI::App& app = *root.add_subcommand("set", "Change a parameter of a robot during a run");
-  // One list of words: CLI11 has no optional positional before required ones.
-  add_word(app, "words", c.words, "Robot, parameter and its new value", "[RUN] ROBOT KEY VALUE")
-      ->expected(3, 4);
+  add_word(app, "robot", c.robot, "Name of the robot", "ROBOT");
+  add_word(app, "key", c.key,
+           "Parameter: program.PARAM, controller.NAME.PARAM, actuator.NAME.PARAM or body.scale",
+           "KEY");
+  add_word(app, "value", c.value, "Its new value", "VALUE");
+  add_run_option(app, c.run);
   add_network_options(app, c.bus);
   app.footer(
-      "KEY is program.PARAM, controller.NAME.PARAM, actuator.NAME.PARAM or body.scale.\n\n"
       "Examples:\n"
       "  rave set prey program.max_speed_mps 0.6\n"
-      "  rave set predator-prey prey body.scale 1.5");
+      "  rave set prey body.scale 1.5 --run predator-prey");
 }
 
 void add_hold(CLI::App& root, HoldCommand& c) {
@@ -97,7 +105,7 @@ void add_hand_over(CLI::App& root, HandOverCommand& c) {
       "hand-over", "Switch a robot between real and simulated drivers during a run");
   add_word(app, "robot", c.robot, "Robot whose entry in the scenario has `twin:`", "ROBOT");
   add_word(app, "to", c.to, "real or simulated; or first (drivers of `file:`) or twin", "DRIVERS");
-  add_value(app, "--run", c.run, "Name, process id or scenario of the run [the only run]", "RUN");
+  add_run_option(app, c.run);
   add_network_options(app, c.bus);
   app.footer(
       "The new drivers are opened, the robot is stopped, and it changes between two steps. Its\n"
@@ -119,7 +127,7 @@ void add_shadow(CLI::App& root, ShadowCommand& c) {
 }
 
 void add_order(CLI::App& app, OrderCommand& c) {
-  add_value(app, "--run", c.run, "Name, process id or scenario of the run [the only run]", "RUN");
+  add_run_option(app, c.run);
   app.add_flag("--force", c.force, "Take the robot from the person who drives it");
   add_network_options(app, c.bus);
 }

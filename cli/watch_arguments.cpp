@@ -30,18 +30,16 @@ void add_top(CLI::App& root, TopCommand& c) {
 void add_doctor(CLI::App& root, DoctorCommand& c) {
   CLI::App& app =
       *root.add_subcommand("doctor", "Find out why two machines do not find each other");
-  add_values(app, "--peers", c.bus.peers,
-             "Addresses of the other machines, separated by commas; repeatable", "ADDR")
-      ->delimiter(',');
   add_network_options(app, c.bus);
   app.add_flag("--listen", c.listen, "Answer `rave doctor` of another machine, until Ctrl-C");
   app.add_flag("--json", c.json, "Print the findings as JSON");
   app.footer(
-      "Checks this machine, and the connection to peers on which `rave doctor --listen` runs.\n"
+      "Checks this machine, and the connection to each --peer on which `rave doctor --listen` "
+      "runs.\n"
       "Exit code: 0 if no problem was found, 1 if there are problems, 2 for bad input.\n\n"
       "Examples:\n"
       "  rave doctor --listen --interface 192.168.1.2       # on the one machine\n"
-      "  rave doctor --interface 192.168.1.7 --peers 192.168.1.2");
+      "  rave doctor --interface 192.168.1.7 --peer 192.168.1.2");
 }
 
 }  // namespace rave::cli

@@ -252,12 +252,10 @@ int arm_robots(const ArmCommand& options) {
 }
 
 int set_parameter(const SetCommand& options) {
-  // Four words: the first is the run.
-  const std::size_t first = options.words.size() == 4 ? 1 : 0;
-  Request request = request_of({RunKind::kSet, options.words[first]});
-  request.run.key = options.words[first + 1];
-  request.run.value = options.words[first + 2];
-  return find_and_ask(first == 1 ? options.words[0] : "", options.bus, request);
+  Request request = request_of({RunKind::kSet, options.robot});
+  request.run.key = options.key;
+  request.run.value = options.value;
+  return find_and_ask(options.run, options.bus, request);
 }
 
 int hold_run(const HoldCommand& options) {

@@ -35,7 +35,10 @@ struct ArmCommand {
 
 /// `rave set`.
 struct SetCommand {
-  std::vector<std::string> words;  ///< [RUN] ROBOT KEY VALUE.
+  std::string run;
+  std::string robot;
+  std::string key;
+  std::string value;
   BusOptions bus;
 };
 

@@ -50,7 +50,7 @@ void print(const doctor::Findings& findings) {
 /// A listener is found by the machine that asks, so it needs no peers of its own.
 bus::BusConfig listening(bus::BusConfig config, const std::string& address) {
   config.anonymous = true;
-  if (config.multicast == bus::Multicast::kOff) config.peers.push_back(address);
+  if (config.multicast == bus::Multicast::kNone) config.peers.push_back(address);
   return config;
 }
 
@@ -68,7 +68,7 @@ int listen(const bus::BusConfig& config, doctor::About about) {
   auto listener = doctor::Listener::open({interface->address, std::move(about)});
   if (!listener) return complain(listener.error());
   put(stderr, fmt::format("listening at {}, domain {}, until Ctrl-C; run on the other machine:\n"
-                          "  rave doctor --domain {} --interface ITS_ADDRESS --peers {}\n",
+                          "  rave doctor --domain {} --interface ITS_ADDRESS --peer {}\n",
                           interface->address, config.domain, config.domain, interface->address));
   (*listener)->serve([&keys] { return keys.ended(); },
                      [](const std::string& who) { put(stderr, who + " asks\n"); });

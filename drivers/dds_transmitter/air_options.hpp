@@ -20,7 +20,7 @@ struct AirOptions {
   std::uint32_t domain = 0;
   std::string interface;
   std::vector<std::string> peers;
-  bus::Multicast multicast = bus::Multicast::kOff;
+  bus::Multicast multicast = bus::Multicast::kNone;
   std::string security;  ///< Folder with certificates; empty: none.
   std::size_t max_packet_bytes = 1400;
   std::size_t queue_bytes = 1'048'576;

@@ -17,7 +17,7 @@ constexpr ParamSpec kParams[] = {
     text_param("interface", "127.0.0.1",
                "Network interface, by address or name; the default is this machine."),
     text_param("peers", "", "Addresses of other machines, separated by commas."),
-    choice_param("multicast", "none", dds_network::kMulticasts,
+    choice_param("multicast", "none", bus::kMulticastNames,
                  "Use of multicast: off, for discovery only, or also for data."),
     text_param("security", "", "Folder with certificates; enables DDS Security."),
     number_param("byte_rate", "B/s", 0, 0, 1e12,

@@ -26,7 +26,7 @@ inline constexpr std::array<ParamSpec, 9> kDeviceParams{
     text_param("interface", "127.0.0.1",
                "Network interface to the robot, by address or name; the default is this machine."),
     text_param("peers", "", "Addresses of the robot, separated by commas."),
-    choice_param("multicast", "none", dds_network::kMulticasts,
+    choice_param("multicast", "none", bus::kMulticastNames,
                  "Use of multicast: off, for discovery only, or also for data."),
     choice_param("nodes", "iron", kNodeForms,
                  "Format in which ROS 2 sees this node: Iron (2023) and later, Humble and earlier, "

@@ -58,7 +58,7 @@ TEST_F(BusRequests, ARunInLockStepDoesWhatIsAskedFromElsewhere) {
   refused({"edit", "remove", "pillar"}, "there is no obstacle `pillar`");
   refused({"stop", "--robot", "left-99"}, "there is no robot `left-99`");
   refused({"set", "left-1", "program.cruise_mps", "0.1"}, "are set at its host");
-  const Ended there = far({"set", "crowd@one", "left-1", "program.cruise_mps", "0.1"});
+  const Ended there = far({"set", "left-1", "program.cruise_mps", "0.1", "--run", "crowd@one"});
   EXPECT_EQ(there.exit_code, 0) << there.err;
   EXPECT_TRUE(logged("one", R"({"rave":1,"do":"set","robot":"left-1")")) << console("one");
   const Ended nobody = far({"stop", "crowd@three"});

@@ -76,7 +76,7 @@ TEST_F(Control, StopsArmsAndSets) {
   EXPECT_EQ(typo.exit_code, 1);
   EXPECT_NE(typo.err.find("did you mean `anna`"), std::string::npos) << typo.err;
   // What is here is said though there is no bus to look at.
-  const Ended nowhere = rave({"stop", "smell", "--interface", "nowhere0", "--multicast", "on"});
+  const Ended nowhere = rave({"stop", "smell", "--interface", "nowhere0", "--multicast", "data"});
   EXPECT_EQ(nowhere.exit_code, 2);
   EXPECT_NE(nowhere.err.find("there is no run `smell`"), std::string::npos) << nowhere.err;
   EXPECT_NE(nowhere.err.find("cannot search on the bus"), std::string::npos) << nowhere.err;
@@ -97,7 +97,7 @@ TEST_F(Control, StopsArmsAndSets) {
   const Ended wrong = rave({"set", "anna", "program.cruise_mps", "fast"});
   EXPECT_EQ(wrong.exit_code, 1);
   EXPECT_NE(wrong.err.find("a number"), std::string::npos) << wrong.err;
-  const Ended key = rave({"set", "small", "anna", "program.crise_mps", "0.1"});
+  const Ended key = rave({"set", "anna", "program.crise_mps", "0.1", "--run", "small"});
   EXPECT_NE(key.err.find("did you mean `program.cruise_mps`"), std::string::npos) << key.err;
   EXPECT_EQ(rave({"set", "anna", "body.scale", "1.2"}).exit_code, 0);
   end();

@@ -30,9 +30,9 @@ TEST(Doctor, OneMachineAlone) {
 }
 
 TEST(Doctor, EachProblemHasTheCommandThatMendsIt) {
-  const Ended ended = run_rave(
-      {"doctor", "--interface", "eth99", "--peers", "192.0.2.1,192.0.2.2", "--security", "nowhere"},
-      {"CYCLONEDDS_URI=file:///nowhere.xml"});
+  const Ended ended =
+      run_rave({"doctor", "--interface", "eth99", "--peer", "192.0.2.1", "--security", "nowhere"},
+               {"CYCLONEDDS_URI=file:///nowhere.xml"});
   EXPECT_EQ(ended.exit_code, 1) << ended.err;
   for (const char* const text :
        {"there is no interface `eth99`", "--interface ", "CYCLONEDDS_URI names /nowhere.xml",
@@ -43,15 +43,15 @@ TEST(Doctor, EachProblemHasTheCommandThatMendsIt) {
 }
 
 TEST(Doctor, LoopbackLeadsToNobody) {
-  const Ended ended = run_rave({"doctor", "--peers", "192.0.2.1"});
+  const Ended ended = run_rave({"doctor", "--peer", "192.0.2.1"});
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_NE(ended.out.find("lo reaches only this machine"), std::string::npos) << ended.out;
 }
 
 TEST(Doctor, BadInput) {
-  const Ended ended = run_rave({"doctor", "--multicast", "onn"});
+  const Ended ended = run_rave({"doctor", "--multicast", "dat"});
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_EQ(ended.err, "rave: --multicast: found `onn`; did you mean `on`?\n");
+  EXPECT_EQ(ended.err, "rave: --multicast: found `dat`; did you mean `data`?\n");
   const Ended listen = run_rave({"doctor", "--listen", "--interface", "eth99"});
   EXPECT_EQ(listen.exit_code, 2);
   EXPECT_NE(listen.err.find("there is no interface `eth99`"), std::string::npos) << listen.err;

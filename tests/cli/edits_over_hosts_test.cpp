@@ -90,7 +90,7 @@ TEST_F(EditsOverHosts, WhatCannotBeDoneIsRefusedWithASentence) {
   refused({"set", "left-1", "program.cruise_mps", "0.1"}, "are set at its host");
   refused({"stop", "--robot", "left-99"}, "there is no robot `left-99`");
   // Where they are known, they can be set.
-  const Ended there = rave({"set", "crowd@one", "left-1", "program.cruise_mps", "0.1"});
+  const Ended there = rave({"set", "left-1", "program.cruise_mps", "0.1", "--run", "crowd@one"});
   EXPECT_EQ(there.exit_code, 0) << there.err;
   EXPECT_NE(console("env").find("refused: obstacle `lid` would overlap"), std::string::npos);
   end_by_hand("env");

@@ -199,9 +199,9 @@ TEST_F(Hosts, BadInput) {
             std::string::npos)
       << many.err;
   const Ended multicast =
-      run_rave({"run", "good_scenario.yaml", "--processes", "2", "--multicast", "of"});
+      run_rave({"run", "good_scenario.yaml", "--processes", "2", "--multicast", "non"});
   EXPECT_EQ(multicast.exit_code, 2);
-  EXPECT_NE(multicast.err.find("did you mean `off`"), std::string::npos) << multicast.err;
+  EXPECT_NE(multicast.err.find("did you mean `none`"), std::string::npos) << multicast.err;
 }
 
 }  // namespace

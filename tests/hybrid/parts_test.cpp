@@ -9,6 +9,7 @@
 #include "rave/record/mcap_reader.hpp"
 #include "rave/record/record_summary.hpp"
 #include "rave/record/run_messages.hpp"
+#include "rave/record/run_reader.hpp"
 #include "rave/robot/percepts.hpp"
 
 namespace rave::tests {
@@ -86,6 +87,25 @@ TEST_F(Parts, ComeBackBitForBit) {
   EXPECT_EQ(summary->hybrids, (record::StringMap{{"anna/eye",
                                                   "hybrid_ranges of still_ranges (real) and "
                                                   "virtual_laser (virtual)"}}));
+}
+
+// What a replay shows as virtual of a real robot must not depend on the name of a driver.
+TEST_F(Parts, TheRecordingSaysWhichSensorsOfARealRobotAreVirtual) {
+  const auto expanded = expand(scenario(robot("{name: eye, driver: virtual_laser}")));
+  ASSERT_TRUE(expanded) << expanded.error().text();
+  runtime::RunOptions options;
+  options.output = folder_ / "run";
+  options.picture = false;
+  const auto outcome = runtime::run(*expanded, *catalogue_, options);
+  ASSERT_TRUE(outcome) << outcome.error().text();
+  const auto reader = record::McapReader::open(folder_ / "run/run.mcap");
+  ASSERT_TRUE(reader) << reader.error().text();
+  const auto info = record::read_run_info(*reader);
+  ASSERT_TRUE(info) << info.error().text();
+  EXPECT_NE(info->robots.at(0).kind, "simulated");
+  ASSERT_EQ(info->sensors.size(), 2U);
+  EXPECT_FALSE(info->sensors[0].is_virtual) << info->sensors[0].name;
+  EXPECT_TRUE(info->sensors[1].is_virtual) << info->sensors[1].name;
 }
 
 TEST_F(Parts, AreRecordedOnceWhenAnotherRobotIsHandedOver) {

@@ -46,8 +46,8 @@ class TwoMachines(Lab):
         """The findings as {check: finding}; the worst of a check counts."""
         run = subprocess.run(
             ["ip", "netns", "exec", self.space("here"), machines_test.RAVE, "doctor", "--json",
-             "--interface", self.address("here"), "--peers",
-             f"{self.address('here')},{self.address('there')}", *more],
+             "--interface", self.address("here"), "--peer", self.address("here"),
+             "--peer", self.address("there"), *more],
             stdout=subprocess.PIPE, text=True, timeout=PATIENCE_S, check=False)
         order = ["good", "unknown", "advice", "problem"]
         worst = {}
@@ -86,8 +86,8 @@ class Doctor(unittest.TestCase):
         with TwoMachines() as lab:
             for name in lab.names:
                 call("ip", "-n", lab.space(name), "route", "add", "224.0.0.0/4", "dev", "eth0")
-            lab.listen("--multicast", "on")
-            code, findings = lab.ask("--multicast", "on")
+            lab.listen("--multicast", "data")
+            code, findings = lab.ask("--multicast", "data")
             self.expect_well(findings, "multicast", "bus", "way")
             self.assertEqual(code, 0, findings)
 
@@ -133,12 +133,12 @@ class Doctor(unittest.TestCase):
         with TwoMachines() as lab:
             for name in lab.names:
                 call("ip", "-n", lab.space(name), "route", "add", "224.0.0.0/4", "dev", "eth0")
-            lab.listen("--multicast", "on")
+            lab.listen("--multicast", "data")
             lab.filter("there", "input priority 0", "ip daddr 224.0.0.0/4 drop")
-            code, findings = lab.ask("--multicast", "on")
+            code, findings = lab.ask("--multicast", "data")
             self.assertEqual(code, 1)
             self.expect(findings, "multicast", "problem", "multicast packets from here do not arrive there",
-                        "--multicast off --peer")
+                        "--multicast none --peer")
 
     def test_fragments_are_dropped(self):
         with TwoMachines() as lab:

@@ -183,7 +183,7 @@ class Machines(Processes):
         with Lab(["env", "host-1", "host-2"]) as lab:
             for name in lab.names:
                 call("ip", "-n", lab.space(name), "route", "add", "224.0.0.0/4", "dev", "eth0")
-            self.expect_the_same_run(self.start(lab, ["--multicast", "on"]))
+            self.expect_the_same_run(self.start(lab, ["--multicast", "data"]))
 
     def test_ten_percent_of_all_packets_are_lost(self):
         with Lab(["env", "host-1", "host-2"]) as lab:

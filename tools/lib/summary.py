@@ -55,10 +55,12 @@ def table(rows):
         count[outcome] += 1
         count["seconds"] += seconds
     total = sum(count["seconds"] for count in groups.values()) or 1.0
-    lines = [f"{'step':<12}{'suite':<14}{'passed':>8}{'failed':>8}{'skipped':>9}{'seconds':>10}"
-             f"{'share':>8}"]
+    wide, wider = (max([len(title), *(len(group[i]) for group in groups)]) + 2
+                   for i, title in enumerate(("step", "suite")))
+    lines = [f"{'step':<{wide}}{'suite':<{wider}}{'passed':>8}{'failed':>8}{'skipped':>9}"
+             f"{'seconds':>10}{'share':>8}"]
     for (step, suite), count in groups.items():
-        lines.append(f"{step:<12}{suite:<14}{count['passed']:>8}{count['failed']:>8}"
+        lines.append(f"{step:<{wide}}{suite:<{wider}}{count['passed']:>8}{count['failed']:>8}"
                      f"{count['skipped']:>9}{count['seconds']:>10.1f}"
                      f"{100 * count['seconds'] / total:>7.1f}%")
     return lines

@@ -41,7 +41,7 @@ step_release() {
 
 # More random moments at which processes are killed than the release step has.
 step_kills() {
-  step_build release rave_tests_kills || return 0
+  step_build release rave_tests_kills rave_page || return 0
   STEP_NAME=kills RAVE_KILL_ROUNDS="${RAVE_KILL_ROUNDS:-50}" \
     RAVE_OVERLOAD_ROUNDS="${RAVE_OVERLOAD_ROUNDS:-3}" step_ctest release -L '^kills$'
 }
@@ -51,13 +51,13 @@ step_kills() {
 step_asan_ubsan() {
   step_build asan-ubsan || return 0
   ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1 \
-    UBSAN_OPTIONS=print_stacktrace=1 step_ctest asan-ubsan -LE '^(lint|docs|no_asan)$'
+    UBSAN_OPTIONS=print_stacktrace=1 step_ctest asan-ubsan -LE '^(lint|headers|docs|no_asan)$'
 }
 
 step_tsan() {
   step_build tsan || return 0
   TSAN_OPTIONS="second_deadlock_stack=1:halt_on_error=1:suppressions=$root/tools/tsan.supp" \
-    step_tsan_ctest -LE '^(lint|docs|no_tsan)$'
+    step_tsan_ctest -LE '^(lint|headers|docs|no_tsan)$'
 }
 
 # A kernel that places memory at very random addresses stops gcc's thread sanitizer.

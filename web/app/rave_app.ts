@@ -350,13 +350,14 @@ export class RaveApp extends LitElement {
       :host { display: flex !important; flex-direction: column; height: 100%; background: var(--bg-0); }
       main { position: relative; flex: 1; min-height: 0; padding: 0 6px 6px; }
       main.old { filter: grayscale(1) opacity(.55); }
-      .dock, .phone { height: 100%; }
+      .dock { height: 100%; }
+      .phone { flex: 1; min-height: 0; }
       rave-run-bar { flex: none; margin: 0 6px 6px; }
       nav { display: flex; flex: none; background: var(--bg-1); border-top: 1px solid var(--line-1); padding-bottom: env(safe-area-inset-bottom); }
       nav button { position: relative; flex: 1; min-height: 56px; display: flex; flex-direction: column; align-items: center; gap: 3px; padding: 8px 0; color: var(--text-3); font-size: var(--fs-12); }
       nav button[aria-pressed='true'] { color: var(--text-1); }
       nav i { position: absolute; left: calc(50% + 6px); top: 5px; min-width: 16px; padding: 0 4px; border-radius: 8px; background: var(--warn); color: var(--bg-1); font: 600 10px/16px var(--font-ui); }
-      @media (max-width: 599px) { main { padding: 0; } rave-run-bar { margin: 0; } }
+      @media (max-width: 599px) { main { display: flex; flex-direction: column; padding: 0; } rave-run-bar { margin: 0; } }
     `,
   ];
 }

@@ -11,7 +11,7 @@ const kHeights: readonly Height[] = ['peek', 'half', 'full'];
 const kDrag_px = 40;
 const kRefresh_ms = 250;
 
-/** On a phone: the selected robot, over the lower part of the World View. */
+/** On a phone: the selected robot, below the World View, whose scale stays in sight. */
 export class Sheet extends LiveElement {
   private height: Height = 'peek';
   private pressedY: number | null = null;
@@ -65,7 +65,7 @@ export class Sheet extends LiveElement {
     controls,
     glyphs,
     css`
-      :host { position: absolute; left: 0; right: 0; bottom: 0; z-index: 5; }
+      :host { flex: none; z-index: 5; }
       section { position: relative; display: flex; flex-direction: column; background: var(--bg-1); border-top: 1px solid var(--line-2); border-radius: var(--r-6) var(--r-6) 0 0; box-shadow: var(--shadow-pop); }
       section.half { height: min(46dvh, 400px); }
       section.full { height: 68dvh; }

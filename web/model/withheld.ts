@@ -49,8 +49,13 @@ export function classOf(power: Power): RightsClass | null {
 
 /** What is withheld, which roles have it, and whom to ask: three sentences. `people` are those who are here. */
 export function withheldText(what: RightsClass, people: readonly Person[]): string {
+  return `${notYoursText(what)} ${askText(people)}`;
+}
+
+/** The same without whom to ask, for lists. */
+export function notYoursText(what: RightsClass): string {
   const row: RightsRow = kUsualRights[what];
-  return `You may not ${row.to === 'see' ? 'see ' : ''}${row.what}. ${holdersText(row)} ${askText(people)}`;
+  return `You may not ${row.to === 'see' ? 'see ' : ''}${row.what}. ${holdersText(row)}`;
 }
 
 /** Which roles have a right, unless it was changed for this run. */

@@ -5,11 +5,6 @@
 
 namespace rave::dds_network {
 
-bus::Multicast multicast_of(std::string_view word) noexcept {
-  if (word == "data") return bus::Multicast::kOn;
-  return word == "discovery" ? bus::Multicast::kDiscovery : bus::Multicast::kOff;
-}
-
 std::vector<std::string> split_peers(std::string_view text) {
   std::vector<std::string> parts;
   while (!text.empty()) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -12,16 +11,10 @@
 
 namespace rave::dds_network {
 
-/// The choices of a parameter `multicast`.
-inline constexpr std::array<const char*, 3> kMulticasts{"none", "discovery", "data"};
-
 /// The parameter `domain`.
 constexpr ParamSpec domain_param(const char* doc) noexcept {
   return integer_param("domain", 0, 0, 230, doc);
 }
-
-/// The meaning of a word of kMulticasts; other words mean `none`.
-[[nodiscard]] bus::Multicast multicast_of(std::string_view word) noexcept;
 
 /// The addresses in a parameter `peers`, separated by commas; blanks are ignored.
 [[nodiscard]] std::vector<std::string> split_peers(std::string_view text);
@@ -33,7 +26,7 @@ void read_network(const Params& params, Network& network) {
   network.domain = static_cast<std::uint32_t>(params.integer("domain"));
   network.interface = params.text("interface");
   network.peers = split_peers(params.text("peers"));
-  network.multicast = multicast_of(params.text("multicast"));
+  network.multicast = bus::multicast_of(params.text("multicast")).value_or(bus::Multicast::kNone);
 }
 
 }  // namespace rave::dds_network

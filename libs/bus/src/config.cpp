@@ -2,6 +2,7 @@
 // The settings of Cyclone DDS, made from those of a run.
 #include "rave/bus/config.hpp"
 
+#include <algorithm>
 #include <string_view>
 
 #include "rave/base/control_characters.hpp"
@@ -55,11 +56,11 @@ Status check_text(std::string_view field, std::string_view text, std::size_t lon
 
 std::string general(const BusConfig& config) {
   const char* const kind = is_address(config.interface) ? "address" : "name";
-  const char* const multicast = config.multicast == Multicast::kOff         ? "false"
+  const char* const multicast = config.multicast == Multicast::kNone        ? "false"
                                 : config.multicast == Multicast::kDiscovery ? "spdp"
                                                                             : "true";
   // The loopback interface supports multicast although Linux does not report it.
-  const bool unsaid = config.loopback() && config.multicast != Multicast::kOff;
+  const bool unsaid = config.loopback() && config.multicast != Multicast::kNone;
   const char* const assume = unsaid ? " multicast=\"true\"" : "";
   std::string xml = fmt::format(
       "<General><Interfaces><NetworkInterface {}=\"{}\"{}/></Interfaces>"
@@ -75,7 +76,7 @@ std::string general(const BusConfig& config) {
 
 /// The participant indices of the processes that a process with this reach looks for. Empty: any.
 std::vector<int> places(const BusConfig& config) {
-  if (config.multicast != Multicast::kOff || config.reach == Reach::kAll) return {};
+  if (config.multicast != Multicast::kNone || config.reach == Reach::kAll) return {};
   std::vector<int> places;
   const int plain = config.reach == Reach::kHubs ? 0 : config.max_processes;
   for (int i = 0; i < plain; ++i) places.push_back(i);
@@ -176,6 +177,12 @@ Status check_certificates(const std::filesystem::path& folder) {
 
 }  // namespace
 
+std::optional<Multicast> multicast_of(std::string_view name) noexcept {
+  const auto found = std::ranges::find(kMulticastNames, name);
+  if (found == kMulticastNames.end()) return std::nullopt;
+  return static_cast<Multicast>(found - kMulticastNames.begin());
+}
+
 bool BusConfig::loopback() const { return interface.starts_with("127.") || interface == "lo"; }
 
 Status validate(const BusConfig& config) {
@@ -202,7 +209,7 @@ Status validate(const BusConfig& config) {
     RAVE_TRY(check_text("peers", peer, 255));
     if (peer.empty()) return fail(kBad, "peers: an empty address");
   }
-  if (config.peers.empty() && config.multicast == Multicast::kOff && !config.loopback()) {
+  if (config.peers.empty() && config.multicast == Multicast::kNone && !config.loopback()) {
     return fail(kBad,
                 "peers: without multicast no process is found on {}; list all machines of the run, "
                 "this one included, or allow multicast",

@@ -65,7 +65,7 @@ TEST(BusConfig, SaysWhatMulticastIsFor) {
   config.multicast = Multicast::kDiscovery;
   EXPECT_EQ(reason(config), "accepted");
   EXPECT_TRUE(has(cyclone_xml(config), "<AllowMulticast>spdp</AllowMulticast>"));
-  config.multicast = Multicast::kOn;
+  config.multicast = Multicast::kData;
   EXPECT_TRUE(has(cyclone_xml(config), "<AllowMulticast>true</AllowMulticast>"));
   EXPECT_FALSE(has(cyclone_xml(config), "multicast=\"true\""));
   config.interface = "lo";

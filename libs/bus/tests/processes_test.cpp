@@ -125,7 +125,7 @@ TEST(Processes, APeerOfAListIsFoundWithoutMulticast) {
   PeerProcess peer(domain, "echo", "echo", {"peer=127.0.0.1"});
   ASSERT_EQ(peer.line(), "ready");
   BusConfig config = domain.config();
-  config.multicast = Multicast::kOff;
+  config.multicast = Multicast::kNone;
   config.peers = {"localhost"};
   const auto bus = Bus::open(config);
   ASSERT_TRUE(bus) << bus.error().text();
@@ -362,7 +362,7 @@ TEST(Processes, ASampleThatIsTooLongIsNotSent) {
 TEST(Processes, AnInterfaceThatIsNotThereIsNamed) {
   BusConfig config = TestDomain().config();
   config.interface = "nosuch0";
-  config.multicast = Multicast::kOn;
+  config.multicast = Multicast::kData;
   const auto bus = Bus::open(config);
   ASSERT_FALSE(bus);
   EXPECT_NE(bus.error().message.find("nosuch0: does not match an available interface"),

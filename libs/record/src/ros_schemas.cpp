@@ -17,6 +17,7 @@ const RosSchema kRunSchema{
     "rave_msgs/msg/Run",
     "string scenario\nstring started\nuint64 seed\nfloat64 step_s\n"
     "rave_msgs/Version[] versions\nrave_msgs/Robot[] robots\nrave_msgs/Sensor[] sensors\n"
+    "bool[] sensors_virtual\n"
     RAVE_DEPENDENCY("rave_msgs/Version") "string name\nstring version\n"
     RAVE_DEPENDENCY("rave_msgs/Robot") "uint32 id\nstring name\nstring kind\nstring team\n"
     RAVE_DEPENDENCY("rave_msgs/Sensor")

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
 #include "rave/math/pose.hpp"
 #include "rave/record/cdr_archive.hpp"
 #include "rave/record/run_messages.hpp"
@@ -27,6 +31,12 @@ struct RunMembers {
   }
   void of(RunInfo& v) {
     archive(v.scenario, v.started, v.seed, v.step_s, v.versions, v.robots, v.sensors);
+    // A list of its own, because only the end of a message can have a newer member.
+    std::vector<std::uint8_t> are_virtual;
+    for (const RecordedSensor& sensor : v.sensors) are_virtual.push_back(sensor.is_virtual ? 1 : 0);
+    archive.newer(are_virtual);
+    const std::size_t known = std::min(are_virtual.size(), v.sensors.size());
+    for (std::size_t i = 0; i < known; ++i) v.sensors[i].is_virtual = are_virtual[i] != 0;
   }
 };
 

@@ -36,6 +36,7 @@ struct SampleStep {
   laser.range_min_m = 0.05;
   laser.range_max_m = 8;
   laser.bearings_rad = {-0.5, 0, 0.5};
+  laser.is_virtual = true;
   info.sensors = {laser};
   info.inputs = {{"/maps/hall.pgm", "00ff"}};
   info.expanded_scenario = "name: sample\nrobots: [anna, bert]\n";

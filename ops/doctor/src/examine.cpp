@@ -36,7 +36,7 @@ Findings examine(const Machine& machine, const bus::BusConfig& config, const Abo
   ProbeOptions options;
   options.address = machine.find(config.interface)->address;
   options.domain = config.domain;
-  options.multicast = config.multicast != bus::Multicast::kOff;
+  options.multicast = config.multicast != bus::Multicast::kNone;
   bool any = false;
   for (const std::string& peer : peers) {
     const ProbeResult result = probe_peer(peer, options);

@@ -144,7 +144,7 @@ class Judge {
   }
 
   void multicast() {
-    if (here_.multicast == "off") return;
+    if (here_.multicast == bus::kMulticastNames.front()) return;
     const bool tried = result_.multicast_there && result_.multicast_back;
     if (tried && *result_.multicast_there && *result_.multicast_back) {
       good("multicast", "both ways");
@@ -156,7 +156,7 @@ class Judge {
                                  ? "multicast packets from here do not arrive there"
                                  : "multicast packets arrive in neither direction";
     problem("multicast", what,
-            fmt::format("--multicast off --peer {}    # a list of all machines, on each",
+            fmt::format("--multicast none --peer {}    # a list of all machines, on each",
                         result_.peer));
   }
 

@@ -37,9 +37,7 @@ About about_here(const bus::BusConfig& config, std::uint64_t stamp) {
   about.version = RAVE_VERSION;
   about.interface_stamp = stamp;
   about.domain = config.domain;
-  about.multicast = config.multicast == bus::Multicast::kOff         ? "off"
-                    : config.multicast == bus::Multicast::kDiscovery ? "discovery"
-                                                                     : "on";
+  about.multicast = bus::kMulticastNames.at(static_cast<std::size_t>(config.multicast));
   if (!config.security.empty()) {
     const auto set = keys::read_key_set(config.security);
     about.authority = set ? set->authority.fingerprint : "unreadable";

@@ -69,7 +69,7 @@ Finding check_interface(const Machine& machine, const bus::BusConfig& config) {
   const bool far = std::ranges::any_of(config.peers, elsewhere);
   // The default interface reaches this machine only. It is the usual mistake in a first run over
   // two machines.
-  if (found->loopback && (far || config.multicast != bus::Multicast::kOff)) {
+  if (found->loopback && (far || config.multicast != bus::Multicast::kNone)) {
     return problem(fmt::format("{} reaches only this machine, but other machines are to be found",
                                found->name),
                    fmt::format("--interface {}", some_address(machine)));

@@ -41,7 +41,7 @@ std::string address_on(const Machine& machine, const bus::BusConfig& config) {
 
 Finding check_peers(const Machine& machine, const bus::BusConfig& config,
                     std::vector<std::string>& addresses) {
-  const bool multicast = config.multicast != bus::Multicast::kOff;
+  const bool multicast = config.multicast != bus::Multicast::kNone;
   bool self = false;
   std::vector<std::string> unknown;
   for (const std::string& peer : config.peers) {
@@ -149,7 +149,7 @@ Finding check_own_way(const Machine& machine, const bus::BusConfig& config) {
 
 Finding check_multicast(const Machine& machine, const bus::BusConfig& config) {
   Finding finding{"multicast"};
-  if (config.multicast == bus::Multicast::kOff) {
+  if (config.multicast == bus::Multicast::kNone) {
     finding.what = "not used";
     return finding;
   }
@@ -158,7 +158,7 @@ Finding check_multicast(const Machine& machine, const bus::BusConfig& config) {
     return {"multicast", Verdict::kUnknown, "no interface to test", {}};
   }
   const std::string by_list =
-      "--multicast off --peer ADDRESS    # of each machine; works without multicast";
+      "--multicast none --peer ADDRESS    # of each machine; works without multicast";
   if (!interface->multicast && !interface->loopback) {
     return {"multicast", Verdict::kProblem,
             fmt::format("{} does not support multicast", interface->name),

@@ -220,7 +220,7 @@ TEST(CheckMulticast, AnInterfaceThatDoesNone) {
   Machine machine = lab_machine();
   machine.interfaces[1].multicast = false;
   bus::BusConfig config = config_of("eth0");
-  config.multicast = bus::Multicast::kOn;
+  config.multicast = bus::Multicast::kData;
   expect(check_multicast(machine, config), Verdict::kProblem, "eth0 does not support multicast",
          "sudo ip link set eth0 multicast on");
 }

@@ -155,12 +155,12 @@ ProbeResult open_result() {
   ProbeResult result;
   result.peer = "10.0.0.2";
   result.port = ProbeResult::PortState::kOpen;
-  result.about = {"there", "0.1.0", 42, 0, "off", "", "", 7410, 7411, true};
+  result.about = {"there", "0.1.0", 42, 0, "none", "", "", 7410, 7411, true};
   result.discovery_open = true;
   result.data_open = true;
   return result;
 }
-const About kSelf = {"here", "0.1.0", 42, 0, "off", "", "", 0, 0, false};
+const About kSelf = {"here", "0.1.0", 42, 0, "none", "", "", 0, 0, false};
 
 /// The findings that are not good, as lines.
 std::string trouble(const ProbeResult& result, const About& here = kSelf) {
@@ -206,13 +206,13 @@ TEST(Judge, AFirewallThatLetsAPartThrough) {
 TEST(Judge, MulticastOneWay) {
   ProbeResult result = open_result();
   About here = kSelf;
-  result.about.multicast = here.multicast = "on";
+  result.about.multicast = here.multicast = "data";
   result.multicast_there = true;
   result.multicast_back = false;
-  EXPECT_EQ(
-      trouble(result, here),
-      "problem 10.0.0.2: its multicast packets do not arrive here | --multicast off --peer 10.0.0.2"
-      "    # a list of all machines, on each\n");
+  EXPECT_EQ(trouble(result, here),
+            "problem 10.0.0.2: its multicast packets do not arrive here | --multicast none --peer "
+            "10.0.0.2"
+            "    # a list of all machines, on each\n");
 }
 
 TEST(Judge, FragmentsThatGetLost) {

@@ -13,7 +13,7 @@ Probe answer() {
   probe.size = 1200;
   probe.sent_ns = -5;
   probe.received_ns = 1'800'000'000'000'000'000;
-  probe.about = {"lab-1", "0.1.0",         UINT64_MAX, 7,    "off",
+  probe.about = {"lab-1", "0.1.0",         UINT64_MAX, 7,    "none",
                  "3F:09", "rave doctor 1", 7410,       7411, true};
   return probe;
 }

@@ -24,6 +24,7 @@ DescribedRun describe_run(const BuiltScenario& built) {
       sensor.X_RS = sensors[s].X_RS;
       sensor.z_m = sensors[s].z_m;
       sensor.period_s = sensors[s].period_steps * spec.step.seconds();
+      sensor.is_virtual = sensors[s].virtual_ops != nullptr;
       run.info.sensors.push_back(std::move(sensor));
     }
   }

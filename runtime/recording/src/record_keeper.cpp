@@ -42,6 +42,7 @@ void describe_sensors(const sim::Engine& engine, std::uint32_t robot, record::Ru
     if (sensor.bearings_rad != nullptr) {
       recorded.bearings_rad.assign(sensor.bearings_rad, sensor.bearings_rad + sensor.capacity);
     }
+    recorded.is_virtual = sensors[s].virtual_ops != nullptr;
     info.sensors.push_back(std::move(recorded));
   }
 }

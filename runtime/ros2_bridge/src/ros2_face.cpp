@@ -18,11 +18,11 @@ bus::Multicast multicast_of(config::Ros2Multicast multicast) {
     case config::Ros2Multicast::kDiscovery:
       return bus::Multicast::kDiscovery;
     case config::Ros2Multicast::kData:
-      return bus::Multicast::kOn;
+      return bus::Multicast::kData;
     case config::Ros2Multicast::kNone:
       break;
   }
-  return bus::Multicast::kOff;
+  return bus::Multicast::kNone;
 }
 
 ros2::NodeForm form_of(config::Ros2Nodes nodes) {

@@ -87,12 +87,10 @@ Json sensor_json(const record::RecordedSensor& sensor, const config::SensorFile*
                  bool real) {
   const auto kind = static_cast<ReadingKind>(sensor.kind);
   const std::string driver = file == nullptr ? std::string() : file->driver.value;
-  // Drivers that RAVE ships for the virtual world are named so; the two others are known by name.
-  const bool virtual_driver = driver.starts_with("virtual_") || driver == "indoor_positioning" ||
-                              driver == "neighbour_velocity";
+  const bool is_virtual = sensor.is_virtual || !real;
   Json json = {{"name", sensor.name},
                {"kind", std::string(to_string(kind))},
-               {"origin", hybrid ? "hybrid" : (virtual_driver || !real ? "virtual" : "real")},
+               {"origin", hybrid ? "hybrid" : (is_virtual ? "virtual" : "real")},
                {"driver", driver},
                {"mount", pose_json(sensor.X_RS)},
                {"z", sensor.z_m},

@@ -237,7 +237,9 @@ export class JoystickPanel extends LiveElement {
     dialStyles,
     carStyles,
     css`
-      :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); overflow: auto; }
+      :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); overflow: auto; container-type: inline-size; }
+      /* The figure alone, so that the way of the velocities and their delay stay on one line. */
+      @container (max-width: 420px) { .delay svg { display: none; } }
       header { display: flex; align-items: center; gap: 8px; padding: 10px 12px 8px; }
       header b { font-size: var(--fs-15); overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
       .space { flex: 1; }

@@ -5,6 +5,7 @@ import {keyOf} from '../../model/maps';
 import type {RunModel} from '../../model/run_model';
 import type {PanelContext} from '../../panel_api';
 import {kColourBy, type ColourBy, type Flag, type Kind, type Layers} from './layers';
+import {notYoursText} from '../../model/withheld';
 import {renderNote, withheldStyles} from '../withheld';
 import {rampColour} from './ramp';
 
@@ -95,7 +96,7 @@ export function renderMenu(context: PanelContext, layers: Layers, scale: [string
 function renderLacking(context: PanelContext): TemplateResult | typeof nothing {
   const {model} = context;
   const lacking = (['obstacles', 'true_pose', 'readings', 'maps'] as const).filter((power) => model.isWithheld(power));
-  return lacking.length === 0 ? nothing : html`<hr>${lacking.map((power, i) => renderNote(context, model.whyNot(power), i === lacking.length - 1))}`;
+  return lacking.length === 0 ? nothing : html`<hr>${lacking.map((power, i) => (i === lacking.length - 1 ? renderNote(context, model.whyNot(power)) : renderNote(context, notYoursText(power), false)))}`;
 }
 
 /** Which map lies over the world, and how strong. */

@@ -13,10 +13,14 @@ export const worldPanelStyles = css`
   :host { container-type: inline-size; }
   @container (max-width: 960px) { .colour-by { display: none; } }
   .mode { display: none; font-weight: var(--fw-medium); font-size: var(--fs-12); }
-  /* The legend is the filter: beside tools its words go first, then those of the tools. */
+  /* Beside tools the legend loses its words first; then it lies over the world, so that the tools keep theirs. */
   @container (max-width: 1150px) { .order-tools ~ .legend .kind i { display: none; } .order-tools ~ .legend .kind { padding: 0 5px; } }
-  @container (max-width: 920px) { .tool span { display: none; } .order-tools + .rule { margin: 0 4px; } }
-  @container (min-width: 521px) and (max-width: 600px) { .order-tools ~ .legend, .order-tools + .rule { display: none; } }
+  @container (min-width: 521px) and (max-width: 920px) {
+    .order-tools ~ .legend { position: absolute; left: 34px; top: 62px; z-index: 3; padding: 0 6px; gap: 0; background: var(--bg-2); border: 1px solid var(--line-1); border-radius: var(--r-full); }
+    .order-tools + .rule { display: none; }
+    .bar:has(.order-tools) ~ .stage .note { top: 62px; }
+  }
+  @container (max-width: 700px) { .tool span { display: none; } }
   @container (max-width: 640px) { .kind i { display: none; } .kind { padding: 0 5px; } }
   .stage { position: relative; flex: 1; min-height: 0; }
   .canvas { position: absolute; inset: 0; background: var(--floor); }

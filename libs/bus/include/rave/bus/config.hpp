@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rave/base/result.hpp"
@@ -14,10 +17,16 @@ namespace rave::bus {
 
 /// How multicast is used.
 enum class Multicast : std::uint8_t {
-  kOff,        ///< Not at all: processes are found at the addresses of `peers`.
+  kNone,       ///< Not at all: processes are found at the addresses of `peers`.
   kDiscovery,  ///< For discovery only; data is unicast.
-  kOn,         ///< For discovery and for data with several receivers.
+  kData,       ///< For discovery and for data with several receivers.
 };
+
+/// The names of Multicast in files, on the command line and in reports, in its order.
+inline constexpr std::array<const char*, 3> kMulticastNames{"none", "discovery", "data"};
+
+/// The value of one of kMulticastNames; none for other words.
+[[nodiscard]] std::optional<Multicast> multicast_of(std::string_view name) noexcept;
 
 /// Which processes a process tries to discover. If all look for all, the traffic grows with the
 /// square of their number.
@@ -54,7 +63,7 @@ struct BusConfig {
   /// Addresses or names of the machines to look for processes on, including this one. On the
   /// loopback interface an empty list means this machine.
   std::vector<std::string> peers;
-  Multicast multicast = Multicast::kOff;
+  Multicast multicast = Multicast::kNone;
   /// Largest number of processes per machine in a domain, over all runs: 1 to 119. Without
   /// multicast, discovery sends messages to each of these ports, so a larger number costs traffic.
   int max_processes = 64;

@@ -34,6 +34,9 @@ struct RecordedSensor {
   double range_max_m = 0;
   double cone_rad = 0;
   std::vector<double> bearings_rad;  ///< Bearings of the rays; empty for other kinds.
+  /// Whether it senses the virtual world alone; hybrids are in kHybridMetadata. False in recordings
+  /// that do not have it.
+  bool is_virtual = false;
 
   friend bool operator==(const RecordedSensor&, const RecordedSensor&) = default;
 };

@@ -24,7 +24,7 @@ struct Network {
   std::uint32_t domain = 0;
   std::string interface = "127.0.0.1";  ///< As in bus::BusConfig, like the next two.
   std::vector<std::string> peers;
-  bus::Multicast multicast = bus::Multicast::kOff;
+  bus::Multicast multicast = bus::Multicast::kNone;
   NodeForm nodes = NodeForm::kIron;
   /// The name of the node, and a namespace such as `/cart`, or empty.
   std::string node = "rave";

@@ -19,7 +19,7 @@ struct About {
   std::string version;
   std::uint64_t interface_stamp = 0;
   std::uint32_t domain = 0;
-  std::string multicast;    ///< off, discovery or on.
+  std::string multicast;    ///< One of bus::kMulticastNames.
   std::string authority;    ///< Fingerprint of the certificate authority; empty: no certificates.
   std::string participant;  ///< Participant name on the bus; empty: not on the bus.
   /// Port at which it also listens, where a participant would; 0: none.

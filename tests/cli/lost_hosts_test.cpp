@@ -178,7 +178,7 @@ TEST_F(Hosts, ALostHostMayComeBackWhileTheOthersGoOn) {
   wait_for_more("two");
   signal("env", SIGINT);
   EXPECT_EQ(end_of("env"), 1);
-  EXPECT_NE(console("again").find("was not there from step 0"), std::string::npos);
+  EXPECT_NE(console("again").find("was absent from step 0"), std::string::npos);
 }
 
 TEST_F(Hosts, RunStartsAHostAgainThatDies) {

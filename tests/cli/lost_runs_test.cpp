@@ -80,7 +80,7 @@ TEST_F(LostRuns, AManagerAndAHostKilledTogetherLeaveARunWithoutAHash) {
   const auto json = result("second");
   EXPECT_EQ(json["hash"], nullptr);
   EXPECT_EQ(json["whole"], false);
-  EXPECT_NE(json["problems"].dump().find("host `one` was not there from step 0 to step"),
+  EXPECT_NE(json["problems"].dump().find("host `one` was absent from step 0 to step"),
             std::string::npos)
       << json["problems"];
   EXPECT_EQ(end_of("again"), 1);
@@ -101,7 +101,7 @@ TEST_F(LostRuns, AManagerThatTakesOverHearsOfALossBeforeIt) {
   EXPECT_EQ(end_of("second"), 1) << console("second");
   const auto json = result("second");
   EXPECT_EQ(json["hash"], nullptr);
-  EXPECT_NE(json["problems"].dump().find("host `one`: was not there from step 0 to step"),
+  EXPECT_NE(json["problems"].dump().find("host `one`: was absent from step 0 to step"),
             std::string::npos)
       << json["problems"];
 }

@@ -91,8 +91,8 @@ def check_sweep(rave, scratch):
         return max(abs(float(time) - other) for (name, _), row in times.items() if name == parameter
                    for time, other in zip(row, usual))
 
-    sentence = (f"A prey of 0.3 m/s is caught after {min(usual):.1f} to {max(usual):.1f} s, one of 0.5 m/s never. "
-                f"Size shifts that by up to {shift('body.scale'):.1f} s, turning rate by up to "
+    sentence = (f"A prey of 0.3 m/s is captured after {min(usual):.1f} to {max(usual):.1f} s, a prey of 0.5 m/s never. "
+                f"The size changes the capture time by up to {shift('body.scale'):.1f} s, the turning rate by up to "
                 f"{shift('program.max_turn_rate_radps'):.1f} s.")
     page = (ROOT / "scenarios/predator-prey/README.md").read_text(encoding="utf-8")
     if sentence not in " ".join(page.split()):

@@ -3,9 +3,9 @@
 """What every file of the repository must keep to, whatever is in it.
 
 A licence line on top of sources and scripts; no path of one machine; nothing left to do; file names
-in lower case; libraries that neither print nor exit; no large files. Each library and room has a
-README, and what is linked is made by rave_library() or rave_part(). Headers that grow beyond 250 lines are named, without being an
-error.
+in lower case; libraries that neither print nor exit; no large files. Each library has a README, and
+each linked target is made by rave_library() or rave_part(). Headers beyond 250 lines are named,
+without being an error.
 """
 import re
 import sys

@@ -46,7 +46,7 @@ export class FindBox extends LitElement {
     }
     // Not in the list of everything: only who looks for one learns why it is not there.
     for (const panel of words.length === 0 ? [] : withheldPanels(model)) {
-      if (fits(panel.title)) all.push({icon: 'lock', text: panel.title, note: 'panel, not yours to see', act: () => this.context.show(panel.id)});
+      if (fits(panel.title)) all.push({icon: 'lock', text: panel.title, note: 'panel; you may not see it', act: () => this.context.show(panel.id)});
     }
     if (fits('light or dark theme')) all.push({icon: 'sun', text: 'Light or dark', note: 'theme', act: () => this.dispatchEvent(new CustomEvent('theme'))});
     if (model.hello?.foxglove && fits('watch in foxglove lichtblick')) all.push({icon: 'share', text: 'Watch in Foxglove', note: 'address and steps', act: () => this.dispatchEvent(new CustomEvent('foxglove'))});

@@ -49,10 +49,10 @@ export class FoxgloveSheet extends LitElement {
         <h2>Watch in Foxglove<button class="icon-button" aria-label="Close" @click=${() => this.close()}>${icon('x')}</button></h2>
         <ol><li>In Foxglove or Lichtblick choose <b>Open connection</b>, <b>Foxglove WebSocket</b>.</li>
           <li>Paste this address:
-            ${this.error !== '' ? html`<p class="bad" role="alert">${this.error}</p>` : html`<div class="address"><code>${this.address || 'asking for it'}</code>
+            ${this.error !== '' ? html`<p class="bad" role="alert">${this.error}</p>` : html`<div class="address"><code>${this.address || 'requesting the address'}</code>
               <button class="main" ?disabled=${this.address === ''} @click=${() => void this.copy()}>${icon(this.copied ? 'check' : 'copy', 14)} ${this.copied ? 'Copied' : 'Copy'}</button></div>`}</li>
           <li>Import the layout <code>share/rave/foxglove/rave-layout.json</code> of the installation.</li></ol>
-        <p>It shows what you may see here, and only looks. Keep the address secret: who has it sees the same. It ends when you sign out.</p>
+        <p>Foxglove shows what you may see here, and cannot send orders. Keep the address secret: every person who has it sees the same. It is valid until you sign out.</p>
         ${this.address.startsWith('ws:') ? html`<p>Foxglove in a browser needs the option <code>--foxglove-origin https://app.foxglove.dev</code> of the server; its desktop program <code>--foxglove-origin file://</code>.</p>` : nothing}
       </div></div>`;
   }

@@ -27,8 +27,8 @@ export class HeaderActions implements IHeaderActionsRenderer {
     render(
       location.type === 'popout'
         ? button('undo', 'Back into the page', () => location.getWindow().close())
-        : html`${location.type === 'grid' && !api.isMaximized() ? button('appWindow', 'Into a window of its own', out) : nothing}
-          ${api.isMaximized() ? button('minimize2', 'Beside the others again', () => api.exitMaximized()) : button('maximize2', 'Over all others', () => api.maximize())}`,
+        : html`${location.type === 'grid' && !api.isMaximized() ? button('appWindow', 'Open in a new window', out) : nothing}
+          ${api.isMaximized() ? button('minimize2', 'Restore', () => api.exitMaximized()) : button('maximize2', 'Maximise', () => api.maximize())}`,
       this.element,
     );
   }

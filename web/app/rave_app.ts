@@ -240,14 +240,14 @@ export class RaveApp extends LitElement {
         ? {keys: ['Space'], what: 'twice: STOP all robots', act: (event: KeyboardEvent) => this.bar?.space(event)}
         : {keys: ['Space'], what: 'play or pause', act: (event: KeyboardEvent) => this.bar?.space(event)},
       {keys: ['K'], what: 'pause, resume', act: () => this.bar?.toggle()},
-      {keys: ['.'], what: 'step on', act: () => this.bar?.stepBy(1)},
+      {keys: ['.'], what: 'step forward', act: () => this.bar?.stepBy(1)},
       {keys: [','], what: 'step back (replay)', act: () => this.bar?.stepBy(-1)},
       {keys: ['J'], what: 'slower', act: () => this.bar?.changePace(-1)},
       {keys: ['L'], what: 'faster', act: () => this.bar?.changePace(1)},
       {keys: ['['], what: 'previous event', act: () => this.bar?.toEvent(-1)},
       {keys: [']'], what: 'next event', act: () => this.bar?.toEvent(1)},
       {keys: ['Ctrl K', '/'], what: 'find anything', act: find},
-      {keys: ['F'], what: 'show everything, again: the selection', act: () => this.world?.fit()},
+      {keys: ['F'], what: 'show everything; press again: the selection', act: () => this.world?.fit()},
       {keys: ['C'], what: 'follow the selected robot', act: () => this.selection.follow(!this.selection.following)},
       {keys: ['T'], what: 'top view, 3-D', act: () => this.world?.toggleMode()},
       {keys: ['Z'], what: 'lens, while held', act: () => this.world?.lens(true), end: () => this.world?.lens(false)},
@@ -257,7 +257,7 @@ export class RaveApp extends LitElement {
       ...this.orderKeys(),
       ...panelsFor(this.model).slice(0, 19).map((kind, i) => ({keys: panelKey(i), what: kind.title, act: () => this.showPanel(kind.id)})),
       {keys: ['?'], what: 'this list', act: () => this.open('showingKeys')},
-      {keys: ['Escape'], what: 'drop what is begun', act: () => this.escape()},
+      {keys: ['Escape'], what: 'cancel, close or deselect', act: () => this.escape()},
     ];
   }
 
@@ -272,8 +272,8 @@ export class RaveApp extends LitElement {
     }));
     return [
       tool('V', 'select', 'select'), tool('G', 'goal', 'goal'), tool('W', 'path', 'path'),
-      ...(model.may('edit') ? [tool('O', 'obstacle', 'obstacle'), tool('B', 'place a robot', 'place'), {keys: ['Delete'], what: 'remove the obstacle with handles', act: () => this.world?.removeBody()}] : []),
-      {keys: ['Enter'], what: 'send what is drawn', act: () => this.world?.sendDraft()},
+      ...(model.may('edit') ? [tool('O', 'obstacle', 'obstacle'), tool('B', 'place a robot', 'place'), {keys: ['Delete'], what: 'remove the selected obstacle', act: () => this.world?.removeBody()}] : []),
+      {keys: ['Enter'], what: 'send the drawn order', act: () => this.world?.sendDraft()},
       ...stick,
     ];
   }

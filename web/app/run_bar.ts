@@ -95,7 +95,7 @@ export class RunBar extends LiveElement {
         ${replay ? button('stepBack', 'One step back (,)', 'step', () => this.stepBy(-1)) : nothing}
         <button class="play" title=${may('play') ? `${goes ? 'Pause' : 'Play'} (K)` : model.whyNot('play')}
           aria-label=${goes ? 'Pause' : 'Play'} ?disabled=${!may('play')} @click=${() => this.toggle()}>${icon(goes ? 'pause' : 'play', 20)}</button>
-        ${button('stepForward', 'One step on (.)', 'step', () => this.stepBy(1))}
+        ${button('stepForward', 'One step forward (.)', 'step', () => this.stepBy(1))}
         ${replay ? button('skipForward', 'To the end', 'seek', () => this.context.seek(end)) : nothing}
       </div>
       <div class="clock">${model.time === null ? html`<span>Loading ...</span>` : html`<b>${bigClock(nowOf(model))}</b>

@@ -110,7 +110,7 @@ export class StopButton extends LiveElement {
   private renderViewOnly(): TemplateResult {
     const {model} = this.context;
     return html`<div class="view-only" title=${model.whyNot('stop')}>${icon('eye', 18)}
-      <span>View only<small>${model.live ? 'observers do not stop' : 'this is a recording'}</small></span></div>`;
+      <span>View only<small>${model.live ? 'observers cannot stop' : 'this is a recording'}</small></span></div>`;
   }
 
   private renderRelease(count: StopCount, large: boolean): TemplateResult {

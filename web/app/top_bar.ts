@@ -59,7 +59,7 @@ export class TopBar extends LiveElement {
       <span class="about">${this.about()}</span>
       ${this.layout ? html`<div class="segments" role="radiogroup" aria-label="Layout">${kLayouts.filter((name) => (name !== 'Conduct' || model.may('rights')) && (name !== 'Drive' || (model.live && model.may('command')))).map((name) => html`
         <button role="radio" aria-checked=${this.layout === name} title=${this.layout === name ? 'The panels as you arranged them' : `Your arrangement of ${name}`} @click=${() => this.dispatchEvent(new CustomEvent('layout', {detail: name}))}>${name}</button>`)}</div>
-        <button class="icon-button" title="Reset layout: the panels of ${this.layout} as they were at first" aria-label="Reset layout" @click=${() => ask('resetlayout')}>${icon('rotateCcw', 15)}</button>` : nothing}
+        <button class="icon-button" title="Reset the layout ${this.layout} to its default panels" aria-label="Reset layout" @click=${() => ask('resetlayout')}>${icon('rotateCcw', 15)}</button>` : nothing}
       <span class="space"></span>
       <button class="find" aria-label="Find a robot, panel or moment" @click=${() => ask('find')}>${icon('search', 15)}<span>Find a robot, panel or moment</span><kbd>Ctrl K</kbd></button>
       <span class="space"></span>
@@ -88,7 +88,7 @@ export class TopBar extends LiveElement {
     const {others} = this.context.model;
     if (others.length === 0) return nothing;
     const title = others.map((person) => `${person.name}, ${roleText(person.role)}`).join('\n');
-    return html`<span class="people" title=${title} role="img" aria-label="${others.length + 1} people watch, you among them">
+    return html`<span class="people" title=${title} role="img" aria-label="${others.length + 1} people watch, including you">
       ${others.slice(0, kFaces).map((person) => face(person, false))}
       ${others.length > kFaces ? html`<i class="face">+${others.length - kFaces}</i>` : nothing}</span>`;
   }

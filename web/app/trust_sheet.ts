@@ -33,16 +33,16 @@ export class TrustSheet extends LiveElement {
         if (event.key === 'Escape') { event.stopPropagation(); this.close(); }
       }}>
         <h2>Trust a host<button class="icon-button" aria-label="Close" @click=${() => this.close()}>${icon('x')}</button></h2>
-        <p class="why">Orders and STOP go straight to the host of a robot, encrypted. ${untrusted.length === 0
+        <p class="why">Orders and STOP go directly to the host of a robot, encrypted. ${untrusted.length === 0
           ? 'All hosts answer now.'
-          : 'The browser refused this connection without a reason. Most often it does not trust the certificate of the host yet.'}</p>
+          : 'The browser refused this connection without a reason. In most cases it does not trust the certificate of the host yet.'}</p>
         ${untrusted.length === 0 ? nothing : html`
         <h3>For this browser</h3>
         <ol><li>Open the page of the host: ${untrusted.map((line) => html`<a href=${hostPage(line)} target="_blank" rel="noopener">${line.ticket.host}</a> `)}</li>
           <li>The browser warns of its certificate. If the address is that of your host, choose <b>Advanced</b>, then <b>Proceed</b> or <b>Accept the risk</b>.</li>
           <li>Come back here. The page connects by itself.</li></ol>
         <h3>For all hosts at once</h3>
-        <p>Install <code>authority.pem</code>, which <code>rave keys web</code> made with the certificates, as an authority of this browser. An administrator can do so for all devices.</p>
+        <p>Install <code>authority.pem</code> of <code>rave keys web</code> as an authority of this browser. An administrator can install it on all devices.</p>
         <p>If the host has no page at that address, it does not run or cannot be reached from here.</p>`}
       </div></div>`;
   }

@@ -19,17 +19,17 @@ export class WayChip extends LiveElement {
     const bad = [...lines.lines.values()].filter((line) => line.state !== 'open');
     const untrusted = bad.find((line) => line.state === 'untrusted');
     if (untrusted) {
-      return html`<button class="chip warn" title="Most often the browser does not trust the certificate of this host yet. This says what to do."
+      return html`<button class="chip warn" title="In most cases the browser does not trust the certificate of this host yet. Click for the steps."
         @click=${() => this.dispatchEvent(new CustomEvent('trust', {bubbles: true, composed: true}))}>${icon('wifiOff', 14)} Trust ${untrusted.ticket.host}</button>`;
     }
     const blocked = bad.find((line) => line.state === 'blocked');
     if (blocked) {
-      return html`<button class="chip warn" title="The host came after this page, whose policy does not know it." @click=${() => location.reload()}>Reload to reach ${blocked.ticket.host}</button>`;
+      return html`<button class="chip warn" title="The host joined after this page was loaded, so the security policy of the page does not include it." @click=${() => location.reload()}>Reload to reach ${blocked.ticket.host}</button>`;
     }
     if (lines.open.length > 0) {
       const ms = lines.latency_ms;
       const part = bad.length > 0 ? ` ${lines.open.length} of ${lines.lines.size}` : '';
-      return html`<span class="chip" title="Orders go straight to the hosts of the robots, also without this server.">Direct${part}${ms === null ? '' : ` ${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ms`}</span>`;
+      return html`<span class="chip" title="Orders go directly to the hosts of the robots, even if this server fails.">Direct${part}${ms === null ? '' : ` ${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ms`}</span>`;
     }
     if (lines.relay) return html`<span class="chip" title="Orders go through this server.">Via server</span>`;
     return html`<span class="chip warn" title=${lines.why || 'No host has a direct line (rave robot --web), and the scenario permits no relay (gui: {relay: true}). STOP goes through this server.'}>No orders</span>`;

@@ -110,30 +110,30 @@ try {
     await page.goto(other.origin);
     await until(page, `${app}?.model?.poses?.newest`);
     await page.evaluate(`${app}.selection.set([2])`);
-    await page.locator('rave-sensors').getByText('Not yours to see: sensors and their readings. By default observers and commanders have this right for robots of their teams, super-users for all robots. Ask a super-user for it; none is here now.').waitFor();
+    await page.locator('rave-sensors').getByText('You may not see sensors and their readings. By default observers and commanders have this right for robots of their teams, super-users for all robots. Ask a super-user for it; none is here now.').waitFor();
     other.say({type: 'people', people: [{name: 'Ada N', role: 'observer'}, {name: 'Cora S', role: 'super_user'}]});
-    await page.locator('rave-sensors').getByText('Ask Cora S for it: super-user, here now.').waitFor();
-    await page.locator('rave-log').getByText('Not yours to see: the log.').waitFor();
+    await page.locator('rave-sensors').getByText('Ask a super-user who is here: Cora S.').waitFor();
+    await page.locator('rave-log').getByText('You may not see the log.').waitFor();
     await page.locator('rave-world').getByRole('button', {name: 'virtual obstacles'}).click();
-    await page.locator('rave-world .menu').getByText('Not yours to see: virtual obstacles.').waitFor();
-    await page.locator('rave-world .menu').getByText('Not yours to see: true poses. By default super-users have this right.').waitFor();
+    await page.locator('rave-world .menu').getByText('You may not see virtual obstacles.').waitFor();
+    await page.locator('rave-world .menu').getByText('You may not see true poses. By default super-users have this right.').waitFor();
     await look(page, 'withheld');
     await page.screenshot({path: join(folder, 'withheld.png')});
-    for (const [panel, words] of [['map', 'maps'], ['hosts', 'Not yours to see: hosts.'], ['probe', 'try virtual sensors'], ['rights', 'Only super-users see rights']]) {
+    for (const [panel, words] of [['map', 'maps'], ['hosts', 'You may not see hosts.'], ['probe', 'try virtual sensors'], ['rights', 'Only super-users see rights']]) {
       await page.evaluate((id) => document.querySelector('rave-app').context.show(id), panel);
       await page.locator(panel === 'rights' ? 'rave-super-user' : `rave-${panel}`).getByText(words).waitFor();
       await look(page, panel);
     }
     await page.keyboard.press('Control+k');
     await page.keyboard.type('map');
-    await page.getByRole('option', {name: 'Map panel, not yours to see'}).waitFor();
+    await page.getByRole('option', {name: 'Map panel; you may not see it'}).waitFor();
     await page.keyboard.press('Escape');
     await page.evaluate(`${app}.context.show('hosts')`);
     await page.locator('rave-hosts').getByRole('button', {name: 'Ask in the chat'}).click();
     await page.locator('rave-chat').getByRole('radio', {name: 'Super-users', checked: true}).waitFor();
     observed.may = [];
     other.turnInto({});
-    await page.locator('rave-chat').getByText('Not yours to see: the chat.').waitFor();
+    await page.locator('rave-chat').getByText('You may not see the chat.').waitFor();
     await page.context().close();
     await other.end();
     assert.deepEqual(found.splice(0), []);
@@ -151,7 +151,7 @@ try {
         return at?.getAttribute('aria-label') || at?.textContent?.trim().slice(0, 24) || at?.localName;
       }));
     }
-    for (const name of ['Find a robot, panel or moment', 'Light or dark', 'Filter robots', 'Layers', 'Follow the selected robot', 'Pause', 'One step on']) {
+    for (const name of ['Find a robot, panel or moment', 'Light or dark', 'Filter robots', 'Layers', 'Follow the selected robot', 'Pause', 'One step forward']) {
       assert.ok([...reached].some((known) => known?.startsWith(name)), `${name} is not reached: ${[...reached].join(', ')}`);
     }
     assert.ok([...reached].some((known) => known?.includes('STOP')), 'STOP');

@@ -85,7 +85,7 @@ try {
 
   await check('a panel moves to a window of its own, and comes back', async () => {
     const group = page.locator('.dv-groupview', {has: page.locator('rave-world')});
-    const [other] = await Promise.all([context.waitForEvent('page'), group.getByLabel('Into a window of its own').click()]);
+    const [other] = await Promise.all([context.waitForEvent('page'), group.getByLabel('Open in a new window').click()]);
     await other.locator('rave-world').waitFor();
     const painted = await other.evaluate(`document.querySelector('rave-world').painted`);
     await until(other, `document.querySelector('rave-world').painted > ${painted} + 10`);

@@ -48,13 +48,13 @@ try {
     await panel.getByRole('button', {name: 'Hand over now'}).click();
   };
 
-  await check('the panel shows which drivers serve, with parameters and their ranges', async () => {
+  await check('the panel shows which drivers are in use, with parameters and their ranges', async () => {
     await page.goto(server.link);
     await until(page, `${newest} != null && ${newest}.time_s > 0.5`, 60000);
     await choose(page, 0);
     await page.getByRole('radio', {name: 'Drive'}).click();
     await until(page, `${twin}?.simulated === true`);
-    await panel.getByText('simulated drivers serve').waitFor();
+    await panel.getByText('simulated drivers in use').waitFor();
     await panel.getByText('virtual_laser').waitFor();
     assert.equal(await panel.getByLabel('program.cruise_mps', {exact: true}).getAttribute('type'), 'range');
   });
@@ -98,7 +98,7 @@ try {
     await real.tell(`place ${x} ${y} ${yaw}`);
     await handOver('real');
     await until(page, `${twin}.made === 1 && ${twin}.simulated === false`, 40000);
-    await panel.getByText('real drivers serve').waitFor();
+    await panel.getByText('real drivers in use').waitFor();
     await until(page, `${app}.model.robots[0].kind === 'real'`);
     await panel.getByText('scip_laser').waitFor();
     const before = (await real.state()).path_m;
@@ -106,7 +106,7 @@ try {
     await until(page, `${shadow}?.running === true && ${shadow}.most_m > 0.001`, 30000);
     const end = Date.now() + 20000;
     while ((await real.state()).path_m < before + 0.15) assert.ok(Date.now() < end, 'the Create does not drive');
-    await panel.getByText('differs by').waitFor();
+    await panel.getByRole('columnheader', {name: 'difference'}).waitFor();
     const laser = await page.evaluate(`${shadow}.readings.find(({sensor}) => sensor === 'laser')`);
     assert.equal(laser.unit, 'm');
     const {m, offset} = await page.evaluate(shadow);
@@ -122,7 +122,7 @@ try {
 
   await check('the shadow is put where the robot is', async () => {
     const since = await page.evaluate(`${shadow}.since_s`);
-    await panel.getByRole('button', {name: 'Put it where rosie is'}).click();
+    await panel.getByRole('button', {name: 'Reset the shadow'}).click();
     await until(page, `${shadow}.since_s > ${since}`);
   });
 
@@ -133,7 +133,7 @@ try {
     await until(hand, `${app}?.model?.poses?.newest != null`);
     await choose(hand, 0);
     await hand.evaluate(`${app}.showPanel('robot')`);
-    await hand.locator('rave-twin').getByText('differs by').waitFor();
+    await hand.locator('rave-twin').getByRole('columnheader', {name: 'difference'}).waitFor();
     const [wide, has] = await hand.locator('rave-robot .scroll').evaluate((scroll) => [scroll.scrollWidth, scroll.clientWidth]);
     assert.ok(wide <= has, `${wide} px in ${has}`);
     await hand.locator('rave-twin').scrollIntoViewIfNeeded();
@@ -161,7 +161,7 @@ try {
     await page.evaluate(`${app}.showPanel('robot')`);
     await handOver('the second set');
     await until(page, `${twin}.made === 1`, 40000);
-    await panel.getByText('second set serves').waitFor();
+    await panel.getByText('second set in use').waitFor();
     await until(page, `${told(await slotOf(page, 'left'))}?.values.length === 4`);
     await run.end();
   });

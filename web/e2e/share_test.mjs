@@ -106,7 +106,7 @@ try {
     await untilHere(guest.page, () => guest.last('scene').hidden.includes('virtual'), 'no obstacles');
     // The words of the server and those of the page are about the same.
     const why = await guest.page.evaluate(`${app}.model.whyNot('obstacles')`);
-    assert.equal(why, 'Not yours to see: virtual obstacles. By default observers, commanders and super-users have this right. Ask ada for it: super-user, here now.');
+    assert.equal(why, 'You may not see virtual obstacles. By default observers, commanders and super-users have this right. Ask a super-user who is here: ada.');
     await guest.page.getByRole('button', {name: 'virtual obstacles'}).waitFor();
     const since = JSON.stringify(guest.messages.slice(before));
     for (const {name, team} of boss.last('roster').robots) {
@@ -125,7 +125,7 @@ try {
     await boss.page.keyboard.type('super-user');
     await boss.page.keyboard.press('Enter');
     await part('Invitations');
-    await boss.page.getByText('No invitation is out').waitFor();
+    await boss.page.getByText('There are no open invitations').waitFor();
     await boss.page.getByLabel('Role').selectOption('commander');
     await boss.page.getByLabel('People', {exact: true}).fill('2');
     await boss.page.getByRole('button', {name: 'Make a link'}).click();
@@ -141,7 +141,7 @@ try {
     await untilHere(guest.page, () => guest.last('hello')?.user.name === 'ben', 'a commander');
     await boss.page.getByText('for one person').waitFor();
     await boss.page.getByRole('button', {name: /Withdraw/}).click();
-    await boss.page.getByText('No invitation is out').waitFor();
+    await boss.page.getByText('There are no open invitations').waitFor();
     assert.doesNotMatch(readFileSync(join(accounts, 'audit.jsonl'), 'utf8'), new RegExp(secret));
   });
 

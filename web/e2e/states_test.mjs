@@ -215,7 +215,7 @@ try {
     server = await serveFake(built, again, port);
     await page.getByText('Live', {exact: true}).waitFor();
     assert.equal(await page.evaluate('window.mark'), mark);
-    await page.getByText('observers do not stop').waitFor();
+    await page.getByText('observers cannot stop').waitFor();
     assert.equal(await page.locator('rave-stop button').count(), 0);
     await page.getByText('virtual obstacles').waitFor();
   });

@@ -16,7 +16,7 @@ const browser = await launch();
 /** Presses the button above a panel of the page, and gives the window that opens. */
 async function moveOut(page, panel) {
   const group = page.locator('.dv-groupview', {has: page.locator(panel)});
-  const [other] = await Promise.all([page.waitForEvent('popup'), group.getByLabel('Into a window of its own').click()]);
+  const [other] = await Promise.all([page.waitForEvent('popup'), group.getByLabel('Open in a new window').click()]);
   await other.locator(panel).waitFor();
   await other.locator('rave-window-bar').waitFor();
   return other;

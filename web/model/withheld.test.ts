@@ -25,8 +25,8 @@ it('has the words of the server for what rights withhold', () => {
 
 describe('what is withheld', () => {
   it('is named with the roles that have it and whom to ask', () => {
-    expect(withheldText('obstacles', [kBoss])).toBe('Not yours to see: virtual obstacles. By default observers, commanders and super-users have this right. Ask ada for it: super-user, here now.');
-    expect(withheldText('stop', [])).toBe('Not yours to do: stop robots. By default commanders and super-users have this right. Ask a super-user for it; none is here now.');
+    expect(withheldText('obstacles', [kBoss])).toBe('You may not see virtual obstacles. By default observers, commanders and super-users have this right. Ask a super-user who is here: ada.');
+    expect(withheldText('stop', [])).toBe('You may not stop robots. By default commanders and super-users have this right. Ask a super-user for it; none is here now.');
   });
 
   it('says where a right covers the robots of some teams', () => {
@@ -35,7 +35,7 @@ describe('what is withheld', () => {
   });
 
   it('names everybody who can change it, and nobody else', () => {
-    expect(askText([kBoss, {name: 'eve', role: 'observer'}, {name: 'bob', role: 'super_user'}])).toBe('Ask ada or bob for it: super-user, here now.');
+    expect(askText([kBoss, {name: 'eve', role: 'observer'}, {name: 'bob', role: 'super_user'}])).toBe('Ask a super-user who is here: ada or bob.');
   });
 });
 

@@ -55,7 +55,7 @@ export function withheldText(what: RightsClass, people: readonly Person[]): stri
 /** The same without whom to ask, for lists. */
 export function notYoursText(what: RightsClass): string {
   const row: RightsRow = kUsualRights[what];
-  return `Not yours to ${row.to}: ${row.what}. ${holdersText(row)}`;
+  return `You may not ${row.to === 'see' ? 'see ' : ''}${row.what}. ${holdersText(row)}`;
 }
 
 /** Which roles have a right, unless it was changed for this run. */
@@ -70,7 +70,7 @@ export function holdersText({reach}: RightsRow): string {
 export function askText(people: readonly Person[]): string {
   const names = people.filter(({role}) => role === 'super_user').map(({name}) => name);
   if (names.length === 0) return 'Ask a super-user for it; none is here now.';
-  return `Ask ${listed(names, 'or')} for it: super-user, here now.`;
+  return `Ask a super-user who is here: ${listed(names, 'or')}.`;
 }
 
 function listed(words: readonly string[], last: string): string {

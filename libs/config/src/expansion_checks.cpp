@@ -98,8 +98,7 @@ class Checks {
     for (const std::size_t r : robots_named(expanded_, *name)) {
       const ExpandedRobot& robot = expanded_.robots[r];
       if (expanded_.group_of(robot).twin) continue;
-      report(name.where, "`hand_over`: robot `{}` has no `twin`, whose drivers it could be given",
-             robot.name);
+      report(name.where, "`hand_over`: robot `{}` has no `twin` with other drivers", robot.name);
     }
   }
 

@@ -59,7 +59,7 @@ void validate(const GuiRightFile& c, CheckContext& check) {
   }
   if (c.user && c.user->value.empty()) check.error("user", "`user`: expected a name");
   if ((c.reach == GuiReach::kTeams) == c.teams.empty()) {
-    check.error("teams", "expected `teams` with `reach: teams`, and only then");
+    check.error("teams", "`teams` is required with `reach: teams` and not allowed without it");
   }
 }
 
@@ -84,8 +84,8 @@ void validate(const ChangeFile& c, CheckContext& check) {
   // One kind per entry, since the order of entries is the order of the changes.
   if (kinds != 1) {
     check.error("",
-                "a change has {} of `robot` with `set` or `hand_over`, `add_obstacle`, "
-                "`move_obstacle` and `remove_obstacle`; expected one",
+                "expected exactly one change per entry, found {}: `robot` with `set` or "
+                "`hand_over`, `add_obstacle`, `move_obstacle` or `remove_obstacle`",
                 kinds);
     return;
   }

@@ -210,7 +210,7 @@ const FileCase kScenarios[] = {
      "name: a\ngui: {rights: [{role: observer, classes: [pose], reach: teams}]}\nrobots: [{name: "
      "r, "
      "file: r.yaml}]\n",
-     "s.yaml:2:16: expected `teams` with `reach: teams`, and only then"},
+     "s.yaml:2:16: `teams` is required with `reach: teams` and not allowed without it"},
     {"GuiSuperUser",
      "name: a\ngui: {rights: [{role: super_user, classes: [pose], reach: none}]}\nrobots: [{name: "
      "r, "

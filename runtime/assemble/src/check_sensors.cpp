@@ -49,7 +49,8 @@ Status check_sightings(const config::SightingsCheckFile& check, const sim::Engin
   if (both) return {};
   const auto& wrong = real ? check.twin : check.real;
   return fail_at(wrong.where, ErrorCode::kInvalidArgument,
-                 "`sightings`: no robot with both sensors has as `{}` a {} camera that gives {}",
+                 "`sightings`: expected a robot with both sensors whose `{}` is a {} camera that "
+                 "gives {}",
                  *wrong, real ? "virtual" : "real", to_string(ReadingKind::kSightings));
 }
 

@@ -288,8 +288,8 @@ Status set_pose_source(const config::RobotGroup& group, sim::RobotType& type) {
     if (!type.simulated && type.sensors[s].hybrid) {
       return fail_at(name.where, ErrorCode::kInvalidArgument,
                      "robot `{}` is real, so `pose_from` needs a real sensor, but `{}` (driver "
-                     "`{}`) is a hybrid: its virtual half would be asked for the pose that it "
-                     "depends on; name the real half as a sensor of its own",
+                     "`{}`) is a hybrid, whose virtual half depends on the pose of the robot; "
+                     "add the real half as a separate sensor and name that",
                      group.name.value, name.value, type.sensors[s].driver);
     }
     if (!type.simulated && type.sensors[s].virtual_ops != nullptr) {

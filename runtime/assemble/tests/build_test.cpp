@@ -364,8 +364,8 @@ TEST(BuildErrors, AChecksSensorThatGivesSomethingElseIsRefused) {
             "s.yaml:1:45: `touches`: sensor `eye` of robot `anna` gives ranges; expected one that "
             "gives contact");
   EXPECT_EQ(with("{sightings: {real: eye, twin: eye}}"),
-            "s.yaml:1:28: `sightings`: no robot with both sensors has as `eye` a real camera that "
-            "gives sightings");
+            "s.yaml:1:28: `sightings`: expected a robot with both sensors whose `eye` is a real "
+            "camera that gives sightings");
 }
 
 /// A virtual camera would confirm itself.

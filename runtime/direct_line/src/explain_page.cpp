@@ -33,14 +33,13 @@ web::Response explain_page(const std::string& host) {
       "</title><style>body{font:16px/1.5 system-ui,sans-serif;max-width:36em;margin:3em "
       "auto;padding:0 1em;color-scheme:light dark}</style><h1>Host " +
       escaped(host) +
-      "</h1><p>This browser trusts the certificate of this host, or has been told to proceed "
-      "without. Close this tab and go back to the page: it uses the direct line to this host from "
-      "now on.</p><p>The warning before this page says that no authority which the browser knows "
-      "vouches for the certificate. It does not come again, for this host and all others, where "
-      "<code>authority.pem</code> of <code>rave keys web</code> is installed.</p><p>Orders come "
-      "here "
-      "over a WebSocket, with a ticket of the GUI Server. There is nothing else to "
-      "see.</p></html>\n");
+      "</h1><p>This browser accepts the certificate of this host. Close this tab and go back to "
+      "the page: it uses the direct line to this host from now on.</p><p>The warning before this "
+      "page means that the browser does not know the authority that signed the certificate. "
+      "Install <code>authority.pem</code> of <code>rave keys web</code> in the browser; then it "
+      "shows no warning for any host with a certificate of this authority.</p><p>Pages send orders "
+      "to this host over a WebSocket, with a ticket of the GUI Server. This page shows nothing "
+      "else.</p></html>\n");
   return response;
 }
 

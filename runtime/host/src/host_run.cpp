@@ -127,11 +127,10 @@ Result<HostPort::Answer> SteppedExchange::exchange() {
 
 /// The run continued without this host.
 void SteppedExchange::note_gap() {
-  std::string text =
-      fmt::format("was not there from step {} to step {}", report_.step, world_.step);
+  std::string text = fmt::format("was absent from step {} to step {}", report_.step, world_.step);
   run_.console.warn("host", "{}; its robots continue where they stand", text);
   // Orders of people are for the moment in which they are given.
-  post_.drop("the run went on without the host of the robot");
+  post_.drop("the run continued without the host of the robot");
   run_.problems.push_back(std::move(text));
   joined_at_ = world_.step;
 }

@@ -243,8 +243,8 @@ bool InputPost::put_off(std::string_view why, std::uint64_t step, Clock::time_po
     if (!request.asked || request.told || now - request.asked->since() < kAskedPatience) continue;
     request.told = any = true;
     request.asked->answer(fmt::format(
-        "requested; the run stands{}{}, so it is carried out or refused in step {}; the "
-        "log of this process tells the result",
+        "requested; the run does not advance now{}{}, so the request is carried out or refused in "
+        "step {}; the log of this process has the result",
         why.empty() ? "" : ": ", why, step));
   }
   return any;

@@ -141,9 +141,9 @@ TEST(Changes, OfObstaclesThatCannotBeAreErrorsOfTheFile) {
   };
   EXPECT_EQ(error("at_s: 0, remove_obstacle: pst"),
             "s.yaml:5:32: there is no obstacle `pst`; did you mean `post`?");
-  EXPECT_NE(error("at_s: 0").find("a change has 0 of `robot`"), std::string::npos);
+  EXPECT_NE(error("at_s: 0").find("change per entry, found 0: `robot`"), std::string::npos);
   EXPECT_NE(error("at_s: 0, robot: anna, set: {body.scale: 2}, remove_obstacle: post")
-                .find("a change has 2 of `robot`"),
+                .find("change per entry, found 2: `robot`"),
             std::string::npos);
   EXPECT_NE(error("at_s: 0, set: {body.scale: 2}").find("`set` needs `robot`"), std::string::npos);
   EXPECT_NE(error("at_s: 0, robot: anna").find("found nothing, expected keys"), std::string::npos);

@@ -204,8 +204,8 @@ TEST_F(InputPostTest, WhileTheRunStandsWhoWaitsIsToldWhatWillBe) {
   EXPECT_FALSE(post_->put_off("paused", 7, asked_at_ + 900ms));
   EXPECT_TRUE(post_->put_off("paused", 7, asked_at_ + 1s));
   EXPECT_EQ(answer(0),
-            "requested; the run stands: paused, so it is carried out or refused in step 7; the log "
-            "of this process tells the result");
+            "requested; the run does not advance now: paused, so the request is carried out or "
+            "refused in step 7; the log of this process has the result");
   EXPECT_FALSE(post_->put_off("paused", 7, asked_at_ + 2s)) << "once";
   step();
   EXPECT_EQ(engines_[0]->order_of(RobotId(1)), "path of 2 points to 2.00, 2.00") << "and it is";
@@ -213,8 +213,8 @@ TEST_F(InputPostTest, WhileTheRunStandsWhoWaitsIsToldWhatWillBe) {
 
 TEST_F(InputPostTest, AfterAGapNothingOldIsDone) {
   EXPECT_EQ(why(ask(point_of(Kind::kGoal, "r1", {1, 2}))), "accepted");
-  post_->drop("the run went on without the host of the robot");
-  EXPECT_EQ(answer(0), "refused: the run went on without the host of the robot");
+  post_->drop("the run continued without the host of the robot");
+  EXPECT_EQ(answer(0), "refused: the run continued without the host of the robot");
   make_world();
   EXPECT_TRUE(world_.inputs.empty());
 }
@@ -283,8 +283,8 @@ TEST_F(InputPostTest, AReleaseOfAnotherRobotPromisesNothing) {
 TEST_F(InputPostTest, WhatAnOldReportAskedForIsNotSaidToBeDoneAfterAGap) {
   EXPECT_EQ(why(ask(point_of(Kind::kGoal, "r1", {1, 2}))), "accepted");
   make_world();
-  post_->drop("the run went on without the host of the robot");
-  EXPECT_EQ(answer(0), "refused: the run went on without the host of the robot");
+  post_->drop("the run continued without the host of the robot");
+  EXPECT_EQ(answer(0), "refused: the run continued without the host of the robot");
   EXPECT_TRUE(post_->settle({})) << "the refusal was an answer";
   post_->take(world_);
   EXPECT_FALSE(post_->settle({})) << "the step gives no second answer";

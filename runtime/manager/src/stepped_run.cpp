@@ -104,7 +104,7 @@ Status SteppedRun::take_over() {
   for (HostSlot& slot : slots_) {
     // A new process starts from the beginning, although the one before it was in the run.
     if (slot.last_step + 1 < step_) {
-      slot.loss = fmt::format("host `{}` was not there from step {} to step {}", slot.name,
+      slot.loss = fmt::format("host `{}` was absent from step {} to step {}", slot.name,
                               slot.last_step, step_ - 1);
       miss_steps(slot);
     }

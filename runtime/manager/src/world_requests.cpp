@@ -160,7 +160,7 @@ void WorldRequests::put_off(std::string_view why) {
     // The request stays in the list: its outcome is logged when the step is made.
     pending.asked.answer(
         fmt::format("requested; {}, so it is carried out or refused in step {}; the log of this "
-                    "process tells the result",
+                    "process has the result",
                     why, next_step_));
   }
 }

@@ -88,8 +88,8 @@ Status HostResultsParts::add(const bus::HostResultsPart& part) {
   }
   if (part.host != partial.host || part.size != partial.size || part.hash != partial.hash) {
     return fail(ErrorCode::kInvalidArgument,
-                "part {} belongs to other results than the parts before: of host {} and {} bytes, "
-                "not of host {} and {} bytes",
+                "part {} does not belong to the results of the previous parts: it is of host {} "
+                "and {} bytes, not of host {} and {} bytes",
                 part.part, part.host, part.size, partial.host, partial.size);
   }
   const auto bytes = std::as_bytes(bus::elements(part.bytes));

@@ -106,7 +106,7 @@ void add_notes(const RunResults& results, const RunOutcome& outcome, Table& tabl
   const std::string deaf = disobedient(results);
   if (!deaf.empty()) {
     table.rows.push_back(
-        {"ignored commands", deaf + ": recorded robots do; the commands were logged"});
+        {"ignored commands", deaf + ": recorded robots ignore them; the commands were logged"});
   }
   for (const HostShare& host : results.hosts) {
     if (host.found || !host.folders.empty()) continue;

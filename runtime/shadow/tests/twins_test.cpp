@@ -81,9 +81,7 @@ TEST(TwinErrors, PointAtTheScenario) {
   EXPECT_NE(word.find("did you mean `twin`"), std::string::npos) << word;
   const std::string none =
       host.error_of(robot("", "changes:\n  - {at_s: 0, robot: anna, hand_over: twin}\n"));
-  EXPECT_EQ(
-      none,
-      "s.yaml:4:22: `hand_over`: robot `anna` has no `twin`, whose drivers it could be given");
+  EXPECT_EQ(none, "s.yaml:4:22: `hand_over`: robot `anna` has no `twin` with other drivers");
   const std::string two = host.error_of(robot(
       kTwin, "changes:\n  - {at_s: 0, robot: anna, hand_over: twin, set: {body.scale: 2}}\n"));
   EXPECT_NE(two.find("two changes"), std::string::npos) << two;

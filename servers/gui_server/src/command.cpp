@@ -43,7 +43,7 @@ void Source::command(const CommandMessage& command, const Author& /*author*/,
 }
 
 Result<ProbeMade> Source::probe(const ProbeRequest& /*request*/) {
-  return fail(ErrorCode::kState, "This is a recording: its world is not there to be sensed.");
+  return fail(ErrorCode::kState, "This is a recording: no virtual sensors can be tried in it.");
 }
 
 }  // namespace rave::gui_server

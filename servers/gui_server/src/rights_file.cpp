@@ -63,7 +63,7 @@ Result<KeptChange> change_of(std::string_view line, const SourceLocation& where)
   } else if (columns[1] == "user" && check_user_name(columns[2])) {
     kept.change.user = columns[2];
   } else {
-    return fail_at(where, ErrorCode::kParse, "expected role or user, and which");
+    return fail_at(where, ErrorCode::kParse, "expected role or user, with a name");
   }
   const auto what = class_named(columns[3]);
   if (!what) return fail_at(where, ErrorCode::kParse, "expected a class, such as readings");

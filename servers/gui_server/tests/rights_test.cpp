@@ -331,7 +331,7 @@ TEST(RightsFile, IsStrict) {
   };
   EXPECT_EQ(error("run\trole\tobserver\tpose\town"), "none");
   EXPECT_EQ(error("run\trole\tsuper_user\tpose\town"), "rights:2: expected observer or commander");
-  EXPECT_EQ(error("run\tteam\tx\tpose\town"), "rights:2: expected role or user, and which");
+  EXPECT_EQ(error("run\tteam\tx\tpose\town"), "rights:2: expected role or user, with a name");
   EXPECT_EQ(error("run\tuser\tben\tposes\town"), "rights:2: expected a class, such as readings");
   EXPECT_EQ(error("run\tuser\tben\tpose\tteams:*"),
             "rights:2: expected none, own, all, usual or teams:green,blue");

@@ -49,7 +49,7 @@ export class ChatPanel extends LiveElement {
     const robot = slot === null ? undefined : model.robots[slot];
     if (robot !== undefined && slot !== null) {
       const commands = model.commands(slot);
-      targets.push({key: 'robot', label: robot.name, hint: commands ? `To ${robot.name}, and who sees it` : `About ${robot.name}, to who sees it`, to: {to: 'robot', slot}});
+      targets.push({key: 'robot', label: robot.name, hint: commands ? `To ${robot.name}, and to all people who see it` : `About ${robot.name}, to all people who see it`, to: {to: 'robot', slot}});
     }
     targets.push(...this.teams());
     for (const {name} of model.others) targets.push({key: `user ${name}`, label: name, hint: `To ${name} alone`, to: {to: 'user', name}});

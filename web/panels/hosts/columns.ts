@@ -39,9 +39,9 @@ export const kColumns: readonly Column[] = [
   {heading: 'Trip', title: 'To the manager and back', from: 1140, text: (host) => time(host.trip_s)},
   {heading: 'Clock', title: 'Clock of the manager minus that of the host', from: 980, text: (host) => clockText(host.clock_s, host.clock_bound_s)},
   {heading: 'CPU', title: 'Share of one core', from: 0, text: (host) => (host.cpu === null ? '' : `${Math.round(100 * host.cpu)} %`)},
-  {heading: 'Lost', title: 'Messages that were lost on the way', from: 0, text: (host) => `${host.lost}`, tone: (host) => count(host.lost)},
+  {heading: 'Lost', title: 'Lost messages', from: 0, text: (host) => `${host.lost}`, tone: (host) => count(host.lost)},
   {heading: 'Refused', title: 'Samples that it refused', from: 980, text: (host) => `${host.refused ?? ''}`, tone: (host) => count(host.refused)},
-  {heading: 'Late', title: 'Missed deadlines, and what takes the time', from: 560, text: missedText, tone: (host) => ((host.missed_pct ?? 0) > kMostMissed_pct ? 'care' : '')},
+  {heading: 'Late', title: 'Missed deadlines, and the phase that takes the time', from: 560, text: missedText, tone: (host) => ((host.missed_pct ?? 0) > kMostMissed_pct ? 'care' : '')},
   {heading: 'Memory', title: 'Resident memory', from: 820, text: (host) => (host.memory_mb === undefined ? '' : `${Math.round(host.memory_mb)} MB`)},
   {heading: 'PID', title: 'Number of the process on its machine', from: 1140, text: (host) => `${host.pid ?? ''}`},
 ];

@@ -46,10 +46,10 @@ export class HostsPanel extends LiveElement {
 
   private renderNone(): TemplateResult {
     const {model} = this.context;
-    if (!model.live) return html`<p>A recording does not say how its hosts were.</p>`;
+    if (!model.live) return html`<p>A recording has no statistics of its hosts.</p>`;
     // They come before the first picture, if they come at all.
     if (!model.seesLess || model.poses.newest === null) return html`<p>No host is known yet.</p>`;
-    return renderNote(this.context, `Not yours to see: hosts. They say how many robots they have, so only who sees all robots gets them. ${holdersText(kUsualRights.pose)} ${askText(model.others)}`);
+    return renderNote(this.context, `You may not see hosts. The list has the number of robots of each host, so it requires the right to see all robots. ${holdersText(kUsualRights.pose)} ${askText(model.others)}`);
   }
 
   private renderRow(host: Host): TemplateResult {
@@ -119,7 +119,7 @@ export class HostsPanel extends LiveElement {
   ];
 }
 
-const kStates = {gone: 'gone', dropped: 'dropped, the run continues without', waiting: 'not in the run yet'};
+const kStates = {gone: 'gone', dropped: 'dropped, the run continues without it', waiting: 'not in the run yet'};
 
 function lateText(hosts: readonly Host[]): string {
   const names = hosts.map((host) => host.name).join(', ');

@@ -159,9 +159,9 @@ export class MapPanel extends LookingPanel {
   }
 
   private waits(source: MapName): string {
-    if (source.slot === undefined) return `Nothing of ${source.name} is known yet.`;
+    if (source.slot === undefined) return `${source.name} has no data yet.`;
     if (!this.context.model.live) return `${source.name} had published no map yet at this time.`;
-    return `${source.name} begins its map now: it shows what its sensors see from here on.`;
+    return `The map of ${source.name} begins now: it shows what the sensors see from this time on.`;
   }
 
   private summary(source: MapName): string {

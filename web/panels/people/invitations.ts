@@ -38,7 +38,7 @@ export class Invitations extends LiveElement {
       ${this.renderLink()}
       <div class="scroll" tabindex="0" role="region" aria-label="Invitations">
         ${accounts.invitations.map((invitation) => this.renderInvitation(invitation, now_s))}
-        ${accounts.invitations.length === 0 ? html`<p>No invitation is out.</p>` : nothing}</div>`;
+        ${accounts.invitations.length === 0 ? html`<p>There are no open invitations.</p>` : nothing}</div>`;
   }
 
   private renderLink(): TemplateResult | typeof nothing {

@@ -3,10 +3,10 @@ import type {Parameter, ProbeRequest, Robot, VirtualSensor} from '../../protocol
 
 /** Where a sensor sits on its robot, as a robot file has it. */
 export const kMount = [
-  {key: 'x_m', unit: 'm', most: 0.5, doc: 'Forward of the origin of the robot.'},
-  {key: 'y_m', unit: 'm', most: 0.5, doc: 'To the left of it.'},
-  {key: 'z_m', unit: 'm', most: 1, doc: 'Above the floor.'},
-  {key: 'yaw_deg', unit: 'deg', most: 180, doc: 'Where it looks, to the left.'},
+  {key: 'x_m', unit: 'm', most: 0.5, doc: 'Position forward of the origin of the robot.'},
+  {key: 'y_m', unit: 'm', most: 0.5, doc: 'Position to the left of the origin of the robot.'},
+  {key: 'z_m', unit: 'm', most: 1, doc: 'Height above the floor.'},
+  {key: 'yaw_deg', unit: 'deg', most: 180, doc: 'Viewing direction, counter-clockwise from ahead.'},
 ] as const;
 export type MountKey = (typeof kMount)[number]['key'];
 

@@ -88,7 +88,7 @@ export class ProbePanel extends LookingPanel {
     if (!model.may('probe')) return renderWithheld(this.context, 'probe');
     const {driver, shownSlot: slot} = this;
     if (slot === null) return html`<p class="none">Select a robot, real or simulated, to try a virtual sensor on it.</p>`;
-    if (driver === null) return html`<p class="none">${model.probes.drivers === null ? 'Asking for the virtual sensors that there are.' : 'There are no virtual sensors here.'}</p>`;
+    if (driver === null) return html`<p class="none">${model.probes.drivers === null ? 'Loading the list of virtual sensors.' : 'There are no virtual sensors here.'}</p>`;
     const robot = model.robots[slot];
     const hue = palette.hue(slot);
     const made = model.probes.of(this);
@@ -142,14 +142,14 @@ export class ProbePanel extends LookingPanel {
   private renderReading(slot: number, made: ProbeMade | null): TemplateResult {
     const {model, palette} = this.context;
     const sensor = made?.sensor;
-    if (sensor === undefined) return html`<div class="view"><p class="none">${made?.error === undefined ? 'The sensor is being made.' : 'There is no sensor as it is described.'}</p></div>`;
+    if (sensor === undefined) return html`<div class="view"><p class="none">${made?.error === undefined ? 'The sensor is being made.' : 'This description gives no sensor.'}</p></div>`;
     const reading = this.reading(slot);
     const late = reading === null && this.askedAt_ms !== 0 && performance.now() - this.askedAt_ms > kPatience_ms;
     const met = (ray: number) => (reading === null ? null : metBy(this.surface, this.placed, slot, sensor, reading, ray));
     return html`<div class="view">
       <p class="about">${aboutText(sensor, reading, model.poses.newest?.time_s ?? 0)}</p>
-      ${late ? html`<p class="none">No reading yet: the host of the robot makes 16 probes at most, and none while the run is held.</p>` : nothing}
-      ${sensor.kind === 'ranges' ? html`<canvas class="polar" role="img" aria-label="What the probe reads, ahead up"></canvas><p class="sentence">${nearestText(sensor, reading, met, palette)}</p>` : renderValues(sensor, reading)}</div>`;
+      ${late ? html`<p class="none">No reading yet: a host makes at most 16 probes, and none while the run does not advance.</p>` : nothing}
+      ${sensor.kind === 'ranges' ? html`<canvas class="polar" role="img" aria-label="Readings of the probe; ahead is up"></canvas><p class="sentence">${nearestText(sensor, reading, met, palette)}</p>` : renderValues(sensor, reading)}</div>`;
   }
 
   private reading(slot: number): Reading | null {

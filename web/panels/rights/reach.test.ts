@@ -29,6 +29,6 @@ it('a press gives more, then nothing, then what the role has', () => {
 
 it('reaches and classes are said in words', () => {
   expect(reachText(['red', 'green'])).toBe('robots of red, green');
-  expect(reachText('none')).toBe('never leaves the server');
+  expect(reachText('none')).toBe('no right');
   expect(className('hybrid_parts')).toBe('Hybrid parts');
 });

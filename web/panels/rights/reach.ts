@@ -33,7 +33,7 @@ export function rowsOf(rights: Rights): {roles: Row[]; people: Row[]} {
   return {roles, people};
 }
 
-const kNotes: Record<string, string> = {observer: 'every visitor', commander: 'and what observers may', super_user: 'everything'};
+const kNotes: Record<string, string> = {observer: 'every visitor', commander: 'rights of observers, and more', super_user: 'all rights'};
 
 function noteOf({role, teams}: RightsPerson): string {
   const word = role === 'super_user' ? 'super-user' : role;
@@ -52,7 +52,7 @@ export function nextReach(cell: Cell, ofUser: boolean): Reach | null {
 export function reachText(reach: Reach): string {
   if (reach === 'all') return 'all robots';
   if (reach === 'own') return 'robots of own teams';
-  return reach === 'none' ? 'never leaves the server' : `robots of ${reach.join(', ')}`;
+  return reach === 'none' ? 'no right' : `robots of ${reach.join(', ')}`;
 }
 
 /** `hybrid_parts` is `Hybrid parts`. */

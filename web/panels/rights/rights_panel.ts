@@ -39,8 +39,8 @@ export class RightsPanel extends LiveElement {
     if (rights === null) return html`<p>${model.may('rights') ? 'Waiting for the rights.' : model.whyNot('rights')}</p>`;
     const {roles, people} = rowsOf(rights);
     return html`
-      <div class="bar"><span><i class="cell all">${icon('check', 12)}</i>gets it</span><span><i class="cell own"><i></i></i>own teams only</span>
-        <span><i class="cell none">–</i>never leaves the server</span><b></b>
+      <div class="bar"><span><i class="cell all">${icon('check', 12)}</i>all robots</span><span><i class="cell own"><i></i></i>own teams only</span>
+        <span><i class="cell none">–</i>no right</span><b></b>
         <button class="see" ?disabled=${this.chosen === ''} @click=${() => this.seeAs()}>${icon('eye', 15)} See as ${this.chosen === '' ? '…' : this.chosenName()}</button></div>
       <div class="scroll" tabindex="0" role="region" aria-label="Rights"><table>
         <thead><tr><th></th>${rights.classes.map((what) => html`<th scope="col">${className(what)}</th>`)}</tr></thead>
@@ -69,7 +69,7 @@ export class RightsPanel extends LiveElement {
   private press(row: Row, name: string, what: string, cell: Cell): void {
     const reach = nextReach(cell, row.user !== undefined);
     const before = row.user !== undefined && !cell.own ? null : cell.reach;
-    const now = reach === null ? 'has the right of the role again' : reachText(reach);
+    const now = reach === null ? 'right of the role again' : reachText(reach);
     this.ask({type: 'set_right', ...(row.user === undefined ? {role: row.role as SetRight['role']} : {user: row.user}), class: what, reach},
       before, `${name}, ${className(what).toLowerCase()}: ${now}`);
   }

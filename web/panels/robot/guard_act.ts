@@ -32,7 +32,7 @@ export function guardOf(model: RunModel, slot: number, asked_mps: number | null)
   if (told !== null) {
     const held = told.asked.some((value, i) => Math.abs(value) > Math.abs(told.given[i]) + kHeld);
     const last = lastAct(model, slot);
-    const why = last !== null && last.ago_s < kRecent_s ? last.why : 'more than its drive lets through';
+    const why = last !== null && last.ago_s < kRecent_s ? last.why : 'above the limit of its drive';
     return held ? {limit_mps: Math.abs(told.given[0]), why} : null;
   }
   const driven = Math.abs(model.poses.newest?.speed[slot] ?? 0);

@@ -82,7 +82,7 @@ export class RobotPanel extends LiveElement {
   private renderParameters(slot: number, program: string, parameters: readonly Parameter[]): TemplateResult | typeof nothing {
     if (parameters.length === 0) return program === '' ? nothing : html`<h4>Program <code>${program}</code></h4>`;
     const may = this.context.model.commands(slot);
-    return html`<h4>Program <code>${program}</code><span class="space"></span><em>${may ? 'live' : 'not yours to change'}</em></h4>
+    return html`<h4>Program <code>${program}</code><span class="space"></span><em>${may ? 'live' : 'read-only'}</em></h4>
       <div class="parameters">${parameters.map((parameter) => this.renderParameter(slot, parameter, may))}</div>`;
   }
 
@@ -161,7 +161,7 @@ export class RobotPanel extends LiveElement {
       return value === null ? [] : [at(point.t, value)];
     });
     return html`<div class="trace"><span>${signed(top)}<br>${name}<br>${signed(low)}</span>
-      <svg class="plot" viewBox="0 0 240 44" preserveAspectRatio="none" role="img" aria-label="${name}, asked and driven, of the last ${kTrace_s} seconds, from ${signed(low)} to ${signed(top)} ${unit}">
+      <svg class="plot" viewBox="0 0 240 44" preserveAspectRatio="none" role="img" aria-label="${name}, asked and driven, over the last ${kTrace_s} seconds; scale from ${signed(low)} to ${signed(top)} ${unit}">
         ${svg`<line x1="0" y1=${at(0, 0).split(',')[1]} x2="240" y2=${at(0, 0).split(',')[1]} />${asked.map((part) => svg`<polyline class="asked" points=${part.map(([t, value]) => at(t, value)).join(' ')} />`)}<polyline points=${line.join(' ')} />`}</svg></div>`;
   }
 

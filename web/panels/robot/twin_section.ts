@@ -61,16 +61,16 @@ export class TwinSection extends LiveElement {
   private renderTwin(robot: KnownRobot, twin: Twin): TemplateResult {
     if (!this.seen.has(robot.name)) this.seen.set(robot.name, twin.refused);
     const to = nextDrivers(robot.mixed === true, twin);
-    const serves = to === 'first' || to === 'twin' ? `${to === 'twin' ? 'first' : 'second'} set serves` : `${twin.simulated ? 'simulated' : 'real'} drivers serve`;
+    const serves = to === 'first' || to === 'twin' ? `${to === 'twin' ? 'first' : 'second'} set in use` : `${twin.simulated ? 'simulated' : 'real'} drivers in use`;
     const word = to === 'first' || to === 'twin' ? `the ${to === 'twin' ? 'second' : 'first'} set` : to;
     const refused = twin.refused > (this.seen.get(robot.name) ?? 0) && !twin.under_way;
     const note = this.notes.get(robot.name);
     return html`<h4>Hand-over<span class="space"></span><em class=${twin.simulated ? '' : 'real'}>${serves}</em></h4>
-      ${twin.under_way ? html`<p role="status">${icon('refresh', 14)} Being handed over: the other drivers are opened, and the robot is told to stand.</p>` : html`<div class="row">
+      ${twin.under_way ? html`<p role="status">${icon('refresh', 14)} Hand-over in progress: the other drivers are opened, and the robot slows down until it stands.</p>` : html`<div class="row">
         ${this.sure === this.robot
           ? html`<button class="main" @click=${() => void this.ask('hand_over', to)}>Hand over now</button><button class="plain" @click=${() => { this.sure = null; this.requestUpdate(); }}>Keep</button>`
           : html`<button class="plain" @click=${() => { this.sure = this.robot; this.requestUpdate(); }}>${icon('refresh', 14)} Hand over to ${word} …</button>`}</div>
-      ${this.sure === this.robot ? html`<p class="faint">${to === 'real' ? 'Put the real robot where this one is, with the same heading. Its program drives on with the hardware; a stop holds.' : 'The robot stops for the change; its program continues.'}</p>` : nothing}
+      ${this.sure === this.robot ? html`<p class="faint">${to === 'real' ? 'Put the real robot where this one is, with the same heading. Its program continues with the hardware. A stop stays in effect.' : 'The robot stops for the change; its program continues.'}</p>` : nothing}
       ${note !== undefined ? html`<p class="bad" role="alert">${note}</p>` : twin.last === '' ? nothing : html`<p class=${refused ? 'bad' : 'faint'} role="status">${refused ? 'Refused: ' : 'Last: '}${twin.last}</p>`}`}`;
   }
 
@@ -78,12 +78,12 @@ export class TwinSection extends LiveElement {
     const {model} = this.context;
     const since_s = Math.max(0, (model.poses.newest?.time_s ?? shadow.since_s) - shadow.since_s);
     return html`<h4>Shadow<span class="space"></span><em>${shadow.running ? `for ${since_s.toFixed(0)} s` : 'not running'}</em></h4>
-      ${shadow.running ? html`<table><thead><tr><th>differs by</th><th>now</th><th>most</th></tr></thead><tbody>
+      ${shadow.running ? html`<table><thead><tr><th>difference</th><th>now</th><th>largest</th></tr></thead><tbody>
         <tr><td>position</td><td>${differenceText(shadow.m, 'm')}</td><td>${differenceText(shadow.most_m, 'm')}</td></tr>
         <tr><td>heading</td><td>${(kDegrees * shadow.rad).toFixed(1)}°</td><td>${(kDegrees * shadow.most_rad).toFixed(1)}°</td></tr>
         ${shadow.readings.map(({sensor, unit, last, most}) => html`<tr><td>${sensor}</td><td>${differenceText(last, unit)}</td><td>${differenceText(most, unit)}</td></tr>`)}</tbody></table>
-        ${model.commands(this.robot) ? html`<div class="row"><button class="plain" @click=${() => void this.ask('reset_shadow')}>Put it where ${robot.name} is</button></div>` : nothing}`
-      : html`<p class="faint">The simulated twin runs beside ${robot.name} while that is real.</p>`}`;
+        ${model.commands(this.robot) ? html`<div class="row"><button class="plain" @click=${() => void this.ask('reset_shadow')}>Reset the shadow</button></div>` : nothing}`
+      : html`<p class="faint">The simulated twin runs beside ${robot.name} while its real drivers are in use.</p>`}`;
   }
 
   static override styles = [

@@ -220,7 +220,7 @@ export class RobotsPanel extends LiveElement {
         <span style="color:${palette.hue(slot).ink}">${robot.name}</span>
         <span class="chip">${robot.kind}${robot.recorded ? ', recorded' : ''}</span></h3>
       <dl>
-        ${row('Program', robot.program, robot.recorded ? '(does not obey)' : '')}
+        ${row('Program', robot.program, robot.recorded ? '(ignores commands)' : '')}
         ${row('Pose', known ? `${frame.x[slot].toFixed(2)}, ${frame.y[slot].toFixed(2)} m · ${degrees}°`.replaceAll('-', '−') : 'not known')}
         ${row('Speed', known ? speedText(frame.speed[slot]) : '')}
         ${row('Sensors', robot.sensors.map((sensor) => sensor.name).join(', '))}

@@ -100,7 +100,7 @@ export class SensorsPanel extends LookingPanel {
       <div class="head">
         <i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i>
         <b style="color:${hue.ink}">${robot.name}</b>
-        <button class="icon-button" title="Keep this robot, whatever is selected" aria-label="Keep this robot" aria-pressed=${this.pinned !== null}
+        <button class="icon-button" title="Keep showing this robot when the selection changes" aria-label="Keep this robot" aria-pressed=${this.pinned !== null}
           @click=${() => { this.pinned = this.pinned === null ? slot : null; this.requestUpdate(); }}>${icon('pin', 14)}</button>
         <span class="space"></span>
         <div class="segments" role="radiogroup" aria-label="Sensor">
@@ -121,7 +121,7 @@ export class SensorsPanel extends LookingPanel {
     const {model} = this.context;
     const many = whose.startsWith('No ');
     if (!model.seesLess) return html`<p class="none">${whose} ${many ? 'has a sensor' : 'has no sensors'}.</p>`;
-    return renderNote(this.context, `${whose} ${many ? 'shows you a sensor' : 'shows you no sensors: it has none, or they are not yours to see'}. ${holdersText(kUsualRights.readings)} ${askText(model.others)}`);
+    return renderNote(this.context, `${whose} has ${many ? 'a sensor' : 'no sensors'} that you may see. ${holdersText(kUsualRights.readings)} ${askText(model.others)}`);
   }
 
   private choose(slot: number, index: number): void {
@@ -138,7 +138,7 @@ export class SensorsPanel extends LookingPanel {
     return html`
       ${sensor.origin === 'hybrid' && this.context.model.isWithheld('hybrid_parts') ? renderWithheld(this.context, 'hybrid_parts') : nothing}
       ${sensor.origin === 'hybrid' ? html`<p class="halves">${this.context.model.may('hybrid_parts') ? html`<span><i class="line"></i>real half</span>` : nothing}<span><i class="dot"></i>result from it</span><span><i class="square"></i>result from the virtual half</span></p>` : nothing}
-      ${ranges ? html`<canvas class="polar" role="img" aria-label="Ranges around the robot; the numbers are behind the button Show the numbers"></canvas>` : renderValues(sensor, reading)}
+      ${ranges ? html`<canvas class="polar" role="img" aria-label="Ranges around the robot; the button Show the numbers shows them as a table"></canvas>` : renderValues(sensor, reading)}
       ${ranges ? html`<p class="sentence">${this.nearest(slot, sensor, reading)}</p>` : nothing}
       ${this.renderCourse(sensor)}`;
   }
@@ -182,7 +182,7 @@ export class SensorsPanel extends LookingPanel {
       <p class="halves"><span><i class="dot saw"></i>saw ${reading?.rows ?? 0}</span>
         ${twin === null ? nothing : html`<span><i class="square"></i>${robot.sensors[twin].name} ${sensor.origin === 'virtual' ? 'saw' : 'expects'} ${expected?.rows ?? 0}</span>
         <span class="space"></span><em>${count} of ${expected?.rows ?? 0} in both</em>`}</p>
-      <canvas class="sightings" role="img" aria-label="Range and bearing of what the camera saw; the numbers are behind the button Show the numbers"></canvas>
+      <canvas class="sightings" role="img" aria-label="Ranges and bearings of the sightings of the camera; the button Show the numbers shows them as a table"></canvas>
       ${this.renderCourse(sensor)}`;
   }
 

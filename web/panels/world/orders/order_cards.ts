@@ -44,7 +44,7 @@ export function renderHint(context: PanelContext, desk: OrderDesk, choose: (shap
     select: html``,
     goal: html`<b>Goal for ${who}.</b> Click a place; drag for a heading.`,
     path: html`<b>Path for ${who}.</b> Drag, or click to add points.`,
-    place: html`<b>Place ${who}.</b> Click where it shall stand; drag for a heading.`,
+    place: html`<b>Place ${who}.</b> Click its new position; drag for a heading.`,
     obstacle: html`<b>Obstacle.</b> ${desk.shape === 'polygon' ? 'Click its corners; the first one again ends it.' : 'Drag it.'}`,
   };
   return html`<div class="hint" role="status">${texts[tool]}

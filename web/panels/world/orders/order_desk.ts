@@ -72,7 +72,7 @@ export class OrderDesk {
     const primary = selection.primary;
     if (primary === null) return 'Select a robot first.';
     if (this.slotsFor(tool).length > 0) return '';
-    if (tool === 'place') return model.may('edit') ? 'Only simulated robots are placed.' : model.whyNot('edit');
+    if (tool === 'place') return model.may('edit') ? 'Only simulated robots can be placed.' : model.whyNot('edit');
     return model.whyNotTaken(primary, tool);
   }
 

@@ -29,7 +29,7 @@ struct Spread {
 };
 [[nodiscard]] Spread spread_of(std::vector<double> values);
 
-/// What one of the builds did.
+/// The measurements of one build.
 struct ComparedBuild {
   std::filesystem::path executable;
   std::vector<double> robot_steps_per_s;  ///< One for each round.
@@ -50,11 +50,11 @@ struct Comparison {
 /// kNotFound, with what was looked for.
 [[nodiscard]] Result<std::filesystem::path> find_rave(const std::filesystem::path& build);
 
-/// Runs both builds in turn, in each round in the other order. Each uses its own plug-ins, whatever
-/// RAVE_PLUGIN_PATH and RAVE_SHARE say. Their messages go where those of this process go. Errors:
-/// kNotFound (a build), kIo (one cannot be started), kState (a run that failed or said something
-/// else than expected, a build that gives two hashes for the same run, builds of different hashes
-/// unless that is allowed).
+/// Runs both builds in turn; the order changes with each round. Each uses its own plug-ins,
+/// independent of RAVE_PLUGIN_PATH and RAVE_SHARE, and writes messages to the standard error of
+/// this process. Errors: kNotFound (a build), kIo (a build cannot be started), kState (a run that
+/// failed or had unexpected output, a build that gives two hashes for the same run, builds with
+/// different hashes unless that is allowed).
 [[nodiscard]] Result<Comparison> compare(const CompareOptions& options);
 
 /// One line of JSON without a newline; docs/benchmarks.md explains the keys.

@@ -13,7 +13,7 @@
 // ordinary scenario. See docs/benchmarks.md.
 namespace rave::swarm {
 
-/// What each robot senses with.
+/// The range sensor of each robot.
 enum class Sensing : std::uint8_t {
   kA,  ///< 16 rays over the full circle, 3 m.
   kB,  ///< 180 rays over 180 degrees, 8 m.

@@ -14,10 +14,10 @@ namespace rave {
 /// The width below which a wrapped sentence is hard to read.
 inline constexpr std::size_t kComfortable = 40;
 
-/// Where the text of a cell stands in its column.
+/// The alignment of the text of a cell in its column.
 enum class Align : std::uint8_t { kLeft, kRight, kCentre };
 
-/// What a text means for who reads it; its colour on a terminal.
+/// The meaning of a text for the reader; determines its colour on a terminal.
 enum class Tone : std::uint8_t { kPlain, kFaint, kGood, kCare, kBad };
 
 /// A cell of a table, in UTF-8. Control characters are removed when it is shown, so that no cell

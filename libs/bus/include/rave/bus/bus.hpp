@@ -56,7 +56,7 @@ class Bus {
   [[nodiscard]] std::vector<BusProcess> processes() const;
 
   /// When this process was last unable to run, up to this call. Silence of others during that time
-  /// does not mean that they are lost: who judges it compares a time from before this call.
+  /// does not mean that they are lost. To judge silence, compare with a time from before this call.
   [[nodiscard]] const Standstill& standstill() const noexcept;
 
   /// The number of ignored samples: those of other runs, and datagrams of unknown senders on the

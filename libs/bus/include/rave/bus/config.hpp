@@ -36,9 +36,9 @@ enum class Reach : std::uint8_t {
   kHubs,  ///< Hubs only. Other processes find this one if they look for it.
 };
 
-/// With which processes of a run this one exchanges samples. Hosts are in both DDS partitions of
-/// the run. Its manager and its monitors are in one each, so they neither receive from nor delay
-/// each other.
+/// The processes of a run with which this process exchanges samples. Hosts are in both DDS
+/// partitions of the run. The manager is in one, monitors are in the other, so manager and monitors
+/// neither receive from nor delay each other.
 enum class Side : std::uint8_t {
   kAll,      ///< All; used by hosts.
   kManager,  ///< Hosts only, in the partition `rave/RUN`; used by the manager.

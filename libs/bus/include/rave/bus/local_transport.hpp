@@ -82,7 +82,7 @@ class LocalSender {
   /// The number of matched readers.
   [[nodiscard]] std::size_t readers() const noexcept { return writers_.size(); }
   /// Whether the readers must be counted again. Counting costs as much as sending, so it is done
-  /// every 5 to 10 ms only. A reader that appears in between asks for what it missed later than
+  /// every 5 to 10 ms only. A reader that appears in between requests missed samples later than
   /// that.
   [[nodiscard]] bool due() const noexcept;
   /// The readers were counted and are still those of meet().

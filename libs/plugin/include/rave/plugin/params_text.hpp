@@ -19,7 +19,8 @@ namespace rave::plugin {
 /// The default in the notation of a file, or `required` if there is none.
 [[nodiscard]] std::string default_text(const ParamSpec& spec);
 
-/// What a caller knows of a driver beyond this library, which has no names for kinds of data.
+/// A property of a driver that the caller adds, because this library has no names for kinds of
+/// data.
 struct DriverFact {
   std::string key;  ///< One word in lower case, such as `gives`.
   std::string value;

@@ -56,7 +56,7 @@ struct PoseVariance {
   friend bool operator==(const PoseVariance&, const PoseVariance&) = default;
 };
 
-/// As long as a robot has a variance, all of them are written again after so much time of the run.
+/// As long as a robot has a variance, all variances are repeated after this time of the run.
 inline constexpr std::int64_t kVariancesHold_ns = 1'000'000'000;
 
 /// Which reading of a hybrid sensor: the result for the program, or one half before fusion.

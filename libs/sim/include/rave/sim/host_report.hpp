@@ -52,9 +52,9 @@ struct HostReport {
   std::vector<PoseSample> samples;
   /// Inputs of the last WorldStep that the host had to refuse.
   std::vector<InputRefusal> refusals;
-  /// What people ask of robots of this host, for the next WorldStep: kStop, kRelease, kArm and
-  /// orders, each of one robot. In `sequence` the number by which the host knows it. Written by
-  /// the owner of the engine, who repeats it in each report until WorldStep::answers has it.
+  /// Requests of people to robots of this host, for the next WorldStep: kStop, kRelease, kArm and
+  /// orders, each for one robot. `sequence` is the number that the host gave it. Written by the
+  /// owner of the engine, which repeats it in each report until WorldStep::answers has it.
   std::vector<WorldInput> inputs;
 
   /// Resets all but the number of the host; keeps the allocated memory.

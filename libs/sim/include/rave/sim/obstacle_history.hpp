@@ -16,7 +16,7 @@ namespace rave::sim {
 class ObstacleHistory {
  public:
   ObstacleHistory() = default;
-  /// `changes`: those of another history, which stand for `count` changes.
+  /// `changes`: those of another history, which replace `count` original changes.
   ObstacleHistory(const std::vector<ObstacleChange>& changes, std::uint64_t count);
 
   /// Adds a change that was made; its id is set. `asked` is not kept.

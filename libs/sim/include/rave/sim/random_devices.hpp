@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-// A RandomStream is chosen by seed, robot, device and sample. Sensors draw with their index as the
-// device. One of these bits, set in addition, keeps everything else that draws for a robot apart
-// from sensors and from each other, so that no two sources of noise use the same numbers.
+// A RandomStream is chosen by seed, robot, device and sample. Sensors use their index as the
+// device. All other sources of random numbers of a robot add one of these bits, so that no two
+// sources use the same numbers.
 namespace rave::sim {
 
 /// The `processing:` of the robot file, of the sensor with this index.

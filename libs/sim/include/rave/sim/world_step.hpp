@@ -73,9 +73,9 @@ struct WorldStep {
   SentPackets sent;
   /// Inputs for robots that take effect with this step, in this order.
   std::vector<WorldInput> inputs;
-  /// One for each input of the reports for this step, so that a host asks for nothing twice.
+  /// One for each input of the reports for this step, so that a host repeats no answered input.
   std::vector<InputAnswer> answers;
-  /// Those of them that the authority refuses.
+  /// The inputs that the authority refuses.
   std::vector<InputRefusal> refusals;
 
   /// Clears the lists, keeps the allocated memory, and resizes the columns to `robots`.

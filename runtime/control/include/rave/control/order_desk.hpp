@@ -66,7 +66,7 @@ class OrderDesk {
   HostLeases leases_;
   DriveWatch watch_;
   std::map<std::string, Bucket, std::less<>> rates_;
-  /// By robot: who gave its present order.
+  /// By robot: the author of its present order.
   std::map<std::string, std::string, std::less<>> ordered_;
   std::vector<HostLeases::Change> told_;
 };

@@ -22,7 +22,7 @@ struct Request {
   enum class What : std::uint8_t { kStatus, kPause, kResume, kStep, kEnd, kRun };
   What what = What::kStatus;
   std::uint64_t count = 1;  ///< kStep: 1 to 1e9.
-  /// kRun: what the run is asked for, with finite numbers. Otherwise only the sender.
+  /// kRun: the request to the run, with finite numbers. Otherwise only its sender is set.
   runtime::RunRequest run = {};
 
   /// Whether it changes nothing: it has no author and is not logged.

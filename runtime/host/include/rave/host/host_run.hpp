@@ -50,7 +50,7 @@ struct HostOutcome {
 ///
 /// In lock-step with the other hosts of the run, until its environment manager ends it. The host
 /// waits for the manager, and after a loss for the next one. If the run has continued without this
-/// host, its robots continue from where they stand.
+/// host, its robots continue from their present poses.
 ///
 /// In real time, if a driver of any robot is live or the scenario says so, until the duration of
 /// the run has passed. The host waits for the manager before the start only. A host that joins late

@@ -27,9 +27,9 @@ class InputForwarder {
   virtual Result<std::string> give(const RunRequest& request) = 0;
   /// The last request that was passed on since the last call; none if there was nothing to do.
   [[nodiscard]] virtual std::optional<std::uint64_t> take_given() = 0;
-  /// Whether a user drives the robot, with what is on its way.
+  /// Whether a user drives the robot; counts requests that are not done yet.
   [[nodiscard]] virtual bool is_driven(const std::string& robot) const = 0;
-  /// Who asked for it is answered when it is done or refused; `text` is the description.
+  /// Answers `asked` when the request `given` is done or refused; `text` is the description.
   virtual void await(std::uint64_t given, RunControl::Asked asked, std::string text) = 0;
 };
 

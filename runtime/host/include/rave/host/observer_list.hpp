@@ -38,8 +38,8 @@ class LeaseNotes final : public RunObserver {
   std::vector<sim::Event> told_;
 };
 
-/// All who look at a run, in one list in the order in which they do: results, leases, ROS 2,
-/// shadows, those of the options, and the recording. A new one is a RunObserver and a line in
+/// All observers of a run, in the order in which they read a step: results, leases, ROS 2,
+/// shadows, those of the options, and the recording. To add one, write a RunObserver and a line in
 /// open_all().
 class ObserverList {
  public:
@@ -56,7 +56,7 @@ class ObserverList {
     bool live = false;     ///< In real time.
     bool shadows = false;  ///< Shadows run; not in lock-step over processes.
   };
-  /// Opens all of them. Errors: what keeps one from starting.
+  /// Opens all observers. Errors: those of an observer that cannot start.
   [[nodiscard]] static Result<std::unique_ptr<ObserverList>> open(const Parts& parts);
   ObserverList(const ObserverList&) = delete;
   ObserverList& operator=(const ObserverList&) = delete;
@@ -65,9 +65,9 @@ class ObserverList {
   void after_step(const StepView& step);
   /// The run is held.
   void held(const sim::Engine& engine);
-  /// Behind after_step(): those that want what the others found.
+  /// After after_step(): calls the observers that need the findings of the others.
   void after_all(const StepView& step);
-  /// What they found in the last step goes to the log and to `all`.
+  /// Adds the findings of the last step to the log and to `all`.
   void tell_found(const sim::Engine& engine, LogSink* log, std::vector<sim::Event>& all) const;
 
   [[nodiscard]] Observers& results() noexcept { return results_; }
@@ -83,10 +83,10 @@ class ObserverList {
   /// In real time over several hosts: puts a simulated robot of this host elsewhere, in the world
   /// that this host keeps of it.
   void on_place(std::function<Status(const sim::WorldInput&)> place) { place_ = std::move(place); }
-  /// In lock-step over several hosts: what is asked of the robots goes this way to the authority of
-  /// the world. `forwarder` is not owned and outlives the requests.
+  /// In lock-step over several hosts: passes requests to robots on to the authority of the world.
+  /// `forwarder` is not owned and outlives the requests.
   void forward_to(InputForwarder* forwarder) noexcept { forwarder_ = forwarder; }
-  /// Of the last serve(): what was passed on and is not done yet.
+  /// The request of the last serve() that was passed on and is not done yet.
   [[nodiscard]] std::optional<std::uint64_t> take_given() { return std::exchange(given_, {}); }
   /// Whether a person drives a robot, so that tick() is due often.
   [[nodiscard]] bool drives() const noexcept { return desk_.drives(); }
@@ -98,12 +98,12 @@ class ObserverList {
   }
   /// Whether the status of the run changes without a request.
   [[nodiscard]] bool has_orders() const noexcept { return had_orders_; }
-  /// Puts into the status who drives whom.
+  /// Writes the driver of each robot into the status.
   void refresh(RunStatus& status) const;
   /// Notes in the recording what was asked of the run and counts from this step on.
   void keep(const RunRequest& request, std::uint64_t step);
-  /// Ends the recording. `hash`: none for a live run. Returns why it is not whole; empty if it is,
-  /// or if there is none.
+  /// Ends the recording. `hash`: none for a live run. Returns why it is incomplete; empty if it is
+  /// complete, or if there is no recording.
   [[nodiscard]] std::string end_record(std::optional<std::uint64_t> hash);
 
  private:

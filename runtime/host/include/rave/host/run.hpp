@@ -29,21 +29,21 @@ struct RunOptions {
   LogSink* log = nullptr;                ///< Not owned; outlives the call.
   /// Called in the calling thread about ten times a second of wall time; may be empty.
   std::function<void(const report::Progress&)> on_progress;
-  /// Who else looks at the run. Not owned; they outlive it.
+  /// Additional observers of the run. Not owned; they outlive it.
   std::vector<RunObserver*> observers{};
   /// Pauses, steps and ends the run from elsewhere; may be null. Not owned.
   RunControl* control = nullptr;
-  /// Arm all robots when the run starts; without it those that must be armed wait for a person to
-  /// do so.
+  /// Arm all robots when the run starts. If false, robots with `arm: true` wait until a person arms
+  /// them.
   bool arm = false;
-  /// Name of the run for who controls it from elsewhere; only for messages.
+  /// Name of the run for people who control it from elsewhere; only for messages.
   std::string run_name;
   /// Of one of several processes: the id of their run.
   std::string run_id{};
 };
 
-/// Runs a scenario to its end in the calling thread. Errors: what keeps it from starting, and a
-/// stepped driver that stops answering. A run that is merely not whole is no Error.
+/// Runs a scenario to its end in the calling thread. Errors: a reason why it cannot start, and a
+/// stepped driver that stops answering. A run that is only incomplete is no Error.
 [[nodiscard]] Result<RunOutcome> run(const config::ExpandedScenario& scenario,
                                      plugin::Catalogue& catalogue, const RunOptions& options);
 

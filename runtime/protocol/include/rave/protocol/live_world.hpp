@@ -36,9 +36,9 @@ struct ObstacleSight {
 
 /// The world of one host in real time. It is the authority for the local robots. All others it
 /// knows only from messages of their hosts: it extrapolates their poses with the last velocity for
-/// at most the `staleness` of their type, after which they stay there and count as stale. It places
-/// them but never pushes them, so local robots are pushed aside by them as by real robots. A robot
-/// without any message is absent.
+/// at most the `staleness` of their type, after which they stay there and count as stale. It never
+/// pushes remote robots: like real robots, they push local robots aside. A robot without any
+/// message is absent.
 ///
 /// Used between propose() and apply() of an engine with EngineSpec::own_authority. One owner
 /// thread; uses others inside step().

@@ -20,7 +20,7 @@ struct RobotSight {
   Twist2 velocity;  ///< Body frame; finite.
 };
 
-/// Robot states as columns, which a message borrows. One owner thread.
+/// Robot states as columns; a message refers to them without a copy. One owner thread.
 class RobotColumns {
  public:
   void clear() noexcept;

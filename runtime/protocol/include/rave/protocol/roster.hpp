@@ -14,7 +14,7 @@
 
 namespace rave::lock_step {
 
-/// The description of a robot; who publishes it sets the host. The ends of long names are omitted.
+/// The description of a robot; the publisher sets the host. The ends of long names are omitted.
 [[nodiscard]] bus::RosterEntry describe(const sim::EngineSpec& spec, RobotId robot);
 
 /// Publishes the descriptions of a host's robots (topic rave/roster): each once, and again after a

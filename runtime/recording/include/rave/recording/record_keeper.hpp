@@ -35,11 +35,11 @@ class RecordKeeper final : public RunObserver {
                                                                   const record::RunInfo& info,
                                                                   const About& about, LogSink* log);
 
-  // It records behind the others, because what they found is part of the recording.
+  // It records after the other observers, because their findings are part of the recording.
   void after_step(const StepView& /*step*/) override {}
   void after_all(const StepView& step, std::span<RunObserver* const> all) override;
 
-  /// Records a step without what observers found in it.
+  /// Records a step without the findings of observers.
   void keep(const StepView& step);
 
   /// Records events of the last step that observers found.

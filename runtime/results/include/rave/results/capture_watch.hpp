@@ -11,8 +11,8 @@
 
 namespace rave::runtime {
 
-/// Detects when a predator comes near enough to a prey. Each prey is caught once. It uses the poses
-/// that others sense: true ones of simulated robots, reported ones of real robots.
+/// Detects when a predator comes near enough to a prey. Each prey is captured once. It uses the
+/// poses that other robots sense: true poses of simulated robots, reported poses of real robots.
 class CaptureWatch final : public RunObserver {
  public:
   CaptureWatch(const config::CaptureCheckFile& check, const config::ExpandedScenario& scenario);
@@ -39,12 +39,12 @@ class CaptureWatch final : public RunObserver {
   double closest_before_m_;  ///< closest_m_ before the last look.
 };
 
-/// Those of a capture whose pose had been lost: they were at their last known place, and may have
-/// been elsewhere. `events`: of the run, those of each robot in order.
+/// The robots of a capture whose poses were lost: the capture counts their last known poses, and
+/// they may have been elsewhere. `events`: of the run, those of each robot in order.
 [[nodiscard]] std::vector<RobotId> lost_poses(const Capture& capture,
                                               std::span<const sim::Event> events, Duration step);
 
-/// True if the check sets no limit, or a capture was in time of which no pose was lost.
+/// True if the check sets no limit, or if a capture without a lost pose was in time.
 [[nodiscard]] bool holds(const config::CaptureCheckFile& check, const CaptureFacts& facts,
                          std::span<const sim::Event> events, Duration step);
 

@@ -15,13 +15,13 @@
 
 namespace rave::gui_server {
 
-/// Called once, in a thread of the source, when the run is over and all its hosts have left: with a
-/// source that plays its recordings, or null and a sentence that names where they are, which pages
-/// then show.
+/// Called once, in a thread of the source, when the run is over and all its hosts have left.
+/// `replay`: a source that plays its recordings, or null; then pages show `where`, a sentence with
+/// the places of the recordings.
 using OnOver = std::function<void(std::shared_ptr<Source> replay, const std::string& where)>;
 
 /// A source for a run with several processes: joins its bus as a monitor, so that no process of the
-/// run waits for it. It may join and leave at any time, as may they.
+/// run waits for it. It may join and leave at any time, and so may processes of the run.
 ///
 /// `built`: of the scenario, for the appearance of robots; not referred to later. `bus`: that of
 /// the run. `described`: the plug-ins of the run, for the thread of the server; null: no probes.

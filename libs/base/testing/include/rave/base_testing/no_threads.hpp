@@ -9,11 +9,11 @@
 
 namespace rave::base_testing {
 
-/// How many threads the system still grants this process; negative: as many as it likes.
+/// Number of threads that the system still grants this process; negative: no limit.
 inline std::atomic<int> threads_left{-1};
 
-/// While it is there, the system grants no thread after the first `granted`, to whoever asks. One
-/// at a time.
+/// While it exists, the system grants no thread after the first `granted`, to any caller. One
+/// object at a time.
 class NoThreads {
  public:
   explicit NoThreads(int granted = 0) { threads_left = granted; }

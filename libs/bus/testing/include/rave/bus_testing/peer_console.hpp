@@ -15,7 +15,7 @@ inline void say(const std::string& line) {
   std::fflush(stdout);
 }
 
-/// Whether the test has closed its end; waits for that as long as told.
+/// Whether the test has closed its end; waits at most `wait_ms` for that.
 inline bool ended(int wait_ms) {
   pollfd input{STDIN_FILENO, POLLIN, 0};
   if (::poll(&input, 1, wait_ms) <= 0) return false;

@@ -73,7 +73,7 @@ class Roam final : public DecisionProcess {
   ControllerHandle drive_;
 };
 
-/// Writes down what it is told at each decision.
+/// Keeps an entry for each decision.
 class Diary final : public DecisionProcess {
  public:
   struct Entry {
@@ -140,7 +140,7 @@ class Pass final : public Controller {
   std::int64_t calls_ = 0;
 };
 
-/// Does what it is told at once.
+/// Reaches each command at once.
 class Wheels final : public VirtualActuator {
  public:
   static constexpr CommandKind kAccepts = CommandKind::kVelocity;

@@ -24,7 +24,7 @@ inline plugin::ParamSet numbers(Numbers values) {
   return set;
 }
 
-/// Keeps what it is told.
+/// Keeps all messages.
 class Ears final : public LogSink {
  public:
   void write(LogLevel, std::string_view source, std::string_view message) override {

@@ -7,7 +7,7 @@
 /// Programs and controllers that people give orders to, and such orders.
 namespace rave::sim::testing {
 
-/// Says what it is asked; is done with goals at once.
+/// Repeats its orders as text; is done with goals at once.
 class Listener final : public DecisionProcess {
  public:
   static constexpr OrderSet kTakes = kTakesGoal | kTakesPath | kTakesText;

@@ -20,7 +20,7 @@
 
 namespace rave::web::testing {
 
-/// A connection that sends whatever it is told, over TLS if it is given an authority.
+/// A connection that sends any bytes, over TLS if it is given an authority.
 class RawClient {
  public:
   RawClient(std::uint16_t port, const std::filesystem::path& authority)
@@ -93,7 +93,7 @@ class RawClient {
   bool good_ = false;
 };
 
-/// A WebSocket of a client that keeps to no rule but those it is told to.
+/// A WebSocket of a client that can break the rules of the protocol.
 class RawSocket {
  public:
   struct Frame {

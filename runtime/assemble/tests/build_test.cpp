@@ -377,10 +377,10 @@ TEST(BuildErrors, SightingsNeedARealCameraAndAVirtualOne) {
             "none");
   const std::string itself =
       host.error_of(robot + "checks: {sightings: {real: camera_twin, twin: camera_twin}}\n");
-  EXPECT_NE(itself.find("has as `camera_twin` a real camera"), std::string::npos) << itself;
+  EXPECT_NE(itself.find("whose `camera_twin` is a real camera"), std::string::npos) << itself;
   const std::string real =
       host.error_of(robot + "checks: {sightings: {real: camera, twin: camera}}\n");
-  EXPECT_NE(real.find("has as `camera` a virtual camera"), std::string::npos) << real;
+  EXPECT_NE(real.find("whose `camera` is a virtual camera"), std::string::npos) << real;
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ try {
     await until(page, `${shadow}?.running === true && ${shadow}.most_m > 0.001`, 30000);
     const end = Date.now() + 20000;
     while ((await real.state()).path_m < before + 0.15) assert.ok(Date.now() < end, 'the Create does not drive');
-    await panel.getByRole('columnheader', {name: 'difference'}).waitFor();
+    await panel.getByText('difference', {exact: true}).waitFor();
     const laser = await page.evaluate(`${shadow}.readings.find(({sensor}) => sensor === 'laser')`);
     assert.equal(laser.unit, 'm');
     const {m, offset} = await page.evaluate(shadow);
@@ -133,7 +133,7 @@ try {
     await until(hand, `${app}?.model?.poses?.newest != null`);
     await choose(hand, 0);
     await hand.evaluate(`${app}.showPanel('robot')`);
-    await hand.locator('rave-twin').getByRole('columnheader', {name: 'difference'}).waitFor();
+    await hand.locator('rave-twin').getByText('difference', {exact: true}).waitFor();
     const [wide, has] = await hand.locator('rave-robot .scroll').evaluate((scroll) => [scroll.scrollWidth, scroll.clientWidth]);
     assert.ok(wide <= has, `${wide} px in ${has}`);
     await hand.locator('rave-twin').scrollIntoViewIfNeeded();

@@ -72,7 +72,7 @@ class Reader {
     return wrong("expected {} columns, separated by tabs, found {}", expected, columns.size());
   }
   Result<Role> role(std::string_view text) {
-    const auto found = role_named(text);
+    const auto found = kRoles.find(text);
     if (found) return *found;
     return wrong("expected observer, commander or super_user, found `{}`", text.substr(0, 40));
   }

@@ -131,7 +131,7 @@ constexpr std::size_t kMostTeams = 1000;
 Status whose(Members& members, std::optional<Role>& role, std::string& user) {
   if (members.has("role")) {
     RAVE_TRY_ASSIGN(const std::string word, members.word("role"));
-    role = role_named(word);
+    role = kRoles.find(word);
     if (!role) return fail(ErrorCode::kParse, "`role`: expected observer, commander or super_user");
   }
   if (members.has("user")) {
@@ -214,7 +214,7 @@ Result<PageMessage> chat_of(Members& members) {
   RAVE_TRY_ASSIGN(chat.name, members.text("name", kLongestName));
   // Roles are fixed, so a wrong one is a malformed message. Users and teams come and go; whether
   // they exist is checked later, and a wrong one does not count as malformed.
-  if (chat.to == To::kRole && !role_named(chat.name)) {
+  if (chat.to == To::kRole && !kRoles.find(chat.name)) {
     return fail(ErrorCode::kParse, "`name`: expected observer, commander or super_user");
   }
   return PageMessage(std::move(chat));

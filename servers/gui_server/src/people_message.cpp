@@ -20,7 +20,7 @@ constexpr std::size_t kLongestFilter = 100;
 
 Result<Role> role_in(Members& members) {
   RAVE_TRY_ASSIGN(const std::string word, members.word("role"));
-  if (const auto role = role_named(word)) return *role;
+  if (const auto role = kRoles.find(word)) return *role;
   return fail(ErrorCode::kParse, "`role`: expected observer, commander or super_user");
 }
 

@@ -55,7 +55,7 @@ Result<KeptChange> change_of(std::string_view line, const SourceLocation& where)
     return fail_at(where, ErrorCode::kParse, "the name of the run has control characters");
   }
   if (columns[1] == "role") {
-    kept.change.role = role_named(columns[2]);
+    kept.change.role = kRoles.find(columns[2]);
     // A super-user always has every right; a line that says otherwise is a mistake or an attack.
     if (!kept.change.role || kept.change.role == Role::kSuperUser) {
       return fail_at(where, ErrorCode::kParse, "expected observer or commander");

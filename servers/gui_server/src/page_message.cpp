@@ -159,11 +159,9 @@ Result<std::optional<Reach>> reach_in(const PageJson& value) {
     }
     return std::optional<Reach>(std::move(reach));
   }
-  // kTeams is not among them: it has no word, but is an array of names.
-  for (const auto kind : {Reach::Kind::kNone, Reach::Kind::kOwn, Reach::Kind::kAll}) {
-    reach.kind = kind;
-    if (value == to_string(kind)) return std::optional<Reach>(std::move(reach));
-  }
+  const auto kind = value.is_string() ? kReaches.find(value.get_ref<const std::string&>())
+                                      : std::optional<Reach::Kind>();
+  if (kind) return std::optional<Reach>(Reach{*kind, {}});
   return fail(ErrorCode::kParse, "`reach`: expected none, own, all, an array of teams, or null");
 }
 

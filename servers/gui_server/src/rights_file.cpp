@@ -14,7 +14,7 @@ constexpr std::string_view kTeamsWord = "teams:";
 std::string reach_text(const std::optional<Reach>& reach) {
   // Of a user only: such a line takes back what the scenario gave them.
   if (!reach) return "usual";
-  if (reach->kind != Reach::Kind::kTeams) return std::string(to_string(reach->kind));
+  if (reach->kind != Reach::Kind::kTeams) return std::string(kReaches.of(reach->kind));
   return std::string(kTeamsWord) + Teams{false, reach->teams}.text();
 }
 
@@ -27,10 +27,9 @@ std::optional<std::optional<Reach>> reach_of(std::string_view text) {
     if (!teams || teams->all) return std::nullopt;
     return std::optional<Reach>(Reach{Reach::Kind::kTeams, teams->names});
   }
-  for (const auto kind : {Reach::Kind::kNone, Reach::Kind::kOwn, Reach::Kind::kAll}) {
-    if (text == to_string(kind)) return std::optional<Reach>(Reach{kind, {}});
-  }
-  return std::nullopt;
+  const auto kind = kReaches.find(text);
+  if (!kind) return std::nullopt;
+  return std::optional<Reach>(Reach{*kind, {}});
 }
 
 std::vector<std::string_view> split(std::string_view line) {

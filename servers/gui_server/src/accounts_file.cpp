@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 
+#include "plain_name.hpp"
 #include "rave/gui_server/accounts.hpp"
 #include "secrets.hpp"
 
@@ -198,15 +199,8 @@ std::string write_accounts(const AccountsFile& accounts) {
 }
 
 Status check_user_name(std::string_view name) {
-  const auto is_letter = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-  };
   // No blanks and no control characters: names stand in columns, logs and links.
-  const bool good = !name.empty() && name.size() <= 32 && is_letter(name.front()) &&
-                    std::ranges::all_of(name, [&](char c) {
-                      return is_letter(c) || c == '-' || c == '_' || c == '.' || c == '@';
-                    });
-  if (good) return {};
+  if (is_plain_name(name, "-_.@") && name.size() <= 32 && is_plain(name.front(), "")) return {};
   return fail(ErrorCode::kInvalidArgument,
               "a name has 1 to 32 letters, digits, `-`, `_`, `.` and `@`, the first a letter or "
               "digit");

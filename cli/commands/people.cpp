@@ -61,7 +61,7 @@ Result<std::string> read_password() {
 }
 
 Result<Role> role_of(const std::string& word) {
-  const auto role = gui_server::role_named(word);
+  const auto role = gui_server::kRoles.find(word);
   if (role) return *role;
   return fail(ErrorCode::kInvalidArgument,
               "there is no role `{}`; there are observer, commander and super_user", word);

@@ -1,61 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // One `rave` controls another, as from another terminal.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <csignal>
-#include <thread>
 
-#include "process.hpp"
+#include "paced_run.hpp"
 
 namespace rave::cli_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A run in a process of its own, ended with the test.
-class Control : public ::testing::Test {
- protected:
-  void SetUp() override { setting_ = "XDG_RUNTIME_DIR=" + folder_.path().string(); }
-  void TearDown() override {
-    if (process_ <= 0) return;
-    ::kill(process_, SIGKILL);
-    static_cast<void>(wait_for(process_));
-  }
-
-  void start(const std::string& scenario, std::vector<std::string> more = {}) {
-    std::vector<std::string> words = {"run",    scenario,   "--output",   output(),
-                                      "--pace", "realtime", "--duration", "100000"};
-    words.insert(words.end(), more.begin(), more.end());
-    process_ = start_rave(words, {setting_});
-    ASSERT_GT(process_, 0);
-    wait_until([&] { return rave({"ps"}).out.find("running") != std::string::npos; });
-  }
-  /// Gives up only when something is broken.
-  template <class Holds>
-  void wait_until(Holds&& holds) {
-    for (int i = 0; i < 3000; ++i) {
-      if (holds()) return;
-      ASSERT_EQ(::waitpid(process_, nullptr, WNOHANG), 0) << "the run has ended";
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    FAIL() << "never";
-  }
-  [[nodiscard]] Ended rave(const std::vector<std::string>& words) const {
-    return run_rave(words, {setting_});
-  }
-  void end() {
-    ASSERT_EQ(::kill(process_, SIGINT), 0);
-    EXPECT_EQ(wait_for(process_), 1);
-    process_ = -1;
-  }
-  [[nodiscard]] std::string output() const { return folder_.path() / "results"; }
-  [[nodiscard]] std::string events() const { return content_of(output() + "/events.log"); }
-
-  TemporaryFolder folder_;
-  std::string setting_;
-  pid_t process_ = -1;
-};
+class Control : public PacedRun {};
 
 TEST_F(Control, WithoutARun) {
   EXPECT_EQ(rave({"ps"}).out, "no run is in progress\n");

@@ -1,78 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // The direct line of a host in lock-step: it owns the leases of its robots, and refuses a second
 // person while the environment manager stands still and can be asked nothing.
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
 #include <thread>
 
-#include "page_key.hpp"
+#include "free_port.hpp"
+#include "line_hello.hpp"
 #include "process.hpp"
 #include "rave/bus/run_id.hpp"
-#include "rave/direct_line/key_files.hpp"
-#include "rave/direct_line/line_server.hpp"
-#include "rave/direct_line_testing/page_of_test.hpp"
-#include "rave/web_testing/raw_client.hpp"
-#include "signed_text.hpp"
 
 namespace rave::cli_test {
 namespace {
 
-using direct_line::Ticket;
-using direct_line::testing::PageKey;
 using web::testing::RawSocket;
 using Words = std::vector<std::string>;
 constexpr const char* kHost = "host-2";  // with bert
 
-std::uint16_t any_port() {
-  const int file = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  static_cast<void>(::bind(file, reinterpret_cast<sockaddr*>(&address), size));
-  static_cast<void>(::getsockname(file, reinterpret_cast<sockaddr*>(&address), &size));
-  ::close(file);
-  return ntohs(address.sin_port);
-}
-
 /// A person at the direct line of the host.
 class Person {
  public:
-  Person(std::uint16_t port, const std::string& run, const std::string& name,
-         const direct_line::SigningKey& key)
-      : socket_(port, {}, "Origin: http://gui\r\n") {
-    const PageKey page;
-    Ticket ticket;
-    ticket.run = run;
-    ticket.host = kHost;
-    ticket.user = ticket.nonce = name;
-    ticket.role = "commander";
-    ticket.origin = "http://gui";
-    ticket.orders.all = ticket.stops.all = true;
-    ticket.page_key = page.point();
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    ticket.epoch = static_cast<std::uint64_t>(
-        std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
-    ticket.expires_s = std::chrono::duration_cast<std::chrono::seconds>(now).count() + 600;
-    const std::string text = direct_line::sign_ticket(ticket, key);
-    const std::string first = socket_.text_with("\"challenge\":");
-    const std::string mark = "\"challenge\":\"";
-    const std::size_t at = first.find(mark);
-    if (at == std::string::npos) return;
-    const std::size_t begin = at + mark.size();
-    const std::string challenge = first.substr(begin, first.find('"', begin) - begin);
-    const std::string address = "127.0.0.1:" + std::to_string(port);
-    const std::string proof = direct_line::proof_text(challenge, address, text);
-    socket_.send(R"({"type":"hello","ticket":")" + text + R"(","proof":")" +
-                 direct_line::base64_of(page.sign(proof)) + "\"}");
-    welcome = !socket_.text_with("\"welcome\"").empty();
-  }
+  explicit Person(const LineGuest& guest)
+      : socket_(guest.port, {}, "Origin: http://gui\r\n"), welcome_(say_hello(socket_, guest)) {}
+
+  [[nodiscard]] bool welcome() const { return welcome_; }
   /// The answer to an order; `more`: other members of it.
   std::string ask(const std::string& kind, const std::string& robot, const std::string& more = {}) {
     const std::string id = "\"id\":" + std::to_string(++asked_);
@@ -81,10 +35,9 @@ class Person {
     return socket_.text_with(id + ",");
   }
 
-  bool welcome = false;
-
  private:
   RawSocket socket_;
+  bool welcome_ = false;
   int asked_ = 0;
 };
 
@@ -129,8 +82,8 @@ class LineOrders : public ::testing::Test {
   [[nodiscard]] std::string key_file() const { return (folder_.path() / "line_key").string(); }
   [[nodiscard]] std::unique_ptr<Person> person(const std::string& name) const {
     for (int i = 0; i < 600; ++i) {
-      auto one = std::make_unique<Person>(port_, run_, name, key_);
-      if (one->welcome) return one;
+      auto one = std::make_unique<Person>(LineGuest{port_, run_, kHost, name, key_});
+      if (one->welcome()) return one;
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
     ADD_FAILURE() << content_of((folder_.path() / "host-2.log").string());
@@ -139,7 +92,7 @@ class LineOrders : public ::testing::Test {
 
   TemporaryFolder folder_;
   const std::string run_ = bus::RunId::random().text();
-  const std::uint16_t port_ = any_port();
+  const std::uint16_t port_ = free_port();
   direct_line::SigningKey key_;
   std::vector<pid_t> processes_;  ///< The manager first.
 };

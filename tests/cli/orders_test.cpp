@@ -1,66 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // People give orders to robots of a run from another terminal.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <csignal>
 #include <thread>
 
-#include "process.hpp"
+#include "paced_run.hpp"
 
 namespace rave::cli_test {
 namespace {
 
-/// A run in a process of its own, ended with the test.
-class Orders : public ::testing::Test {
+class Orders : public PacedRun {
  protected:
-  void SetUp() override { setting_ = "XDG_RUNTIME_DIR=" + folder_.path().string(); }
-  void TearDown() override {
-    if (process_ <= 0) return;
-    ::kill(process_, SIGKILL);
-    static_cast<void>(wait_for(process_));
-  }
-
-  void start(std::vector<std::string> more = {}) {
-    std::vector<std::string> words = {"run",    "orders.yaml", "--output",   output(),
-                                      "--pace", "realtime",    "--duration", "100000"};
-    words.insert(words.end(), more.begin(), more.end());
-    process_ = start_rave(words, {setting_});
-    ASSERT_GT(process_, 0);
-    wait_until([&] { return rave({"ps"}).out.find("running") != std::string::npos; });
-  }
-  /// Gives up only when something is broken.
-  template <class Holds>
-  void wait_until(Holds&& holds) {
-    for (int i = 0; i < 3000; ++i) {
-      if (holds()) return;
-      ASSERT_EQ(::waitpid(process_, nullptr, WNOHANG), 0) << "the run has ended";
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    FAIL() << "never";
-  }
-  [[nodiscard]] Ended rave(const std::vector<std::string>& words) const {
-    return run_rave(words, {setting_});
-  }
+  void start(const std::vector<std::string>& more = {}) { PacedRun::start("orders.yaml", more); }
   void refused(const std::vector<std::string>& words, const std::string& why) const {
     const Ended ended = rave(words);
     EXPECT_EQ(ended.exit_code, 1) << ended.out;
     EXPECT_NE(ended.err.find(why), std::string::npos) << ended.err;
   }
-  void end() {
-    ASSERT_EQ(::kill(process_, SIGINT), 0);
-    EXPECT_EQ(wait_for(process_), 1);
-    process_ = -1;
-  }
-  [[nodiscard]] std::string output() const { return folder_.path() / "results"; }
-  [[nodiscard]] std::string events() const { return content_of(output() + "/events.log"); }
   [[nodiscard]] bool happened(const std::string& text) const {
     return events().find(text) != std::string::npos;
   }
-
-  TemporaryFolder folder_;
-  std::string setting_;
-  pid_t process_ = -1;
 };
 
 TEST_F(Orders, AreDoneAndDoneAgainByVerify) {

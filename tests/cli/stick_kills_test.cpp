@@ -2,9 +2,7 @@
 // `kill -9` of the GUI Server, of hosts and of sticks at their direct lines (some of which only
 // fall silent), at random moments of a run in real time: no robot moves on without its driver, and
 // the rest goes on. RAVE_TEST_SEED and RAVE_KILL_ROUNDS say which moments, and how many.
-#include <arpa/inet.h>
 #include <spawn.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +15,7 @@
 #include <iostream>
 #include <thread>
 
+#include "free_port.hpp"
 #include "kill_rounds.hpp"
 #include "live_listener.hpp"
 #include "rave/record/run_reader.hpp"
@@ -34,18 +33,6 @@ constexpr std::int64_t kStep_ns = 20'000'000;
 constexpr std::int64_t kStands_ns = 300'000'000;
 /// The lease of who has driven ends after 3 s, and somebody else may drive.
 constexpr std::int64_t kQuiet_ns = 2'000'000'000;
-
-std::uint16_t free_port() {
-  const int file = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  static_cast<void>(::bind(file, reinterpret_cast<sockaddr*>(&address), size));
-  static_cast<void>(::getsockname(file, reinterpret_cast<sockaddr*>(&address), &size));
-  ::close(file);
-  return ntohs(address.sin_port);
-}
 
 /// A robot, its host, and who drives it.
 struct Side {

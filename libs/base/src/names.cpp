@@ -89,12 +89,12 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
   return best;
 }
 
-std::string join_names(std::span<const std::string_view> names) {
+std::string join_names(std::span<const std::string_view> names, std::string_view last) {
   if (names.empty()) return "none";
   std::string text{names.front()};
   for (std::size_t i = 1; i < names.size(); ++i) {
-    text += i + 1 == names.size() ? " and " : ", ";
-    text += names[i];
+    text += i + 1 == names.size() ? fmt::format(" {} {}", last, names[i])
+                                  : fmt::format(", {}", names[i]);
   }
   return text;
 }

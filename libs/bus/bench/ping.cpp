@@ -24,9 +24,8 @@ namespace rave::bus {
 /// A packet on a topic that has the local transport, which that of radio has not.
 struct LocalPacket : rave_wire_Packet {};
 template <>
-inline TopicSpec topic_of<LocalPacket>() {
-  return {"bench/short", &rave_wire_Packet_desc, kNewest, 3};
-}
+inline constexpr TopicSpec kTopic<LocalPacket> = {"bench/short", &rave_wire_Packet_desc, kNewest,
+                                                  3};
 
 }  // namespace rave::bus
 

@@ -71,12 +71,20 @@ Status check_ids(std::string_view list, const Sequence& ids) {
   return check_robot_numbers(list, std::string(list) + ".id", ids);
 }
 
-inline Status check_twists(std::string_view list, const rave_wire_PlanarTwists& twists) {
-  RAVE_TRY(check_ids(list, twists.id));
-  const std::size_t size = twists.id._length;
-  RAVE_TRY(check_numbers(list, "vx_mps", twists.vx_mps, size, kMaxSpeed_mps));
-  RAVE_TRY(check_numbers(list, "vy_mps", twists.vy_mps, size, kMaxSpeed_mps));
-  return check_numbers(list, "wz_radps", twists.wz_radps, size, kMaxTurn_radps);
+/// Checks the columns of poses.
+template <class Columns>
+Status check_pose_columns(std::string_view list, const Columns& columns, std::size_t size) {
+  RAVE_TRY(check_numbers(list, "x_m", columns.x_m, size, kMaxPosition_m));
+  RAVE_TRY(check_numbers(list, "y_m", columns.y_m, size, kMaxPosition_m));
+  return check_numbers(list, "yaw_rad", columns.yaw_rad, size, kMaxAngle_rad);
+}
+
+/// Checks the columns of velocities.
+template <class Columns>
+Status check_twist_columns(std::string_view list, const Columns& columns, std::size_t size) {
+  RAVE_TRY(check_numbers(list, "vx_mps", columns.vx_mps, size, kMaxSpeed_mps));
+  RAVE_TRY(check_numbers(list, "vy_mps", columns.vy_mps, size, kMaxSpeed_mps));
+  return check_numbers(list, "wz_radps", columns.wz_radps, size, kMaxTurn_radps);
 }
 
 /// Sums and differences of times of a run must not overflow.

@@ -13,12 +13,8 @@ namespace {
 Status check_robots(std::string_view list, const rave_wire_PlanarRobots& robots) {
   RAVE_TRY(check_ids(list, robots.id));
   const std::size_t size = robots.id._length;
-  RAVE_TRY(check_numbers(list, "x_m", robots.x_m, size, kMaxPosition_m));
-  RAVE_TRY(check_numbers(list, "y_m", robots.y_m, size, kMaxPosition_m));
-  RAVE_TRY(check_numbers(list, "yaw_rad", robots.yaw_rad, size, kMaxAngle_rad));
-  RAVE_TRY(check_numbers(list, "vx_mps", robots.vx_mps, size, kMaxSpeed_mps));
-  RAVE_TRY(check_numbers(list, "vy_mps", robots.vy_mps, size, kMaxSpeed_mps));
-  RAVE_TRY(check_numbers(list, "wz_radps", robots.wz_radps, size, kMaxTurn_radps));
+  RAVE_TRY(check_pose_columns(list, robots, size));
+  RAVE_TRY(check_twist_columns(list, robots, size));
   // Columns of different lengths would shift the fields of all robots behind the gap.
   const auto stamps = elements(robots.stamp_ns);
   if (stamps.size() != size) {
@@ -34,9 +30,7 @@ Status check_reports(std::string_view list, const rave_wire_RobotReports& report
   RAVE_TRY(check_ids(list, reports.id));
   const std::size_t size = reports.id._length;
   constexpr double kMaxVariance = kMaxPosition_m * kMaxPosition_m;
-  RAVE_TRY(check_numbers(list, "x_m", reports.x_m, size, kMaxPosition_m));
-  RAVE_TRY(check_numbers(list, "y_m", reports.y_m, size, kMaxPosition_m));
-  RAVE_TRY(check_numbers(list, "yaw_rad", reports.yaw_rad, size, kMaxAngle_rad));
+  RAVE_TRY(check_pose_columns(list, reports, size));
   RAVE_TRY(check_numbers(list, "variance_xy_m2", reports.variance_xy_m2, size, kMaxVariance));
   RAVE_TRY(check_numbers(list, "variance_yaw_rad2", reports.variance_yaw_rad2, size, kMaxVariance));
   if (reports.flags._length == size) return {};

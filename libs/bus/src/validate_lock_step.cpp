@@ -60,16 +60,6 @@ Status check_sent(const rave_wire_SentPackets& sent) {
   return {};
 }
 
-Status check_columns(const WorldStep& world) {
-  const std::size_t size = world.flags._length;
-  RAVE_TRY(check_numbers("world", "x_m", world.x_m, size, kMaxPosition_m));
-  RAVE_TRY(check_numbers("world", "y_m", world.y_m, size, kMaxPosition_m));
-  RAVE_TRY(check_numbers("world", "yaw_rad", world.yaw_rad, size, kMaxAngle_rad));
-  RAVE_TRY(check_numbers("world", "vx_mps", world.vx_mps, size, kMaxSpeed_mps));
-  RAVE_TRY(check_numbers("world", "vy_mps", world.vy_mps, size, kMaxSpeed_mps));
-  return check_numbers("world", "wz_radps", world.wz_radps, size, kMaxTurn_radps);
-}
-
 /// Checks entries that each name a robot of the world.
 template <class Sequence>
 Status check_named(std::string_view list, const Sequence& sequence, std::size_t robots) {
@@ -133,7 +123,8 @@ Status validate(const HostReport& sample) {
   RAVE_TRY(check_writer(sample));
   RAVE_TRY(check_id("host", sample.host));
   if (sample.state > rave_wire_REPORT_FAILED) return invalid("state is unknown");
-  RAVE_TRY(check_twists("proposals", sample.proposals));
+  RAVE_TRY(check_ids("proposals", sample.proposals.id));
+  RAVE_TRY(check_twist_columns("proposals", sample.proposals, sample.proposals.id._length));
   RAVE_TRY(check_sent(sample.sent));
   RAVE_TRY(check_poses(sample.poses));
   RAVE_TRY(check_inputs(sample.inputs));
@@ -143,9 +134,10 @@ Status validate(const HostReport& sample) {
 Status validate(const WorldStep& sample) {
   RAVE_TRY(check_writer(sample));
   if (sample.epoch == 0) return invalid("epoch is 0");
-  RAVE_TRY(check_columns(sample));
   // The columns say how many robots there are; all lists must name robots among them.
   const std::size_t robots = sample.flags._length;
+  RAVE_TRY(check_pose_columns("world", sample, robots));
+  RAVE_TRY(check_twist_columns("world", sample, robots));
   RAVE_TRY(check_named("pushed", sample.pushed, robots));
   RAVE_TRY(check_named("touches", sample.touches, robots));
   RAVE_TRY(check_named("poses", sample.poses, robots));

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "rave/base/random.hpp"
+#include "rave/math/finite.hpp"
 
 namespace rave {
 namespace {
@@ -94,6 +97,23 @@ TEST(TwistBetween, UndoesIntegrate) {
     ASSERT_NEAR(back.vx, v.vx, 1e-12);
     ASSERT_NEAR(back.vy, v.vy, 1e-12);
     ASSERT_NEAR(back.wz, v.wz, 1e-12);
+  }
+}
+
+TEST(Finite, LooksAtEachNumber) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(is_finite(Vec2{1, -2}));
+  EXPECT_TRUE(is_finite(Pose2{1, -2, 3}));
+  EXPECT_TRUE(is_finite(Twist2{1, -2, 3}));
+  for (const double bad : {nan, inf, -inf}) {
+    for (const Vec2 p : {Vec2{bad, 0}, Vec2{0, bad}}) EXPECT_FALSE(is_finite(p));
+    for (const Pose2 X : {Pose2{bad, 0, 0}, Pose2{0, bad, 0}, Pose2{0, 0, bad}}) {
+      EXPECT_FALSE(is_finite(X));
+    }
+    for (const Twist2 v : {Twist2{bad, 0, 0}, Twist2{0, bad, 0}, Twist2{0, 0, bad}}) {
+      EXPECT_FALSE(is_finite(v));
+    }
   }
 }
 

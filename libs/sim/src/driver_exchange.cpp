@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "hand_overs.hpp"
+#include "rave/math/finite.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
 
@@ -195,8 +196,7 @@ Status HandOvers::check_near(const Twin& twin) const {
   const double turned_rad = std::abs(wrap_angle(X_after.yaw - X_before.yaw));
   // Farther apart than this, one of both sets is wrong about the place, and the robot would jump.
   const HandOverLimits& limits = spec_.robots[r].hand_over;
-  const bool finite =
-      std::isfinite(X_after.x) && std::isfinite(X_after.y) && std::isfinite(X_after.yaw);
+  const bool finite = is_finite(X_after);
   if (finite && apart_m <= limits.within_m && turned_rad <= limits.within_rad) return {};
   return fail(ErrorCode::kState,
               "its {} drivers report ({:.3f}, {:.3f}) m, {:.1f} degrees, which is {:.3f} m and "

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine_impl.hpp"
+#include "rave/math/finite.hpp"
 #include "rave/sim/random_devices.hpp"
 
 namespace rave::sim {
@@ -40,8 +41,7 @@ void propose_motion(ActuatorSlots& slots, const Block& block, Worker& worker,
   for (std::uint32_t m = block.begin; m < block.end; ++m) {
     Twist2 twist = worker.proposals[m - block.begin];
     std::string_view problem = text_for(error, m - block.begin);
-    if (slots.failed[m] == 0 &&
-        !(std::isfinite(twist.vx) && std::isfinite(twist.vy) && std::isfinite(twist.wz))) {
+    if (slots.failed[m] == 0 && !is_finite(twist)) {
       slots.failed[m] = 1;
       problem = "proposed a velocity that is not finite";
     }

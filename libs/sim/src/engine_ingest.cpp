@@ -2,10 +2,10 @@
 // The beginning of a step: hardware samples, the reported poses that follow from them, and the
 // snapshot that all later phases read.
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "engine_impl.hpp"
+#include "rave/math/finite.hpp"
 #include "rave/math/transform.hpp"
 #include "rave/sim/random_devices.hpp"
 
@@ -190,7 +190,7 @@ void Engine::Impl::note_reported_pose(RobotGroup& group, const SensorSlots& slot
   const PoseReading reading = pose_reading(slots.spec->kind, record);
   const Pose2 X_WR = compose(pose_frame(group, robot), {reading.x_m, reading.y_m, reading.yaw_rad});
   // A pose that is not finite would spread to the grids and to every query near it.
-  if (!std::isfinite(X_WR.x) || !std::isfinite(X_WR.y) || !std::isfinite(X_WR.yaw)) return;
+  if (!is_finite(X_WR)) return;
   ReportedPose& pose = reported[robot.value()];
   pose.pose = {X_WR.x, X_WR.y, X_WR.yaw, reading.variance_xy_m2, reading.variance_yaw_rad2};
   pose.stamp = {header.stamp_ns};

@@ -4,10 +4,10 @@
 #include "live_guard.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "pose_reading.hpp"
+#include "rave/math/finite.hpp"
 #include "rave/math/transform.hpp"
 #include "sensor_age.hpp"
 
@@ -55,9 +55,8 @@ void LiveGuard::look_where(const GuardOrder& order, SimTime now) {
   if (pose_.queue->newest(&header, record) && header.count > 0) {
     const PoseReading read = pose_reading(pose_.kind, record);
     const Pose2 X_WR = compose(pose_.X_WM, {read.x_m, read.y_m, read.yaw_rad});
-    const bool finite = std::isfinite(X_WR.x) && std::isfinite(X_WR.y) && std::isfinite(X_WR.yaw);
     // The same sample is read many times; add() leaves out what is not newer.
-    if (finite) static_cast<void>(track_.add({header.stamp_ns}, X_WR));
+    if (is_finite(X_WR)) static_cast<void>(track_.add({header.stamp_ns}, X_WR));
   }
   const auto stamp = track_.newest();
   // A stamp from far ahead would count as fresh for as long as it lies ahead.

@@ -9,17 +9,10 @@
 #include <tuple>
 
 #include "order_checks.hpp"
+#include "rave/math/finite.hpp"
 
 namespace rave::sim {
 namespace {
-
-bool is_finite(const Pose2& pose) {
-  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
-}
-
-bool is_finite(const Twist2& twist) {
-  return std::isfinite(twist.vx) && std::isfinite(twist.vy) && std::isfinite(twist.wz);
-}
 
 bool all_finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(),
@@ -308,10 +301,7 @@ Status check_world_step(const EngineSpec& spec, const WorldStep& world) {
     return wrong(spec, pushed.robot.value(), "pushed to an invalid pose");
   }
   for (const TouchPoint& point : world.touches) {
-    if (point.robot.value() < count && std::isfinite(point.direction_W.x) &&
-        std::isfinite(point.direction_W.y)) {
-      continue;
-    }
+    if (point.robot.value() < count && is_finite(point.direction_W)) continue;
     return wrong(spec, point.robot.value(), "touches something at an invalid place");
   }
   for (const PoseReport& pose : world.poses) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "rave/base/control_characters.hpp"
+#include "rave/math/finite.hpp"
 #include "rave/sim/event.hpp"
 #include "rave/sim/world_input.hpp"
 
@@ -57,8 +58,7 @@ Status check_shape(const ObstacleChange& change, const world::Shape& shape) {
     return shape.polygon ? Status{} : wrong("a polygon without corners");
   }
   if (shape.kind != world::ShapeKind::kDisc || shape.polygon) return wrong("an unknown shape");
-  if (!(std::isfinite(shape.centre.x) && std::isfinite(shape.centre.y) &&
-        std::isfinite(shape.radius_m) && shape.radius_m > 0)) {
+  if (!(is_finite(shape.centre) && std::isfinite(shape.radius_m) && shape.radius_m > 0)) {
     return wrong("a disc that needs a finite centre and a radius above 0");
   }
   return {};

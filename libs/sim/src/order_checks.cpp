@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "rave/base/control_characters.hpp"
+#include "rave/math/finite.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
 #include "rave/sim/orders.hpp"
@@ -102,7 +103,7 @@ tl::unexpected<Error> wrong(const EngineSpec& spec, const WorldInput& input,
 }
 
 Status check_point(const EngineSpec& spec, const WorldInput& input, const Box& box, Vec2 p_W) {
-  if (!std::isfinite(p_W.x) || !std::isfinite(p_W.y)) {
+  if (!is_finite(p_W)) {
     return wrong(spec, input,
                  fmt::format("({}, {}) is not a point; expected metres", p_W.x, p_W.y));
   }
@@ -190,9 +191,7 @@ bool is_order_formed(const WorldInput& input) noexcept {
   bool formed = is_order(input.kind) && order.text.size() <= kMostOrderText &&
                 order.points_W.size() <= kMostOrderPoints &&
                 input.author.name.size() <= kMostOrderAuthor;
-  for (const Vec2 p_W : order.points_W) {
-    formed = formed && std::isfinite(p_W.x) && std::isfinite(p_W.y);
-  }
+  for (const Vec2 p_W : order.points_W) formed = formed && is_finite(p_W);
   for (const double number :
        {order.yaw_rad.value_or(0), order.v_mps, order.w_radps, order.speed_mps}) {
     formed = formed && std::isfinite(number);

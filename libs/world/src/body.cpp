@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "rave/math/decompose.hpp"
+#include "rave/math/finite.hpp"
 
 namespace rave::world {
 namespace {
@@ -36,8 +37,7 @@ Result<std::vector<Shape>> make_prisms(std::span<const Vec2> outline, double z0_
 
 Result<Shape> make_disc(Vec2 centre, double radius_m, double z0_m, double z1_m) {
   RAVE_TRY(check_heights(z0_m, z1_m));
-  if (!std::isfinite(centre.x) || !std::isfinite(centre.y) || !std::isfinite(radius_m) ||
-      radius_m <= 0) {
+  if (!is_finite(centre) || !std::isfinite(radius_m) || radius_m <= 0) {
     return fail(ErrorCode::kInvalidArgument,
                 "a disc needs a finite centre and a radius above 0, but has ({}, {}) and {} m",
                 centre.x, centre.y, radius_m);

@@ -7,6 +7,7 @@
 
 #include "guards.hpp"
 #include "rave/base/names.hpp"
+#include "rave/base/word_table.hpp"
 #include "rave/math/scalar.hpp"
 #include "sees_others.hpp"
 
@@ -15,13 +16,10 @@ namespace {
 
 using config::HandOverTo;
 
-struct Word {
-  std::string_view word;
-  HandOverTo to;
-};
-constexpr std::array kWords = {Word{"real", HandOverTo::kReal},
-                               Word{"simulated", HandOverTo::kSimulated},
-                               Word{"first", HandOverTo::kFirst}, Word{"twin", HandOverTo::kTwin}};
+constexpr WordTable<HandOverTo, 4> kWords = {{{"real", HandOverTo::kReal},
+                                              {"simulated", HandOverTo::kSimulated},
+                                              {"first", HandOverTo::kFirst},
+                                              {"twin", HandOverTo::kTwin}}};
 
 template <class Devices>
 std::string names_of(const Devices& devices) {
@@ -173,11 +171,8 @@ Status add_twins(const DeviceContext& context) {
 }
 
 Result<config::HandOverTo> hand_over_word(std::string_view word) {
-  std::vector<std::string_view> words;
-  for (const Word& known : kWords) {
-    if (known.word == word) return known.to;
-    words.push_back(known.word);
-  }
+  if (const auto to = kWords.find(word)) return *to;
+  const auto words = kWords.words();
   return fail(ErrorCode::kInvalidArgument, "`{}`: expected one of {}{}", word, join_names(words),
               suggestion(word, words));
 }

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include "line_json.hpp"
 #include "rave/base/names.hpp"
+#include "rave/base/word_table.hpp"
 #include "rave/control/order_words.hpp"
 #include "rave/robot/order.hpp"
 #include "request_fields.hpp"
@@ -23,22 +23,20 @@ using What = Request::What;
 using Kind = runtime::RunRequest::Kind;
 
 /// Requests that do not go to the run; those that do have the words of their kinds.
-constexpr std::array kWords = {std::pair{What::kStatus, std::string_view("status")},
-                               std::pair{What::kPause, std::string_view("pause")},
-                               std::pair{What::kResume, std::string_view("resume")},
-                               std::pair{What::kStep, std::string_view("step")},
-                               std::pair{What::kEnd, std::string_view("end")}};
+constexpr WordTable<What, 5> kWords = {{{"status", What::kStatus},
+                                        {"pause", What::kPause},
+                                        {"resume", What::kResume},
+                                        {"step", What::kStep},
+                                        {"end", What::kEnd}}};
 
 std::string_view word_of(const Request& request) noexcept {
-  for (const auto& [what, word] : kWords) {
-    if (what == request.what) return word;
-  }
-  return runtime::to_string(request.run.kind);
+  const std::string_view word = kWords.of(request.what);
+  return word.empty() ? runtime::to_string(request.run.kind) : word;
 }
 
 std::string all_words() {
-  std::vector<std::string_view> words;
-  for (const auto& [what, word] : kWords) words.push_back(word);
+  const auto own = kWords.words();
+  std::vector<std::string_view> words(own.begin(), own.end());
   for (auto kind = 0; kind <= static_cast<int>(Kind::kChat); ++kind) {
     words.push_back(runtime::to_string(static_cast<Kind>(kind)));
   }
@@ -50,9 +48,7 @@ std::optional<Request> take_what(Json& json) {
   if (!json.contains("do") || !json.at("do").is_string()) return std::nullopt;
   const auto asked = json.at("do").get<std::string>();
   json.erase("do");
-  for (const auto& [what, word] : kWords) {
-    if (word == asked) return Request{what};
-  }
+  if (const auto what = kWords.find(asked)) return Request{*what};
   const auto kind = runtime::request_kind(asked);
   return kind ? std::optional(request_of({*kind, ""})) : std::nullopt;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "rave/control/chat_line.hpp"
+#include "rave/math/finite.hpp"
 #include "rave/robot/order.hpp"
 
 namespace rave::control {
@@ -83,8 +84,7 @@ bool take_points(Json& json, std::size_t least, std::size_t most, RunRequest& re
         point.is_array() && point.size() == 2 && point[0].is_number() && point[1].is_number();
     if (!is_point) return false;
     request.points.push_back({point[0].get<double>(), point[1].get<double>()});
-    const Vec2 last = request.points.back();
-    if (!std::isfinite(last.x) || !std::isfinite(last.y)) return false;
+    if (!is_finite(request.points.back())) return false;
   }
   return true;
 }

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "rave/base/word_table.hpp"
+
 namespace rave::runtime {
 namespace {
 
@@ -10,38 +12,33 @@ using Kind = RunRequest::Kind;
 
 constexpr std::string_view kEnded = "the run has ended";
 
-constexpr std::pair<Kind, std::string_view> kWords[] = {{Kind::kStop, "stop"},
-                                                        {Kind::kRelease, "release"},
-                                                        {Kind::kArm, "arm"},
-                                                        {Kind::kSet, "set"},
-                                                        {Kind::kEdit, "edit"},
-                                                        {Kind::kList, "list"},
-                                                        {Kind::kHandOver, "hand_over"},
-                                                        {Kind::kResetShadow, "reset_shadow"},
-                                                        {Kind::kDrive, "drive"},
-                                                        {Kind::kGoal, "goal"},
-                                                        {Kind::kPath, "path"},
-                                                        {Kind::kCancel, "cancel"},
-                                                        {Kind::kText, "text"},
-                                                        {Kind::kPlace, "place"},
-                                                        {Kind::kTake, "take"},
-                                                        {Kind::kGive, "give"},
-                                                        {Kind::kChat, "chat"}};
+constexpr WordTable<Kind, 17> kWords = {{{"stop", Kind::kStop},
+                                         {"release", Kind::kRelease},
+                                         {"arm", Kind::kArm},
+                                         {"set", Kind::kSet},
+                                         {"edit", Kind::kEdit},
+                                         {"list", Kind::kList},
+                                         {"hand_over", Kind::kHandOver},
+                                         {"reset_shadow", Kind::kResetShadow},
+                                         {"drive", Kind::kDrive},
+                                         {"goal", Kind::kGoal},
+                                         {"path", Kind::kPath},
+                                         {"cancel", Kind::kCancel},
+                                         {"text", Kind::kText},
+                                         {"place", Kind::kPlace},
+                                         {"take", Kind::kTake},
+                                         {"give", Kind::kGive},
+                                         {"chat", Kind::kChat}}};
 
 }  // namespace
 
 std::string_view to_string(RunRequest::Kind kind) noexcept {
-  for (const auto& [its, word] : kWords) {
-    if (its == kind) return word;
-  }
-  return "unknown";
+  const std::string_view word = kWords.of(kind);
+  return word.empty() ? "unknown" : word;
 }
 
 std::optional<RunRequest::Kind> request_kind(std::string_view word) noexcept {
-  for (const auto& [kind, its] : kWords) {
-    if (its == word) return kind;
-  }
-  return std::nullopt;
+  return kWords.find(word);
 }
 
 void RunControl::pause() {

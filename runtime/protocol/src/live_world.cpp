@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "rave/base/check.hpp"
+#include "rave/math/finite.hpp"
 #include "rave/math/transform.hpp"
 
 namespace rave::real_time {
@@ -18,11 +19,7 @@ constexpr std::uint32_t kOwn = 0;
 constexpr std::uint32_t kOthers = 1;
 constexpr std::uint32_t kNone = RobotId::kNone;
 
-bool finite(const RobotSight& sight) {
-  return std::isfinite(sight.X_WR.x) && std::isfinite(sight.X_WR.y) &&
-         std::isfinite(sight.X_WR.yaw) && std::isfinite(sight.velocity.vx) &&
-         std::isfinite(sight.velocity.vy) && std::isfinite(sight.velocity.wz);
-}
+bool finite(const RobotSight& sight) { return is_finite(sight.X_WR) && is_finite(sight.velocity); }
 
 std::vector<std::uint8_t> local_robots(const sim::EngineSpec& spec) {
   std::vector<std::uint8_t> local(spec.robots.size(), spec.local ? 0 : 1);

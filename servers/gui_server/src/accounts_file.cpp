@@ -2,11 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 
+#include "plain_name.hpp"
 #include "rave/gui_server/accounts.hpp"
 #include "secrets.hpp"
+#include "tab_lines.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -15,18 +16,7 @@ constexpr std::string_view kFirstLine = "rave-accounts 1";
 // BLAKE2b-256 in hexadecimal (hash_of()). Invitations and sessions are kept as hashes of their
 // secrets, so who reads the file cannot enter with them.
 constexpr std::size_t kHashLetters = 64;
-
-using Columns = std::vector<std::string_view>;
-
-Columns columns_of(std::string_view line) {
-  Columns columns;
-  while (true) {
-    const std::string_view column = line.substr(0, line.find('\t'));
-    columns.push_back(column);
-    if (column.size() == line.size()) return columns;
-    line.remove_prefix(column.size() + 1);
-  }
-}
+constexpr std::int64_t kLatest_s = 99'999'999'999;
 
 bool is_hash(std::string_view text) {
   return text.size() == kHashLetters && std::ranges::all_of(text, [](char c) {
@@ -34,144 +24,114 @@ bool is_hash(std::string_view text) {
          });
 }
 
-/// One line at a time; each function takes what stands in a column.
-class Reader {
- public:
-  explicit Reader(std::string_view file_name) { where_.file = file_name; }
+Result<Role> role_at(const TabLine& line, std::size_t column) {
+  if (const auto found = kRoles.find(line[column])) return *found;
+  return line.wrong("expected observer, commander or super_user, found `{}`",
+                    line[column].substr(0, 40));
+}
 
-  Status take(std::string_view line, int number) {
-    where_.line = number;
-    const Columns columns = columns_of(line);
-    if (columns[0] == "user") return user(columns);
-    if (columns[0] == "invitation") return invitation(columns);
-    if (columns[0] == "session") return session(columns);
-    return wrong("expected user, invitation or session, found `{}`", columns[0].substr(0, 40));
-  }
-  Status first(std::string_view line) {
-    where_.line = 1;
-    if (line == kFirstLine) return {};
-    return wrong("expected `{}`; not a file of accounts, or one of a later version", kFirstLine);
-  }
-  [[nodiscard]] AccountsFile finish() {
-    // Lines may stand in any order, so only now it is known which sessions have no account.
-    std::erase_if(file_.sessions, [this](const SessionEntry& session) {
-      return std::ranges::none_of(file_.accounts, [&](const Account& account) {
-        return account.person.name == session.user;
-      });
-    });
-    return std::move(file_);
-  }
+Result<Teams> teams_at(const TabLine& line, std::size_t column) {
+  auto found = parse_teams(line[column]);
+  if (!found) return line.wrong("{}", found.error().message);
+  return found;
+}
 
- private:
-  template <class... Args>
-  tl::unexpected<Error> wrong(fmt::format_string<Args...> format, Args&&... args) {
-    return fail_at(where_, ErrorCode::kParse, format, std::forward<Args>(args)...);
+Result<std::string> hash_at(const TabLine& line, std::size_t column) {
+  if (!is_hash(line[column])) return line.wrong("expected a hash of {} digits", kHashLetters);
+  return std::string(line[column]);
+}
+
+Result<std::string> name_at(const TabLine& line, std::size_t column) {
+  const Status good = check_user_name(line[column]);
+  if (!good) return line.wrong("{}", good.error().message);
+  return std::string(line[column]);
+}
+
+template <class Number>
+Result<Number> number_at(const TabLine& line, std::size_t column, Number most) {
+  const std::string_view text = line[column];
+  Number value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  // from_chars() stops at the first letter that is no digit, hence the comparison of the end.
+  if (error != std::errc() || end != text.data() + text.size() || value < 0 || value > most) {
+    return line.wrong("expected a number up to {}", most);
   }
-  Status count(const Columns& columns, std::size_t expected) {
-    if (columns.size() == expected) return {};
-    return wrong("expected {} columns, separated by tabs, found {}", expected, columns.size());
+  return value;
+}
+
+Status take_state(const TabLine& line, Account& account) {
+  account.disabled = line[5] == "disabled";
+  if (!account.disabled && line[5] != "enabled") {
+    return line.wrong("expected enabled or disabled, found `{}`", line[5].substr(0, 40));
   }
-  Result<Role> role(std::string_view text) {
-    const auto found = role_named(text);
-    if (found) return *found;
-    return wrong("expected observer, commander or super_user, found `{}`", text.substr(0, 40));
+  RAVE_TRY_ASSIGN(account.seen_s, number_at<std::int64_t>(line, 6, kLatest_s));
+  return {};
+}
+
+Status take_user(const TabLine& line, AccountsFile& file) {
+  // Later columns came later; a file without them is as good.
+  const bool has_state = line.columns.size() == 7;
+  if (!has_state) RAVE_TRY(line.has(5));
+  Account account;
+  RAVE_TRY_ASSIGN(account.person.name, name_at(line, 1));
+  RAVE_TRY_ASSIGN(account.person.role, role_at(line, 2));
+  RAVE_TRY_ASSIGN(account.person.teams, teams_at(line, 3));
+  // Guests enter by an invitation and have no password.
+  if (line[4] != "-") {
+    if (!is_password_hash(line[4])) return line.wrong("expected a hash by Argon2id, or - for none");
+    account.password = line[4];
   }
-  Result<Teams> teams(std::string_view text) {
-    auto found = parse_teams(text);
-    if (!found) return wrong("{}", found.error().message);
-    return found;
-  }
-  Result<std::string> hash(std::string_view text) {
-    if (!is_hash(text)) return wrong("expected a hash of {} digits", kHashLetters);
-    return std::string(text);
-  }
-  Result<std::string> name(std::string_view text) {
-    const Status good = check_user_name(text);
-    if (!good) return wrong("{}", good.error().message);
-    return std::string(text);
-  }
-  template <class Number>
-  Result<Number> number(std::string_view text, Number most) {
-    Number value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    // from_chars() stops at the first letter that is no digit, hence the comparison of the end.
-    if (error != std::errc() || end != text.data() + text.size() || value < 0 || value > most) {
-      return wrong("expected a number up to {}", most);
+  if (has_state) RAVE_TRY(take_state(line, account));
+  // Two lines of one name could have two roles, and which counts would depend on their order.
+  for (const Account& other : file.accounts) {
+    if (other.person.name == account.person.name) {
+      return line.wrong("`{}` already has an account", account.person.name);
     }
-    return value;
   }
+  file.accounts.push_back(std::move(account));
+  return {};
+}
 
-  Status user(const Columns& columns) {
-    // Later columns came later; a file without them is as good.
-    if (columns.size() != 7) RAVE_TRY(count(columns, 5));
-    Account account;
-    RAVE_TRY_ASSIGN(account.person.name, name(columns[1]));
-    RAVE_TRY_ASSIGN(account.person.role, role(columns[2]));
-    RAVE_TRY_ASSIGN(account.person.teams, teams(columns[3]));
-    // Guests enter by an invitation and have no password.
-    if (columns[4] != "-") {
-      if (!is_password_hash(columns[4])) return wrong("expected a hash by Argon2id, or - for none");
-      account.password = columns[4];
-    }
-    if (columns.size() == 7) RAVE_TRY(state(columns, account));
-    // Two lines of one name could have two roles, and which counts would depend on their order.
-    for (const Account& other : file_.accounts) {
-      if (other.person.name == account.person.name) {
-        return wrong("`{}` already has an account", account.person.name);
-      }
-    }
-    file_.accounts.push_back(std::move(account));
-    return {};
-  }
+Status take_invitation(const TabLine& line, AccountsFile& file) {
+  RAVE_TRY(line.has(7));
+  Invitation& invitation = file.invitations.emplace_back();
+  RAVE_TRY_ASSIGN(invitation.hash, hash_at(line, 1));
+  RAVE_TRY_ASSIGN(invitation.role, role_at(line, 2));
+  RAVE_TRY_ASSIGN(invitation.teams, teams_at(line, 3));
+  RAVE_TRY_ASSIGN(invitation.uses, number_at<int>(line, 4, 1000));
+  RAVE_TRY_ASSIGN(invitation.until_s, number_at<std::int64_t>(line, 5, kLatest_s));
+  RAVE_TRY_ASSIGN(invitation.by, name_at(line, 6));
+  return {};
+}
 
-  Status state(const Columns& columns, Account& account) {
-    account.disabled = columns[5] == "disabled";
-    if (!account.disabled && columns[5] != "enabled") {
-      return wrong("expected enabled or disabled, found `{}`", columns[5].substr(0, 40));
-    }
-    RAVE_TRY_ASSIGN(account.seen_s, number<std::int64_t>(columns[6], 99'999'999'999));
-    return {};
-  }
+Status take_session(const TabLine& line, AccountsFile& file) {
+  RAVE_TRY(line.has(4));
+  SessionEntry& session = file.sessions.emplace_back();
+  RAVE_TRY_ASSIGN(session.hash, hash_at(line, 1));
+  RAVE_TRY_ASSIGN(session.user, name_at(line, 2));
+  RAVE_TRY_ASSIGN(session.until_s, number_at<std::int64_t>(line, 3, kLatest_s));
+  return {};
+}
 
-  Status invitation(const Columns& columns) {
-    RAVE_TRY(count(columns, 7));
-    Invitation invitation;
-    RAVE_TRY_ASSIGN(invitation.hash, hash(columns[1]));
-    RAVE_TRY_ASSIGN(invitation.role, role(columns[2]));
-    RAVE_TRY_ASSIGN(invitation.teams, teams(columns[3]));
-    RAVE_TRY_ASSIGN(invitation.uses, number<int>(columns[4], 1000));
-    RAVE_TRY_ASSIGN(invitation.until_s, number<std::int64_t>(columns[5], 99'999'999'999));
-    RAVE_TRY_ASSIGN(invitation.by, name(columns[6]));
-    file_.invitations.push_back(std::move(invitation));
-    return {};
-  }
-
-  Status session(const Columns& columns) {
-    RAVE_TRY(count(columns, 4));
-    SessionEntry session;
-    RAVE_TRY_ASSIGN(session.hash, hash(columns[1]));
-    RAVE_TRY_ASSIGN(session.user, name(columns[2]));
-    RAVE_TRY_ASSIGN(session.until_s, number<std::int64_t>(columns[3], 99'999'999'999));
-    file_.sessions.push_back(std::move(session));
-    return {};
-  }
-
-  SourceLocation where_;
-  AccountsFile file_;
-};
+Status take_line(const TabLine& line, AccountsFile& file) {
+  if (line[0] == "user") return take_user(line, file);
+  if (line[0] == "invitation") return take_invitation(line, file);
+  if (line[0] == "session") return take_session(line, file);
+  return line.wrong("expected user, invitation or session, found `{}`", line[0].substr(0, 40));
+}
 
 }  // namespace
 
 Result<AccountsFile> parse_accounts(std::string_view text, std::string_view file_name) {
-  Reader reader(file_name);
-  if (!text.empty() && text.back() == '\n') text.remove_suffix(1);
-  for (int number = 1;; ++number) {
-    const std::string_view line = text.substr(0, text.find('\n'));
-    RAVE_TRY(number == 1 ? reader.first(line) : reader.take(line, number));
-    // The last line: nothing is left behind it.
-    if (line.size() == text.size()) return reader.finish();
-    text.remove_prefix(line.size() + 1);
-  }
+  RAVE_TRY_ASSIGN(const auto lines, tab_lines(text, file_name, kFirstLine, "accounts"));
+  AccountsFile file;
+  for (const TabLine& line : lines) RAVE_TRY(take_line(line, file));
+  // Lines may stand in any order, so only now it is known which sessions have no account.
+  std::erase_if(file.sessions, [&file](const SessionEntry& session) {
+    return std::ranges::none_of(
+        file.accounts, [&](const Account& account) { return account.person.name == session.user; });
+  });
+  return file;
 }
 
 std::string write_accounts(const AccountsFile& accounts) {
@@ -198,15 +158,8 @@ std::string write_accounts(const AccountsFile& accounts) {
 }
 
 Status check_user_name(std::string_view name) {
-  const auto is_letter = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-  };
   // No blanks and no control characters: names stand in columns, logs and links.
-  const bool good = !name.empty() && name.size() <= 32 && is_letter(name.front()) &&
-                    std::ranges::all_of(name, [&](char c) {
-                      return is_letter(c) || c == '-' || c == '_' || c == '.' || c == '@';
-                    });
-  if (good) return {};
+  if (is_plain_name(name, "-_.@") && name.size() <= 32 && is_plain(name.front(), "")) return {};
   return fail(ErrorCode::kInvalidArgument,
               "a name has 1 to 32 letters, digits, `-`, `_`, `.` and `@`, the first a letter or "
               "digit");

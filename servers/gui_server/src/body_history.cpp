@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "rave/control/obstacle_edits.hpp"
+#include "rave/math/finite.hpp"
 #include "rave/record/run_messages.hpp"
 #include "rave/record/run_reader.hpp"
 #include "scene_json.hpp"
@@ -39,7 +39,7 @@ std::optional<Named> read_text(const std::string& text) {
   Pose2 X_WB;
   if (std::sscanf(text.c_str() + end + 1, " at (%lf, %lf), yaw %lf rad", &X_WB.x, &X_WB.y,
                   &X_WB.yaw) == 3 &&
-      std::isfinite(X_WB.x) && std::isfinite(X_WB.y) && std::isfinite(X_WB.yaw)) {
+      is_finite(X_WB)) {
     named.X_WB = X_WB;
   }
   return named;

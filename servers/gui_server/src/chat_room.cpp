@@ -7,30 +7,6 @@
 namespace rave::gui_server {
 namespace {
 
-const char* to_word(ChatMessage::To to) {
-  switch (to) {
-    case ChatMessage::To::kAll:
-      return "all";
-    case ChatMessage::To::kRole:
-      return "role";
-    case ChatMessage::To::kUser:
-      return "user";
-    case ChatMessage::To::kTeam:
-      return "team";
-    case ChatMessage::To::kRobot:
-      return "robot";
-  }
-  return "all";
-}
-
-std::optional<ChatMessage::To> to_named(std::string_view word) {
-  using To = ChatMessage::To;
-  for (const To to : {To::kAll, To::kRole, To::kUser, To::kTeam, To::kRobot}) {
-    if (word == to_word(to)) return to;
-  }
-  return std::nullopt;
-}
-
 bool same_words(const ChatRoom::Line& a, const ChatRoom::Line& b) {
   return a.from.name == b.from.name && a.to == b.to && a.name == b.name && a.text == b.text;
 }
@@ -38,13 +14,18 @@ bool same_words(const ChatRoom::Line& a, const ChatRoom::Line& b) {
 }  // namespace
 
 ChatText ChatRoom::text_of(const Line& line) {
-  return {line.number,      line.t_s,  line.from.name, std::string(to_string(line.from.role)),
-          to_word(line.to), line.name, line.text};
+  return {line.number,
+          line.t_s,
+          line.from.name,
+          std::string(to_string(line.from.role)),
+          std::string(kChatTo.of(line.to)),
+          line.name,
+          line.text};
 }
 
 std::optional<ChatRoom::Line> ChatRoom::line_of(const ChatText& text, const Cast& cast) {
-  const auto role = role_named(text.role);
-  const auto to = to_named(text.to);
+  const auto role = kRoles.find(text.role);
+  const auto to = kChatTo.find(text.to);
   if (!role || !to) return std::nullopt;
   Line line;
   line.t_s = text.t_s;
@@ -125,7 +106,7 @@ std::string ChatRoom::text_for(const Listener& listener, std::uint64_t number, b
          {"t", line.t_s},
          {"from", {{"name", line.from.name}, {"role", to_string(line.from.role)}}},
          {"yours", line.from.name == listener.person.name},
-         {"to", to_word(line.to)},
+         {"to", kChatTo.of(line.to)},
          {"name", line.name},
          {"text", line.text}});
   }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "plain_name.hpp"
 #include "rave/base/file.hpp"
 
 namespace rave::gui_server {
@@ -16,9 +17,7 @@ constexpr std::size_t kMostComponentBytes = std::size_t{1} << 20U;
 std::string plain_name(const std::filesystem::path& file) {
   std::string name = file.stem().string();
   for (char& c : name) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       c == '-' || c == '_';
-    if (!plain) c = '_';
+    if (!is_plain(c, "-_")) c = '_';
   }
   return name;
 }

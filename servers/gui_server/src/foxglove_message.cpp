@@ -19,31 +19,26 @@ constexpr std::array<std::string_view, 9> kRefusedOps = {"advertise",
                                                          "unsubscribeConnectionGraph",
                                                          "fetchAsset"};
 
-Result<FoxgloveMessage> subscribe_of(Members& members) {
-  FoxgloveSubscribe subscribe;
-  RAVE_TRY_ASSIGN(const PageJson* const all, members.array("subscriptions", kMostSubscriptions));
-  for (const PageJson& one : *all) {
-    if (!one.is_object()) {
-      return fail(ErrorCode::kParse, "`subscriptions`: expected objects with id and channelId");
-    }
-    Members of_one(one);
-    FoxgloveSubscription subscription;
-    RAVE_TRY_ASSIGN(subscription.id, of_one.index("id"));
-    RAVE_TRY_ASSIGN(subscription.channel, of_one.index("channelId"));
-    RAVE_TRY(of_one.finish());
-    subscribe.subscriptions.push_back(subscription);
+Result<FoxgloveSubscription> subscription_of(const PageJson& json, const char* name) {
+  if (!json.is_object()) {
+    return fail(ErrorCode::kParse, "`{}`: expected objects with id and channelId", name);
   }
-  return FoxgloveMessage(std::move(subscribe));
+  Members members(json);
+  FoxgloveSubscription subscription;
+  RAVE_TRY_ASSIGN(subscription.id, members.index("id"));
+  RAVE_TRY_ASSIGN(subscription.channel, members.index("channelId"));
+  RAVE_TRY(members.finish());
+  return subscription;
+}
+
+Result<FoxgloveMessage> subscribe_of(Members& members) {
+  RAVE_TRY_ASSIGN(auto all, members.list("subscriptions", kMostSubscriptions, subscription_of));
+  return FoxgloveSubscribe{std::move(all)};
 }
 
 Result<FoxgloveMessage> unsubscribe_of(Members& members) {
-  FoxgloveUnsubscribe unsubscribe;
-  RAVE_TRY_ASSIGN(const PageJson* const all, members.array("subscriptionIds", kMostSubscriptions));
-  for (const PageJson& one : *all) {
-    RAVE_TRY_ASSIGN(const std::uint32_t id, Members::index_of(one, "subscriptionIds"));
-    unsubscribe.ids.push_back(id);
-  }
-  return FoxgloveMessage(std::move(unsubscribe));
+  RAVE_TRY_ASSIGN(auto ids, members.list("subscriptionIds", kMostSubscriptions, Members::index_of));
+  return FoxgloveUnsubscribe{std::move(ids)};
 }
 
 }  // namespace

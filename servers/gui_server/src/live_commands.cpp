@@ -12,53 +12,12 @@ namespace {
 using runtime::RunRequest;
 constexpr auto kStatusInterval = std::chrono::milliseconds(200);
 
-RunRequest::Kind kind_of(CommandMessage::Kind kind) {
-  using From = CommandMessage::Kind;
-  using To = RunRequest::Kind;
-  switch (kind) {
-    case From::kDrive:
-      return To::kDrive;
-    case From::kGoal:
-      return To::kGoal;
-    case From::kPath:
-      return To::kPath;
-    case From::kCancel:
-      return To::kCancel;
-    case From::kText:
-      return To::kText;
-    case From::kPlace:
-      return To::kPlace;
-    case From::kTake:
-      return To::kTake;
-    case From::kGive:
-      return To::kGive;
-    case From::kSet:
-      return To::kSet;
-    case From::kEdit:
-      return To::kEdit;
-    case From::kHandOver:
-      return To::kHandOver;
-    case From::kResetShadow:
-      return To::kResetShadow;
-  }
-  return To::kCancel;
-}
-
-/// What the run is asked, but for the robot and its place.
+/// What the run is asked, but for the robot.
 RunRequest request_of(const CommandMessage& command, const Author& author) {
-  RunRequest request;
-  request.kind = kind_of(command.kind);
-  request.key = command.key;
-  request.edit = command.edit;
-  request.value = command.value;
+  RunRequest request = static_cast<const RunRequest&>(command);
   request.by = author.name;
   request.overrides = author.overrides;
   request.page = author.page;
-  request.yaw_rad = command.yaw_rad;
-  request.v_mps = command.v_mps;
-  request.w_radps = command.w_radps;
-  request.speed_mps = command.speed_mps;
-  if (command.kind == CommandMessage::Kind::kPath) request.points = command.points;
   return request;
 }
 
@@ -136,18 +95,18 @@ void LiveSource::command(const CommandMessage& command, const Author& author,
     for (const std::uint32_t slot : command.slots) reply(slot, false, kNoRelay);
     return;
   }
-  const bool shared = command.kind == CommandMessage::Kind::kPath || command.points.size() == 1;
+  RunRequest all = request_of(command, author);
+  const bool shared = command.kind == Kind::kPath || command.points.size() <= 1;
+  if (!shared) all.points.clear();
   for (std::size_t i = 0; i < command.slots.size(); ++i) {
     const std::uint32_t slot = command.slots[i];
     if (slot >= start_.robots.size()) {
       reply(slot, false, "There is no such robot.");
       continue;
     }
-    RunRequest request = request_of(command, author);
+    RunRequest request = all;
     request.robot = start_.robots[slot];
-    if (request.points.empty() && !command.points.empty()) {
-      request.points = {command.points[shared ? 0 : i]};
-    }
+    if (!shared) request.points = {command.points[i]};
     post(std::move(request), slot);
   }
 }

@@ -1,85 +1,73 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/base/word_table.hpp"
+#include "rave/math/pose.hpp"
 
 namespace rave::gui_server {
 
 using PageJson = nlohmann::json;
 
-/// Takes members out of an object, so that unknown members are left over and refused.
+inline constexpr std::size_t kLongestPlainName = 64;
+
+/// Takes members out of an object, so that unknown members are left over and refused. Errors:
+/// kParse with the name of the member and what was expected.
 class Members {
  public:
   explicit Members(const PageJson& object) : object_(object) {}
 
-  Result<bool> flag(const char* name) {
-    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
-    if (!value->is_boolean()) return wrong(name, "true or false");
-    return value->get<bool>();
-  }
-  Result<double> number(const char* name) {
-    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
-    if (!value->is_number() || !std::isfinite(value->get<double>())) {
-      return wrong(name, "a finite number");
-    }
-    return value->get<double>();
-  }
-  Result<std::uint32_t> index(const char* name) {
-    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
-    return index_of(*value, name);
-  }
-  Result<std::string> word(const char* name) {
-    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
-    if (!value->is_string()) return wrong(name, "a string");
-    return value->get<std::string>();
-  }
-  Result<const PageJson*> array(const char* name, std::size_t most) {
-    RAVE_TRY_ASSIGN(const PageJson* const value, find(name));
-    if (!value->is_array() || value->size() > most) {
-      return fail(ErrorCode::kParse, "`{}`: expected an array of at most {}", name, most);
-    }
-    return value;
-  }
+  Result<bool> flag(const char* name);
+  Result<double> number(const char* name);  ///< Finite.
+  Result<double> number_in(const char* name, double least, double most);
+  Result<std::uint32_t> index(const char* name);
+  Result<std::uint32_t> index_in(const char* name, std::uint32_t least, std::uint32_t most);
+  Result<std::string> word(const char* name);
   /// A string of limited length in bytes, without control characters but line breaks if `lines`.
-  Result<std::string> text(const char* name, std::size_t most, bool lines = false) {
-    RAVE_TRY_ASSIGN(std::string text, word(name));
-    const bool plain = std::none_of(text.begin(), text.end(), [lines](char c) {
-      return (static_cast<unsigned char>(c) < 0x20 && !(lines && c == '\n')) || c == 0x7f;
-    });
-    if (text.size() > most || !plain) {
-      return fail(ErrorCode::kParse, "`{}`: expected at most {} bytes of text", name, most);
-    }
-    return text;
+  Result<std::string> text(const char* name, std::size_t most, bool lines = false);
+  /// 1 to kLongestPlainName letters, digits and `signs`, as names in files are.
+  Result<std::string> plain_name(const char* name, std::string_view signs);
+  /// One of the words, which outlive the result.
+  Result<std::string_view> choice(const char* name, std::initializer_list<std::string_view> words);
+  /// What one of the words of the table stands for.
+  template <class Value, std::size_t N>
+  Result<Value> choice(const char* name, const WordTable<Value, N>& words) {
+    RAVE_TRY_ASSIGN(const std::size_t row, row_of(name, words.words()));
+    return words.rows[row].second;
   }
-  Result<const PageJson*> any(const char* name) { return find(name); }
+  /// x and y of at most `farthest_m`, and a yaw of at most one turn.
+  Result<Pose2> pose(const char* name, double farthest_m);
+  /// An array of at most `most`, each as `read` takes it from a value and the name.
+  template <class Value>
+  Result<std::vector<Value>> list(const char* name, std::size_t most,
+                                  Result<Value> (*read)(const PageJson&, const char*)) {
+    RAVE_TRY_ASSIGN(const PageJson* const values, array(name, most));
+    std::vector<Value> all;
+    for (const PageJson& value : *values) {
+      RAVE_TRY_ASSIGN(Value one, read(value, name));
+      all.push_back(std::move(one));
+    }
+    return all;
+  }
+  Result<const PageJson*> any(const char* name);
   [[nodiscard]] bool has(const char* name) const { return object_.contains(name); }
-  [[nodiscard]] Status finish() const {
-    if (object_.size() != taken_) return fail(ErrorCode::kParse, "the message has unknown members");
-    return {};
-  }
-  static Result<std::uint32_t> index_of(const PageJson& value, const char* name) {
-    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xffffffffU) {
-      return wrong(name, "a whole number from 0 to 4294967295");
-    }
-    return value.get<std::uint32_t>();
-  }
+  [[nodiscard]] Status finish() const;
+
+  // For list().
+  static Result<double> number_of(const PageJson& value, const char* name);
+  static Result<std::uint32_t> index_of(const PageJson& value, const char* name);
 
  private:
-  static tl::unexpected<Error> wrong(const char* name, const char* expected) {
-    return fail(ErrorCode::kParse, "`{}`: expected {}", name, expected);
-  }
-  Result<const PageJson*> find(const char* name) {
-    const auto found = object_.find(name);
-    if (found == object_.end()) return fail(ErrorCode::kParse, "`{}` is missing", name);
-    ++taken_;
-    return &*found;
-  }
+  Result<std::size_t> row_of(const char* name, std::span<const std::string_view> words);
+  Result<const PageJson*> array(const char* name, std::size_t most);
 
   const PageJson& object_;
   std::size_t taken_ = 0;

@@ -44,6 +44,7 @@ void PageCommands::begin(std::shared_ptr<Source> source, Author author) {
 void PageCommands::let_go() {
   newest_.reset();
   CommandMessage stand;
+  stand.kind = CommandMessage::Kind::kDrive;
   const auto now = web::RateLimit::Clock::now();
   for (const auto& [slot, since] : driven_) {
     if (now - since < kStandsAnyway) stand.slots.push_back(slot);

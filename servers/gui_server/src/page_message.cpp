@@ -2,12 +2,9 @@
 #include "page_message.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "command_message.hpp"
 #include "members.hpp"
-#include "rave/base/names.hpp"
 #include "ticket_request.hpp"
 
 namespace rave::gui_server {
@@ -17,122 +14,97 @@ namespace {
 constexpr std::size_t kMostSensors = 256;
 constexpr std::size_t kMostSlots = 100'000;
 constexpr std::size_t kLongestName = 64;
+constexpr std::size_t kMostTeams = 1000;
 
-Result<std::vector<LookedAt>> sensors_of(Members& members, const char* name) {
-  RAVE_TRY_ASSIGN(const PageJson* const pairs, members.array(name, kMostSensors));
-  std::vector<LookedAt> sensors;
-  for (const PageJson& pair : *pairs) {
-    if (!pair.is_array() || pair.size() != 2) {
-      return fail(ErrorCode::kParse, "`{}`: expected pairs of slot and sensor", name);
-    }
-    LookedAt looked;
-    RAVE_TRY_ASSIGN(looked.slot, Members::index_of(pair[0], name));
-    RAVE_TRY_ASSIGN(looked.sensor, Members::index_of(pair[1], name));
-    sensors.push_back(looked);
-  }
-  // A sensor that is named twice would be sent twice, and sources expect each list sorted.
-  std::sort(sensors.begin(), sensors.end());
-  sensors.erase(std::unique(sensors.begin(), sensors.end()), sensors.end());
-  return sensors;
+using Do = TransportMessage::Do;
+constexpr WordTable<Do, 5> kTransportWords = {{{"play", Do::kPlay},
+                                               {"pause", Do::kPause},
+                                               {"step", Do::kStep},
+                                               {"seek", Do::kSeek},
+                                               {"pace", Do::kPace}}};
+/// Whether the robots stop.
+constexpr WordTable<bool, 2> kHaltWords = {{{"stop", true}, {"release", false}}};
+
+/// What is named twice would be sent twice, and sources expect each list sorted.
+template <class Value>
+std::vector<Value> sorted_once(std::vector<Value> values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
 }
 
-Result<PageMessage> look_of(Members& members) {
+Result<LookedAt> looked_at(const PageJson& pair, const char* name) {
+  if (!pair.is_array() || pair.size() != 2) {
+    return fail(ErrorCode::kParse, "`{}`: expected pairs of slot and sensor", name);
+  }
+  LookedAt looked;
+  RAVE_TRY_ASSIGN(looked.slot, Members::index_of(pair[0], name));
+  RAVE_TRY_ASSIGN(looked.sensor, Members::index_of(pair[1], name));
+  return looked;
+}
+
+Result<LookMessage> look_of(Members& members) {
   LookMessage look;
   RAVE_TRY_ASSIGN(look.poses, members.flag("poses"));
   RAVE_TRY_ASSIGN(look.true_poses, members.flag("true_poses"));
   RAVE_TRY_ASSIGN(look.parts, members.flag("parts"));
-  RAVE_TRY_ASSIGN(look.max_hz, members.number("max_hz"));
-  if (look.max_hz < 1 || look.max_hz > 60) {
-    return fail(ErrorCode::kParse, "`max_hz`: expected 1 to 60");
-  }
-  RAVE_TRY_ASSIGN(look.readings, sensors_of(members, "readings"));
+  RAVE_TRY_ASSIGN(look.max_hz, members.number_in("max_hz", 1, 60));
+  RAVE_TRY_ASSIGN(look.readings, members.list("readings", kMostSensors, looked_at));
   if (members.has("courses")) {
-    RAVE_TRY_ASSIGN(look.courses, sensors_of(members, "courses"));
+    RAVE_TRY_ASSIGN(look.courses, members.list("courses", kMostSensors, looked_at));
   }
   if (members.has("variances")) {
-    RAVE_TRY_ASSIGN(const PageJson* const slots, members.array("variances", kMostSensors));
-    for (const PageJson& slot : *slots) {
-      RAVE_TRY_ASSIGN(const std::uint32_t robot, Members::index_of(slot, "variances"));
-      look.variances.push_back(robot);
-    }
-    std::sort(look.variances.begin(), look.variances.end());
-    look.variances.erase(std::unique(look.variances.begin(), look.variances.end()),
-                         look.variances.end());
+    RAVE_TRY_ASSIGN(look.variances, members.list("variances", kMostSensors, Members::index_of));
   }
-  return PageMessage(std::move(look));
+  look.readings = sorted_once(std::move(look.readings));
+  look.courses = sorted_once(std::move(look.courses));
+  look.variances = sorted_once(std::move(look.variances));
+  return look;
 }
 
-Result<PageMessage> look_maps_of(Members& members) {
-  LookMapsMessage look;
-  RAVE_TRY_ASSIGN(const PageJson* const maps, members.array("maps", kMostLookedAtMaps));
-  for (const PageJson& map : *maps) {
-    MapName name;
-    // A number is the slot of a robot, whose local map is meant; a text names a global map.
-    if (map.is_string()) {
-      name.name = map.get<std::string>();
-      if (name.name.empty() || name.name.size() > kLongestName) {
-        return fail(ErrorCode::kParse, "`maps`: expected names of 1 to {} bytes", kLongestName);
-      }
-    } else {
-      RAVE_TRY_ASSIGN(name.slot, Members::index_of(map, "maps"));
-      // The largest number is the slot that stands for a global map inside the server.
-      if (name.global()) return fail(ErrorCode::kParse, "`maps`: there is no such slot");
-    }
-    look.maps.push_back(std::move(name));
+/// A number is the slot of a robot, whose local map is meant; a text names a global map.
+Result<MapName> map_named(const PageJson& json, const char* name) {
+  MapName map;
+  if (json.is_string()) {
+    map.name = json.get<std::string>();
+    if (!map.name.empty() && map.name.size() <= kLongestName) return map;
+    return fail(ErrorCode::kParse, "`{}`: expected names of 1 to {} bytes", name, kLongestName);
   }
-  std::sort(look.maps.begin(), look.maps.end());
-  look.maps.erase(std::unique(look.maps.begin(), look.maps.end()), look.maps.end());
-  return PageMessage(std::move(look));
+  RAVE_TRY_ASSIGN(map.slot, Members::index_of(json, name));
+  // The largest number is the slot that stands for a global map inside the server.
+  if (map.global()) return fail(ErrorCode::kParse, "`{}`: there is no such slot", name);
+  return map;
 }
 
-Result<PageMessage> transport_of(Members& members) {
-  using Do = TransportMessage::Do;
-  static constexpr std::array<std::pair<std::string_view, Do>, 5> kWords = {{{"play", Do::kPlay},
-                                                                             {"pause", Do::kPause},
-                                                                             {"step", Do::kStep},
-                                                                             {"seek", Do::kSeek},
-                                                                             {"pace", Do::kPace}}};
-  RAVE_TRY_ASSIGN(const std::string word, members.word("do"));
-  const auto found = std::find_if(kWords.begin(), kWords.end(),
-                                  [&word](const auto& entry) { return entry.first == word; });
-  if (found == kWords.end()) {
-    return fail(ErrorCode::kParse, "`do`: expected play, pause, step, seek or pace");
-  }
+Result<LookMapsMessage> look_maps_of(Members& members) {
+  RAVE_TRY_ASSIGN(auto maps, members.list("maps", kMostLookedAtMaps, map_named));
+  return LookMapsMessage{sorted_once(std::move(maps))};
+}
+
+Result<TransportMessage> transport_of(Members& members) {
   TransportMessage transport;
-  transport.what = found->second;
+  RAVE_TRY_ASSIGN(transport.what, members.choice("do", kTransportWords));
   const bool takes_value = transport.what != Do::kPlay && transport.what != Do::kPause;
   // A value that is not needed is taken, too: finish() would refuse the message otherwise.
   if (takes_value || members.has("value")) {
     RAVE_TRY_ASSIGN(transport.value, members.number("value"));
   }
-  return PageMessage(transport);
+  return transport;
 }
 
-Result<PageMessage> halt_of(Members& members) {
+Result<HaltMessage> halt_of(Members& members) {
   HaltMessage halt;
-  RAVE_TRY_ASSIGN(const std::string word, members.word("do"));
-  if (word != "stop" && word != "release") {
-    return fail(ErrorCode::kParse, "`do`: expected stop or release");
-  }
-  halt.stop = word == "stop";
+  RAVE_TRY_ASSIGN(halt.stop, members.choice("do", kHaltWords));
   // Slots that do not exist are not an error here. Whether a robot exists, and whether this user
   // may stop it, only the source knows; an empty list means all robots.
-  RAVE_TRY_ASSIGN(const PageJson* const slots, members.array("slots", kMostSlots));
-  for (const PageJson& slot : *slots) {
-    RAVE_TRY_ASSIGN(const std::uint32_t index, Members::index_of(slot, "slots"));
-    halt.slots.push_back(index);
-  }
-  return PageMessage(std::move(halt));
+  RAVE_TRY_ASSIGN(halt.slots, members.list("slots", kMostSlots, Members::index_of));
+  return halt;
 }
-
-constexpr std::size_t kMostTeams = 1000;
 
 /// `role` or `user`; with neither both stay empty.
 Status whose(Members& members, std::optional<Role>& role, std::string& user) {
   if (members.has("role")) {
-    RAVE_TRY_ASSIGN(const std::string word, members.word("role"));
-    role = role_named(word);
-    if (!role) return fail(ErrorCode::kParse, "`role`: expected observer, commander or super_user");
+    RAVE_TRY_ASSIGN(role, members.choice("role", kRoles));
   }
   if (members.has("user")) {
     RAVE_TRY_ASSIGN(user, members.word("user"));
@@ -159,15 +131,13 @@ Result<std::optional<Reach>> reach_in(const PageJson& value) {
     }
     return std::optional<Reach>(std::move(reach));
   }
-  // kTeams is not among them: it has no word, but is an array of names.
-  for (const auto kind : {Reach::Kind::kNone, Reach::Kind::kOwn, Reach::Kind::kAll}) {
-    reach.kind = kind;
-    if (value == to_string(kind)) return std::optional<Reach>(std::move(reach));
-  }
+  const auto kind = value.is_string() ? kReaches.find(value.get_ref<const std::string&>())
+                                      : std::optional<Reach::Kind>();
+  if (kind) return std::optional<Reach>(Reach{*kind, {}});
   return fail(ErrorCode::kParse, "`reach`: expected none, own, all, an array of teams, or null");
 }
 
-Result<PageMessage> right_of(Members& members) {
+Result<SetRightMessage> right_of(Members& members) {
   SetRightMessage set;
   RAVE_TRY(whose(members, set.change.role, set.change.user));
   if (!set.change.role && set.change.user.empty()) {
@@ -179,16 +149,16 @@ Result<PageMessage> right_of(Members& members) {
   set.change.what = *what;
   RAVE_TRY_ASSIGN(const PageJson* const reach, members.any("reach"));
   RAVE_TRY_ASSIGN(set.change.reach, reach_in(*reach));
-  return PageMessage(std::move(set));
+  return set;
 }
 
-Result<PageMessage> eyes_of(Members& members) {
+Result<SeeAsMessage> eyes_of(Members& members) {
   SeeAsMessage see;
   RAVE_TRY(whose(members, see.role, see.user));
-  return PageMessage(std::move(see));
+  return see;
 }
 
-Result<PageMessage> chat_of(Members& members) {
+Result<ChatMessage> chat_of(Members& members) {
   using To = ChatMessage::To;
   ChatMessage chat;
   RAVE_TRY_ASSIGN(chat.request, members.index("request"));
@@ -197,33 +167,52 @@ Result<PageMessage> chat_of(Members& members) {
   if (chat.text.find_first_not_of(" \n") == std::string::npos) {
     return fail(ErrorCode::kParse, "`text`: expected a text that is not empty");
   }
-  RAVE_TRY_ASSIGN(const std::string to, members.word("to"));
-  if (to == "all") {
-    chat.to = To::kAll;
-    return PageMessage(std::move(chat));
-  }
-  if (to == "robot") {
-    chat.to = To::kRobot;
+  RAVE_TRY_ASSIGN(chat.to, members.choice("to", kChatTo));
+  if (chat.to == To::kRobot) {
     RAVE_TRY_ASSIGN(chat.slot, members.index("slot"));
-    return PageMessage(std::move(chat));
+  } else if (chat.to == To::kRole) {
+    // Roles are fixed, so a wrong one is a malformed message. Users and teams come and go; whether
+    // they exist is checked later, and a wrong one does not count as malformed.
+    RAVE_TRY_ASSIGN(const Role role, members.choice("name", kRoles));
+    chat.name = to_string(role);
+  } else if (chat.to != To::kAll) {
+    RAVE_TRY_ASSIGN(chat.name, members.text("name", kLongestName));
   }
-  if (to != "role" && to != "user" && to != "team") {
-    return fail(ErrorCode::kParse, "`to`: expected all, role, user, team or robot");
-  }
-  chat.to = to == "role" ? To::kRole : (to == "user" ? To::kUser : To::kTeam);
-  RAVE_TRY_ASSIGN(chat.name, members.text("name", kLongestName));
-  // Roles are fixed, so a wrong one is a malformed message. Users and teams come and go; whether
-  // they exist is checked later, and a wrong one does not count as malformed.
-  if (chat.to == To::kRole && !role_named(chat.name)) {
-    return fail(ErrorCode::kParse, "`name`: expected observer, commander or super_user");
-  }
-  return PageMessage(std::move(chat));
+  return chat;
 }
 
-Result<PageMessage> page_key_message_of(Members& members) {
+Result<PageKeyMessage> page_key_message_of(Members& members) {
   RAVE_TRY_ASSIGN(const std::string text, members.word("key"));
   RAVE_TRY_ASSIGN(std::string key, page_key_of(text));
-  return PageMessage(PageKeyMessage{std::move(key)});
+  return PageKeyMessage{std::move(key)};
+}
+
+Result<AckMessage> ack_of(Members& members) {
+  RAVE_TRY_ASSIGN(const std::uint32_t sequence, members.index("sequence"));
+  return AckMessage{sequence};
+}
+
+Result<AskCatalogueMessage> ask_catalogue_of(Members& members) {
+  RAVE_TRY_ASSIGN(const std::uint32_t request, members.index("request"));
+  return AskCatalogueMessage{request};
+}
+
+Result<PageMessage> message_of(std::string_view type, Members& members) {
+  if (type == "look") return look_of(members);
+  if (type == "look_maps") return look_maps_of(members);
+  if (type == "look_probes") return look_probes_of(members);
+  if (type == "ask_catalogue") return ask_catalogue_of(members);
+  if (type == "page") return page_key_message_of(members);
+  if (type == "ack") return ack_of(members);
+  if (type == "transport") return transport_of(members);
+  if (type == "halt") return halt_of(members);
+  if (type == "set_right") return right_of(members);
+  if (type == "see_as") return eyes_of(members);
+  if (type == "say") return chat_of(members);
+  // These return nothing for types that are not theirs, so each module knows its own types.
+  if (auto command = command_of(type, members)) return *std::move(command);
+  if (auto people = people_message_of(type, members)) return *std::move(people);
+  return fail(ErrorCode::kParse, "unknown type of message");
 }
 
 }  // namespace
@@ -235,45 +224,7 @@ Result<PageMessage> parse_page_message(std::string_view text) {
   if (!json.is_object()) return fail(ErrorCode::kParse, "expected a JSON object");
   Members members(json);
   RAVE_TRY_ASSIGN(const std::string type, members.word("type"));
-  Result<PageMessage> message = fail(ErrorCode::kParse, "unknown type of message");
-  if (type == "look") {
-    message = look_of(members);
-  } else if (type == "look_maps") {
-    message = look_maps_of(members);
-  } else if (type == "look_probes") {
-    auto look = look_probes_of(members);
-    if (!look) return tl::unexpected(look.error());
-    message = PageMessage(*std::move(look));
-  } else if (type == "ask_catalogue") {
-    auto request = members.index("request");
-    if (!request) return tl::unexpected(request.error());
-    message = PageMessage(AskCatalogueMessage{*request});
-  } else if (type == "page") {
-    message = page_key_message_of(members);
-  } else if (type == "ack") {
-    auto sequence = members.index("sequence");
-    if (!sequence) return tl::unexpected(sequence.error());
-    message = PageMessage(AckMessage{*sequence});
-  } else if (type == "transport") {
-    message = transport_of(members);
-  } else if (type == "halt") {
-    message = halt_of(members);
-  } else if (type == "set_right") {
-    message = right_of(members);
-  } else if (type == "see_as") {
-    message = eyes_of(members);
-  } else if (type == "say") {
-    message = chat_of(members);
-    // The last two return nothing for types that are not theirs, so each module knows its own
-    // types.
-  } else if (auto command = command_of(type, members)) {
-    if (!*command) return tl::unexpected(command->error());
-    message = PageMessage(**std::move(command));
-  } else if (auto people = people_message_of(type, members)) {
-    if (!*people) return tl::unexpected(people->error());
-    message = PageMessage(**std::move(people));
-  }
-  if (!message) return message;
+  RAVE_TRY_ASSIGN(PageMessage message, message_of(type, members));
   // A misspelt member would otherwise be ignored, and its default taken.
   RAVE_TRY(members.finish());
   return message;

@@ -10,6 +10,7 @@
 #include "people_message.hpp"
 #include "probe_message.hpp"
 #include "rave/base/result.hpp"
+#include "rave/base/word_table.hpp"
 #include "rave/gui_server/rights.hpp"
 #include "rave/gui_server/source.hpp"
 
@@ -64,6 +65,11 @@ struct ChatMessage {
   std::string text;        ///< 1 to kLongestText bytes.
   std::uint32_t request = 0;
 };
+inline constexpr WordTable<ChatMessage::To, 5> kChatTo = {{{"all", ChatMessage::To::kAll},
+                                                           {"role", ChatMessage::To::kRole},
+                                                           {"user", ChatMessage::To::kUser},
+                                                           {"team", ChatMessage::To::kTeam},
+                                                           {"robot", ChatMessage::To::kRobot}}};
 
 using PageMessage =
     std::variant<LookMessage, AckMessage, TransportMessage, HaltMessage, SetRightMessage,

@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "people_message.hpp"
 
-#include <array>
-
 namespace rave::gui_server {
 namespace {
 
 using AccountDo = AccountMessage::Do;
-// In the order of AccountDo, because word_of() uses it as index.
-constexpr std::array<std::pair<std::string_view, AccountDo>, 4> kAccountWords = {
-    {{"change", AccountDo::kChange},
-     {"disable", AccountDo::kDisable},
-     {"enable", AccountDo::kEnable},
-     {"end_sessions", AccountDo::kEndSessions}}};
+constexpr WordTable<AccountDo, 4> kAccountWords = {{{"change", AccountDo::kChange},
+                                                    {"disable", AccountDo::kDisable},
+                                                    {"enable", AccountDo::kEnable},
+                                                    {"end_sessions", AccountDo::kEndSessions}}};
+/// Whether one is made.
+constexpr WordTable<bool, 2> kInvitationWords = {{{"make", true}, {"withdraw", false}}};
 
 constexpr std::size_t kLongestPersonName = 64;
 constexpr std::size_t kLongestTeams = 4000;
 constexpr std::size_t kLongestFilter = 100;
-
-Result<Role> role_in(Members& members) {
-  RAVE_TRY_ASSIGN(const std::string word, members.word("role"));
-  if (const auto role = role_named(word)) return *role;
-  return fail(ErrorCode::kParse, "`role`: expected observer, commander or super_user");
-}
 
 Result<Teams> teams_in(Members& members) {
   RAVE_TRY_ASSIGN(const std::string text, members.text("teams", kLongestTeams));
@@ -31,70 +23,55 @@ Result<Teams> teams_in(Members& members) {
   return teams;
 }
 
-Result<std::uint32_t> count_in(Members& members, const char* name, std::uint32_t most) {
-  RAVE_TRY_ASSIGN(const std::uint32_t count, members.index(name));
-  if (count >= 1 && count <= most) return count;
-  return fail(ErrorCode::kParse, "`{}`: expected 1 to {}", name, most);
-}
-
-Result<PeopleMessage> account_of_message(Members& members) {
+Result<AccountMessage> account_of_message(Members& members) {
   AccountMessage account;
   RAVE_TRY_ASSIGN(account.request, members.index("request"));
-  RAVE_TRY_ASSIGN(const std::string word, members.word("do"));
-  const auto* const known =
-      std::find_if(kAccountWords.begin(), kAccountWords.end(),
-                   [&word](const auto& entry) { return entry.first == word; });
-  if (known == kAccountWords.end()) {
-    return fail(ErrorCode::kParse, "`do`: expected change, disable, enable or end_sessions");
-  }
-  account.what = known->second;
+  RAVE_TRY_ASSIGN(account.what, members.choice("do", kAccountWords));
   RAVE_TRY_ASSIGN(account.name, members.text("name", kLongestPersonName));
   // The other actions take neither, and finish() refuses a message that has them.
   if (account.what == AccountDo::kChange) {
-    RAVE_TRY_ASSIGN(account.role, role_in(members));
+    RAVE_TRY_ASSIGN(account.role, members.choice("role", kRoles));
     RAVE_TRY_ASSIGN(account.teams, teams_in(members));
   }
-  return PeopleMessage(std::move(account));
+  return account;
 }
 
-Result<PeopleMessage> invitation_of_message(Members& members) {
+Result<InvitationMessage> invitation_of_message(Members& members) {
   InvitationMessage invitation;
   RAVE_TRY_ASSIGN(invitation.request, members.index("request"));
-  RAVE_TRY_ASSIGN(const std::string word, members.word("do"));
-  invitation.make = word == "make";
-  if (word == "withdraw") {
+  RAVE_TRY_ASSIGN(invitation.make, members.choice("do", kInvitationWords));
+  if (!invitation.make) {
     RAVE_TRY_ASSIGN(invitation.id, members.text("id", kLongestPersonName));
-    return PeopleMessage(std::move(invitation));
+    return invitation;
   }
-  if (!invitation.make) return fail(ErrorCode::kParse, "`do`: expected make or withdraw");
-  RAVE_TRY_ASSIGN(invitation.role, role_in(members));
+  RAVE_TRY_ASSIGN(invitation.role, members.choice("role", kRoles));
   RAVE_TRY_ASSIGN(invitation.teams, teams_in(members));
-  RAVE_TRY_ASSIGN(invitation.uses, count_in(members, "uses", 1000));
-  RAVE_TRY_ASSIGN(invitation.days, count_in(members, "days", 365));
-  return PeopleMessage(std::move(invitation));
+  RAVE_TRY_ASSIGN(invitation.uses, members.index_in("uses", 1, 1000));
+  RAVE_TRY_ASSIGN(invitation.days, members.index_in("days", 1, 365));
+  return invitation;
 }
 
-Result<PeopleMessage> audit_of_message(Members& members) {
+Result<AuditMessage> audit_of_message(Members& members) {
   AuditMessage audit;
   RAVE_TRY_ASSIGN(audit.request, members.index("request"));
-  RAVE_TRY_ASSIGN(audit.filter.most, count_in(members, "most", kMostAuditLines));
+  RAVE_TRY_ASSIGN(audit.filter.most, members.index_in("most", 1, kMostAuditLines));
   if (members.has("what")) {
     RAVE_TRY_ASSIGN(audit.filter.what, members.text("what", kLongestFilter));
   }
   if (members.has("contains")) {
     RAVE_TRY_ASSIGN(audit.filter.contains, members.text("contains", kLongestFilter));
   }
-  return PeopleMessage(std::move(audit));
+  return audit;
 }
 
 }  // namespace
 
 std::string_view word_of(const PeopleMessage& message) noexcept {
   if (const auto* const account = std::get_if<AccountMessage>(&message)) {
-    return kAccountWords[static_cast<std::size_t>(account->what)].first;
+    return kAccountWords.of(account->what);
   }
   if (const auto* const invitation = std::get_if<InvitationMessage>(&message)) {
-    return invitation->make ? "make" : "withdraw";
+    return kInvitationWords.of(invitation->make);
   }
   return "audit";
 }

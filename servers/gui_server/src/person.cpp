@@ -1,31 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/gui_server/person.hpp"
 
-#include <algorithm>
-#include <array>
-
 #include "rave/base/control_characters.hpp"
 
 namespace rave::gui_server {
-namespace {
-
-constexpr std::array<std::pair<Role, std::string_view>, 3> kRoles = {
-    {{Role::kObserver, "observer"},
-     {Role::kCommander, "commander"},
-     {Role::kSuperUser, "super_user"}}};
-
-}  // namespace
-
-std::string_view to_string(Role role) noexcept {
-  return kRoles[static_cast<std::size_t>(role)].second;
-}
-
-std::optional<Role> role_named(std::string_view word) noexcept {
-  for (const auto& [role, name] : kRoles) {
-    if (name == word) return role;
-  }
-  return std::nullopt;
-}
 
 std::string Teams::text() const {
   if (all) return "*";

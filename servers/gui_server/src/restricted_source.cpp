@@ -2,7 +2,6 @@
 #include "restricted_source.hpp"
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -65,28 +64,13 @@ class WatchedPlayhead final : public Playhead {
   std::unique_ptr<Playhead> all_;
 };
 
-/// What a power needs.
+/// What a power needs: the right of its name, if there is one.
 bool allowed(const View& view, bool live, const std::string& power) {
-  static const std::map<std::string, InfoClass> kOfSome = {
-      {"stop", InfoClass::kStop},
-      {"release", InfoClass::kRelease},
-      {"true_pose", InfoClass::kTruePose},
-      {"readings", InfoClass::kReadings},
-      {"hybrid_parts", InfoClass::kHybridParts},
-      {"obstacles", InfoClass::kObstacles},
-      {"log", InfoClass::kLog},
-      {"command", InfoClass::kCommand},
-      {"edit", InfoClass::kEdit},
-      {"chat", InfoClass::kChat},
-      {"maps", InfoClass::kMaps},
-      {"probe", InfoClass::kProbe},
-  };
-  if (const auto found = kOfSome.find(power); found != kOfSome.end()) {
-    // "Any": a power shows the control on the page. Whether it may be used on one robot is checked
-    // for each request.
-    return view.may_any(found->second);
-  }
-  if (power == "recording") return view.may_all(InfoClass::kRecording);
+  const auto what = class_named(power);
+  if (what == InfoClass::kRecording) return view.may_all(*what);
+  // "Any": a power shows the control on the page. Whether it may be used on one robot is checked
+  // for each request.
+  if (what) return view.may_any(*what);
   // The powers that are left move time. In a replay each page has its own; that of a run is
   // everybody's.
   return !live || power == "seek" || view.may_all(InfoClass::kRunControl);

@@ -66,20 +66,6 @@ std::optional<InfoClass> class_named(std::string_view word) noexcept {
   return std::nullopt;
 }
 
-std::string_view to_string(Reach::Kind kind) noexcept {
-  switch (kind) {
-    case Kind::kNone:
-      return "none";
-    case Kind::kOwn:
-      return "own";
-    case Kind::kAll:
-      return "all";
-    case Kind::kTeams:
-      return {};
-  }
-  return {};
-}
-
 bool Reach::covers(std::string_view team, const Teams& own) const {
   switch (kind) {
     case Kind::kNone:
@@ -144,8 +130,8 @@ std::string Rights::usual_table() {
   std::string table =
       "| class | observer | commander | super-user | what it is |\n|---|---|---|---|---|\n";
   for (const Line& line : kLines) {
-    table += fmt::format("| `{}` | {} | {} | all | {} |\n", line.name, to_string(line.observer),
-                         to_string(line.commander), line.meaning);
+    table += fmt::format("| `{}` | {} | {} | all | {} |\n", line.name, kReaches.of(line.observer),
+                         kReaches.of(line.commander), line.meaning);
   }
   return table;
 }

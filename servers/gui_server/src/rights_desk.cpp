@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMostKept = 10'000;
 
 nlohmann::ordered_json reach_json(const Reach& reach) {
-  if (reach.kind != Reach::Kind::kTeams) return std::string(to_string(reach.kind));
+  if (reach.kind != Reach::Kind::kTeams) return std::string(kReaches.of(reach.kind));
   return reach.teams;
 }
 

@@ -4,6 +4,7 @@
 #include "rave/base/control_characters.hpp"
 #include "rave/gui_server/accounts.hpp"
 #include "rights_desk.hpp"
+#include "tab_lines.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -14,7 +15,7 @@ constexpr std::string_view kTeamsWord = "teams:";
 std::string reach_text(const std::optional<Reach>& reach) {
   // Of a user only: such a line takes back what the scenario gave them.
   if (!reach) return "usual";
-  if (reach->kind != Reach::Kind::kTeams) return std::string(to_string(reach->kind));
+  if (reach->kind != Reach::Kind::kTeams) return std::string(kReaches.of(reach->kind));
   return std::string(kTeamsWord) + Teams{false, reach->teams}.text();
 }
 
@@ -27,51 +28,35 @@ std::optional<std::optional<Reach>> reach_of(std::string_view text) {
     if (!teams || teams->all) return std::nullopt;
     return std::optional<Reach>(Reach{Reach::Kind::kTeams, teams->names});
   }
-  for (const auto kind : {Reach::Kind::kNone, Reach::Kind::kOwn, Reach::Kind::kAll}) {
-    if (text == to_string(kind)) return std::optional<Reach>(Reach{kind, {}});
-  }
-  return std::nullopt;
+  const auto kind = kReaches.find(text);
+  if (!kind) return std::nullopt;
+  return std::optional<Reach>(Reach{*kind, {}});
 }
 
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> columns;
-  while (true) {
-    columns.push_back(line.substr(0, line.find('\t')));
-    if (columns.back().size() == line.size()) return columns;
-    line.remove_prefix(columns.back().size() + 1);
-  }
-}
-
-Result<KeptChange> change_of(std::string_view line, const SourceLocation& where) {
-  const auto columns = split(line);
-  if (columns.size() != 5) {
-    return fail_at(where, ErrorCode::kParse, "expected 5 columns, separated by tabs, found {}",
-                   columns.size());
-  }
+Result<KeptChange> change_of(const TabLine& line) {
+  RAVE_TRY(line.has(5));
   KeptChange kept;
-  kept.run = columns[0];
+  kept.run = line[0];
   // The name is printed in messages, where control characters could change a terminal.
   if (has_control_characters(kept.run)) {
-    return fail_at(where, ErrorCode::kParse, "the name of the run has control characters");
+    return line.wrong("the name of the run has control characters");
   }
-  if (columns[1] == "role") {
-    kept.change.role = role_named(columns[2]);
+  if (line[1] == "role") {
+    kept.change.role = kRoles.find(line[2]);
     // A super-user always has every right; a line that says otherwise is a mistake or an attack.
     if (!kept.change.role || kept.change.role == Role::kSuperUser) {
-      return fail_at(where, ErrorCode::kParse, "expected observer or commander");
+      return line.wrong("expected observer or commander");
     }
-  } else if (columns[1] == "user" && check_user_name(columns[2])) {
-    kept.change.user = columns[2];
+  } else if (line[1] == "user" && check_user_name(line[2])) {
+    kept.change.user = line[2];
   } else {
-    return fail_at(where, ErrorCode::kParse, "expected role or user, with a name");
+    return line.wrong("expected role or user, with a name");
   }
-  const auto what = class_named(columns[3]);
-  if (!what) return fail_at(where, ErrorCode::kParse, "expected a class, such as readings");
+  const auto what = class_named(line[3]);
+  if (!what) return line.wrong("expected a class, such as readings");
   kept.change.what = *what;
-  const auto reach = reach_of(columns[4]);
-  if (!reach) {
-    return fail_at(where, ErrorCode::kParse, "expected none, own, all, usual or teams:green,blue");
-  }
+  const auto reach = reach_of(line[4]);
+  if (!reach) return line.wrong("expected none, own, all, usual or teams:green,blue");
   kept.change.reach = *reach;
   return kept;
 }
@@ -79,23 +64,13 @@ Result<KeptChange> change_of(std::string_view line, const SourceLocation& where)
 }  // namespace
 
 Result<std::vector<KeptChange>> parse_rights(std::string_view text, std::string_view file_name) {
-  SourceLocation where{std::string(file_name), 0, 0};
+  RAVE_TRY_ASSIGN(const auto lines, tab_lines(text, file_name, kFirstRightsLine, "rights"));
   std::vector<KeptChange> changes;
-  if (!text.empty() && text.back() == '\n') text.remove_suffix(1);
-  while (true) {
-    ++where.line;
-    const std::string_view line = text.substr(0, text.find('\n'));
-    if (where.line > 1) {
-      RAVE_TRY_ASSIGN(KeptChange kept, change_of(line, where));
-      changes.push_back(std::move(kept));
-    } else if (line != kFirstRightsLine) {
-      return fail_at(where, ErrorCode::kParse,
-                     "expected `{}`; not a file of rights, or one of a later version",
-                     kFirstRightsLine);
-    }
-    if (line.size() == text.size()) return changes;
-    text.remove_prefix(line.size() + 1);
+  for (const TabLine& line : lines) {
+    RAVE_TRY_ASSIGN(KeptChange kept, change_of(line));
+    changes.push_back(std::move(kept));
   }
+  return changes;
 }
 
 std::string write_rights(const std::vector<KeptChange>& changes) {

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "plain_name.hpp"
 #include "rave/base/check.hpp"
 #include "rave/onlook/command_row.hpp"
 
@@ -16,11 +17,6 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 std::size_t column(InfoClass what) { return static_cast<std::size_t>(what); }
-
-bool is_name_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
-         c == '_';
-}
 
 /// A key of this process, so that a page cannot compute back from the number of a body to its
 /// place.
@@ -169,7 +165,7 @@ bool View::names_hidden(std::string_view text) const {
   if (hidden_.empty()) return false;
   std::string word;
   for (std::size_t i = 0; i <= text.size(); ++i) {
-    if (i < text.size() && is_name_letter(text[i])) {
+    if (i < text.size() && is_plain(text[i], "-_")) {
       word.push_back(text[i]);
     } else if (!word.empty()) {
       if (hidden_.contains(word)) return true;

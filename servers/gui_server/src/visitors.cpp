@@ -21,7 +21,7 @@ std::string right_text(const RightChange& change) {
   if (change.reach && change.reach->kind == Reach::Kind::kTeams) {
     reach = Teams{false, change.reach->teams}.text();
   } else if (change.reach) {
-    reach = to_string(change.reach->kind);
+    reach = kReaches.of(change.reach->kind);
   }
   return fmt::format("{} of {}: {}", to_string(change.what),
                      change.role ? to_string(*change.role) : std::string_view(change.user), reach);

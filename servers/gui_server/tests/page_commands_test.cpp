@@ -12,6 +12,7 @@ class PageCommandsTest : public ::testing::Test {
  protected:
   static CommandMessage drive(std::vector<std::uint32_t> slots, double v) {
     CommandMessage command;
+    command.kind = CommandMessage::Kind::kDrive;
     command.slots = std::move(slots);
     command.v_mps = v;
     return command;

@@ -248,7 +248,7 @@ INSTANTIATE_TEST_SUITE_P(
             "`mount`"},
         Refused{
             R"({"type":"look_probes","request":1,"probes":[{"slot":0,"name":"a","driver":"d","mount":[0,0,0],"z":1e9,"params":{}}]})",
-            "at most 100 m"},
+            "`z`: expected a number from -100 to 100"},
         Refused{
             R"({"type":"look_probes","request":1,"probes":[{"slot":0,"name":"a","driver":"d","mount":[0,0,0],"z":0,"params":{"x":{"y":1}}}]})",
             "`params.x`"},

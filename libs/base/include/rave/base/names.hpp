@@ -17,8 +17,9 @@ namespace rave {
 [[nodiscard]] std::string_view nearest_name(std::string_view name,
                                             std::span<const std::string_view> candidates);
 
-/// `a, b and c`, for messages; `none` if empty.
-[[nodiscard]] std::string join_names(std::span<const std::string_view> names);
+/// `a, b and c`, for messages, or with another word before the last; `none` if empty.
+[[nodiscard]] std::string join_names(std::span<const std::string_view> names,
+                                     std::string_view last = "and");
 
 /// "; did you mean `x`?" for the nearest candidate, or a list of all of them if none is near.
 [[nodiscard]] std::string suggestion(std::string_view name,

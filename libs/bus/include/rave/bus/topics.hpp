@@ -48,9 +48,9 @@ using RequestAnswer = rave_wire_RequestAnswer;
 
 /// The name, type and QoS of a topic.
 struct TopicSpec {
-  const char* name;
-  const dds_topic_descriptor_t* type;
-  QosProfile qos;
+  const char* name = nullptr;
+  const dds_topic_descriptor_t* type = nullptr;
+  QosProfile qos{};
   /// Its number on the local transport (local_transport.hpp); 0: DDS only. Only for topics whose
   /// readers tolerate loss, duplicates and reordering.
   std::uint8_t local_transport = 0;
@@ -59,111 +59,78 @@ struct TopicSpec {
 /// The topic of a message type. Names and QoS of all topics are defined here only; the table in
 /// docs/reference/bus.md repeats them.
 template <class Message>
-[[nodiscard]] TopicSpec topic_of();
+inline constexpr TopicSpec kTopic{};
 
 template <>
-inline TopicSpec topic_of<HostReport>() {
-  return {"rave/host_report", &rave_wire_HostReport_desc, kNewest, 1};
-}
+inline constexpr TopicSpec kTopic<HostReport> = {"rave/host_report", &rave_wire_HostReport_desc,
+                                                 kNewest, 1};
 template <>
-inline TopicSpec topic_of<WorldStep>() {
-  return {"rave/world_step", &rave_wire_WorldStep_desc, kNewest, 2};
-}
+inline constexpr TopicSpec kTopic<WorldStep> = {"rave/world_step", &rave_wire_WorldStep_desc,
+                                                kNewest, 2};
 template <>
-inline TopicSpec topic_of<LastWorld>() {
-  return {"rave/last_world", &rave_wire_WorldStep_desc, kNewest};
-}
+inline constexpr TopicSpec kTopic<LastWorld> = {"rave/last_world", &rave_wire_WorldStep_desc,
+                                                kNewest};
 template <>
-inline TopicSpec topic_of<RunState>() {
-  return {"rave/run", &rave_wire_RunState_desc, kDurable};
-}
+inline constexpr TopicSpec kTopic<RunState> = {"rave/run", &rave_wire_RunState_desc, kDurable};
 template <>
-inline TopicSpec topic_of<HostRun>() {
-  return {"rave/host_run", &rave_wire_RunState_desc, kNewest};
-}
+inline constexpr TopicSpec kTopic<HostRun> = {"rave/host_run", &rave_wire_RunState_desc, kNewest};
 template <>
-inline TopicSpec topic_of<HostState>() {
-  return {"rave/host_state", &rave_wire_HostState_desc, kLately};
-}
+inline constexpr TopicSpec kTopic<HostState> = {"rave/host_state", &rave_wire_HostState_desc,
+                                                kLately};
 template <>
-inline TopicSpec topic_of<World>() {
-  return {"rave/world", &rave_wire_World_desc, kNewest};
-}
+inline constexpr TopicSpec kTopic<World> = {"rave/world", &rave_wire_World_desc, kNewest};
 template <>
-inline TopicSpec topic_of<RosterEntry>() {
-  return {"rave/roster", &rave_wire_RosterEntry_desc, kDescription};
-}
+inline constexpr TopicSpec kTopic<RosterEntry> = {"rave/roster", &rave_wire_RosterEntry_desc,
+                                                  kDescription};
 template <>
-inline TopicSpec topic_of<Obstacle>() {
-  return {"rave/obstacle", &rave_wire_Obstacle_desc, kDurable};
-}
+inline constexpr TopicSpec kTopic<Obstacle> = {"rave/obstacle", &rave_wire_Obstacle_desc, kDurable};
 template <>
-inline TopicSpec topic_of<LastObstacle>() {
-  return {"rave/last_obstacle", &rave_wire_Obstacle_desc, kDurable};
-}
+inline constexpr TopicSpec kTopic<LastObstacle> = {"rave/last_obstacle", &rave_wire_Obstacle_desc,
+                                                   kDurable};
 template <>
-inline TopicSpec topic_of<Command>() {
-  return {"rave/command", &rave_wire_Command_desc, kRecent};
-}
+inline constexpr TopicSpec kTopic<Command> = {"rave/command", &rave_wire_Command_desc, kRecent};
 template <>
-inline TopicSpec topic_of<CommandAnswer>() {
-  return {"rave/command_answer", &rave_wire_CommandAnswer_desc, kRecent};
-}
+inline constexpr TopicSpec kTopic<CommandAnswer> = {"rave/command_answer",
+                                                    &rave_wire_CommandAnswer_desc, kRecent};
 template <>
-inline TopicSpec topic_of<Packet>() {
-  return {"rave/radio", &rave_wire_Packet_desc, kCrowd};
-}
+inline constexpr TopicSpec kTopic<Packet> = {"rave/radio", &rave_wire_Packet_desc, kCrowd};
 template <>
-inline TopicSpec topic_of<HostInfo>() {
-  return {"rave/host", &rave_wire_HostInfo_desc, kDurable};
-}
+inline constexpr TopicSpec kTopic<HostInfo> = {"rave/host", &rave_wire_HostInfo_desc, kDurable};
 template <>
-inline TopicSpec topic_of<ProcessState>() {
-  return {"rave/process", &rave_wire_ProcessState_desc, kNewest};
-}
+inline constexpr TopicSpec kTopic<ProcessState> = {"rave/process", &rave_wire_ProcessState_desc,
+                                                   kNewest};
 template <>
-inline TopicSpec topic_of<ClockPing>() {
-  return {"rave/clock_ping", &rave_wire_ClockPing_desc, kOnce};
-}
+inline constexpr TopicSpec kTopic<ClockPing> = {"rave/clock_ping", &rave_wire_ClockPing_desc,
+                                                kOnce};
 template <>
-inline TopicSpec topic_of<ClockPong>() {
-  return {"rave/clock_pong", &rave_wire_ClockPong_desc, kOnce};
-}
+inline constexpr TopicSpec kTopic<ClockPong> = {"rave/clock_pong", &rave_wire_ClockPong_desc,
+                                                kOnce};
 template <>
-inline TopicSpec topic_of<LineInfo>() {
-  return {"rave/line", &rave_wire_LineInfo_desc, kDurable};
-}
+inline constexpr TopicSpec kTopic<LineInfo> = {"rave/line", &rave_wire_LineInfo_desc, kDurable};
 template <>
-inline TopicSpec topic_of<LineWithdrawal>() {
-  return {"rave/withdrawal", &rave_wire_LineWithdrawal_desc, kDurable};
-}
+inline constexpr TopicSpec kTopic<LineWithdrawal> = {"rave/withdrawal",
+                                                     &rave_wire_LineWithdrawal_desc, kDurable};
 template <>
-inline TopicSpec topic_of<HostResultsPart>() {
-  return {"rave/host_results", &rave_wire_HostResultsPart_desc, kDurable};
-}
+inline constexpr TopicSpec kTopic<HostResultsPart> = {"rave/host_results",
+                                                      &rave_wire_HostResultsPart_desc, kDurable};
 template <>
-inline TopicSpec topic_of<Look>() {
-  return {"rave/look", &rave_wire_Look_desc, kNewest};
-}
+inline constexpr TopicSpec kTopic<Look> = {"rave/look", &rave_wire_Look_desc, kNewest};
 template <>
-inline TopicSpec topic_of<Readings>() {
-  return {"rave/readings", &rave_wire_Readings_desc, kNewest};
-}
+inline constexpr TopicSpec kTopic<Readings> = {"rave/readings", &rave_wire_Readings_desc, kNewest};
 template <>
-inline TopicSpec topic_of<RunEvents>() {
-  return {"rave/events", &rave_wire_RunEvents_desc, kPast};
-}
+inline constexpr TopicSpec kTopic<RunEvents> = {"rave/events", &rave_wire_RunEvents_desc, kPast};
 template <>
-inline TopicSpec topic_of<MapTile>() {
-  return {"rave/map", &rave_wire_MapTile_desc, kDescription};
-}
+inline constexpr TopicSpec kTopic<MapTile> = {"rave/map", &rave_wire_MapTile_desc, kDescription};
 template <>
-inline TopicSpec topic_of<Request>() {
-  return {"rave/request", &rave_wire_Request_desc, kRecent};
-}
+inline constexpr TopicSpec kTopic<Request> = {"rave/request", &rave_wire_Request_desc, kRecent};
 template <>
-inline TopicSpec topic_of<RequestAnswer>() {
-  return {"rave/answer", &rave_wire_RequestAnswer_desc, kRecent};
+inline constexpr TopicSpec kTopic<RequestAnswer> = {"rave/answer", &rave_wire_RequestAnswer_desc,
+                                                    kRecent};
+
+template <class Message>
+[[nodiscard]] constexpr const TopicSpec& topic_of() {
+  static_assert(kTopic<Message>.name != nullptr, "this message has no topic");
+  return kTopic<Message>;
 }
 
 }  // namespace rave::bus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,26 +16,27 @@ namespace rave::config {
 /// The role that a rule applies to. A super-user has every right.
 enum class GuiRole : std::uint8_t { kObserver, kCommander };
 
-/// What a rule permits or forbids.
+/// A class of data or requests that a rule permits or forbids.
 enum class GuiClass : std::uint8_t {
-  kPose,
-  kTruePose,
-  kReadings,
-  kHybridParts,
-  kObstacles,
+  kPose,         ///< Presence and reported poses of robots.
+  kTruePose,     ///< True poses of robots.
+  kReadings,     ///< Readings of sensors, as programs receive them.
+  kHybridParts,  ///< Halves of hybrid sensors.
+  kObstacles,    ///< Virtual obstacles.
   kGoals,
   kMaps,
   kChat,
   kLog,
   kVideo,
-  kRecording,
-  kStop,
-  kRelease,
-  kRunControl,
-  kCommand,
-  kEdit,
-  kProbe,
+  kRecording,   ///< The whole recording file.
+  kStop,        ///< Stopping robots.
+  kRelease,     ///< Releasing robots that were stopped.
+  kRunControl,  ///< Pause, step, resume and pace of a run in progress.
+  kCommand,     ///< Orders to robots, and changes of their parameters.
+  kEdit,        ///< Adding and moving virtual obstacles; placing simulated robots.
+  kProbe,       ///< Probes: trying virtual sensors.
 };
+inline constexpr std::size_t kGuiClasses = 17;
 
 /// The robots that a rule applies to.
 enum class GuiReach : std::uint8_t {

@@ -28,34 +28,13 @@ struct Author {
   friend bool operator==(const Author&, const Author&) = default;
 };
 
-/// One request of a user. The kind determines which members are used.
-struct CommandMessage {
-  enum class Kind : std::uint8_t {
-    kDrive,        ///< `v_mps` and `w_radps`, for 200 ms.
-    kGoal,         ///< `points`: one for all, or one for each robot; `yaw_rad`, `speed_mps`.
-    kPath,         ///< `points`, `speed_mps`.
-    kCancel,       ///< Cancels the current order.
-    kText,         ///< `value`.
-    kPlace,        ///< `points`: one for each robot; `yaw_rad`.
-    kTake,         ///< Takes the lease; `value`: empty, or `force`.
-    kGive,         ///< Gives the lease; `value`: the receiver, or empty to return it.
-    kSet,          ///< Sets the parameter `key` to `value`.
-    kEdit,         ///< Adds, moves or removes an obstacle: `edit`.
-    kHandOver,     ///< Hands over to the drivers `value`: `real`, `simulated`, `first` or `twin`.
-    kResetShadow,  ///< Places the shadow at the robot's pose.
-  };
-  Kind kind = Kind::kDrive;
+/// One request of a user to the run, for several robots at once: an order, a lease, kSet, kEdit,
+/// kHandOver or kResetShadow. `robot`, `by`, `overrides` and `page` are left to the server. kPlace
+/// has one point for each robot, kGoal too or one for all.
+struct CommandMessage : runtime::RunRequest {
   std::uint32_t request = 0;  ///< Number chosen by the page; repeated in the answer.
   std::vector<std::uint32_t>
       slots;  ///< Robots: 1 to kMostCommanded, without duplicates; empty for obstacles.
-  std::vector<Vec2> points;
-  std::optional<double> yaw_rad{};
-  double v_mps = 0;
-  double w_radps = 0;    ///< Counter-clockwise.
-  double speed_mps = 0;  ///< 0: the robot decides.
-  std::string key;
-  std::string value;
-  std::optional<config::ObstacleEdit> edit{};
 
   [[nodiscard]] bool of_obstacle() const noexcept { return kind == Kind::kEdit; }
   [[nodiscard]] bool stands() const noexcept {
@@ -63,9 +42,6 @@ struct CommandMessage {
   }
   friend bool operator==(const CommandMessage&, const CommandMessage&) = default;
 };
-
-/// The name of a kind in messages and answers, such as `drive` or `goal`.
-[[nodiscard]] std::string_view to_string(CommandMessage::Kind kind) noexcept;
 
 /// The lease of a robot, and the orders that it takes.
 struct DriveState {

@@ -8,15 +8,18 @@
 #include <string_view>
 
 #include "rave/base/result.hpp"
+#include "rave/base/word_table.hpp"
 
 namespace rave::gui_server {
 
 /// The roles of users; each includes the rights of the previous one.
 enum class Role : std::uint8_t { kObserver, kCommander, kSuperUser };
 
-[[nodiscard]] std::string_view to_string(Role role) noexcept;
-/// Parses `observer`, `commander` or `super_user`; empty for any other word.
-[[nodiscard]] std::optional<Role> role_named(std::string_view word) noexcept;
+inline constexpr WordTable<Role, 3> kRoles = {{{"observer", Role::kObserver},
+                                               {"commander", Role::kCommander},
+                                               {"super_user", Role::kSuperUser}}};
+
+[[nodiscard]] constexpr std::string_view to_string(Role role) noexcept { return kRoles.of(role); }
 
 /// The teams of a user.
 struct Teams {

@@ -10,40 +10,25 @@
 #include <string_view>
 
 #include "rave/base/result.hpp"
+#include "rave/base/word_table.hpp"
+#include "rave/config/gui_file.hpp"
 #include "rave/gui_server/person.hpp"
 
 // Rights: which data a user may see and which requests a user may send. One table, which the
 // documentation prints. Plain values, no threads.
 namespace rave::gui_server {
 
-/// A class of data or requests that rights refer to.
-enum class InfoClass : std::uint8_t {
-  kPose,         ///< Presence and reported poses of robots.
-  kTruePose,     ///< True poses of robots.
-  kReadings,     ///< Readings of sensors, as programs receive them.
-  kHybridParts,  ///< Halves of hybrid sensors.
-  kObstacles,    ///< Virtual obstacles.
-  kGoals,
-  kMaps,
-  kChat,
-  kLog,
-  kVideo,
-  kRecording,   ///< The whole recording file.
-  kStop,        ///< Stopping robots.
-  kRelease,     ///< Releasing robots that were stopped.
-  kRunControl,  ///< Pause, step, resume and pace of a run in progress.
-  kCommand,     ///< Orders to robots, and changes of their parameters.
-  kEdit,        ///< Adding and moving virtual obstacles; placing simulated robots.
-  kProbe,       ///< Probes: trying virtual sensors.
-};
-inline constexpr std::size_t kInfoClasses = 17;
+/// The classes that rights refer to.
+using InfoClass = config::GuiClass;
+inline constexpr std::size_t kInfoClasses = config::kGuiClasses;
 
 [[nodiscard]] std::string_view to_string(InfoClass what) noexcept;
 [[nodiscard]] std::optional<InfoClass> class_named(std::string_view word) noexcept;
 
 /// The robots that a right covers.
 struct Reach {
-  enum class Kind : std::uint8_t { kNone, kOwn, kAll, kTeams } kind = Kind::kNone;
+  using Kind = config::GuiReach;
+  Kind kind = Kind::kNone;
   std::set<std::string, std::less<>> teams;  ///< Used with kTeams.
 
   [[nodiscard]] bool covers(std::string_view team, const Teams& own) const;
@@ -52,8 +37,9 @@ struct Reach {
   friend bool operator==(const Reach&, const Reach&) = default;
 };
 
-/// `none`, `own` or `all`; empty for kTeams.
-[[nodiscard]] std::string_view to_string(Reach::Kind kind) noexcept;
+/// The words of reaches; kTeams has none.
+inline constexpr WordTable<Reach::Kind, 3> kReaches = {
+    {{"none", Reach::Kind::kNone}, {"own", Reach::Kind::kOwn}, {"all", Reach::Kind::kAll}}};
 
 /// A change of the table for a role or a user. Without a reach, a role returns to the scenario's
 /// rights, and a user to those of the role.

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace rave {
+
+/// A table of words and of what each stands for, such as
+/// `constexpr WordTable<Side, 2> kSides = {{{"left", Side::kLeft}, {"right", Side::kRight}}};`
+template <class Value, std::size_t N>
+struct WordTable {
+  std::pair<std::string_view, Value> rows[N];
+
+  /// The first word for `value`; empty: it has none.
+  [[nodiscard]] constexpr std::string_view of(Value value) const noexcept {
+    for (const auto& [word, its] : rows) {
+      if (its == value) return word;
+    }
+    return {};
+  }
+  /// What `word` stands for; empty: it is not in the table.
+  [[nodiscard]] constexpr std::optional<Value> find(std::string_view word) const noexcept {
+    for (const auto& [its, value] : rows) {
+      if (its == word) return value;
+    }
+    return std::nullopt;
+  }
+  /// The words in the order of the table, for messages.
+  [[nodiscard]] constexpr std::array<std::string_view, N> words() const noexcept {
+    std::array<std::string_view, N> words{};
+    for (std::size_t i = 0; i < N; ++i) words[i] = rows[i].first;
+    return words;
+  }
+};
+
+}  // namespace rave

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+#include "rave/math/pose.hpp"
+
+namespace rave {
+
+/// Whether no number is infinite or NaN.
+[[nodiscard]] inline bool is_finite(Vec2 p) noexcept {
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
+[[nodiscard]] inline bool is_finite(const Pose2& X) noexcept {
+  return std::isfinite(X.x) && std::isfinite(X.y) && std::isfinite(X.yaw);
+}
+[[nodiscard]] inline bool is_finite(const Twist2& v) noexcept {
+  return std::isfinite(v.vx) && std::isfinite(v.vy) && std::isfinite(v.wz);
+}
+
+}  // namespace rave

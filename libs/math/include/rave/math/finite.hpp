@@ -11,9 +11,11 @@ namespace rave {
 [[nodiscard]] inline bool is_finite(Vec2 p) noexcept {
   return std::isfinite(p.x) && std::isfinite(p.y);
 }
+/// Whether all members of a pose are finite.
 [[nodiscard]] inline bool is_finite(const Pose2& X) noexcept {
   return std::isfinite(X.x) && std::isfinite(X.y) && std::isfinite(X.yaw);
 }
+/// Whether all members of a velocity are finite.
 [[nodiscard]] inline bool is_finite(const Twist2& v) noexcept {
   return std::isfinite(v.vx) && std::isfinite(v.vy) && std::isfinite(v.wz);
 }

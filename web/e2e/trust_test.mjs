@@ -46,7 +46,7 @@ try {
     await until(page, `[...${app}.link.direct.lines.values()].some((line) => line.state === 'untrusted')`, 60000);
     await page.locator('rave-way').getByRole('button', {name: /Trust (left|right)/}).click();
     const sheet = page.getByRole('dialog', {name: 'Trust a host'});
-    await sheet.getByText('Most often it does not trust the certificate of the host yet').waitFor();
+    await sheet.getByText('In most cases it does not trust the certificate of the host yet').waitFor();
     await sheet.getByText('authority.pem').waitFor();
     assert.match(await sheet.getByRole('link', {name: /left|right/}).first().getAttribute('href'), /^https:\/\/127\.0\.0\.1:\d+\/$/);
     await page.screenshot({path: join(folder, 'untrusted.png')});

@@ -38,8 +38,8 @@ class Members {
   /// One of the words, which outlive the result.
   Result<std::string_view> choice(const char* name, std::initializer_list<std::string_view> words);
   /// What one of the words of the table stands for.
-  template <class Value, std::size_t N>
-  Result<Value> choice(const char* name, const WordTable<Value, N>& words) {
+  template <class Value, std::size_t kRows>
+  Result<Value> choice(const char* name, const WordTable<Value, kRows>& words) {
     RAVE_TRY_ASSIGN(const std::size_t row, row_of(name, words.words()));
     return words.rows[row].second;
   }

@@ -11,9 +11,9 @@ namespace rave {
 
 /// A table of words and of what each stands for, such as
 /// `constexpr WordTable<Side, 2> kSides = {{{"left", Side::kLeft}, {"right", Side::kRight}}};`
-template <class Value, std::size_t N>
+template <class Value, std::size_t kRows>
 struct WordTable {
-  std::pair<std::string_view, Value> rows[N];
+  std::pair<std::string_view, Value> rows[kRows];
 
   /// The first word for `value`; empty: it has none.
   [[nodiscard]] constexpr std::string_view of(Value value) const noexcept {
@@ -30,9 +30,9 @@ struct WordTable {
     return std::nullopt;
   }
   /// The words in the order of the table, for messages.
-  [[nodiscard]] constexpr std::array<std::string_view, N> words() const noexcept {
-    std::array<std::string_view, N> words{};
-    for (std::size_t i = 0; i < N; ++i) words[i] = rows[i].first;
+  [[nodiscard]] constexpr std::array<std::string_view, kRows> words() const noexcept {
+    std::array<std::string_view, kRows> words{};
+    for (std::size_t i = 0; i < kRows; ++i) words[i] = rows[i].first;
     return words;
   }
 };

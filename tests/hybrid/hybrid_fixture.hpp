@@ -66,6 +66,14 @@ class HybridTest : public testing::Test {
     if (!engine) ADD_FAILURE() << engine.error().text();
     return engine ? *std::move(engine) : nullptr;
   }
+  /// Runs a scenario to its end, into the folder `run`.
+  Result<runtime::RunOutcome> run(const std::string& text) {
+    RAVE_TRY_ASSIGN(const auto expanded, expand(text));
+    runtime::RunOptions options;
+    options.output = folder_ / "run";
+    options.picture = false;
+    return runtime::run(expanded, *catalogue_, options);
+  }
   /// What is wrong with a scenario, without the folder; "none" if nothing is.
   std::string error_of(const std::string& text) {
     const auto engine = make(text);

@@ -113,12 +113,7 @@ TEST_F(HybridTest, AScanFromTheSerialLineReachesTheProgramWithTheVirtualBoxInIt)
       setting("RAVE_HYBRID_STEP_S", "0.002"));
   const auto duration = text.find("duration_s: 1\n");
   text.replace(duration, 13, "duration_s: " + setting("RAVE_HYBRID_DURATION_S", "2"));
-  const auto expanded = expand(text);
-  ASSERT_TRUE(expanded) << expanded.error().text();
-  runtime::RunOptions options;
-  options.output = folder_ / "run";
-  options.picture = false;
-  const auto outcome = runtime::run(*expanded, *catalogue_, options);
+  const auto outcome = run(text);
   ASSERT_TRUE(outcome) << outcome.error().text();
   EXPECT_TRUE(outcome->hash.empty());  // a live run
 

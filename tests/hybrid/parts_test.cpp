@@ -39,12 +39,7 @@ bool same(const SampleHeader& header, const void* records, const record::Percept
 }
 
 TEST_F(Parts, ComeBackBitForBit) {
-  const auto expanded = expand(text());
-  ASSERT_TRUE(expanded) << expanded.error().text();
-  runtime::RunOptions options;
-  options.output = folder_ / "run";
-  options.picture = false;
-  const auto outcome = runtime::run(*expanded, *catalogue_, options);
+  const auto outcome = run(text());
   ASSERT_TRUE(outcome) << outcome.error().text();
 
   // The same run once more, compared with what the first one wrote.
@@ -91,12 +86,7 @@ TEST_F(Parts, ComeBackBitForBit) {
 
 // What a replay shows as virtual of a real robot must not depend on the name of a driver.
 TEST_F(Parts, TheRecordingSaysWhichSensorsOfARealRobotAreVirtual) {
-  const auto expanded = expand(scenario(robot("{name: eye, driver: virtual_laser}")));
-  ASSERT_TRUE(expanded) << expanded.error().text();
-  runtime::RunOptions options;
-  options.output = folder_ / "run";
-  options.picture = false;
-  const auto outcome = runtime::run(*expanded, *catalogue_, options);
+  const auto outcome = run(scenario(robot("{name: eye, driver: virtual_laser}")));
   ASSERT_TRUE(outcome) << outcome.error().text();
   const auto reader = record::McapReader::open(folder_ / "run/run.mcap");
   ASSERT_TRUE(reader) << reader.error().text();
@@ -112,14 +102,9 @@ TEST_F(Parts, AreRecordedOnceWhenAnotherRobotIsHandedOver) {
   const std::string wheels =
       "{body: {shapes: [{disc_radius_m: 0.15, z_m: [0, 0.2]}]}, actuators: [{name: wheels, driver: "
       "differential_drive}], controllers: [{name: drive, driver: velocity, actuator: wheels}]}";
-  const auto expanded = expand(
-      text() + "  - {name: bert, pose: {x_m: 9, y_m: 9}, robot: " + wheels +
-      ", twin_robot: " + wheels + "}\nchanges: [{at_s: 0.52, robot: bert, hand_over: twin}]\n");
-  ASSERT_TRUE(expanded) << expanded.error().text();
-  runtime::RunOptions options;
-  options.output = folder_ / "run";
-  options.picture = false;
-  const auto outcome = runtime::run(*expanded, *catalogue_, options);
+  const auto outcome =
+      run(text() + "  - {name: bert, pose: {x_m: 9, y_m: 9}, robot: " + wheels +
+          ", twin_robot: " + wheels + "}\nchanges: [{at_s: 0.52, robot: bert, hand_over: twin}]\n");
   ASSERT_TRUE(outcome) << outcome.error().text();
   std::ifstream log(folder_ / "run/events.log");
   const std::string events{std::istreambuf_iterator<char>(log), {}};

@@ -25,10 +25,8 @@ TEST(Latest, TheNewestIsTakenOnce) {
     latest.draft() = value;
     latest.publish();
   }
-  EXPECT_TRUE(latest.fresh());
   EXPECT_TRUE(latest.take());
   EXPECT_EQ(latest.value(), 3);
-  EXPECT_FALSE(latest.fresh());
   EXPECT_FALSE(latest.take());
   EXPECT_EQ(latest.value(), 3);
   latest.draft() = 4;

@@ -55,7 +55,7 @@ std::shared_ptr<Outgoing> open_outgoing(const std::filesystem::path& path) {
 /// One connection before it becomes a WebSocket: a sequence of requests.
 class Connection final : public Link, public std::enable_shared_from_this<Connection> {
  public:
-  Connection(Core& core, Tcp::socket socket, const std::string& peer)
+  Connection(Core& core, TcpSocket socket, const std::string& peer)
       : core_(core),
         stream_(std::move(socket), core.tls ? &core.tls->context() : nullptr),
         slot_(std::make_shared<ConnectionSlot>(core, network_of(peer))),
@@ -314,7 +314,7 @@ void Connection::send(const std::shared_ptr<Answer>& reply, Payload body, bool w
 
 }  // namespace
 
-void serve_connection(Core& core, Tcp::socket socket, const std::string& peer) {
+void serve_connection(Core& core, TcpSocket socket, const std::string& peer) {
   std::make_shared<Connection>(core, std::move(socket), peer)->begin();
 }
 

@@ -79,6 +79,6 @@ class ConnectionSlot {
 };
 
 /// Serves an accepted connection.
-void serve_connection(Core& core, Tcp::socket socket, const std::string& peer);
+void serve_connection(Core& core, TcpSocket socket, const std::string& peer);
 
 }  // namespace rave::web

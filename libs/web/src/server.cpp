@@ -2,9 +2,11 @@
 // One thread serves all connections. Others hand it work with post().
 #include "rave/web/server.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <thread>
 
@@ -52,6 +54,7 @@ class ServerImpl final : public Server {
   [[nodiscard]] ServerCounts counts() const override;
   void post(std::function<void()> call) override { asio::post(core_.io(), std::move(call)); }
   void every(std::chrono::milliseconds period, std::function<void()> call) override;
+  void when_rung(int descriptor, std::function<void()> call) override;
   void stop() override;
 
  private:
@@ -60,12 +63,19 @@ class ServerImpl final : public Server {
     std::chrono::milliseconds period;
     std::function<void()> call;
   };
+  struct Bell {
+    asio::posix::stream_descriptor descriptor;
+    std::function<void()> call;
+    std::uint64_t rung = 0;
+  };
   void accept();
   void arm(const std::shared_ptr<Timer>& timer);
+  void hear(const std::shared_ptr<Bell>& bell);
 
   Core core_;
   Tcp::acceptor acceptor_;
   std::vector<std::shared_ptr<Timer>> timers_;  ///< Shared with the pending operation.
+  std::shared_ptr<Bell> bell_;                  ///< As above; null: none.
   std::thread thread_;
 };
 
@@ -105,7 +115,7 @@ Status ServerImpl::listen() {
 }
 
 void ServerImpl::accept() {
-  acceptor_.async_accept([this](Error error, Tcp::socket socket) {
+  acceptor_.async_accept(core_.io(), [this](Error error, TcpSocket socket) {
     if (error == asio::error::operation_aborted || core_.stopping) return;
     Error gone;
     const auto peer = error ? Tcp::endpoint() : socket.remote_endpoint(gone);
@@ -156,6 +166,25 @@ void ServerImpl::arm(const std::shared_ptr<Timer>& timer) {
   });
 }
 
+void ServerImpl::when_rung(int descriptor, std::function<void()> call) {
+  if (bell_) bell_->descriptor.cancel();
+  bell_.reset();
+  const int copy = descriptor < 0 ? -1 : ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
+  if (copy < 0) return;
+  bell_ = std::make_shared<Bell>(
+      Bell{asio::posix::stream_descriptor(core_.io(), copy), std::move(call)});
+  hear(bell_);
+}
+
+void ServerImpl::hear(const std::shared_ptr<Bell>& bell) {
+  bell->descriptor.async_read_some(asio::buffer(&bell->rung, sizeof bell->rung),
+                                   [this, bell](Error error, std::size_t) {
+                                     if (error || core_.stopping || bell != bell_) return;
+                                     bell->call();
+                                     hear(bell);
+                                   });
+}
+
 void ServerImpl::stop() {
   if (!thread_.joinable()) return;
   post([this] {
@@ -163,6 +192,7 @@ void ServerImpl::stop() {
     Error ignored;
     acceptor_.close(ignored);
     for (const auto& timer : timers_) timer->timer.cancel();
+    when_rung(-1, {});
     for (Link* const link : std::vector(core_.connections.begin(), core_.connections.end())) {
       link->cut();
     }

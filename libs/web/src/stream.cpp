@@ -3,8 +3,8 @@
 // compiled once.
 #include "stream.hpp"
 
+#include <boost/asio/basic_waitable_timer.hpp>
 #include <boost/asio/ssl/context.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/ssl/ssl_stream.hpp>
 #include <optional>
 
@@ -12,28 +12,31 @@ namespace rave::web {
 
 struct Stream::Impl {
   // Beast's stream sends the header and body of a frame in one TLS record.
-  using Tls = beast::ssl_stream<Tcp::socket>;
+  using Timer = asio::basic_waitable_timer<std::chrono::steady_clock,
+                                           asio::wait_traits<std::chrono::steady_clock>,
+                                           TcpSocket::executor_type>;
+  using Tls = beast::ssl_stream<TcpSocket>;
 
-  Impl(Tcp::socket from, asio::ssl::context* context) : timer(from.get_executor()) {
+  Impl(TcpSocket from, asio::ssl::context* context) : timer(from.get_executor()) {
     if (context == nullptr) {
       plain.emplace(std::move(from));
     } else {
       tls.emplace(std::move(from), *context);
     }
   }
-  [[nodiscard]] Tcp::socket& socket() { return tls ? tls->next_layer() : *plain; }
+  [[nodiscard]] TcpSocket& socket() { return tls ? tls->next_layer() : *plain; }
   void close() noexcept {
     Error ignored;
     timer.cancel(ignored);
     socket().close(ignored);
   }
 
-  std::optional<Tcp::socket> plain;
+  std::optional<TcpSocket> plain;
   std::optional<Tls> tls;
-  asio::steady_timer timer;
+  Timer timer;
 };
 
-Stream::Stream(Tcp::socket socket, asio::ssl::context* tls)
+Stream::Stream(TcpSocket socket, asio::ssl::context* tls)
     : impl_(std::make_shared<Impl>(std::move(socket), tls)) {}
 
 Stream::executor_type Stream::get_executor() { return impl_->socket().get_executor(); }
@@ -64,7 +67,7 @@ void Stream::expires_never() {
 void Stream::finish(std::function<void()> done) {
   const auto end = [impl = impl_, done = std::move(done)] {
     Error ignored;
-    impl->socket().shutdown(Tcp::socket::shutdown_send, ignored);
+    impl->socket().shutdown(TcpSocket::shutdown_send, ignored);
     done();
   };
   if (!impl_->tls || !impl_->socket().is_open()) {
@@ -85,9 +88,9 @@ void Stream::set_send_buffer(int bytes) {
   impl_->socket().set_option(Tcp::no_delay(true), ignored);
 }
 
-void Stream::read_some(const Buffers<asio::mutable_buffer>& buffers, Done done) {
+void Stream::read_some(const Buffers<asio::mutable_buffer>& buffers, std::unique_ptr<Done> done) {
   auto kept = [impl = impl_, done = std::move(done)](Error error, std::size_t size) {
-    done(error, size);
+    done->call(error, size);
   };
   if (impl_->tls) {
     impl_->tls->async_read_some(buffers, std::move(kept));
@@ -96,9 +99,9 @@ void Stream::read_some(const Buffers<asio::mutable_buffer>& buffers, Done done) 
   }
 }
 
-void Stream::write_some(const Buffers<asio::const_buffer>& buffers, Done done) {
+void Stream::write_some(const Buffers<asio::const_buffer>& buffers, std::unique_ptr<Done> done) {
   auto kept = [impl = impl_, done = std::move(done)](Error error, std::size_t size) {
-    done(error, size);
+    done->call(error, size);
   };
   if (impl_->tls) {
     impl_->tls->async_write_some(buffers, std::move(kept));

@@ -4,6 +4,7 @@
 #include <array>
 #include <boost/asio/async_result.hpp>
 #include <boost/asio/buffer.hpp>
+#include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/beast/core/error.hpp>
@@ -21,6 +22,8 @@ namespace rave::web {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 using Tcp = asio::ip::tcp;
+/// Asio's own socket type would call its executor through a virtual function.
+using TcpSocket = asio::basic_stream_socket<Tcp, asio::io_context::executor_type>;
 using Error = beast::error_code;
 
 /// The first few buffers of a sequence; the rest is for the next call.
@@ -52,11 +55,10 @@ class Buffers {
 class Stream {
  public:
   // Asio requires this name.
-  using executor_type = Tcp::socket::executor_type;  // NOLINT(readability-identifier-naming)
-  using Done = std::function<void(Error, std::size_t)>;
+  using executor_type = TcpSocket::executor_type;  // NOLINT(readability-identifier-naming)
 
   /// `tls`: null for a connection without TLS; otherwise it must outlive the stream.
-  Stream(Tcp::socket socket, asio::ssl::context* tls);
+  Stream(TcpSocket socket, asio::ssl::context* tls);
   Stream(Stream&&) noexcept = default;
   Stream& operator=(Stream&&) noexcept = default;
   ~Stream() = default;
@@ -77,7 +79,7 @@ class Stream {
   auto async_read_some(const Sequence& buffers, Token&& token) {
     return asio::async_initiate<Token, void(Error, std::size_t)>(
         [this](auto handler, const Buffers<asio::mutable_buffer>& some) {
-          read_some(some, erased(std::move(handler)));
+          read_some(some, std::make_unique<DoneOf<decltype(handler)>>(std::move(handler)));
         },
         token, Buffers<asio::mutable_buffer>(buffers));
   }
@@ -85,21 +87,29 @@ class Stream {
   auto async_write_some(const Sequence& buffers, Token&& token) {
     return asio::async_initiate<Token, void(Error, std::size_t)>(
         [this](auto handler, const Buffers<asio::const_buffer>& some) {
-          write_some(some, erased(std::move(handler)));
+          write_some(some, std::make_unique<DoneOf<decltype(handler)>>(std::move(handler)));
         },
         token, Buffers<asio::const_buffer>(buffers));
   }
 
  private:
   struct Impl;
-  /// A std::function from a move-only handler; it is called exactly once.
+  /// The handler of an operation, which may be move-only; called once.
+  struct Done {
+    Done() = default;
+    virtual ~Done() = default;
+    Done(const Done&) = delete;
+    Done& operator=(const Done&) = delete;
+    virtual void call(Error error, std::size_t size) = 0;
+  };
   template <class Handler>
-  static Done erased(Handler handler) {
-    auto shared = std::make_shared<Handler>(std::move(handler));
-    return [shared](Error error, std::size_t size) { std::move (*shared)(error, size); };
-  }
-  void read_some(const Buffers<asio::mutable_buffer>& buffers, Done done);
-  void write_some(const Buffers<asio::const_buffer>& buffers, Done done);
+  struct DoneOf final : Done {
+    explicit DoneOf(Handler from) : handler(std::move(from)) {}
+    void call(Error error, std::size_t size) override { std::move(handler)(error, size); }
+    Handler handler;
+  };
+  void read_some(const Buffers<asio::mutable_buffer>& buffers, std::unique_ptr<Done> done);
+  void write_some(const Buffers<asio::const_buffer>& buffers, std::unique_ptr<Done> done);
 
   std::shared_ptr<Impl> impl_;  ///< Shared with pending operations.
 };

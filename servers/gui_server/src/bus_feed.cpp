@@ -111,7 +111,8 @@ Status BusFeed::start() {
 void BusFeed::work(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     ask();
-    observer_->watch(box_->watched.load(std::memory_order_relaxed) ? kWatched : kUnwatched, stop);
+    observer_->watch(box_->max_hz.load(std::memory_order_relaxed) > 0 ? kWatched : kUnwatched,
+                     stop);
     listener_.hear();
     const watch::RunView view = observer_->view(true);
     tell_news(view);
@@ -125,7 +126,7 @@ void BusFeed::ask() {
   static_cast<void>(box_->wants.take());
   const LiveWants& wants = box_->wants.value();
   onlook::Asked asked;
-  asked.robots = box_->watched.load(std::memory_order_relaxed);
+  asked.robots = box_->max_hz.load(std::memory_order_relaxed) > 0;
   asked.parts = wants.parts;
   for (const LookedAt& looked : wants.sensors)
     asked.sensors.push_back({looked.slot, looked.sensor});
@@ -237,7 +238,7 @@ void BusFeed::draw(const watch::RunView& view) {
   }
   picture.hosts = hosts_;
   picture.hosts_revision = hosts_revision_;
-  box_->pictures.publish();
+  box_->publish();
 }
 
 void BusFeed::draw_readings(LivePicture& picture) const {

@@ -48,7 +48,7 @@ void FoxgloveGuests::received_binary(std::uint64_t id) { guests_.at(id).client->
 Audience FoxgloveGuests::audience() const {
   Audience audience;
   for (const auto& [id, guest] : guests_) {
-    audience.any = audience.any || guest.client->wants_poses();
+    if (guest.client->wants_poses()) audience.max_hz = FoxgloveSession::kMaxHz;
     for (const LookedAt& looked : guest.client->looked_at()) {
       // What is withheld is not even gathered.
       const auto robot = guest.view->robot_of(looked.slot);

@@ -11,7 +11,8 @@
 namespace rave::gui_server {
 namespace {
 
-constexpr auto kFoxgloveSpacing = std::chrono::microseconds(33'333);
+constexpr auto kFoxgloveSpacing =
+    std::chrono::microseconds(static_cast<std::int64_t>(1e6 / FoxgloveSession::kMaxHz));
 constexpr auto kFoxgloveClock = std::chrono::seconds(1);
 /// Limit of earlier events for a client that subscribes.
 constexpr std::size_t kMostPastEvents = 200;

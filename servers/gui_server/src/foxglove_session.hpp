@@ -28,6 +28,7 @@ using FoxgloveFrames =
 class FoxgloveSession {
  public:
   using Clock = Playhead::Clock;
+  static constexpr double kMaxHz = 30;
 
   /// Says who the server is, and that it has nothing yet. `socket` outlives the session. `server`:
   /// another text whenever it is another one.
@@ -39,8 +40,8 @@ class FoxgloveSession {
   void received(std::string_view text);
   /// What a client publishes, and calls of services.
   void received_binary();
-  /// Sends what is due, at most 30 times a second and only once what was sent before is on its way;
-  /// called more often. `frames`: messages of this tick that others were sent.
+  /// Sends what is due, at most kMaxHz times a second and only once what was sent before is on its
+  /// way; called more often. `frames`: messages of this tick that others were sent.
   void tick(Clock::time_point now, FoxgloveFrames& frames);
 
   /// Whether something is subscribed that moves.

@@ -19,7 +19,7 @@ class FramePace {
   void set_rate(double hz) {
     period_ = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / hz));
   }
-  /// Whether a frame with this picture is due, if there is something to send; asked some 60 to 250
+  /// Whether a frame with this picture is due, if there is something to send; asked some 25 to 60
   /// times a second.
   [[nodiscard]] bool due(Clock::time_point now, std::uint64_t picture) {
     const bool fresh = picture != seen_;

@@ -22,9 +22,10 @@
 namespace rave::gui_server {
 namespace {
 
+/// How often pages of a recording are served.
 constexpr auto kTick = std::chrono::milliseconds(16);
-/// How often the server looks for a newer state of a run, which then does not wait for a tick.
-constexpr auto kGlance = std::chrono::milliseconds(4);
+/// The same of a run whose bell does not ring meanwhile. It rings 30 times a second.
+constexpr auto kSilence = std::chrono::milliseconds(40);
 constexpr auto kCheck = std::chrono::milliseconds(500);
 constexpr int kPortsToTry = 20;
 constexpr std::uint16_t kNotSignedIn = 4401;
@@ -106,7 +107,11 @@ class GuiServer::Impl final : public web::Handler {
     // server, which owns the door.
     server_->post([this, port = server_->port()] { door_.set_port(port); });
     if (source) show(std::move(source));
-    server_->every(kGlance, [this] { glance(); });
+    server_->every(kTick, [this] {
+      const auto& shown = visitors_.source();
+      const bool rings = shown && shown->bell() >= 0;
+      if (!rings || std::chrono::steady_clock::now() - ticked_ >= kSilence) tick();
+    });
     server_->every(kCheck, [this] {
       visitors_.check();
       guests_.check();
@@ -118,6 +123,7 @@ class GuiServer::Impl final : public web::Handler {
 
   void show(std::shared_ptr<Source> source) {
     server_->post([this, source = std::move(source)] {
+      server_->when_rung(source->bell(), [this] { tick(); });
       visitors_.show(source);
       guests_.show();
     });
@@ -203,11 +209,8 @@ class GuiServer::Impl final : public web::Handler {
   }
 
  private:
-  void glance() {
-    const auto now = std::chrono::steady_clock::now();
-    const auto& shown = visitors_.source();
-    if (now - ticked_ < kTick && !(shown && shown->has_newer())) return;
-    ticked_ = now;
+  void tick() {
+    ticked_ = std::chrono::steady_clock::now();
     visitors_.tick(guests_.audience());
     guests_.tick();
   }

@@ -12,6 +12,7 @@
 
 #include "rave/base/latest.hpp"
 #include "rave/gui_server/source.hpp"
+#include "rave/process/bell.hpp"
 
 // What passes between the thread of a run and that of the GUI Server, without a lock.
 namespace rave::gui_server {
@@ -93,10 +94,17 @@ class NewsQueue {
 };
 
 struct LiveBox {
+  /// Makes the picture that was drawn the newest.
+  void publish() noexcept {
+    pictures.publish();
+    bell.ring();
+  }
+
   Latest<LivePicture> pictures;
+  process::Bell bell;       ///< There is a newer picture.
   Latest<LiveWants> wants;  ///< From the server to the run.
   NewsQueue news;
-  std::atomic<bool> watched{false};  ///< A page wants pictures.
+  std::atomic<double> max_hz{0};  ///< Pictures per second that pages want; 0: none.
 };
 
 }  // namespace rave::gui_server

@@ -10,14 +10,18 @@
 namespace rave::gui_server {
 namespace {
 
-constexpr auto kWatchedInterval = std::chrono::microseconds(16'000);
 /// A new page sees the present at once, even if the run is held then.
-constexpr auto kUnwatchedInterval = std::chrono::milliseconds(250);
+constexpr LiveFeed::Clock::duration kUnwatchedInterval = std::chrono::milliseconds(250);
 /// The factor by which pictures become rarer while steps come late: pages get thinner before
 /// anything else does.
 constexpr int kLateFactor = 10;
 /// A crowd may touch thousands of times in a step, which is unreadable.
 constexpr std::size_t kMostEvents = 100;
+
+LiveFeed::Clock::duration interval_of(double max_hz) {
+  return std::chrono::duration_cast<LiveFeed::Clock::duration>(
+      std::chrono::duration<double>(1 / max_hz));
+}
 
 void put_reading(LivePicture& picture, const LookedAt& looked, std::uint8_t part, ReadingKind kind,
                  const SampleHeader* header, const void* records) {
@@ -64,16 +68,19 @@ void LiveFeed::after_step(const runtime::StepView& step) {
   take_news(step);
   if (!maps_.empty()) maps_.after_step(step.engine);
   const auto now = Clock::now();
-  const bool watched = box_->watched.load(std::memory_order_relaxed);
-  const auto since = now - drawn_;
+  const double max_hz = box_->max_hz.load(std::memory_order_relaxed);
   const int slower = step.late ? kLateFactor : 1;
-  const auto interval = (watched ? Clock::duration(kWatchedInterval) : kUnwatchedInterval) * slower;
+  const auto interval = slower * (max_hz > 0 ? interval_of(max_hz) : kUnwatchedInterval);
+  const auto since = now - drawn_;
   if (since < interval) return;
+  // Steps seldom end when a picture is due: what one comes late, the next comes earlier.
+  drawn_ = since < 2 * interval ? drawn_ + interval : now;
   draw(step.engine, slower);
 }
 
 void LiveFeed::held(const sim::Engine& engine) {
   // The last step before a hold may have been left out, and a page may look elsewhere now.
+  drawn_ = Clock::now();
   draw(engine, 1);
 }
 
@@ -122,7 +129,6 @@ void LiveFeed::draw_maps(const sim::Engine& engine, int slower) {
 }
 
 void LiveFeed::draw(const sim::Engine& engine, int slower) {
-  drawn_ = Clock::now();
   static_cast<void>(box_->wants.take());
   LivePicture& picture = box_->pictures.draft();
   draw_poses(engine, picture.poses);
@@ -133,7 +139,7 @@ void LiveFeed::draw(const sim::Engine& engine, int slower) {
   draw_readings(engine, box_->wants.value(), picture);
   draw_probes(engine, picture);
   draw_maps(engine, slower);
-  box_->pictures.publish();
+  box_->publish();
 }
 
 void LiveFeed::draw_poses(const sim::Engine& engine, PosesAt& poses) const {

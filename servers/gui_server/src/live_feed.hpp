@@ -14,10 +14,12 @@
 
 namespace rave::gui_server {
 
-/// Hands copies of a run to the server's thread: pictures at most 60 times a second while a page
-/// looks, and four times otherwise; events always. The thread of the run, which never waits here.
+/// Hands copies of a run to the server's thread: pictures as often as pages
+/// ask for them, at most 60 times a second, and four times without pages; events always. The thread
+/// of the run, which never waits here.
 class LiveFeed final : public runtime::RunObserver {
  public:
+  using Clock = std::chrono::steady_clock;
   /// Before the first step: what does not change. `bodies`: by number, as JSON.
   using Begun = std::function<Status(const runtime::RunView& run,
                                      std::vector<std::pair<std::uint32_t, std::string>> bodies)>;
@@ -31,8 +33,6 @@ class LiveFeed final : public runtime::RunObserver {
   void held(const sim::Engine& engine) override;
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   void take_news(const runtime::StepView& step);
   void draw(const sim::Engine& engine, int slower);
   void draw_maps(const sim::Engine& engine, int slower);

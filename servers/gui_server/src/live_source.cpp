@@ -150,7 +150,7 @@ std::unique_ptr<Playhead> LiveSource::open_playhead() {
 
 void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience) {
   // Nothing else is published with it, so it needs no order.
-  box_->watched.store(audience.any, std::memory_order_relaxed);
+  box_->max_hz.store(audience.max_hz, std::memory_order_relaxed);
   // Only what differs is published: the host's thread copies the wants each time.
   if (audience.looked_at != wants_.sensors || audience.parts != wants_.parts ||
       audience.truth != wants_.truth || audience.maps != wants_.maps ||

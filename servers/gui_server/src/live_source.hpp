@@ -50,7 +50,7 @@ class LiveSource : public Source {
   }
   [[nodiscard]] std::unique_ptr<Cursor> open_cursor() override;
   [[nodiscard]] std::unique_ptr<Playhead> open_playhead() override;
-  [[nodiscard]] bool has_newer() const noexcept override { return box_->pictures.fresh(); }
+  [[nodiscard]] int bell() const noexcept override { return box_->bell.descriptor(); }
   void tick(Playhead::Clock::time_point now, const Audience& audience) override;
   [[nodiscard]] std::uint64_t events_revision() const noexcept override { return fold_.revision(); }
   [[nodiscard]] std::size_t events_changed_since(std::uint64_t revision) const noexcept override {

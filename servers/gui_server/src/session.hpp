@@ -86,7 +86,7 @@ class Session {
   Session& operator=(const Session&) = delete;
   ~Session() { commands_.let_go(); }
   void received(std::string_view text);
-  /// Sends what is due; called some 60 times a second. `frames`: those of this tick that other
+  /// Sends what is due; called 25 to 60 times a second. `frames`: those of this tick that other
   /// pages were sent.
   void tick(Clock::time_point now, SharedFrames& frames);
   [[nodiscard]] const LookMessage& look() const noexcept { return look_; }

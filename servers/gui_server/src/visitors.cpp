@@ -178,7 +178,7 @@ void Visitors::tick(Audience audience) {
   const auto now = Session::Clock::now();
   for (const auto& [id, visitor] : visitors_) {
     const LookMessage& look = visitor.page->look();
-    audience.any = audience.any || look.poses;
+    if (look.poses) audience.max_hz = std::max(audience.max_hz, look.max_hz);
     audience.parts = audience.parts || look.parts;
     audience.truth = audience.truth || (look.poses && look.true_poses &&
                                         visitor.view->may_some(InfoClass::kTruePose));

@@ -36,7 +36,8 @@ class Visitors {
   /// It sends too much, and is being closed for it.
   void flooded(std::uint64_t id);
   void closed(std::uint64_t id);
-  /// Some 60 times a second. `audience`: what others than pages look at, in robots of the run.
+  /// Serves all pages; see Source::tick(). `audience`: what others than pages look at, in robots of
+  /// the run.
   void tick(Audience audience = {});
   /// Twice a second: who was removed or signed out elsewhere is out, who got another role has its
   /// rights, and super-users know of it.

@@ -27,10 +27,6 @@ class Latest {
     reader_ = middle_.exchange(reader_, std::memory_order_acq_rel) & kIndex;
     return true;
   }
-  /// Whether take() would make a newer value current.
-  [[nodiscard]] bool fresh() const noexcept {
-    return (middle_.load(std::memory_order_relaxed) & kFresh) != 0;
-  }
   /// The value of the last successful take(); default-constructed before the first.
   [[nodiscard]] const T& value() const noexcept { return values_[reader_]; }
 

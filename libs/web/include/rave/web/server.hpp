@@ -134,6 +134,10 @@ class Server {
   virtual void post(std::function<void()> call) = 0;
   /// Calls a function on the thread of the server periodically. Any thread.
   virtual void every(std::chrono::milliseconds period, std::function<void()> call) = 0;
+  /// Calls a function on the thread of the server each time that a bell has rung, from now on;
+  /// instead of the bell before. `descriptor`: of the bell, of which a copy is kept; negative:
+  /// none. Server thread only.
+  virtual void when_rung(int descriptor, std::function<void()> call) = 0;
   /// Closes all connections and ends the thread within two seconds. Idempotent; any thread but that
   /// of the server. The destructor calls it.
   virtual void stop() = 0;

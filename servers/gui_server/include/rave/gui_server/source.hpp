@@ -243,7 +243,7 @@ struct ProbeMade {
 
 /// The data that all pages together need.
 struct Audience {
-  bool any = false;                 ///< A page needs poses.
+  double max_hz = 0;                ///< Poses per second that pages need; 0: none.
   bool truth = false;               ///< A page needs true poses.
   std::vector<LookedAt> looked_at;  ///< Ascending, without duplicates.
   bool parts = false;               ///< Also the halves of hybrid sensors.
@@ -272,9 +272,10 @@ class Source {
   [[nodiscard]] virtual std::unique_ptr<Playhead> open_playhead() = 0;
 
   // A run in progress.
-  /// Whether tick() would show a newer state.
-  [[nodiscard]] virtual bool has_newer() const noexcept { return false; }
-  /// Called at least 60 times a second, before the pages are served.
+  /// Descriptor of the process::Bell that rings when tick() would show a newer state; negative:
+  /// none rings.
+  [[nodiscard]] virtual int bell() const noexcept { return -1; }
+  /// Called when the bell rings, and at least 25 times a second, before the pages are served.
   virtual void tick(Playhead::Clock::time_point /*now*/, const Audience& /*audience*/) {}
   /// Changes whenever events were added or changed. events_changed_since() returns the index of the
   /// first such event since an earlier revision.

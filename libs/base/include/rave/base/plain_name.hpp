@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <string_view>
+
+namespace rave {
+
+/// A letter or a digit of ASCII, or one of `signs`.
+[[nodiscard]] constexpr bool is_plain(char c, std::string_view signs) noexcept {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+         signs.find(c) != std::string_view::npos;
+}
+
+/// Whether a name has plain characters alone, and at least one.
+[[nodiscard]] constexpr bool is_plain_name(std::string_view name, std::string_view signs) noexcept {
+  return !name.empty() && std::ranges::all_of(name, [signs](char c) { return is_plain(c, signs); });
+}
+
+}  // namespace rave

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "rave/base/latest.hpp"
+#include "rave/base/wall_clock.hpp"
 #include "rave/gui_server/source.hpp"
 
 // What passes between the thread of a run and that of the GUI Server, without a lock.
@@ -18,9 +17,7 @@ namespace rave::gui_server {
 
 /// For PosesAt::taken_us; any thread.
 [[nodiscard]] inline std::uint32_t taken_now_us() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const auto us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
-  return static_cast<std::uint32_t>(us) | 1U;
+  return static_cast<std::uint32_t>(wall_ns() / 1000) | 1U;
 }
 
 /// A moment of a run. Its memory is used again and again.
@@ -32,15 +29,6 @@ struct LivePicture {
   std::optional<PlayState> standing;
   std::uint64_t hosts_revision = 0;
   std::string hosts;  ///< As Source::hosts_json().
-};
-
-/// What pages look at.
-struct LiveWants {
-  std::vector<LookedAt> sensors;
-  bool parts = false;
-  bool truth = false;  ///< Also true poses.
-  std::vector<std::uint32_t> maps;
-  std::vector<probe::Asked> probes;
 };
 
 /// Something that happened, as the engine says it.
@@ -94,7 +82,7 @@ class NewsQueue {
 
 struct LiveBox {
   Latest<LivePicture> pictures;
-  Latest<LiveWants> wants;  ///< From the server to the run.
+  Latest<Audience> wants;  ///< From the server to the run.
   NewsQueue news;
   std::atomic<bool> watched{false};  ///< A page wants pictures.
 };

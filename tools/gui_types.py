@@ -1,14 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the page's TypeScript types from schemas/gui/messages.schema.json.
+"""Writes the page's TypeScript types, web/protocol/messages.ts, from schemas/gui/messages.schema.json.
 
-usage: gui_types.py [--check]
-
---check compares instead of writing and exits with 1 if web/protocol/messages.ts is out of date.
+web/build.sh calls it before it compiles the page.
 """
 import json
 import pathlib
-import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "schemas/gui/messages.schema.json"
@@ -67,17 +64,5 @@ def generate():
     return text
 
 
-def main():
-    text = generate()
-    if "--check" in sys.argv[1:]:
-        if not TARGET.exists() or TARGET.read_text() != text:
-            print(f"{TARGET.relative_to(ROOT)} is out of date: run tools/gui_types.py", file=sys.stderr)
-            return 1
-        return 0
-    TARGET.parent.mkdir(parents=True, exist_ok=True)
-    TARGET.write_text(text)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    TARGET.write_text(generate())

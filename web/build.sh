@@ -15,6 +15,7 @@ if ! cmp -s package-lock.json node_modules/.rave-lock; then
   fi
   cp package-lock.json node_modules/.rave-lock
 fi
+python3 ../tools/gui_types.py
 node_modules/.bin/tsc --noEmit
 node_modules/.bin/vite build --logLevel warn --emptyOutDir --outDir "$folder"
 # What authors of panels write against; after vite, which empties the folder.

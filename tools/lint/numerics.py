@@ -28,7 +28,8 @@ DECLARED = re.compile(r"(?:(?<!\breturn)(?<!\belse)(?<!\bcase)\b\w+|>)[\s&*]+$")
 CHANCE = re.compile(r"#\s*include\s*<random>|\bstd\s*::\s*(?:mt19937(?:_64)?|random_device|"
                     r"default_random_engine|(?:uniform|normal|bernoulli|exponential)\w*_distribution|"
                     r"shuffle)\b|\bstd\s*::\s*s?rand\s*\(")
-CLOCK = re.compile(r"\b(?:system_clock|steady_clock|high_resolution_clock|file_clock)\b|"
+CLOCK = re.compile(r"\b(?:wall|steady)_ns\s*\(|"
+                   r"\b(?:system_clock|steady_clock|high_resolution_clock|file_clock)\b|"
                    r"\b(?:clock_gettime|gettimeofday)\s*\(|\btime\s*\(\s*(?:nullptr|NULL|0)\s*\)")
 FLAGS = re.compile(r"-ffast-math|-funsafe-math|-ffp-contract=(?:fast|on)|-Ofast|-fassociative-math|"
                    r"-freciprocal-math|-march=native")
@@ -122,6 +123,7 @@ BREACHES = [(expected, {"libs/sim/b.cpp": text}) for expected, text in [
     ("mt19937", "std::mt19937 engine;\n"),
     ("steady_clock", "auto t = std::chrono::steady_clock::now();\n"),
     ("time(nullptr)", "auto t = time(nullptr);\n"),
+    ("wall_ns(", "auto t = wall_ns();\n"),
 ]] + [
     ("-ffast-math", {"cmake/a.cmake": "add_compile_options(-ffast-math)\n"}),
     ("needs no exception", {"drivers/x/x.cpp": "int x;\n", ALLOW: "drivers/x/x.cpp clock why\n"}),

@@ -27,6 +27,9 @@ export const controls = css`
     outline: 2px solid var(--intent);
     outline-offset: 1px;
   }
+  .space {
+    flex: 1;
+  }
   .icon-button {
     display: inline-grid;
     place-items: center;

@@ -107,7 +107,6 @@ export class TopBar extends LiveElement {
       .state.lost { --soft: var(--danger-soft); color: var(--danger); }
       .state.opening { --soft: var(--bg-2); color: var(--text-2); }
       .about { color: var(--text-2); font-size: var(--fs-12); white-space: nowrap; }
-      .space { flex: 1; }
       .find { display: flex; align-items: center; gap: 8px; flex: 0 1 300px; min-width: 40px; height: 30px; padding: 0 8px; border: 1px solid var(--line-2); border-radius: var(--r-3); background: var(--bg-1); color: var(--text-3); font-size: var(--fs-12); overflow: hidden; }
       .find span { flex: 1; text-align: left; white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
       kbd { padding: 0 6px; border: 1px solid var(--line-2); border-radius: var(--r-2); background: var(--bg-2); color: var(--text-2); font: 500 var(--fs-11) var(--font-ui); white-space: nowrap; }

@@ -34,6 +34,22 @@ tl::unexpected<Error> system_failure(const std::filesystem::path& path, std::str
               path.string(), std::strerror(code));
 }
 
+/// Creates a file, which `flags` may require to be new, and writes its content to the disk. Before
+/// a move to another name: otherwise a power failure can leave that name with an empty file.
+Status create_file(const std::filesystem::path& path, int flags, ::mode_t mode,
+                   std::string_view content) {
+  const FileHandle file(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, mode));
+  if (file.get() < 0) return system_failure(path, "create");
+  while (!content.empty()) {
+    const ssize_t count = ::write(file.get(), content.data(), content.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return system_failure(path, "write");
+    content.remove_prefix(static_cast<std::size_t>(count));
+  }
+  if (::fsync(file.get()) != 0 && errno != EINVAL) return system_failure(path, "flush");
+  return {};
+}
+
 }  // namespace
 
 Result<int> open_regular_file(const std::filesystem::path& path) {
@@ -75,30 +91,18 @@ Status write_file_atomically(const std::filesystem::path& path, std::string_view
   // Beside the target, because rename() replaces a file at once only within a file system.
   std::filesystem::path temporary = path;
   temporary += fmt::format(".{}.part", ::getpid());
-  {
-    const FileHandle file(
-        ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
-    if (file.get() < 0) return system_failure(temporary, "create");
-    std::string_view rest = content;
-    while (!rest.empty()) {
-      const ssize_t count = ::write(file.get(), rest.data(), rest.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) {
-        auto failure = system_failure(temporary, "write");
-        ::unlink(temporary.c_str());
-        return failure;
-      }
-      rest.remove_prefix(static_cast<std::size_t>(count));
-    }
-    // Before rename(): otherwise a power failure can leave the new name with an empty file.
-    if (::fsync(file.get()) != 0 && errno != EINVAL) return system_failure(temporary, "flush");
+  Status written = create_file(temporary, O_TRUNC, 0644, content);
+  if (written && ::rename(temporary.c_str(), path.c_str()) != 0) {
+    written = system_failure(path, "replace");
   }
-  if (::rename(temporary.c_str(), path.c_str()) != 0) {
-    auto failure = system_failure(path, "replace");
-    ::unlink(temporary.c_str());
-    return failure;
-  }
-  return {};
+  if (!written) ::unlink(temporary.c_str());
+  return written;
+}
+
+Status write_private_file(const std::filesystem::path& path, std::string_view content) {
+  // O_EXCL also refuses a link that another user has put there. The mode is set at creation, so
+  // there is no moment in which others could read the file.
+  return create_file(path, O_EXCL, 0600, content);
 }
 
 }  // namespace rave

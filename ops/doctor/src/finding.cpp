@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "rave/base/json_text.hpp"
+
 namespace rave::doctor {
 
 std::string_view to_string(Verdict verdict) noexcept {
@@ -29,7 +31,7 @@ std::string to_json(const Findings& findings) {
     entry["mend"] = finding.mend;
     json["findings"].push_back(std::move(entry));
   }
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json_text(json) + "\n";
 }
 
 }  // namespace rave::doctor

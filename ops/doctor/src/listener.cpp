@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <optional>
 #include <set>
 #include <vector>
@@ -24,11 +23,6 @@ constexpr int kMostParticipants = 120;
 constexpr std::size_t kMostMachines = 1000;
 
 }  // namespace
-
-std::int64_t clock_of_day() {
-  const auto today = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(today).count();
-}
 
 About about_here(const bus::BusConfig& config, std::uint64_t stamp) {
   About about;

@@ -8,13 +8,13 @@
 #include <sys/utsname.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <chrono>
 #include <cstdlib>
 #include <memory>
 
 #include "rave/base/file.hpp"
+#include "rave/base/wall_clock.hpp"
+#include "socket.hpp"
 
 namespace rave::doctor {
 namespace {
@@ -47,11 +47,7 @@ std::vector<Interface> interfaces_here() {
     interface.multicast = (entry->ifa_flags & IFF_MULTICAST) != 0;
     interface.loopback = (entry->ifa_flags & IFF_LOOPBACK) != 0;
     if (address != nullptr) {
-      std::array<char, INET_ADDRSTRLEN> text{};
-      ::inet_ntop(AF_INET, &address->sin_addr, text.data(), text.size());
-      interface.address = text.data();
-      const ::sockaddr_in* const mask = inet_of(entry->ifa_netmask);
-      if (mask != nullptr) interface.mask = ::ntohl(mask->sin_addr.s_addr);
+      interface.address = place_of(*address).address;
       std::erase_if(found, [&](const Interface& i) { return same(i) && i.address.empty(); });
     }
     found.push_back(std::move(interface));
@@ -106,8 +102,7 @@ Machine this_machine() {
     machine.last_handed_out = static_cast<std::uint32_t>(range[1]);
   }
   if (const char* const uri = std::getenv("CYCLONEDDS_URI")) machine.cyclone_uri = uri;
-  const auto today = std::chrono::system_clock::now().time_since_epoch();
-  machine.now_s = std::chrono::duration_cast<std::chrono::seconds>(today).count();
+  machine.now_s = wall_ns() / kSecond_ns;
   return machine;
 }
 

@@ -26,10 +26,18 @@ std::string resolve(const std::string& name) {
   return place_of(*reinterpret_cast<const ::sockaddr_in*>(list->ai_addr)).address;
 }
 
-std::string list_of(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
+/// Sends a text that no other program sends, and whether it is received within `patience_ms` after
+/// the last packet.
+Result<bool> comes_back(const Socket& socket, const Place& to, int patience_ms) {
+  const std::string probe = fmt::format("RAVE doctor {}", bus::RunId::random().text());
+  RAVE_TRY(socket.send(probe, to));
+  std::array<char, 2048> bytes{};
+  for (int looks = 0; looks < 50; ++looks) {
+    const auto received = socket.receive(bytes, patience_ms);
+    if (!received || !*received) break;
+    if (std::string_view(bytes.data(), (*received)->size) == probe) return true;
+  }
+  return false;
 }
 
 std::string address_on(const Machine& machine, const bus::BusConfig& config) {
@@ -55,7 +63,8 @@ Finding check_peers(const Machine& machine, const bus::BusConfig& config,
     }
   }
   if (!unknown.empty()) {
-    return {"peers", Verdict::kProblem, fmt::format("no address is known for {}", list_of(unknown)),
+    return {"peers", Verdict::kProblem,
+            fmt::format("no address is known for {}", fmt::join(unknown, ", ")),
             fmt::format("getent ahostsv4 {}    # name the address instead", unknown.front())};
   }
   const bool local = config.loopback() && addresses.empty();
@@ -71,11 +80,13 @@ Finding check_peers(const Machine& machine, const bus::BusConfig& config,
     return {"peers", Verdict::kAdvice,
             fmt::format(
                 "{}; this machine is not in the list, so its own processes do not find each other",
-                list_of(addresses)),
+                fmt::join(addresses, ", ")),
             fmt::format("--peer {}", own.empty() ? "ADDRESS" : own)};
   }
-  return {
-      "peers", Verdict::kGood, addresses.empty() ? "found by multicast" : list_of(addresses), {}};
+  return {"peers",
+          Verdict::kGood,
+          addresses.empty() ? "found by multicast" : fmt::format("{}", fmt::join(addresses, ", ")),
+          {}};
 }
 
 Finding check_ports(const bus::BusConfig& config) {
@@ -125,15 +136,9 @@ Finding check_own_way(const Machine& machine, const bus::BusConfig& config) {
     const std::uint16_t port = data_port(domain, index);
     const auto socket = Socket::bind({address, port});
     if (!socket) continue;
-    const std::string probe = fmt::format("RAVE doctor {}", bus::RunId::random().text());
     // To its own address and not to loopback: that is the way packets of processes on one machine
     // take with this interface.
-    static_cast<void>(socket->send(probe, {address, port}));
-    std::array<char, 2048> bytes{};
-    for (int looks = 0; looks < 50; ++looks) {
-      const auto received = socket->receive(bytes, 300);
-      if (!received || !*received) break;
-      if (std::string_view(bytes.data(), (*received)->size) != probe) continue;
+    if (comes_back(*socket, {address, port}, 300).value_or(false)) {
       return {
           "self", Verdict::kGood, fmt::format("{} reaches its own UDP port {}", address, port), {}};
     }
@@ -166,22 +171,17 @@ Finding check_multicast(const Machine& machine, const bus::BusConfig& config) {
   }
   const std::uint16_t port = multicast_port(std::min(config.domain, kMostDomain));
   auto socket = Socket::bind({"0.0.0.0", port}, true);
-  Status tried = socket ? socket->join(kMulticastGroup, interface->address)
-                        : Status(tl::unexpected(socket.error()));
-  const std::string probe = fmt::format("RAVE doctor {}", bus::RunId::random().text());
-  if (tried) tried = socket->send(probe, {kMulticastGroup, port});
-  if (!tried) {
+  const Status joined = socket ? socket->join(kMulticastGroup, interface->address)
+                               : Status(tl::unexpected(socket.error()));
+  const Result<bool> back = joined ? comes_back(*socket, {kMulticastGroup, port}, 100)
+                                   : Result<bool>(tl::unexpected(joined.error()));
+  if (!back) {
     return {"multicast", Verdict::kProblem,
             fmt::format("cannot send to {} through {} ({})", kMulticastGroup, interface->name,
-                        tried.error().message),
+                        back.error().message),
             fmt::format("sudo ip route add 224.0.0.0/4 dev {}", interface->name)};
   }
-  // Other programs may send to the group, too.
-  std::array<char, 2048> bytes{};
-  for (int looks = 0; looks < 50; ++looks) {
-    const auto received = socket->receive(bytes, 100);
-    if (!received || !*received) break;
-    if (std::string_view(bytes.data(), (*received)->size) != probe) continue;
+  if (*back) {
     finding.what = fmt::format("{}:{} works on {}", kMulticastGroup, port, interface->name);
     return finding;
   }

@@ -67,47 +67,42 @@ class Fields {
   bool good_;
 };
 
-Json json_of(const About& about) {
-  return {{"machine", about.machine},
-          {"version", about.version},
-          {"interface_stamp", about.interface_stamp},
-          {"domain", about.domain},
-          {"multicast", about.multicast},
-          {"authority", about.authority},
-          {"participant", about.participant},
-          {"discovery_port", about.discovery_port},
-          {"data_port", about.data_port},
-          {"hears_multicast", about.hears_multicast}};
+/// Calls `visit(name, field)` for each field of an About; `about` may be const.
+template <class Any, class Visit>
+void visit_about(Any& about, const Visit& visit) {
+  visit("machine", about.machine);
+  visit("version", about.version);
+  visit("interface_stamp", about.interface_stamp);
+  visit("domain", about.domain);
+  visit("multicast", about.multicast);
+  visit("authority", about.authority);
+  visit("participant", about.participant);
+  visit("discovery_port", about.discovery_port);
+  visit("data_port", about.data_port);
+  visit("hears_multicast", about.hears_multicast);
 }
 
-bool read_about(const Json& json, About& about) {
-  Fields fields(json);
-  fields.read("machine", about.machine);
-  fields.read("version", about.version);
-  fields.read("interface_stamp", about.interface_stamp);
-  fields.read("domain", about.domain);
-  fields.read("multicast", about.multicast);
-  fields.read("authority", about.authority);
-  fields.read("participant", about.participant);
-  fields.read("discovery_port", about.discovery_port);
-  fields.read("data_port", about.data_port);
-  fields.read("hears_multicast", about.hears_multicast);
-  return fields.good();
+/// The same for the numbers of a Probe.
+template <class Any, class Visit>
+void visit_probe(Any& probe, const Visit& visit) {
+  visit("number", probe.number);
+  visit("want", probe.want);
+  visit("size", probe.size);
+  visit("by_multicast", probe.by_multicast);
+  visit("sent_ns", probe.sent_ns);
+  visit("asked_ns", probe.asked_ns);
+  visit("received_ns", probe.received_ns);
 }
 
 }  // namespace
 
 std::string write_probe(const Probe& probe, std::size_t least) {
-  Json json = {{"rave_doctor", 1},
-               {"kind", kKinds[static_cast<std::size_t>(probe.kind)]},
-               {"number", probe.number},
-               {"want", probe.want},
-               {"size", probe.size},
-               {"by_multicast", probe.by_multicast},
-               {"sent_ns", probe.sent_ns},
-               {"asked_ns", probe.asked_ns},
-               {"received_ns", probe.received_ns}};
-  if (probe.kind == Probe::Kind::kAnswer) json["about"] = json_of(probe.about);
+  Json json = {{"rave_doctor", 1}, {"kind", kKinds[static_cast<std::size_t>(probe.kind)]}};
+  visit_probe(probe, [&](const char* name, const auto& field) { json[name] = field; });
+  if (probe.kind == Probe::Kind::kAnswer) {
+    Json& about = json["about"];
+    visit_about(probe.about, [&](const char* name, const auto& field) { about[name] = field; });
+  }
   // ASCII only, so that no terminal or log has to guess the encoding.
   std::string bytes = json.dump(-1, ' ', true, Json::error_handler_t::replace);
   // Blanks behind JSON mean nothing, so a probe can have any size.
@@ -131,13 +126,7 @@ Result<Probe> parse_probe(std::string_view bytes) {
   Probe probe;
   fields.read("rave_doctor", layout);
   fields.read("kind", kind);
-  fields.read("number", probe.number);
-  fields.read("want", probe.want);
-  fields.read("size", probe.size);
-  fields.read("by_multicast", probe.by_multicast);
-  fields.read("sent_ns", probe.sent_ns);
-  fields.read("asked_ns", probe.asked_ns);
-  fields.read("received_ns", probe.received_ns);
+  visit_probe(probe, [&](const char* name, auto& field) { fields.read(name, field); });
   if (!fields.good()) return refused("a field is missing or of another type");
   if (layout != 1) return refused("its version differs");
   const auto found = std::ranges::find(kKinds, kind);
@@ -145,8 +134,10 @@ Result<Probe> parse_probe(std::string_view bytes) {
   probe.kind = static_cast<Probe::Kind>(found - kKinds.begin());
   if (probe.kind != Probe::Kind::kAnswer) return probe;
   const Json* const about = fields.find("about");
-  if (about == nullptr || !read_about(*about, probe.about))
-    return refused("members are missing or invalid");
+  if (about == nullptr) return refused("members are missing or invalid");
+  Fields about_fields(*about);
+  visit_about(probe.about, [&](const char* name, auto& field) { about_fields.read(name, field); });
+  if (!about_fields.good()) return refused("members are missing or invalid");
   return probe;
 }
 

@@ -40,7 +40,8 @@ class Prober {
  private:
   [[nodiscard]] Result<Socket> socket_to(std::uint16_t port) const;
   Asked ask(const Socket& socket, Probe probe, std::size_t bytes);
-  std::optional<Probe> await(const Socket& socket, Probe::Kind kind, std::size_t& size);
+  [[nodiscard]] Result<std::optional<Probe>> await(const Socket& socket, Probe::Kind kind,
+                                                   std::size_t& size);
   [[nodiscard]] std::optional<std::uint32_t> look_in_other_domains();
   void knock(const Socket& socket, ProbeResult& result);
   [[nodiscard]] bool answers_at(std::uint16_t port);
@@ -62,17 +63,19 @@ Result<Socket> Prober::socket_to(std::uint16_t port) const {
   return socket;
 }
 
-/// Waits for the probe of that kind with the number of the question; others are ignored.
-std::optional<Probe> Prober::await(const Socket& socket, Probe::Kind kind, std::size_t& size) {
+/// Waits for the probe of that kind with the number of the question; others are ignored. Errors:
+/// those of Socket::receive().
+Result<std::optional<Probe>> Prober::await(const Socket& socket, Probe::Kind kind,
+                                           std::size_t& size) {
   const auto end = Clock::now() + std::chrono::milliseconds(options_.patience_ms);
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
     if (left.count() <= 0) return std::nullopt;
-    const auto received = socket.receive(bytes_, static_cast<int>(left.count()));
-    if (!received || !*received) return std::nullopt;
-    auto probe = parse_probe({bytes_.data(), (*received)->size});
+    RAVE_TRY_ASSIGN(const auto received, socket.receive(bytes_, static_cast<int>(left.count())));
+    if (!received) return std::nullopt;
+    auto probe = parse_probe({bytes_.data(), received->size});
     if (!probe || probe->kind != kind || probe->number != number_) continue;
-    size = (*received)->size;
+    size = received->size;
     return *std::move(probe);
   }
 }
@@ -86,20 +89,11 @@ Asked Prober::ask(const Socket& socket, Probe probe, std::size_t bytes) {
       asked.error = sent.error();
       continue;
     }
-    const auto end = Clock::now() + std::chrono::milliseconds(options_.patience_ms);
-    while (!asked.answer) {
-      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
-      if (left.count() <= 0) break;
-      const auto received = socket.receive(bytes_, static_cast<int>(left.count()));
-      if (!received) {
-        asked.error = received.error();
-        break;
-      }
-      if (!*received) break;
-      auto answer = parse_probe({bytes_.data(), (*received)->size});
-      if (!answer || answer->kind != Probe::Kind::kAnswer || answer->number != number_) continue;
-      asked.size = (*received)->size;
+    auto answer = await(socket, Probe::Kind::kAnswer, asked.size);
+    if (answer) {
       asked.answer = *std::move(answer);
+    } else {
+      asked.error = answer.error();
     }
   }
   return asked;
@@ -119,7 +113,7 @@ std::optional<std::uint32_t> Prober::look_in_other_domains() {
   }
   std::size_t size = 0;
   const auto answer = await(*socket, Probe::Kind::kAnswer, size);
-  return answer ? std::optional(answer->about.domain) : std::nullopt;
+  return answer && *answer ? std::optional((*answer)->about.domain) : std::nullopt;
 }
 
 void Prober::knock(const Socket& socket, ProbeResult& result) {
@@ -161,14 +155,15 @@ void Prober::try_multicast(const Socket& socket, ProbeResult& result) {
     static_cast<void>(asking->send(write_probe(probe, kQuestion), {kMulticastGroup, port}));
     // Other members of the group may answer as well.
     const auto answer = await(*asking, Probe::Kind::kAnswer, size);
-    result.multicast_there = answer && answer->by_multicast;
+    result.multicast_there = answer && *answer && (*answer)->by_multicast;
   }
   for (int attempt = 0; attempt < kTries && !*result.multicast_back; ++attempt) {
     Probe probe;
     probe.kind = Probe::Kind::kCall;
     probe.number = ++number_;
     static_cast<void>(socket.send(write_probe(probe)));
-    result.multicast_back = await(*group, Probe::Kind::kShout, size).has_value();
+    const auto shout = await(*group, Probe::Kind::kShout, size);
+    result.multicast_back = shout && *shout;
   }
 }
 

@@ -18,10 +18,10 @@ namespace {
 Machine lab_machine() {
   Machine machine;
   machine.kernel = "6.1.0-13-amd64";
-  machine.interfaces = {{"lo", "127.0.0.1", 0xff000000, true, false, true},
-                        {"eth0", "192.168.1.7", 0xffffff00, true, true, false},
-                        {"wlan0", "", 0, true, true, false},
-                        {"eth1", "10.0.0.7", 0xffffff00, false, true, false}};
+  machine.interfaces = {{"lo", "127.0.0.1", true, false, true},
+                        {"eth0", "192.168.1.7", true, true, false},
+                        {"wlan0", "", true, true, false},
+                        {"eth1", "10.0.0.7", false, true, false}};
   machine.open_files = 1024;
   machine.receive_buffer_max = 212'992;
   machine.first_handed_out = 32'768;

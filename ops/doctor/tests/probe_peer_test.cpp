@@ -26,7 +26,7 @@ class ProbePeerTest : public ::testing::Test {
   }
 
  protected:
-  void listen(std::uint32_t domain, std::function<std::int64_t()> clock = clock_of_day) {
+  void listen(std::uint32_t domain, std::function<std::int64_t()> clock = wall_ns) {
     Listener::Options options;
     options.address = kThere;
     options.about = about(domain);
@@ -106,7 +106,7 @@ TEST_F(ProbePeerTest, AnotherDomain) {
 }
 
 TEST_F(ProbePeerTest, AClockThatIsWrong) {
-  listen(domain_, [] { return clock_of_day() + 3600 * std::int64_t{1'000'000'000}; });
+  listen(domain_, [] { return wall_ns() + 3600 * std::int64_t{1'000'000'000}; });
   const ProbeResult result = go(domain_);
   ASSERT_TRUE(result.clock);
   EXPECT_NEAR(result.clock->offset.seconds(), 3600, 0.5);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "documents.hpp"
 
-#include <ctime>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
 
 namespace rave::keys {
 namespace {
@@ -17,12 +18,7 @@ std::string element(std::string_view name, std::string_view content) {
 
 /// Without a time zone it means UTC, and all vendors can read it.
 std::string xml_moment(std::int64_t moment_s) {
-  const std::time_t moment = moment_s;
-  std::tm fields{};
-  ::gmtime_r(&moment, &fields);
-  char text[32] = {};
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S", &fields);
-  return text;
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(moment_s));
 }
 
 /// The same topics for reading and writing. Each has a rule of its own, because some vendors accept

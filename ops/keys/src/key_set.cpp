@@ -9,6 +9,7 @@
 #include "layout.hpp"
 #include "private_files.hpp"
 #include "rave/base/file.hpp"
+#include "rave/base/plain_name.hpp"
 
 namespace rave::keys {
 namespace {
@@ -126,16 +127,10 @@ void remove_folders(const fs::path& folder, std::span<const std::string> names) 
 }  // namespace
 
 Status check_name(std::string_view name) {
-  constexpr std::string_view kFirst =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
   if (name.empty() || name.size() > kLongestName) {
     return fail(kBad, "`{}` cannot be a name: expected 1 to {} characters", name, kLongestName);
   }
-  const bool good =
-      kFirst.find(name.front()) != std::string_view::npos && std::ranges::all_of(name, [&](char c) {
-        return c == '-' || c == '_' || kFirst.find(c) != std::string_view::npos;
-      });
-  if (!good) {
+  if (!is_plain_name(name, "-_") || !is_plain(name.front(), "")) {
     return fail(kBad,
                 "`{}` cannot be a name: expected letters, digits, - and _, the first a letter or "
                 "digit",

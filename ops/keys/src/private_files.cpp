@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -20,18 +19,6 @@ tl::unexpected<Error> refused(std::string_view what, const fs::path& path) {
   const int code = errno;
   return fail(code == ENOENT ? ErrorCode::kNotFound : ErrorCode::kIo, "cannot {} `{}`: {}", what,
               path.string(), std::strerror(code));
-}
-
-bool write_all(int file, std::string_view content) {
-  while (!content.empty()) {
-    const ssize_t count = ::write(file, content.data(), content.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return false;
-    content.remove_prefix(static_cast<std::size_t>(count));
-  }
-  // The set must be on the disk before it is moved to its place, or a power failure could leave
-  // empty files under its name.
-  return ::fsync(file) == 0;
 }
 
 }  // namespace
@@ -53,19 +40,6 @@ ScratchFolder::~ScratchFolder() {
 
 Status make_private_folder(const fs::path& folder) {
   if (::mkdir(folder.c_str(), 0700) != 0) return refused("create the folder", folder);
-  return {};
-}
-
-Status write_private_file(const fs::path& path, std::string_view content) {
-  // O_EXCL also refuses a link that another user has put there. The mode is set at creation, so
-  // there is no moment in which others could read the key.
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (file < 0) return refused("create", path);
-  const bool written = write_all(file, content);
-  const int code = errno;
-  const bool closed = ::close(file) == 0;
-  if (!written) errno = code;
-  if (!written || !closed) return refused("write", path);
   return {};
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string_view>
 
 #include "rave/base/result.hpp"
 
@@ -30,10 +29,6 @@ class ScratchFolder {
 
 /// Makes a folder with mode 0700. Errors: kIo.
 [[nodiscard]] Status make_private_folder(const std::filesystem::path& folder);
-
-/// Creates a new file with mode 0600 and flushes it to the disk. Errors: kIo.
-[[nodiscard]] Status write_private_file(const std::filesystem::path& file,
-                                        std::string_view content);
 
 /// Moves a folder to its final name, if that is free. Errors: kInvalidArgument (the name is taken),
 /// kIo.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/chrono.h>
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <ctime>
 
 #include "certificate.hpp"
 #include "layout.hpp"
@@ -183,12 +183,7 @@ Result<KeySetInfo> read_key_set(const fs::path& folder) {
 }
 
 std::string date_text(std::int64_t moment_s) {
-  const std::time_t moment = moment_s;
-  std::tm fields{};
-  ::gmtime_r(&moment, &fields);
-  char text[32] = {};
-  std::strftime(text, sizeof text, "%Y-%m-%d", &fields);
-  return text;
+  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(moment_s));
 }
 
 }  // namespace rave::keys

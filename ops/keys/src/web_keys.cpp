@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/keys/web_keys.hpp"
 
-#include <arpa/inet.h>
-
-#include <algorithm>
-#include <cctype>
-
 #include "certificate.hpp"
 #include "layout.hpp"
 #include "private_files.hpp"
 #include "rave/base/file.hpp"
+#include "rave/base/plain_name.hpp"
 #include "rave/keys/key_set.hpp"
+#include "web_names.hpp"
 
 namespace rave::keys {
 namespace {
@@ -27,19 +24,9 @@ constexpr std::int64_t kEarly_s = 3600;
 constexpr const char* kServer = "server.pem";
 constexpr const char* kServerKey = "server_key.pem";
 
-bool is_address(std::string_view name) {
-  in6_addr ignored{};
-  const std::string text(name);
-  return inet_pton(AF_INET, text.c_str(), &ignored) == 1 ||
-         inet_pton(AF_INET6, text.c_str(), &ignored) == 1;
-}
-
 bool is_label(std::string_view label) {
-  const auto fits = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-';
-  };
-  return !label.empty() && label.size() <= 63 && label.front() != '-' && label.back() != '-' &&
-         std::ranges::all_of(label, fits);
+  return is_plain_name(label, "-") && label.size() <= 63 && label.front() != '-' &&
+         label.back() != '-';
 }
 
 Status check(const NewWebKeys& wanted) {
@@ -117,7 +104,7 @@ Status make_new(const NewWebKeys& wanted, const fs::path& folder, Credential& au
 }  // namespace
 
 Status check_web_name(std::string_view name) {
-  if (is_address(name)) return {};
+  if (is_ipv4(std::string(name)) || is_ipv6(std::string(name))) return {};
   std::string_view rest = name;
   bool good = !name.empty() && name.size() <= 253;
   while (good) {

@@ -4,7 +4,6 @@
 #include <arpa/inet.h>
 
 namespace rave::keys {
-namespace {
 
 bool is_ipv4(const std::string& name) {
   in_addr ignored{};
@@ -15,8 +14,6 @@ bool is_ipv6(const std::string& name) {
   in6_addr ignored{};
   return inet_pton(AF_INET6, name.c_str(), &ignored) == 1;
 }
-
-}  // namespace
 
 std::string constraints_for(const std::vector<std::string>& names) {
   bool has_host = false;

@@ -2,18 +2,12 @@
 #include "rave/watch/lone_run.hpp"
 
 #include <charconv>
-#include <chrono>
 
+#include "rave/base/wall_clock.hpp"
 #include "rave/control/client.hpp"
 
 namespace rave::watch {
 namespace {
-
-std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 RunView view_of(const std::string& name, const runtime::RunStatus& status, bool with_robots) {
   RunView view;
@@ -61,8 +55,8 @@ Result<RunView> LoneRun::look(bool with_robots) {
   }
   last_ = view_of(name_, answer->status, with_robots);
   seen_ = true;
-  time_.add(now_ns(), answer->status.sim_s);
-  last_.speed = time_.at(now_ns());
+  time_.add(steady_ns(), answer->status.sim_s);
+  last_.speed = time_.at(steady_ns());
   last_.hosts.push_back(process_row(answer->status));
   return last_;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "rave/base/wall_clock.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/watch/run_model.hpp"
 
@@ -16,16 +17,8 @@ using Clock = std::chrono::steady_clock;
 /// between two looks.
 constexpr bus::QosProfile kWatched{.reliable = false, .depth = 64};
 
-std::int64_t ns_of(Clock::time_point when) {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(when.time_since_epoch()).count();
-}
-
 /// Delay of a sample by the system clocks of both machines.
-std::int64_t delay_of(const dds_sample_info_t& info) {
-  const auto today = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(today).count() -
-         info.source_timestamp;
-}
+std::int64_t delay_of(const dds_sample_info_t& info) { return wall_ns() - info.source_timestamp; }
 
 }  // namespace
 
@@ -58,7 +51,7 @@ Status Observer::Impl::open(const bus::BusConfig& config) {
 }
 
 void Observer::Impl::take() {
-  const std::int64_t now_ns = ns_of(Clock::now());
+  const std::int64_t now_ns = steady_ns();
   // Introductions first: they say which host the later messages of a process belong to.
   infos.take([&](const bus::HostInfo& info) { model.hear(info); });
   runs.take([&](const bus::RunState& state) { model.hear(state, now_ns); });
@@ -99,7 +92,7 @@ void Observer::watch(Duration span, const std::stop_token& stop) {
 }
 
 RunView Observer::view(bool with_robots) const {
-  return impl_->model.view(ns_of(Clock::now()), with_robots);
+  return impl_->model.view(steady_ns(), with_robots);
 }
 
 bus::Bus& Observer::bus() noexcept { return *impl_->bus; }

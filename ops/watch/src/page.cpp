@@ -21,29 +21,13 @@ constexpr double kGoodShare = 0.9;
 constexpr double kMostMissed_pct = 1;
 
 Tone tone_of(Standing standing) {
-  switch (standing) {
-    case Standing::kHere:
-      return Tone::kGood;
-    case Standing::kWaiting:
-    case Standing::kLate:
-      return Tone::kCare;
-    case Standing::kGone:
-    case Standing::kDropped:
-      break;
-  }
-  return Tone::kBad;
+  constexpr Tone kTones[] = {Tone::kCare, Tone::kGood, Tone::kCare, Tone::kBad, Tone::kBad};
+  return kTones[static_cast<std::size_t>(standing)];
 }
 
 Tone tone_of(Phase phase) {
-  switch (phase) {
-    case Phase::kRunning:
-    case Phase::kEnded:
-      return Tone::kGood;
-    case Phase::kFailed:
-      return Tone::kBad;
-    default:
-      return Tone::kCare;
-  }
+  if (phase == Phase::kFailed) return Tone::kBad;
+  return phase == Phase::kRunning || phase == Phase::kEnded ? Tone::kGood : Tone::kCare;
 }
 
 template <class Value, class Text>
@@ -154,17 +138,8 @@ Table robots_table(const RunView& view) {
 }
 
 std::string timing_text(Timing timing) {
-  switch (timing) {
-    case Timing::kLockStep:
-      return "in lock-step";
-    case Timing::kRealTime:
-      return "in real time";
-    case Timing::kAlone:
-      return "one process";
-    case Timing::kUnknown:
-      break;
-  }
-  return {};
+  constexpr const char* kTexts[] = {"", "in lock-step", "in real time", "one process"};
+  return kTexts[static_cast<std::size_t>(timing)];
 }
 
 /// The first line: parts that are left out from the end if it is too narrow.

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 
 #include "process_usage.hpp"
+#include "rave/base/wall_clock.hpp"
 #include "rave/control/run_control.hpp"
 
 namespace rave::watch {
@@ -41,9 +41,7 @@ HostView ProcessRow::row(std::string name, std::uint32_t process,
   if (const auto usage = usage_of(process)) {
     host.process = process;
     host.memory_mb = usage->memory_mb;
-    const std::int64_t now_ns = std::chrono::duration_cast<std::chrono::nanoseconds>(
-                                    std::chrono::steady_clock::now().time_since_epoch())
-                                    .count();
+    const std::int64_t now_ns = steady_ns();
     cpu_.add(now_ns, usage->cpu_s);
     host.cores = cpu_.at(now_ns);
   }

@@ -101,10 +101,7 @@ RunModel::State RunModel::read(const bus::RunState& state) {
   now.step_s = state.step_s;
   now.speed = state.speed;
   now.text = state.text;
-  for (const rave_wire_HostSight& host : bus::elements(state.hosts)) {
-    now.hosts[host.host] = {host.name,     host.phase,   host.robots,  host.step,
-                            host.offset_s, host.bound_s, host.machine, host.folder};
-  }
+  for (const Sight& host : bus::elements(state.hosts)) now.hosts[host.host] = host;
   return now;
 }
 

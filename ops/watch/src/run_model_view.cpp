@@ -177,7 +177,7 @@ HostView RunModel::manager_view(const Process& process, std::int64_t now_ns) con
 std::string RunModel::name_of(std::uint32_t host) const {
   if (state_) {
     const auto sight = state_->hosts.find(host);
-    if (sight != state_->hosts.end() && !sight->second.name.empty()) return sight->second.name;
+    if (sight != state_->hosts.end() && sight->second.name[0] != 0) return sight->second.name;
   }
   const Process* const process = speaker_of(host);
   return process != nullptr && !process->name.empty() ? process->name

@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "rave/base/json_text.hpp"
+
 namespace rave::watch {
 namespace {
 
@@ -99,7 +101,7 @@ std::string to_json(const RunView& view) {
   json["robots"] = Json::array();
   for (const RobotView& robot : view.robots) json["robots"].push_back(json_of(robot));
   // Names come from other processes and need not be UTF-8.
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json) + "\n";
 }
 
 }  // namespace rave::watch

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/direct_line/key_files.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sodium.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <span>
 
 #include "rave/base/file.hpp"
@@ -70,16 +66,7 @@ Status make_key_files(const fs::path& file) {
   }
   const SigningKey key = new_signing_key();
   const std::string text = fmt::format("{}{}\n", kSecretWord, hex_of(key.secret));
-  // No other user may read it at any moment, so the mode is given when it is created. O_EXCL: a
-  // link that another user has put there is not followed.
-  const int handle = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  const bool written = handle >= 0 && ::write(handle, text.data(), text.size()) == std::ssize(text);
-  // Kept, because close() may change it.
-  const int reason = errno;
-  if (handle >= 0) ::close(handle);
-  if (!written) {
-    return fail(ErrorCode::kIo, "cannot write `{}`: {}", file.string(), std::strerror(reason));
-  }
+  RAVE_TRY(write_private_file(file, text));
   return write_public_key(open, key.open);
 }
 

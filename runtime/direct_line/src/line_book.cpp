@@ -6,6 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "page_key.hpp"
+#include "rave/base/json_text.hpp"
+#include "rave/base/wall_clock.hpp"
+#include "rave/control/order_words.hpp"
 #include "signed_text.hpp"
 
 namespace rave::direct_line {
@@ -24,15 +27,7 @@ constexpr std::size_t kMostRemembered = 2000;
 constexpr double kRefusals = 30;
 constexpr double kRefusalsPerSecond = 0.2;
 
-std::string dumped(const LineJson& json) {
-  return json.dump(-1, ' ', false, LineJson::error_handler_t::replace);
-}
-
-std::int64_t day_clock_ms() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
+std::string dumped(const LineJson& json) { return json_text(json); }
 
 /// The robots for which a ticket permits a kind of order.
 const RobotSet& reach_of(const Ticket& ticket, Kind kind) {
@@ -49,7 +44,7 @@ LineBook::LineBook(const LineOptions& options, runtime::RunControl& control)
       post_(control),
       refusals_(kRefusalsPerSecond, kRefusals),
       cuts_(kRefusalsPerSecond, kRefusals) {
-  if (!options_.clock_ms) options_.clock_ms = day_clock_ms;
+  if (!options_.clock_ms) options_.clock_ms = [] { return wall_ns() / 1'000'000; };
 }
 
 void LineBook::opened(std::uint64_t id, web::Socket& socket, const web::Request& request) {
@@ -80,7 +75,6 @@ void LineBook::received(std::uint64_t id, std::string_view text) {
   Line& line = found->second;
   const auto message = parse_line_message(text);
   if (!message) {
-    ++counts_.refused_orders;
     note_refusal(line, "a message", message.error().message);
     line.send(dumped({{"type", "answer"}, {"good", false}, {"text", message.error().message}}));
     // A page with a ticket may be of another version and is given some patience; a stranger is not.
@@ -176,7 +170,6 @@ void LineBook::welcome(std::uint64_t id, Line& line, Ticket ticket) {
     close(other, kReplaced, "the page opened another line");
   }
   line.ticket = std::move(ticket);
-  ++counts_.welcomed;
   if (options_.log != nullptr) {
     options_.log->info("line", "{} has connected as {}", line.who(), line.ticket->role);
   }
@@ -231,13 +224,11 @@ Result<std::vector<runtime::RunRequest>> LineBook::covered(const Ticket& ticket,
 void LineBook::take(std::uint64_t id, Line& line, const OrderMessage& order) {
   auto requests = covered(*line.ticket, order.request);
   if (!requests) {
-    ++counts_.refused_orders;
     note_refusal(line, runtime::to_string(order.request.kind), requests.error().message);
     return answer(id, order.id, false, requests.error().message);
   }
-  const bool takes_lease = order.request.kind != Kind::kStop &&
-                           order.request.kind != Kind::kRelease &&
-                           order.request.kind != Kind::kGive;
+  const bool takes_lease =
+      runtime::is_order(order.request.kind) || order.request.kind == Kind::kTake;
   // Only an attacker who wants to fill the memory names more robots than a page commands at once.
   if (takes_lease && line.ordered.size() < kMostRemembered) {
     line.ordered.insert(order.request.robot);
@@ -263,7 +254,6 @@ void LineBook::close(Line& line, std::uint16_t code, std::string_view why) {
 }
 
 void LineBook::refuse_line(Line& line, std::string_view why) {
-  ++counts_.refused_lines;
   note_refusal(line, "a line", why);
   close(line, kBadTicket, why);
 }
@@ -300,7 +290,6 @@ void LineBook::withdraw(const std::string& signed_text) {
   for (auto& [id, line] : lines_) {
     if (line.closing || !line.ticket || line.ticket->user != withdrawal->user) continue;
     if (line.ticket->epoch >= epoch) continue;
-    ++counts_.withdrawn;
     if (options_.log != nullptr) options_.log->warn("line", "{}: rights changed", line.who());
     post_.forget(id);
     close(line, kWithdrawn, "your rights have changed");
@@ -343,15 +332,6 @@ void LineBook::tell_state() {
     line.told_state = text;
     line.send(std::move(text));
   }
-}
-
-LineCounts LineBook::counts() const {
-  LineCounts counts = counts_;
-  counts.orders = post_.given();
-  for (const auto& [id, line] : lines_) {
-    if (line.ticket && !line.closing) ++counts.open;
-  }
-  return counts;
 }
 
 }  // namespace rave::direct_line

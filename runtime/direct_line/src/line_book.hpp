@@ -40,7 +40,6 @@ class LineBook {
   void look_around();
   /// Stops all robots that are driven.
   void end();
-  [[nodiscard]] LineCounts counts() const;
 
  private:
   using Request = runtime::RunRequest;
@@ -72,7 +71,6 @@ class LineBook {
   web::RateLimit refusals_;
   web::RateLimit cuts_;
   std::uint64_t untold_ = 0;  ///< Refusals omitted from the log because there were too many.
-  LineCounts counts_;
 };
 
 }  // namespace rave::direct_line

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "line_message.hpp"
 
-#include <cmath>
 #include <utility>
 
-#include "json_members.hpp"
-#include "rave/control/order_words.hpp"
+#include "rave/direct_line/order_members.hpp"
 #include "rave/direct_line/ticket.hpp"
 #include "signed_text.hpp"
 
@@ -17,98 +15,28 @@ using Kind = RunRequest::Kind;
 
 constexpr std::size_t kLongestName = 256;
 constexpr std::size_t kLongestProof = 128;
-constexpr double kMostYaw_rad = 1000;
 
-Result<double> number_within(JsonMembers& members, const char* name, double most) {
-  RAVE_TRY_ASSIGN(const double value, members.number(name));
-  if (std::abs(value) > most) {
-    return fail(ErrorCode::kParse, "`{}`: expected {} to {}", name, -most, most);
-  }
-  return value;
-}
+constexpr WordTable<Kind, 10> kOrders = {{{"drive", Kind::kDrive},
+                                          {"goal", Kind::kGoal},
+                                          {"path", Kind::kPath},
+                                          {"cancel", Kind::kCancel},
+                                          {"text", Kind::kText},
+                                          {"place", Kind::kPlace},
+                                          {"take", Kind::kTake},
+                                          {"give", Kind::kGive},
+                                          {"stop", Kind::kStop},
+                                          {"release", Kind::kRelease}}};
 
-Result<std::vector<Vec2>> points_of(JsonMembers& members, bool path) {
-  RAVE_TRY_ASSIGN(const nlohmann::json* const value, members.any("points"));
-  if (!value->is_array()) return fail(ErrorCode::kParse, "`points`: expected a list");
-  if (path) RAVE_TRY(runtime::check_path_size(value->size()));
-  if (!path && value->size() != 1) return fail(ErrorCode::kParse, "`points`: expected one point");
-  std::vector<Vec2> points;
-  for (const nlohmann::json& pair : *value) {
-    if (!pair.is_array() || pair.size() != 2 || !pair[0].is_number() || !pair[1].is_number()) {
-      return fail(ErrorCode::kParse, "`points`: expected pairs of x and y in metres");
-    }
-    const Vec2 point{pair[0].get<double>(), pair[1].get<double>()};
-    const bool near = std::abs(point.x) <= kFarthest_m && std::abs(point.y) <= kFarthest_m;
-    if (!near)
-      return fail(ErrorCode::kParse, "`points`: expected coordinates within ±{} m", kFarthest_m);
-    points.push_back(point);
+/// Reads what an order about the lease of a robot has.
+Status read_lease(JsonMembers& members, RunRequest& request) {
+  if (request.kind == Kind::kTake && members.has("force")) {
+    RAVE_TRY_ASSIGN(const bool force, members.flag("force"));
+    request.value = force ? "force" : "";
   }
-  return points;
-}
-
-Status read_place(JsonMembers& members, RunRequest& request) {
-  const bool path = request.kind == Kind::kPath;
-  RAVE_TRY_ASSIGN(request.points, points_of(members, path));
-  if (!path && members.has("yaw")) {
-    RAVE_TRY_ASSIGN(request.yaw_rad, number_within(members, "yaw", kMostYaw_rad));
-  }
-  if (request.kind == Kind::kPlace || !members.has("speed")) return {};
-  RAVE_TRY_ASSIGN(request.speed_mps, members.number("speed"));
-  if (request.speed_mps < 0 || request.speed_mps > kMostSpeed_mps) {
-    return fail(ErrorCode::kParse, "`speed`: expected 0 to {} m/s", kMostSpeed_mps);
+  if (request.kind == Kind::kGive && members.has("to")) {
+    RAVE_TRY_ASSIGN(request.value, members.text("to", kLongestName));
   }
   return {};
-}
-
-/// Reads the members that belong to the kind of request.
-Status read_kind(JsonMembers& members, RunRequest& request) {
-  switch (request.kind) {
-    case Kind::kDrive: {
-      RAVE_TRY_ASSIGN(request.v_mps, number_within(members, "v", kMostSpeed_mps));
-      RAVE_TRY_ASSIGN(request.w_radps, number_within(members, "w", kMostTurn_radps));
-      return {};
-    }
-    case Kind::kGoal:
-    case Kind::kPath:
-    case Kind::kPlace:
-      return read_place(members, request);
-    case Kind::kText: {
-      RAVE_TRY_ASSIGN(request.value, members.text("text", kLongestText));
-      if (request.value.empty()) return fail(ErrorCode::kParse, "`text`: expected text");
-      return {};
-    }
-    case Kind::kTake: {
-      if (!members.has("force")) return {};
-      RAVE_TRY_ASSIGN(const bool force, members.flag("force"));
-      request.value = force ? "force" : "";
-      return {};
-    }
-    case Kind::kGive: {
-      if (!members.has("to")) return {};
-      RAVE_TRY_ASSIGN(request.value, members.text("to", kLongestName));
-      return {};
-    }
-    default:
-      return {};
-  }
-}
-
-bool is_for_lines(Kind kind) {
-  switch (kind) {
-    case Kind::kDrive:
-    case Kind::kGoal:
-    case Kind::kPath:
-    case Kind::kCancel:
-    case Kind::kText:
-    case Kind::kPlace:
-    case Kind::kTake:
-    case Kind::kGive:
-    case Kind::kStop:
-    case Kind::kRelease:
-      return true;
-    default:
-      return false;
-  }
 }
 
 /// Whether an order of this kind may address all robots.
@@ -119,21 +47,15 @@ bool takes_all(Kind kind) {
 Result<LineMessage> order_of(JsonMembers& members) {
   OrderMessage order;
   RAVE_TRY_ASSIGN(order.id, members.whole("id"));
-  RAVE_TRY_ASSIGN(const std::string word, members.text("kind", kLongestName));
-  const auto kind = runtime::request_kind(word);
-  if (!kind || !is_for_lines(*kind)) {
-    return fail(ErrorCode::kParse,
-                "`kind`: expected drive, goal, path, cancel, text, place, take, give, stop or "
-                "release");
-  }
-  order.request.kind = *kind;
+  RAVE_TRY_ASSIGN(order.request.kind, members.choice("kind", kOrders));
   if (members.has("robot")) {
     RAVE_TRY_ASSIGN(order.request.robot, members.text("robot", kLongestName));
   }
-  if (order.request.robot.empty() && !takes_all(*kind)) {
+  if (order.request.robot.empty() && !takes_all(order.request.kind)) {
     return fail(ErrorCode::kParse, "`robot`: expected a name");
   }
-  RAVE_TRY(read_kind(members, order.request));
+  RAVE_TRY(read_order(members, 1, order.request));
+  RAVE_TRY(read_lease(members, order.request));
   if (members.has("echo")) {
     RAVE_TRY_ASSIGN(order.echo, members.flag("echo"));
   }
@@ -150,29 +72,29 @@ Result<LineMessage> hello_of(JsonMembers& members) {
   return LineMessage(std::move(hello));
 }
 
-Result<LineMessage> message_of_type(const std::string& type, JsonMembers& members) {
-  if (type == "hello") return hello_of(members);
-  if (type == "order") return order_of(members);
-  if (type == "ping") {
-    PingMessage ping;
-    RAVE_TRY_ASSIGN(ping.id, members.whole("id"));
-    return LineMessage(ping);
-  }
-  if (type == "ticket") {
-    RenewMessage renew;
-    RAVE_TRY_ASSIGN(renew.ticket, members.text("ticket", kLongestTicket));
-    return LineMessage(std::move(renew));
-  }
-  return fail(ErrorCode::kParse, "`type`: expected hello, order, ping or ticket");
+Result<LineMessage> ping_of(JsonMembers& members) {
+  PingMessage ping;
+  RAVE_TRY_ASSIGN(ping.id, members.whole("id"));
+  return LineMessage(ping);
 }
+
+Result<LineMessage> renew_of(JsonMembers& members) {
+  RenewMessage renew;
+  RAVE_TRY_ASSIGN(renew.ticket, members.text("ticket", kLongestTicket));
+  return LineMessage(std::move(renew));
+}
+
+using Take = Result<LineMessage> (*)(JsonMembers&);
+constexpr WordTable<Take, 4> kTypes = {
+    {{"hello", hello_of}, {"order", order_of}, {"ping", ping_of}, {"ticket", renew_of}}};
 
 }  // namespace
 
 Result<LineMessage> parse_line_message(std::string_view text) {
-  RAVE_TRY_ASSIGN(const nlohmann::json object, JsonMembers::parse_object(text, "message"));
+  RAVE_TRY_ASSIGN(const Json object, JsonMembers::parse_object(text, "message"));
   JsonMembers members(object);
-  RAVE_TRY_ASSIGN(const std::string type, members.text("type", kLongestName));
-  auto message = message_of_type(type, members);
+  RAVE_TRY_ASSIGN(const Take take, members.choice("type", kTypes));
+  auto message = take(members);
   if (message) RAVE_TRY(members.finish());
   return message;
 }

@@ -32,12 +32,6 @@ struct OrderMessage {
 };
 using LineMessage = std::variant<HelloMessage, RenewMessage, PingMessage, OrderMessage>;
 
-/// Faster than any robot; larger values are mistakes.
-inline constexpr double kMostSpeed_mps = 100;
-inline constexpr double kMostTurn_radps = 100;
-inline constexpr double kFarthest_m = 1e6;
-inline constexpr std::size_t kLongestText = 1000;
-
 /// Errors: kParse, with what was expected.
 [[nodiscard]] Result<LineMessage> parse_line_message(std::string_view text);
 

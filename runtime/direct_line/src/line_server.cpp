@@ -69,12 +69,6 @@ class LineServer::Impl final : public web::Handler {
   void withdraw(std::string signed_text) {
     server_->post([this, text = std::move(signed_text)] { book_.withdraw(text); });
   }
-  [[nodiscard]] LineCounts counts() const {
-    std::promise<LineCounts> counts;
-    server_->post([this, &counts] { counts.set_value(book_.counts()); });
-    return counts.get_future().get();
-  }
-
   web::Response serve(const web::Request& request) override {
     if (request.method == "POST") return web::text_response(405, "method not allowed\n");
     if (request.path == "/healthz") return web::text_response(200, "ok\n");
@@ -113,6 +107,5 @@ std::string LineServer::url() const {
 
 std::uint16_t LineServer::port() const noexcept { return impl_->server().port(); }
 void LineServer::withdraw(std::string signed_text) { impl_->withdraw(std::move(signed_text)); }
-LineCounts LineServer::counts() const { return impl_->counts(); }
 
 }  // namespace rave::direct_line

@@ -35,7 +35,6 @@ void OrderPost::give(Line line, std::vector<runtime::RunRequest> requests, Answe
   for (runtime::RunRequest& request : requests) {
     auto posted = control_.post(std::move(request));
     if (posted) {
-      ++given_;
       waiting.futures.push_back(*std::move(posted));
     } else {
       append(waiting.refused, posted.error().message);
@@ -67,7 +66,6 @@ void OrderPost::drive(Line line, runtime::RunRequest request, bool echo, Answer 
 void OrderPost::begin(Drive& drive, bool echo, Answer answer) {
   auto posted = control_.post(drive.newest);
   if (!posted) return answer(false, posted.error().message);
-  ++given_;
   drive.under_way = *std::move(posted);
   drive.echo = echo;
   drive.answer = std::move(answer);
@@ -102,7 +100,7 @@ void OrderPost::forget(Line line) {
       runtime::RunRequest stand = std::move(drive->second.newest);
       stand.v_mps = stand.w_radps = 0;
       // The line is gone, so the answer is not needed.
-      if (control_.post(std::move(stand))) ++given_;
+      static_cast<void>(control_.post(std::move(stand)));
     }
     drive = drives_.erase(drive);
   }

@@ -38,7 +38,6 @@ class OrderPost {
   void forget(Line line);
   /// Passes on the answers that have arrived.
   void poll();
-  [[nodiscard]] std::uint64_t given() const noexcept { return given_; }
 
  private:
   using Future = std::future<Result<std::string>>;
@@ -65,7 +64,6 @@ class OrderPost {
   runtime::RunControl& control_;
   std::vector<Waiting> waiting_;
   std::map<std::pair<Line, std::string>, Drive> drives_;
-  std::uint64_t given_ = 0;
 };
 
 }  // namespace rave::direct_line

@@ -64,17 +64,17 @@ TEST(LineMessage, RefusesWhatIsNoOrder) {
   EXPECT_EQ(refused(R"("kind":"drive","v":null,"w":0)"), "`v`: expected a finite number");
   EXPECT_EQ(refused(R"("kind":"drive","v":NaN,"w":0)"), "not a valid message");
   EXPECT_EQ(refused(R"("kind":"drive","v":1e999,"w":0)"), "not a valid message");
-  EXPECT_EQ(refused(R"("kind":"drive","v":101,"w":0)"), "`v`: expected -100 to 100");
+  EXPECT_EQ(refused(R"("kind":"drive","v":101,"w":0)"), "`v`: expected a number from -100 to 100");
   EXPECT_EQ(refused(R"("kind":"drive","v":1)"), "`w` is missing");
-  EXPECT_EQ(refused(R"("kind":"goal","points":[])"), "`points`: expected one point");
+  EXPECT_EQ(refused(R"("kind":"goal","points":[])"), "`points`: expected one for each robot, 1");
   EXPECT_EQ(refused(R"("kind":"goal","points":[[1]])"),
-            "`points`: expected pairs of x and y in metres");
+            "`points`: expected pairs of x and y in metres, within ±1000000 m");
   EXPECT_EQ(refused(R"("kind":"goal","points":[[1,1e7]])"),
-            "`points`: expected coordinates within ±1000000 m");
+            "`points`: expected pairs of x and y in metres, within ±1000000 m");
   EXPECT_EQ(refused(R"("kind":"path","points":[[1,1]])"),
             "a path has 1 points; expected 2 to 1000");
   EXPECT_EQ(refused(R"("kind":"text","text":"")"), "`text`: expected text");
-  EXPECT_EQ(refused(R"("kind":"stop","by":"ben")"), "unknown members");
+  EXPECT_EQ(refused(R"("kind":"stop","by":"ben")"), "the message has unknown members");
   for (const char* const other : {"set", "edit", "arm", "hand_over", "list"}) {
     EXPECT_NE(refused((R"("kind":")" + std::string(other) + "\"").c_str()).find("`kind`: expected"),
               std::string::npos)

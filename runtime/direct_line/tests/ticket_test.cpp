@@ -103,7 +103,8 @@ TEST(Ticket, SaysWhatIsMissingThoughItIsSigned) {
   EXPECT_EQ(why_not(sign_ticket(observer, key), key), "`role`: expected commander or super_user");
   Ticket keyless = sample_ticket();
   keyless.page_key = "short";
-  EXPECT_EQ(why_not(sign_ticket(keyless, key), key), "`key`: expected a point of P-256");
+  EXPECT_EQ(why_not(sign_ticket(keyless, key), key),
+            "`key`: expected an uncompressed point of P-256 in base64url");
 }
 
 TEST(PageKeys, SignWhatTheySigned) {

@@ -120,7 +120,7 @@ TEST_F(BusFaceTest, ReadingsComeWhileSomebodyLooksAtThem) {
   look_on();
   asked_.sensors = {{0, 0}};
   ASSERT_TRUE(until([&] { return listener_->readings().contains({0, 0, 0}); }));
-  const onlook::HeardReading& heard = listener_->readings().at({0, 0, 0});
+  const onlook::ReadingAt& heard = listener_->readings().at({0, 0, 0});
   const sim::SensorSample sample = engine_->sensor(RobotId(0), 0);
   EXPECT_EQ(heard.rows, 5U);
   EXPECT_EQ(heard.fields, 1U);

@@ -44,12 +44,13 @@ void Listener::look(const Asked& asked) {
     asked_ = asked;
     ++number_;
     std::erase_if(readings_, [&](const auto& entry) {
-      return !is_asked(entry.second.sensor) || (entry.second.part != 0 && !asked_.parts);
+      const ReadingAt& reading = entry.second;
+      return !is_asked({reading.slot, reading.sensor}) || (reading.part != 0 && !asked_.parts);
     });
     sensors_.clear();
     const std::size_t most = std::min<std::size_t>(asked_.sensors.size(), rave_wire_kMaxLookedAt);
     for (std::size_t i = 0; i < most; ++i) {
-      sensors_.push_back({asked_.sensors[i].robot, asked_.sensors[i].sensor});
+      sensors_.push_back({asked_.sensors[i].slot, asked_.sensors[i].sensor});
     }
   }
   next_look_ = now + kSayAgain;
@@ -79,7 +80,7 @@ void Listener::look(const Asked& asked) {
 bool Listener::is_asked(const LookedAt& sensor) const {
   if (!probe::is_probe(sensor.sensor)) return std::ranges::binary_search(asked_.sensors, sensor);
   return std::ranges::any_of(asked_.probes, [&sensor](const probe::Asked& probe) {
-    return probe.robot == sensor.robot && probe.number == sensor.sensor;
+    return probe.robot == sensor.slot && probe.number == sensor.sensor;
   });
 }
 
@@ -98,11 +99,11 @@ void Listener::hear(const bus::Readings& sample) {
     const float* const first = values;
     const std::size_t count = std::size_t{reading.rows} * reading.fields;
     values += count;
-    const LookedAt sensor{reading.robot, reading.sensor};
-    if (!is_asked(sensor)) continue;
+    if (!is_asked({reading.robot, reading.sensor})) continue;
     if (readings_.size() >= kMostReadings) continue;
-    HeardReading& heard = readings_[{reading.robot, reading.sensor, reading.part}];
-    heard.sensor = sensor;
+    ReadingAt& heard = readings_[{reading.robot, reading.sensor, reading.part}];
+    heard.slot = reading.robot;
+    heard.sensor = reading.sensor;
     heard.part = reading.part;
     heard.stamp_s = SimTime{reading.stamp_ns}.seconds();
     heard.rows = reading.rows;

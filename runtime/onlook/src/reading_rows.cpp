@@ -2,11 +2,24 @@
 #include "rave/onlook/reading_rows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
-#include <iterator>
+#include <string_view>
 
 namespace rave::onlook {
 namespace {
+
+/// In the order of ReadingKind; those behind the last one are empty.
+constexpr std::array<std::array<std::string_view, 5>, 9> kFields = {
+    {{},
+     {"range [m]"},
+     {"code", "range [m]", "bearing [rad]"},
+     {"x [m]", "y [m]", "yaw [rad]", "variance xy [m²]", "variance yaw [rad²]"},
+     {"x [m]", "y [m]", "yaw [rad]", "v [m/s]", "w [rad/s]"},
+     {"robot", "range [m]", "bearing [rad]", "vx [m/s]", "vy [m/s]"},
+     {"touching", "bearing [rad]"},
+     {"v [m/s]", "w [rad/s]"},
+     {"value"}}};
 
 template <class Record>
 Record record_at(std::span<const std::byte> records, std::size_t index) {
@@ -59,33 +72,15 @@ void add_record(ReadingKind kind, std::span<const std::byte> records, std::size_
 }  // namespace
 
 std::vector<std::string> fields_of(ReadingKind kind) {
-  switch (kind) {
-    case ReadingKind::kRanges:
-      return {"range [m]"};
-    case ReadingKind::kSightings:
-      return {"code", "range [m]", "bearing [rad]"};
-    case ReadingKind::kPose:
-      return {"x [m]", "y [m]", "yaw [rad]", "variance xy [m²]", "variance yaw [rad²]"};
-    case ReadingKind::kOdometry:
-      return {"x [m]", "y [m]", "yaw [rad]", "v [m/s]", "w [rad/s]"};
-    case ReadingKind::kNeighbours:
-      return {"robot", "range [m]", "bearing [rad]", "vx [m/s]", "vy [m/s]"};
-    case ReadingKind::kContact:
-      return {"touching", "bearing [rad]"};
-    case ReadingKind::kVelocity:
-      return {"v [m/s]", "w [rad/s]"};
-    case ReadingKind::kValues:
-      return {"value"};
-    case ReadingKind::kNone:
-      return {};
-  }
-  return {};
+  const auto& fields = kFields.at(static_cast<std::size_t>(kind));
+  return {fields.begin(), fields.begin() + field_count(kind)};
 }
 
 std::uint32_t field_count(ReadingKind kind) noexcept {
-  constexpr std::uint32_t kCounts[] = {0, 1, 3, 5, 5, 5, 2, 2, 1};
   const auto index = static_cast<std::size_t>(kind);
-  return index < std::size(kCounts) ? kCounts[index] : 0;
+  if (index >= kFields.size()) return 0;
+  const auto& fields = kFields[index];
+  return static_cast<std::uint32_t>(std::ranges::find(fields, "") - fields.begin());
 }
 
 std::uint32_t add_rows(ReadingKind kind, std::uint32_t count, std::span<const std::byte> records,

@@ -4,69 +4,57 @@
 #include "rave/bus/sequence.hpp"
 #include "rave/onlook/command_row.hpp"
 #include "rave/onlook/reading_rows.hpp"
+#include "rave/onlook/sensor_parts.hpp"
 
 namespace rave::onlook {
+
+rave_wire_Reading* ReadingTeller::begin(const LookedAt& looked, std::uint8_t part,
+                                        std::uint32_t sequence, std::size_t numbers) {
+  const auto [told, fresh] = told_.try_emplace({looked.slot, looked.sensor, part}, 0);
+  if (told->second == sequence) return nullptr;
+  if (readings_.size() == rave_wire_kMaxReadings ||
+      values_.size() + numbers > rave_wire_kMaxReadingValues) {
+    ++left_out_;
+    return nullptr;
+  }
+  told->second = sequence;
+  rave_wire_Reading& reading = readings_.emplace_back();
+  reading.robot = looked.slot;
+  reading.sensor = looked.sensor;
+  reading.part = part;
+  return &reading;
+}
 
 void ReadingTeller::put_part(const LookedAt& looked, std::uint8_t part, ReadingKind kind,
                              const SampleHeader* header, const void* records) {
   if (header == nullptr || header->sequence == 0) return;
-  const auto [told, fresh] = told_.try_emplace({looked.robot, looked.sensor, part}, 0);
-  if (told->second == header->sequence) return;
   const std::size_t numbers = std::size_t{header->count} * field_count(kind);
-  if (readings_.size() == rave_wire_kMaxReadings ||
-      values_.size() + numbers > rave_wire_kMaxReadingValues) {
-    ++left_out_;
-    return;
-  }
-  told->second = header->sequence;
-  rave_wire_Reading& reading = readings_.emplace_back();
-  reading.robot = looked.robot;
-  reading.sensor = looked.sensor;
-  reading.part = part;
-  reading.stamp_ns = header->stamp_ns;
-  reading.fields = field_count(kind);
-  reading.rows = add_rows(
+  rave_wire_Reading* const reading = begin(looked, part, header->sequence, numbers);
+  if (reading == nullptr) return;
+  reading->stamp_ns = header->stamp_ns;
+  reading->fields = field_count(kind);
+  reading->rows = add_rows(
       kind, header->count,
       {static_cast<const std::byte*>(records), header->count * record_size(kind)}, values_);
 }
 
 void ReadingTeller::put_commands(const sim::Engine& engine, const LookedAt& looked) {
-  const auto row = command_row(engine, RobotId(looked.robot));
+  const auto row = command_row(engine, RobotId(looked.slot));
   if (!row) return;
   const auto step = static_cast<std::uint32_t>(engine.steps_done());
-  const auto [told, fresh] = told_.try_emplace({looked.robot, looked.sensor, 0}, 0);
-  const bool full = readings_.size() == rave_wire_kMaxReadings ||
-                    values_.size() + row->size() > rave_wire_kMaxReadingValues;
-  if (told->second == step) return;
-  if (full) {
-    ++left_out_;
-    return;
-  }
-  told->second = step;
-  rave_wire_Reading& reading = readings_.emplace_back();
-  reading.robot = looked.robot;
-  reading.sensor = looked.sensor;
-  reading.part = 0;
-  reading.stamp_ns = engine.time().ns;
-  reading.fields = kCommandFields;
-  reading.rows = 1;
+  rave_wire_Reading* const reading = begin(looked, 0, step, row->size());
+  if (reading == nullptr) return;
+  reading->stamp_ns = engine.time().ns;
+  reading->fields = kCommandFields;
+  reading->rows = 1;
   values_.insert(values_.end(), row->begin(), row->end());
 }
 
 void ReadingTeller::put(const sim::Engine& engine, const LookedAt& looked, bool parts) {
-  const sim::EngineSpec& spec = engine.spec();
-  const RobotId robot(looked.robot);
-  if (looked.robot >= spec.robots.size() || !engine.is_local(robot)) return;
   if (looked.sensor == kCommandsOf) return put_commands(engine, looked);
-  const auto& sensors = spec.types[spec.robots[looked.robot].type].sensors;
-  if (looked.sensor >= sensors.size()) return;
-  const ReadingKind kind = sensors[looked.sensor].kind;
-  const sim::SensorSample sample = engine.sensor(robot, looked.sensor);
-  put_part(looked, 0, kind, sample.header, sample.records);
-  if (!parts) return;
-  const sim::SensorParts halves = engine.sensor_parts(robot, looked.sensor);
-  put_part(looked, 1, kind, halves.real, halves.real_records);
-  put_part(looked, 2, kind, halves.imagined, halves.imagined_records);
+  for_each_part(engine, RobotId(looked.slot), looked.sensor, parts,
+                [&](std::uint8_t part, ReadingKind kind, const SampleHeader* header,
+                    const void* records) { put_part(looked, part, kind, header, records); });
 }
 
 void ReadingTeller::tell(const sim::Engine& engine, const Asked& asked, probe::Probes& probes,

@@ -26,18 +26,16 @@ bool is_frequent(sim::EventKind kind) noexcept {
 }  // namespace
 
 Result<Teller> Teller::create(bus::Bus& bus, Options options) {
-  RAVE_TRY_ASSIGN(auto looks, bus::Reader<bus::Look>::create(bus));
-  RAVE_TRY_ASSIGN(auto events, bus::Writer<bus::RunEvents>::create(bus));
   RAVE_TRY_ASSIGN(auto readings, bus::Writer<bus::Readings>::create(bus));
-  RAVE_TRY_ASSIGN(auto tiles, bus::Writer<bus::MapTile>::create(bus));
   std::optional<ObstacleTeller> obstacles;
   if (options.obstacles) {
     RAVE_TRY_ASSIGN(auto writer, bus::Writer<bus::LastObstacle>::create(bus));
     obstacles.emplace(std::move(writer));
   }
   ReadingTeller teller(std::move(readings), options.host);
-  return Teller(std::move(options), std::move(looks), std::move(events), std::move(teller),
-                std::move(tiles), std::move(obstacles));
+  Teller made(std::move(options), std::move(teller), std::move(obstacles));
+  RAVE_TRY(bus::open_all(bus, made.looks_, made.events_, made.tiles_));
+  return made;
 }
 
 void Teller::hear(Clock::time_point now) {

@@ -2,102 +2,67 @@
 #include "rave/probe/probe_block.hpp"
 
 #include <array>
+#include <vector>
 
 #include "rave/assemble/devices.hpp"
-#include "rave/base/names.hpp"
-#include "rave/config/diagnostics.hpp"
-#include "rave/config/yaml.hpp"
+#include "rave/config/fields.hpp"
 #include "rave/math/scalar.hpp"
 
-namespace rave::probe {
+namespace rave {
+
+constexpr auto enum_names(config::EnumTag<Layer> /*tag*/) {
+  return std::array{config::EnumName{Layer::kVirtualObstacles, "virtual_obstacles"},
+                    config::EnumName{Layer::kMappedReal, "mapped_real"},
+                    config::EnumName{Layer::kSimulatedRobots, "simulated_robots"},
+                    config::EnumName{Layer::kRealRobots, "real_robots"}};
+}
+
+namespace probe {
 namespace {
 
-using config::RawNode;
-
-/// Larger than any robot.
-constexpr double kFarthest_m = 100;
-constexpr double kWholeTurn_deg = 360;
-
-struct NamedLayer {
-  std::string_view name;
-  Layer layer;
+/// The part of config::MountFile that a probe has.
+struct ProbeMount {
+  double x_m = 0;
+  double y_m = 0;
+  double z_m = 0;
+  double yaw_deg = 0;
 };
-constexpr std::array kLayers = {NamedLayer{"virtual_obstacles", Layer::kVirtualObstacles},
-                                NamedLayer{"mapped_real", Layer::kMappedReal},
-                                NamedLayer{"simulated_robots", Layer::kSimulatedRobots},
-                                NamedLayer{"real_robots", Layer::kRealRobots}};
 
-Status check_keys(const RawNode& node, std::span<const std::string_view> known,
-                  std::string_view where) {
-  if (!node.is_mapping()) {
-    return fail(ErrorCode::kParse, "{}: expected a mapping, found {}", where, node.found_text());
-  }
-  for (const std::string_view key : node.keys()) {
-    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    return fail(ErrorCode::kParse, "{}: unknown key `{}`; expected {}", where, key,
-                join_names(std::vector<std::string_view>(known.begin(), known.end())));
-  }
-  return {};
+/// The part of config::SensorFile that a probe has.
+struct ProbeFile {
+  std::string name;
+  std::string driver;
+  ProbeMount mount;
+  std::optional<std::vector<Layer>> senses;
+  config::RawNode params;
+};
+
+template <class V>
+void describe(V& v, ProbeMount& c) {
+  // Larger than any robot.
+  constexpr config::FieldOptions kLength{.min = -100, .max = 100, .unit = "m"};
+  v.field("x_m", c.x_m, kLength);
+  v.field("y_m", c.y_m, kLength);
+  v.field("z_m", c.z_m, kLength);
+  v.field("yaw_deg", c.yaw_deg, {.min = -360, .max = 360, .unit = "deg"});
 }
 
-Result<std::string> text_in(const RawNode& node, std::string_view key) {
-  const RawNode* const value = node.find(key);
-  const auto text = value == nullptr ? std::nullopt : value->as_text();
-  if (text && !text->empty()) return *text;
-  return fail(ErrorCode::kParse, "`{}`: expected a name", key);
+template <class V>
+void describe(V& v, ProbeFile& c) {
+  v.required("name", c.name, {.min_items = 1});
+  v.required("driver", c.driver, {.min_items = 1});
+  v.field("mount", c.mount);
+  v.field("senses", c.senses, {.min_items = 1});
+  v.field("params", c.params);
 }
 
-Result<double> number_in(const RawNode& node, std::string_view key, double most) {
-  const RawNode* const value = node.find(key);
-  if (value == nullptr) return 0;
-  const auto number = value->as_double();
-  if (number && *number >= -most && *number <= most) return *number;
-  return fail(ErrorCode::kParse, "`mount.{}`: expected a number from {} to {}", key, -most, most);
-}
-
-Status read_mount(const RawNode& block, sim::SensorSpec& sensor) {
-  const RawNode* const mount = block.find("mount");
-  if (mount == nullptr) return {};
-  static constexpr std::array<std::string_view, 4> kKeys = {"x_m", "y_m", "z_m", "yaw_deg"};
-  RAVE_TRY(check_keys(*mount, kKeys, "`mount`"));
-  RAVE_TRY_ASSIGN(const double x_m, number_in(*mount, "x_m", kFarthest_m));
-  RAVE_TRY_ASSIGN(const double y_m, number_in(*mount, "y_m", kFarthest_m));
-  RAVE_TRY_ASSIGN(sensor.z_m, number_in(*mount, "z_m", kFarthest_m));
-  RAVE_TRY_ASSIGN(const double yaw_deg, number_in(*mount, "yaw_deg", kWholeTurn_deg));
-  sensor.X_RS = {x_m, y_m, wrap_angle(deg_to_rad(yaw_deg))};
-  return {};
-}
-
-Status read_layers(const RawNode& block, sim::SensorSpec& sensor) {
-  const RawNode* const senses = block.find("senses");
-  if (senses == nullptr) return {};
-  LayerMask mask = 0;
-  for (const RawNode& item : senses->children()) {
-    const auto* const found =
-        std::find_if(kLayers.begin(), kLayers.end(),
-                     [&item](const NamedLayer& layer) { return layer.name == item.scalar(); });
-    if (found == kLayers.end()) {
-      return fail(ErrorCode::kParse,
-                  "`senses`: expected virtual_obstacles, mapped_real, simulated_robots or "
-                  "real_robots");
-    }
-    mask |= static_cast<LayerMask>(found->layer);
-  }
-  if (mask == 0) return fail(ErrorCode::kParse, "`senses`: expected a list of layers");
-  sensor.layers = mask;
-  return {};
-}
-
-Status read_driver(const RawNode& block, plugin::Catalogue& catalogue, sim::SensorSpec& sensor) {
-  RAVE_TRY_ASSIGN(const std::string name, text_in(block, "driver"));
+Status take_driver(const ProbeFile& file, plugin::Catalogue& catalogue, sim::SensorSpec& sensor) {
   constexpr std::array kKinds = {DriverKind::kVirtualSensor};
-  RAVE_TRY_ASSIGN(const plugin::Driver* const driver, catalogue.find(kKinds, name));
+  RAVE_TRY_ASSIGN(const plugin::Driver* const driver, catalogue.find(kKinds, file.driver));
   sensor.driver = driver->info.name;
   sensor.kind = static_cast<ReadingKind>(driver->info.data_kind);
   sensor.virtual_ops = static_cast<const VirtualSensorOps*>(driver->ops);
-  const RawNode* const params = block.find("params");
-  RAVE_TRY_ASSIGN(sensor.params,
-                  runtime::read_params(*driver, params == nullptr ? RawNode() : *params));
+  RAVE_TRY_ASSIGN(sensor.params, runtime::read_params(*driver, file.params));
   return {};
 }
 
@@ -108,20 +73,18 @@ Result<sim::SensorSpec> read_block(std::string_view block, plugin::Catalogue& ca
     return fail(ErrorCode::kParse, "the sensor has {} bytes, more than {}", block.size(),
                 kLongestBlock);
   }
-  config::Diagnostics diagnostics;
-  const auto node = config::parse_yaml(block, "sensor", diagnostics);
-  if (!node || !diagnostics.ok()) {
-    return fail(ErrorCode::kParse, "the sensor is not valid YAML; expected an entry of `sensors:`");
-  }
-  static constexpr std::array<std::string_view, 5> kKeys = {"name", "driver", "mount", "senses",
-                                                            "params"};
-  RAVE_TRY(check_keys(*node, kKeys, "the sensor"));
+  RAVE_TRY_ASSIGN(ProbeFile file, config::read_text<ProbeFile>(block, "sensor"));
   sim::SensorSpec sensor;
-  RAVE_TRY_ASSIGN(sensor.name, text_in(*node, "name"));
-  RAVE_TRY(read_mount(*node, sensor));
-  RAVE_TRY(read_layers(*node, sensor));
-  RAVE_TRY(read_driver(*node, catalogue, sensor));
+  sensor.name = std::move(file.name);
+  sensor.z_m = file.mount.z_m;
+  sensor.X_RS = {file.mount.x_m, file.mount.y_m, wrap_angle(deg_to_rad(file.mount.yaw_deg))};
+  if (file.senses) {
+    sensor.layers = 0;
+    for (const Layer layer : *file.senses) sensor.layers |= static_cast<LayerMask>(layer);
+  }
+  RAVE_TRY(take_driver(file, catalogue, sensor));
   return sensor;
 }
 
-}  // namespace rave::probe
+}  // namespace probe
+}  // namespace rave

@@ -9,12 +9,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <utility>
 
 #include "rave/base/file.hpp"
+#include "rave/base/wall_clock.hpp"
 #include "secrets.hpp"
 
 namespace rave::gui_server {
@@ -51,10 +51,7 @@ class FileLock {
   int fd_;
 };
 
-std::int64_t wall_s() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::seconds>(now).count();
-}
+std::int64_t wall_s() { return wall_ns() / kSecond_ns; }
 
 /// `Anna` and `anna` would be mistaken for each other in lists and in the audit log.
 bool same_but_for_capitals(std::string_view a, std::string_view b) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "plain_name.hpp"
+#include "rave/base/plain_name.hpp"
 #include "rave/gui_server/accounts.hpp"
 #include "secrets.hpp"
 #include "tab_lines.hpp"

@@ -2,22 +2,12 @@
 #include "audit_lines.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 namespace rave::gui_server {
 namespace {
-
-constexpr std::array<std::pair<const char*, std::string AuditLine::*>, 7> kAuditFields = {
-    {{"time", &AuditLine::time},
-     {"what", &AuditLine::what},
-     {"user", &AuditLine::user},
-     {"why", &AuditLine::why},
-     {"by", &AuditLine::by},
-     {"from", &AuditLine::from},
-     {"detail", &AuditLine::detail}}};
 
 std::optional<AuditLine> audit_line(std::string_view text) {
   const auto json = nlohmann::json::parse(text, nullptr, false);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 // The audit log, read back. Plain values, no threads.
@@ -19,6 +21,16 @@ struct AuditLine {
   std::string from;
   std::string detail;
 };
+
+/// Its parts by their names in the file and in messages; all but the first two may be missing.
+inline constexpr std::array<std::pair<const char*, std::string AuditLine::*>, 7> kAuditFields = {
+    {{"time", &AuditLine::time},
+     {"what", &AuditLine::what},
+     {"user", &AuditLine::user},
+     {"why", &AuditLine::why},
+     {"by", &AuditLine::by},
+     {"from", &AuditLine::from},
+     {"detail", &AuditLine::detail}}};
 
 /// Which lines.
 struct AuditFilter {

@@ -5,10 +5,8 @@
 #include <filesystem>
 #include <initializer_list>
 #include <mutex>
-#include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "audit_lines.hpp"
 #include "rave/web/rate_limit.hpp"

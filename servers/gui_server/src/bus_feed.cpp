@@ -20,43 +20,26 @@ constexpr Duration kUnwatched = from_seconds(0.25);
 constexpr auto kHostsInterval = std::chrono::seconds(1);
 
 PlayState standing_of(const watch::RunView& view) {
+  using Kind = PlayState::Kind;
+  // In the order of watch::Phase.
+  constexpr Kind kKinds[] = {Kind::kWaiting, Kind::kWaiting, Kind::kRunning, Kind::kWaiting,
+                             Kind::kPaused,  Kind::kEnded,   Kind::kEnded};
   PlayState state;
+  state.kind = kKinds[static_cast<std::size_t>(view.phase)];
   state.reason = view.text;
   state.speed = view.speed.value_or(0);
-  switch (view.phase) {
-    case watch::Phase::kRunning:
-      state.kind = PlayState::Kind::kRunning;
-      break;
-    case watch::Phase::kPaused:
-      state.kind = PlayState::Kind::kPaused;
-      break;
-    case watch::Phase::kEnded:
-    case watch::Phase::kFailed:
-      state.kind = PlayState::Kind::kEnded;
-      break;
-    case watch::Phase::kGathering:
-    case watch::Phase::kWaits:
-      state.kind = PlayState::Kind::kWaiting;
-      break;
-    case watch::Phase::kUnknown: {
-      // Hosts in real time may have no manager.
-      const bool here =
-          std::any_of(view.hosts.begin(), view.hosts.end(), [](const watch::HostView& host) {
-            return !host.manager && host.standing == watch::Standing::kHere;
-          });
-      state.kind = here ? PlayState::Kind::kRunning : PlayState::Kind::kWaiting;
-      if (!here && state.reason.empty()) state.reason = "No process of this run was found.";
-      break;
-    }
-  }
+  if (view.phase != watch::Phase::kUnknown) return state;
+  // Hosts in real time may have no manager.
+  const bool here = std::ranges::any_of(view.hosts, [](const watch::HostView& host) {
+    return !host.manager && host.standing == watch::Standing::kHere;
+  });
+  if (here) state.kind = Kind::kRunning;
+  if (!here && state.reason.empty()) state.reason = "No process of this run was found.";
   return state;
 }
 
 RobotState state_of(const watch::RobotView& robot) {
   RobotState state;
-  const auto set = [&state](bool on, RobotFlag flag) {
-    if (on) state.flags = static_cast<std::uint16_t>(state.flags | flag);
-  };
   state.speed_mps = robot.speed_mps.value_or(0);
   if (robot.report) {
     // What people see of a robot is what it reports, as in a run of one process.
@@ -66,23 +49,23 @@ RobotState state_of(const watch::RobotView& robot) {
     state.yaw_rad = report.yaw_rad;
     state.variance_xy_m2 = static_cast<float>(report.variance_xy_m2);
     state.variance_yaw_rad2 = static_cast<float>(report.variance_yaw_rad2);
-    set(report.known, kKnown);
+    state.set(report.known, kKnown);
     // Stale by its own clock, or because its host is silent.
-    set(report.stale || robot.stale, kStale);
-    set(report.stopped, kStopped);
-    set(!report.armed, kUnarmed);
-    set(report.real, kReal);
-    set(report.touches, kTouching);
+    state.set(report.stale || robot.stale, kStale);
+    state.set(report.stopped, kStopped);
+    state.set(!report.armed, kUnarmed);
+    state.set(report.real, kReal);
+    state.set(report.touches, kTouching);
     return state;
   }
   // Without a report, as before the first one: the pose that its host resolved, and flags that are
   // not known stay off.
-  set(robot.x_m.has_value(), kKnown);
+  state.set(robot.x_m.has_value(), kKnown);
   state.x_m = robot.x_m.value_or(0);
   state.y_m = robot.y_m.value_or(0);
   state.yaw_rad = robot.yaw_rad.value_or(0);
-  set(robot.stale, kStale);
-  set(robot.simulated == false, kReal);
+  state.set(robot.stale, kStale);
+  state.set(robot.simulated == false, kReal);
   return state;
 }
 
@@ -124,12 +107,11 @@ void BusFeed::work(const std::stop_token& stop) {
 /// What pages look at, all together.
 void BusFeed::ask() {
   static_cast<void>(box_->wants.take());
-  const LiveWants& wants = box_->wants.value();
+  const Audience& wants = box_->wants.value();
   onlook::Asked asked;
   asked.robots = box_->max_hz.load(std::memory_order_relaxed) > 0;
   asked.parts = wants.parts;
-  for (const LookedAt& looked : wants.sensors)
-    asked.sensors.push_back({looked.slot, looked.sensor});
+  asked.sensors = wants.looked_at;
   asked.maps = wants.maps;
   asked.probes = wants.probes;
   listener_.look(asked);
@@ -225,7 +207,7 @@ void BusFeed::draw(const watch::RunView& view) {
     state = state_of(robot);
     if (truth) picture.poses.truth[robot.number] = truth_of(robot);
     // A lost process publishes nothing more.
-    if (gone.contains(robot.host)) state.flags = static_cast<std::uint16_t>(state.flags | kStale);
+    if (gone.contains(robot.host)) state.set(true, kStale);
   }
   draw_readings(picture);
   picture.standing = standing_of(view);
@@ -245,14 +227,7 @@ void BusFeed::draw_readings(LivePicture& picture) const {
   picture.reading_count = 0;
   for (const auto& [key, heard] : listener_.readings()) {
     if (picture.reading_count == picture.readings.size()) picture.readings.emplace_back();
-    ReadingAt& reading = picture.readings[picture.reading_count++];
-    reading.slot = heard.sensor.robot;
-    reading.sensor = heard.sensor.sensor;
-    reading.part = heard.part;
-    reading.stamp_s = heard.stamp_s;
-    reading.rows = heard.rows;
-    reading.fields = heard.fields;
-    reading.values = heard.values;
+    picture.readings[picture.reading_count++] = heard;
   }
 }
 

@@ -166,7 +166,7 @@ BusPort::Answer BusPort::ask_host(const std::string& host, const control::Reques
 }
 
 std::vector<runtime::RunStatus::Robot> ManagedPort::robots() const {
-  std::vector<runtime::RunStatus::Robot> robots = manager_.robots();
+  std::vector<runtime::RunStatus::Robot> robots = manager_.status().robots;
   std::map<std::string_view, runtime::RunStatus::Robot*> by_name;
   for (runtime::RunStatus::Robot& robot : robots) by_name.emplace(robot.name, &robot);
   for (runtime::RunStatus::Robot& told : hosts_->robots()) {

@@ -31,15 +31,10 @@ class BusPort final : public RunPort {
   BusPort& operator=(const BusPort&) = delete;
   ~BusPort() override;
 
+  [[nodiscard]] runtime::RunControl* control() override { return nullptr; }
   [[nodiscard]] std::string why_not_held() const override {
     return "Only the process that manages the run can pause it: `rave run --gui` does.";
   }
-  [[nodiscard]] bool paused() const override { return false; }
-  [[nodiscard]] double pace() const override { return 1; }
-  void pause() override {}
-  void resume() override {}
-  void step(std::uint64_t /*count*/) override {}
-  void set_pace(double /*factor*/) override {}
   [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override;
   [[nodiscard]] Result<std::future<Result<std::string>>> post(runtime::RunRequest request) override;
 
@@ -82,20 +77,15 @@ class ManagedPort final : public RunPort {
  public:
   /// `control`: of the manager; outlives it.
   ManagedPort(runtime::RunControl& control, std::unique_ptr<BusPort> hosts)
-      : manager_(control, ""), hosts_(std::move(hosts)) {}
+      : manager_(control), hosts_(std::move(hosts)) {}
 
-  [[nodiscard]] std::string why_not_held() const override { return manager_.why_not_held(); }
-  [[nodiscard]] bool paused() const override { return manager_.paused(); }
-  [[nodiscard]] double pace() const override { return manager_.pace(); }
-  void pause() override { manager_.pause(); }
-  void resume() override { manager_.resume(); }
-  void step(std::uint64_t count) override { manager_.step(count); }
-  void set_pace(double factor) override { manager_.set_pace(factor); }
+  [[nodiscard]] runtime::RunControl* control() override { return &manager_; }
+  [[nodiscard]] std::string why_not_held() const override { return ""; }
   [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override;
   [[nodiscard]] Result<std::future<Result<std::string>>> post(runtime::RunRequest request) override;
 
  private:
-  LocalPort manager_;
+  runtime::RunControl& manager_;
   std::unique_ptr<BusPort> hosts_;
 };
 

@@ -8,15 +8,11 @@
 
 #include "bus_feed.hpp"
 #include "bus_port.hpp"
-#include "components.hpp"
 #include "kept_recordings.hpp"
 #include "live_source.hpp"
-#include "parameters_json.hpp"
 #include "rave/bus/topics.hpp"
 #include "rave/recording/describe_run.hpp"
 #include "rave/watch/observer.hpp"
-#include "scenario_rights.hpp"
-#include "scene_json.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -49,29 +45,6 @@ BusFeed::World world_of(const config::ExpandedScenario& scenario,
     world.obstacles.emplace(id, *model.obstacle(id));
   }
   return world;
-}
-
-Result<LiveSource::Start> start_of(const config::ExpandedScenario& scenario,
-                                   const runtime::BuiltScenario& built) {
-  const runtime::DescribedRun run = runtime::describe_run(built);
-  LiveSource::Start start;
-  start.about.live = true;
-  start.about.name = scenario.scenario.name.value;
-  start.about.step_s = run.info.step_s;
-  start.about.seed = run.info.seed;
-  start.about.lock_step = built.live_reason.empty();
-  start.about.duration_s = scenario.scenario.duration_s;
-  start.about.relay = scenario.scenario.gui.relay;
-  start.about.rights = rights_of(scenario.scenario.gui);
-  RAVE_TRY_ASSIGN(start.about.components, components_of(scenario.scenario.gui));
-  start.robots_json = with_parameters(robots_of(scenario, run.info, run.hybrids), built.spec);
-  for (const record::RecordedRobot& robot : run.info.robots) start.robots.push_back(robot.name);
-  const world::WorldModel& world = built.spec.world;
-  for (std::size_t o = 0; o < world.obstacle_count(); ++o) {
-    const std::uint32_t id = world.obstacle_id(o);
-    start.bodies.emplace_back(id, body_json(id, *world.obstacle(id)));
-  }
-  return start;
 }
 
 /// Requests go to who takes them, in the partitions of hosts and manager.
@@ -131,13 +104,15 @@ Result<std::shared_ptr<Source>> watch_run(const config::ExpandedScenario& scenar
   } else {
     port = std::move(hosts);
   }
-  RAVE_TRY_ASSIGN(auto start, start_of(scenario, built));
+  const runtime::DescribedRun run = runtime::describe_run(built);
+  RAVE_TRY_ASSIGN(auto start, LiveSource::Start::of(scenario, run.info, run.hybrids, built.spec));
+  start.about.lock_step = built.live_reason.empty();
   start.scenario = file;
   if (described) {
     start.probes = std::make_shared<ProbeDesk>(std::move(described), start.about.step_s);
   }
   // Who manages the run serves its page: without this process there is no run either.
-  if (managed) start.about.relay = true;
+  start.about.relay = managed || scenario.scenario.gui.relay;
   auto source = std::make_shared<BusSource>(
       std::move(start), std::make_shared<LiveBox>(), std::move(port), std::move(observer),
       std::move(listener), world_of(scenario, built), replays(std::move(on_over)));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "rave/base/json_text.hpp"
+
 namespace rave::gui_server {
 namespace {
 
@@ -113,7 +115,7 @@ std::string ChatRoom::text_for(const Listener& listener, std::uint64_t number, b
   // No message, where none of the new lines is for this listener. With `all` an empty list empties
   // the page.
   if (!all && message["lines"].empty()) return {};
-  return message.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return json_text(message);
 }
 
 }  // namespace rave::gui_server

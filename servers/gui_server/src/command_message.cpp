@@ -5,32 +5,19 @@
 #include <cmath>
 #include <numbers>
 
-#include "rave/control/order_words.hpp"
+#include "rave/direct_line/order_members.hpp"
 
 namespace rave::gui_server {
 namespace {
 
 using Command = CommandMessage::Kind;
+using direct_line::kFarthest_m;
+using direct_line::point_of;
 
-// No world is as large, and no robot as fast.
-constexpr double kFarthest_m = 1e6;
-constexpr double kFastestOrder = 100;
 constexpr std::size_t kLongestKey = 128;
 constexpr std::size_t kLongestValue = 256;
 constexpr std::size_t kLongestHolder = 64;
 constexpr std::size_t kMostCorners = 64;
-
-Result<Vec2> point_of(const PageJson& pair, const char* name) {
-  // JSON has no NaN, and a number that overflows is no JSON for the parser: the bound refuses the
-  // rest.
-  const bool good = pair.is_array() && pair.size() == 2 && pair[0].is_number() &&
-                    pair[1].is_number() && std::abs(pair[0].get<double>()) <= kFarthest_m &&
-                    std::abs(pair[1].get<double>()) <= kFarthest_m;
-  if (!good) {
-    return fail(ErrorCode::kParse, "`{}`: expected pairs of finite numbers, metres", name);
-  }
-  return Vec2{pair[0].get<double>(), pair[1].get<double>()};
-}
 
 Status take_slots(Members& members, CommandMessage& command) {
   RAVE_TRY_ASSIGN(command.slots, members.list("slots", kMostCommanded, Members::index_of));
@@ -44,37 +31,6 @@ Status take_slots(Members& members, CommandMessage& command) {
   return {};
 }
 
-Status take_place(Members& members, CommandMessage& command) {
-  const std::size_t robots = command.slots.size();
-  RAVE_TRY_ASSIGN(command.points, members.list("points", kMostCommanded, point_of));
-  // Several robots may drive to one goal, but cannot be placed at one point.
-  const bool one = command.points.size() == 1 && command.kind == Command::kGoal;
-  if (!one && command.points.size() != robots) {
-    return fail(ErrorCode::kParse, "`points`: expected one for each robot, {}", robots);
-  }
-  if (members.has("yaw")) {
-    constexpr double kTurn_rad = 2 * std::numbers::pi;
-    RAVE_TRY_ASSIGN(command.yaw_rad, members.number_in("yaw", -kTurn_rad, kTurn_rad));
-  }
-  return {};
-}
-
-Status take_speed(Members& members, CommandMessage& command) {
-  // 0 means "not given". A path is driven forwards, so a negative speed has no meaning.
-  if (members.has("speed")) {
-    RAVE_TRY_ASSIGN(command.speed_mps, members.number_in("speed", 0, kFastestOrder));
-  }
-  return {};
-}
-
-Status take_path(Members& members, CommandMessage& command) {
-  // A path too long for any run gets the error message that a run would give.
-  constexpr std::size_t kMostRead = 100'000;
-  RAVE_TRY_ASSIGN(command.points, members.list("points", kMostRead, point_of));
-  RAVE_TRY(runtime::check_path_size(command.points.size()));
-  return take_speed(members, command);
-}
-
 Status take_order(Members& members, CommandMessage& command) {
   static constexpr WordTable<Command, 6> kOrders = {{{"drive", Command::kDrive},
                                                      {"goal", Command::kGoal},
@@ -84,20 +40,7 @@ Status take_order(Members& members, CommandMessage& command) {
                                                      {"place", Command::kPlace}}};
   RAVE_TRY_ASSIGN(command.kind, members.choice("kind", kOrders));
   RAVE_TRY(take_slots(members, command));
-  if (command.kind == Command::kDrive) {
-    RAVE_TRY_ASSIGN(command.v_mps, members.number_in("v", -kFastestOrder, kFastestOrder));
-    RAVE_TRY_ASSIGN(command.w_radps, members.number_in("w", -kFastestOrder, kFastestOrder));
-  } else if (command.kind == Command::kGoal) {
-    RAVE_TRY(take_place(members, command));
-    RAVE_TRY(take_speed(members, command));
-  } else if (command.kind == Command::kPlace) {
-    RAVE_TRY(take_place(members, command));
-  } else if (command.kind == Command::kPath) {
-    RAVE_TRY(take_path(members, command));
-  } else if (command.kind == Command::kText) {
-    RAVE_TRY_ASSIGN(command.value, members.text("text", kLongestText, true));
-  }
-  return {};
+  return direct_line::read_order(members, command.slots.size(), command);
 }
 
 Status take_lease(Members& members, CommandMessage& command) {

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "plain_name.hpp"
 #include "rave/base/file.hpp"
+#include "rave/base/plain_name.hpp"
 
 namespace rave::gui_server {
 namespace {

@@ -158,12 +158,15 @@ bool Door::serve_later(const web::Request& request, const web::Reply& reply) {
   if (request.path != "/login" && request.path != "/join") return false;
   // By network and before the form is read: a guesser with many addresses of one network has one
   // budget.
+  Fields fields;
   if (!by_network_.take(web::network_of(request.peer), web::RateLimit::Clock::now())) {
     reply(slow_down(request));
+  } else if (!web::parse_form(request.body, fields)) {
+    reply(web::text_response(400, "malformed form\n"));
   } else if (request.path == "/login") {
-    sign_in(request, reply);
+    sign_in(request, fields, reply);
   } else {
-    join(request, reply);
+    join(request, fields, reply);
   }
   return true;
 }
@@ -173,12 +176,7 @@ void Door::work(std::function<web::Response()> what, const web::Reply& reply) {
   if (!posted) reply(sign_in_page(503, "Too many people are signing in. Try again.", ""));
 }
 
-void Door::sign_in(const web::Request& request, const web::Reply& reply) {
-  Fields fields;
-  if (!web::parse_form(request.body, fields)) {
-    reply(web::text_response(400, "malformed form\n"));
-    return;
-  }
+void Door::sign_in(const web::Request& request, const Fields& fields, const web::Reply& reply) {
   const std::string name = field(fields, "name");
   if (const auto link = pasted_link(name)) {
     reply(redirect(*link));
@@ -206,12 +204,7 @@ void Door::sign_in(const web::Request& request, const web::Reply& reply) {
       reply);
 }
 
-void Door::join(const web::Request& request, const web::Reply& reply) {
-  Fields fields;
-  if (!web::parse_form(request.body, fields)) {
-    reply(web::text_response(400, "malformed form\n"));
-    return;
-  }
+void Door::join(const web::Request& request, const Fields& fields, const web::Reply& reply) {
   work(
       [this, fields, peer = request.peer] {
         const std::string name = field(fields, "name");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,8 +58,9 @@ class Door {
   [[nodiscard]] web::Response leave(const web::Request& request);
   [[nodiscard]] web::Response welcome(const std::string& session) const;
   [[nodiscard]] web::Response slow_down(const web::Request& request);
-  void sign_in(const web::Request& request, const web::Reply& reply);
-  void join(const web::Request& request, const web::Reply& reply);
+  using Fields = std::map<std::string, std::string>;  ///< Of a form, by name.
+  void sign_in(const web::Request& request, const Fields& fields, const web::Reply& reply);
+  void join(const web::Request& request, const Fields& fields, const web::Reply& reply);
   void work(std::function<web::Response()> what, const web::Reply& reply);
 
   Options options_;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "foxglove_wire.hpp"
+#include "rave/base/json_text.hpp"
 #include "rave/math/pose.hpp"
 #include "rave/math/transform.hpp"
 #include "rave/world/body.hpp"
@@ -230,7 +231,7 @@ std::string scene_update(FoxgloveScene scene, double time_s) {
   }
   const SceneJson update = {{"deletions", std::move(deletions)},
                             {"entities", std::move(scene.entities)}};
-  return update.dump(-1, ' ', false, SceneJson::error_handler_t::replace);
+  return json_text(update);
 }
 
 }  // namespace rave::gui_server

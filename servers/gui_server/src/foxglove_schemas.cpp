@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "foxglove_schemas.hpp"
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace rave::gui_server {
@@ -30,28 +31,18 @@ SchemaJson moment_schema(const char* title) {
   return time;
 }
 
-SchemaJson vector_schema() {
-  return object_schema({{"x", number_schema()}, {"y", number_schema()}, {"z", number_schema()}});
-}
-SchemaJson quaternion_schema() {
-  return object_schema({{"x", number_schema()},
-                        {"y", number_schema()},
-                        {"z", number_schema()},
-                        {"w", number_schema()}});
-}
-SchemaJson pose_schema() {
-  return object_schema({{"position", vector_schema()}, {"orientation", quaternion_schema()}});
-}
-SchemaJson colour_schema() {
-  return object_schema({{"r", number_schema()},
-                        {"g", number_schema()},
-                        {"b", number_schema()},
-                        {"a", number_schema()}});
+/// An object of numbers.
+SchemaJson numbers_schema(std::initializer_list<const char*> names) {
+  SchemaJson object = object_schema({});
+  for (const char* const name : names) object["properties"][name] = number_schema();
+  return object;
 }
 
-std::string titled_schema(const char* title, SchemaJson schema) {
-  schema["title"] = title;
-  return schema.dump();
+SchemaJson vector_schema() { return numbers_schema({"x", "y", "z"}); }
+SchemaJson quaternion_schema() { return numbers_schema({"x", "y", "z", "w"}); }
+SchemaJson colour_schema() { return numbers_schema({"r", "g", "b", "a"}); }
+SchemaJson pose_schema() {
+  return object_schema({{"position", vector_schema()}, {"orientation", quaternion_schema()}});
 }
 
 SchemaJson entity_schema() {
@@ -98,64 +89,43 @@ SchemaJson entity_schema() {
                         {"models", array_schema(object_schema({}))}});
 }
 
-}  // namespace
+SchemaJson point_cloud_schema() {
+  SchemaJson bytes = string_schema();
+  // By this a client knows that the text is binary data.
+  bytes["contentEncoding"] = "base64";
+  return object_schema({{"timestamp", moment_schema("time")},
+                        {"frame_id", string_schema()},
+                        {"pose", pose_schema()},
+                        {"point_stride", integer_schema()},
+                        {"fields", array_schema(object_schema({{"name", string_schema()},
+                                                               {"offset", integer_schema()},
+                                                               {"type", integer_schema()}}))},
+                        {"data", bytes}});
+}
 
-const std::string& scene_update_schema() {
-  static const std::string kSchema = titled_schema(
-      "foxglove.SceneUpdate",
+/// By title.
+std::map<std::string_view, std::string> all_schemas() {
+  std::map<std::string_view, SchemaJson> schemas;
+  schemas["foxglove.SceneUpdate"] =
       object_schema({{"deletions", array_schema(object_schema({{"timestamp", moment_schema("time")},
                                                                {"type", integer_schema()},
                                                                {"id", string_schema()}}))},
-                     {"entities", array_schema(entity_schema())}}));
-  return kSchema;
-}
-
-const std::string& frame_transforms_schema() {
-  static const std::string kSchema = titled_schema(
-      "foxglove.FrameTransforms",
-      object_schema(
-          {{"transforms", array_schema(object_schema({{"timestamp", moment_schema("time")},
-                                                      {"parent_frame_id", string_schema()},
-                                                      {"child_frame_id", string_schema()},
-                                                      {"translation", vector_schema()},
-                                                      {"rotation", quaternion_schema()}}))}}));
-  return kSchema;
-}
-
-const std::string& point_cloud_schema() {
-  static const std::string kSchema = [] {
-    SchemaJson bytes = string_schema();
-    // By this a client knows that the text is binary data.
-    bytes["contentEncoding"] = "base64";
-    return titled_schema(
-        "foxglove.PointCloud",
-        object_schema({{"timestamp", moment_schema("time")},
-                       {"frame_id", string_schema()},
-                       {"pose", pose_schema()},
-                       {"point_stride", integer_schema()},
-                       {"fields", array_schema(object_schema({{"name", string_schema()},
-                                                              {"offset", integer_schema()},
-                                                              {"type", integer_schema()}}))},
-                       {"data", bytes}}));
-  }();
-  return kSchema;
-}
-
-const std::string& log_schema() {
-  static const std::string kSchema =
-      titled_schema("foxglove.Log", object_schema({{"timestamp", moment_schema("time")},
-                                                   {"level", integer_schema()},
-                                                   {"message", string_schema()},
-                                                   {"name", string_schema()},
-                                                   {"file", string_schema()},
-                                                   {"line", integer_schema()}}));
-  return kSchema;
-}
-
-const std::string& poses_schema() {
-  static const std::string kSchema = titled_schema(
-      // Types of our own: clients show them as plain data, in tables and plots.
-      "rave.Poses",
+                     {"entities", array_schema(entity_schema())}});
+  schemas["foxglove.FrameTransforms"] = object_schema(
+      {{"transforms", array_schema(object_schema({{"timestamp", moment_schema("time")},
+                                                  {"parent_frame_id", string_schema()},
+                                                  {"child_frame_id", string_schema()},
+                                                  {"translation", vector_schema()},
+                                                  {"rotation", quaternion_schema()}}))}});
+  schemas["foxglove.PointCloud"] = point_cloud_schema();
+  schemas["foxglove.Log"] = object_schema({{"timestamp", moment_schema("time")},
+                                           {"level", integer_schema()},
+                                           {"message", string_schema()},
+                                           {"name", string_schema()},
+                                           {"file", string_schema()},
+                                           {"line", integer_schema()}});
+  // Types of our own: clients show them as plain data, in tables and plots.
+  schemas["rave.Poses"] =
       object_schema({{"timestamp", moment_schema("time")},
                      {"robots", array_schema(object_schema({{"name", string_schema()},
                                                             {"x_m", number_schema()},
@@ -166,18 +136,25 @@ const std::string& poses_schema() {
                                                             {"stale", flag_schema()},
                                                             {"stopped", flag_schema()},
                                                             {"real", flag_schema()},
-                                                            {"touching", flag_schema()}}))}}));
-  return kSchema;
+                                                            {"touching", flag_schema()}}))}});
+  schemas["rave.Run"] = object_schema({{"timestamp", moment_schema("time")},
+                                       {"time_s", number_schema()},
+                                       {"state", string_schema()},
+                                       {"pace", number_schema()},
+                                       {"speed", number_schema()}});
+  std::map<std::string_view, std::string> texts;
+  for (auto& [title, schema] : schemas) {
+    schema["title"] = title;
+    texts[title] = schema.dump();
+  }
+  return texts;
 }
 
-const std::string& run_schema() {
-  static const std::string kSchema =
-      titled_schema("rave.Run", object_schema({{"timestamp", moment_schema("time")},
-                                               {"time_s", number_schema()},
-                                               {"state", string_schema()},
-                                               {"pace", number_schema()},
-                                               {"speed", number_schema()}}));
-  return kSchema;
+}  // namespace
+
+const std::string& foxglove_schema(std::string_view title) {
+  static const auto kSchemas = all_schemas();
+  return kSchemas.at(title);
 }
 
 }  // namespace rave::gui_server

@@ -11,6 +11,7 @@
 #include "foxglove_scene.hpp"
 #include "foxglove_schemas.hpp"
 #include "page_text.hpp"
+#include "rave/base/json_text.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -18,9 +19,7 @@ namespace {
 using TopicJson = nlohmann::ordered_json;
 
 /// Names may come from a recording of anybody.
-std::string quoted(const std::string& text) {
-  return TopicJson(text).dump(-1, ' ', false, TopicJson::error_handler_t::replace);
-}
+std::string quoted(const std::string& text) { return json_text(TopicJson(text)); }
 
 bool can_be_shown(const RobotState& robot) {
   return (robot.flags & kKnown) != 0 && std::isfinite(robot.x_m) && std::isfinite(robot.y_m) &&
@@ -57,12 +56,12 @@ FoxgloveTopics::FoxgloveTopics(const Source& source, std::uint32_t first_channel
     : next_(first_channel) {
   for (TopicJson& robot : TopicJson::parse(source.robots_json()))
     robots_.push_back(std::move(robot));
-  add(Kind::kTransforms, "/tf", "foxglove.FrameTransforms", frame_transforms_schema());
-  add(Kind::kScene, "/scene", "foxglove.SceneUpdate", scene_update_schema());
-  add(Kind::kRobots, "/robots", "foxglove.SceneUpdate", scene_update_schema());
-  add(Kind::kPoses, "/poses", "rave.Poses", poses_schema());
-  add(Kind::kLog, "/log", "foxglove.Log", log_schema());
-  add(Kind::kRun, "/run", "rave.Run", run_schema());
+  add(Kind::kTransforms, "/tf", "foxglove.FrameTransforms");
+  add(Kind::kScene, "/scene", "foxglove.SceneUpdate");
+  add(Kind::kRobots, "/robots", "foxglove.SceneUpdate");
+  add(Kind::kPoses, "/poses", "rave.Poses");
+  add(Kind::kLog, "/log", "foxglove.Log");
+  add(Kind::kRun, "/run", "rave.Run");
   for (std::uint32_t slot = 0; slot < robots_.size(); ++slot) {
     const auto name = robots_[slot].at("name").get<std::string>();
     names_.push_back(quoted(name));
@@ -71,9 +70,8 @@ FoxgloveTopics::FoxgloveTopics(const Source& source, std::uint32_t first_channel
   }
 }
 
-void FoxgloveTopics::add(Kind kind, const char* topic, const char* name,
-                         const std::string& schema) {
-  topics_.push_back({{next_++, topic, name, schema}, kind, {}});
+void FoxgloveTopics::add(Kind kind, const std::string& topic, const char* schema) {
+  topics_.push_back({{next_++, topic, schema, foxglove_schema(schema)}, kind, {}});
 }
 
 void FoxgloveTopics::add_scans(std::uint32_t slot) {
@@ -94,7 +92,7 @@ void FoxgloveTopics::add_scans(std::uint32_t slot) {
     scanners_.push_back(std::move(scanner));
     const std::string topic = fmt::format("/scan/{}/{}", robot.at("name").get<std::string>(),
                                           sensor.at("name").get<std::string>());
-    add(Kind::kScan, topic.c_str(), "foxglove.PointCloud", point_cloud_schema());
+    add(Kind::kScan, topic, "foxglove.PointCloud");
     topics_.back().sensor = looked;
   }
 }
@@ -172,7 +170,7 @@ std::string FoxgloveTopics::points(const ReadingAt& reading) const {
         {{"name", "y"}, {"offset", 4}, {"type", kFloat32}},
         {{"name", "z"}, {"offset", 8}, {"type", kFloat32}}}},
       {"data", base64_of(bytes)}};
-  return message.dump(-1, ' ', false, TopicJson::error_handler_t::replace);
+  return json_text(message);
 }
 
 std::string FoxgloveTopics::log(const LogEvent& event) {
@@ -182,16 +180,16 @@ std::string FoxgloveTopics::log(const LogEvent& event) {
                              {"name", event.kind},
                              {"file", ""},
                              {"line", 0}};
-  return message.dump(-1, ' ', false, TopicJson::error_handler_t::replace);
+  return json_text(message);
 }
 
 std::string FoxgloveTopics::run(const PlayState& state) {
   const TopicJson message = {{"timestamp", foxglove_stamp(state.now_s)},
                              {"time_s", state.now_s},
-                             {"state", state_word(state.kind)},
+                             {"state", kStateWords.of(state.kind)},
                              {"pace", state.pace},
                              {"speed", state.speed}};
-  return message.dump(-1, ' ', false, TopicJson::error_handler_t::replace);
+  return json_text(message);
 }
 
 }  // namespace rave::gui_server

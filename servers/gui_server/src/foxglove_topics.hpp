@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -65,7 +64,7 @@ class FoxgloveTopics {
     double z_m = 0;
     std::vector<double> bearings_rad;
   };
-  void add(Kind kind, const char* topic, const char* name, const std::string& schema);
+  void add(Kind kind, const std::string& topic, const char* schema);
   void add_scans(std::uint32_t slot);
 
   std::uint32_t next_;

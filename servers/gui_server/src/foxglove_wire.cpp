@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "rave/base/json_text.hpp"
+
 namespace rave::gui_server {
 namespace {
 
@@ -12,9 +14,7 @@ namespace {
 // are little-endian.
 using FoxgloveJson = nlohmann::ordered_json;
 
-std::string foxglove_text(const FoxgloveJson& message) {
-  return message.dump(-1, ' ', false, FoxgloveJson::error_handler_t::replace);
-}
+std::string foxglove_text(const FoxgloveJson& message) { return json_text(message); }
 
 template <class Number>
 void add_little_endian(std::string& bytes, Number number) {

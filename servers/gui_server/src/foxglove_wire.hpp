@@ -5,7 +5,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 // What the server says in the WebSocket protocol of Foxglove: text messages, and two binary ones
 // (little endian). Plain functions; moments are nanoseconds of the run.

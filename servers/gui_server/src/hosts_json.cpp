@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "rave/base/json_text.hpp"
+
 namespace rave::gui_server {
 namespace {
 
@@ -48,7 +50,7 @@ nlohmann::json json_of(const watch::HostView& host) {
 std::string hosts_json(const watch::RunView& view) {
   nlohmann::json hosts = nlohmann::json::array();
   for (const watch::HostView& host : view.hosts) hosts.push_back(json_of(host));
-  return hosts.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return json_text(hosts);
 }
 
 }  // namespace rave::gui_server

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "rave/base/latest.hpp"
+#include "rave/base/wall_clock.hpp"
 #include "rave/gui_server/source.hpp"
 #include "rave/process/bell.hpp"
 
@@ -19,9 +18,7 @@ namespace rave::gui_server {
 
 /// For PosesAt::taken_us; any thread.
 [[nodiscard]] inline std::uint32_t taken_now_us() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const auto us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
-  return static_cast<std::uint32_t>(us) | 1U;
+  return static_cast<std::uint32_t>(wall_ns() / 1000) | 1U;
 }
 
 /// A moment of a run. Its memory is used again and again.
@@ -33,15 +30,6 @@ struct LivePicture {
   std::optional<PlayState> standing;
   std::uint64_t hosts_revision = 0;
   std::string hosts;  ///< As Source::hosts_json().
-};
-
-/// What pages look at.
-struct LiveWants {
-  std::vector<LookedAt> sensors;
-  bool parts = false;
-  bool truth = false;  ///< Also true poses.
-  std::vector<std::uint32_t> maps;
-  std::vector<probe::Asked> probes;
 };
 
 /// Something that happened, as the engine says it.
@@ -101,8 +89,8 @@ struct LiveBox {
   }
 
   Latest<LivePicture> pictures;
-  process::Bell bell;       ///< There is a newer picture.
-  Latest<LiveWants> wants;  ///< From the server to the run.
+  process::Bell bell;      ///< There is a newer picture.
+  Latest<Audience> wants;  ///< From the server to the run.
   NewsQueue news;
   std::atomic<double> max_hz{0};  ///< Pictures per second that pages want; 0: none.
 };

@@ -12,9 +12,8 @@ namespace {
 using runtime::RunRequest;
 constexpr auto kStatusInterval = std::chrono::milliseconds(200);
 
-/// What the run is asked, but for the robot.
-RunRequest request_of(const CommandMessage& command, const Author& author) {
-  RunRequest request = static_cast<const RunRequest&>(command);
+/// What the run is asked by a person.
+RunRequest request_of(RunRequest request, const Author& author) {
   request.by = author.name;
   request.overrides = author.overrides;
   request.page = author.page;
@@ -59,10 +58,7 @@ void LiveSource::halt(const HaltMessage& halt, const Author& author, Reply reply
     RunRequest request;
     request.kind = halt.stop ? RunRequest::Kind::kStop : RunRequest::Kind::kRelease;
     request.robot = std::move(robot);
-    request.by = author.name;
-    request.overrides = author.overrides;
-    request.page = author.page;
-    auto answer = port_->post(std::move(request));
+    auto answer = port_->post(request_of(std::move(request), author));
     if (!answer) return reply(false, answer.error().message);
     asked_.push_back({*std::move(answer), reply});
   }
@@ -124,21 +120,13 @@ void LiveSource::answer_asked() {
   }
 }
 
-/// A picture that comes over a bus does not say who is stopped; none says who drives.
+/// Pictures do not say who drives.
 void LiveSource::learn_status(Playhead::Clock::time_point now) {
   if (now - status_at_ < kStatusInterval) return;
   status_at_ = now;
-  // A picture from the bus has `standing`. One from the engine in this process has the flags
-  // already, and none are added to it.
-  flags_.assign(picture().standing ? start_.robots.size() : 0, 0);
   for (const runtime::RunStatus::Robot& robot : port_->robots()) {
     const auto slot = slots_.find(robot.name);
-    if (slot == slots_.end()) continue;
-    learn_leases(robot, slot->second);
-    if (flags_.empty()) continue;
-    std::uint16_t& flags = flags_[slot->second];
-    if (robot.stopped) flags |= kStopped;
-    if (!robot.armed) flags |= kUnarmed;
+    if (slot != slots_.end()) learn_leases(robot, slot->second);
   }
 }
 

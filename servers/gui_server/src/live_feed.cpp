@@ -5,6 +5,7 @@
 
 #include "rave/onlook/command_row.hpp"
 #include "rave/onlook/reading_rows.hpp"
+#include "rave/onlook/sensor_parts.hpp"
 #include "scene_json.hpp"
 
 namespace rave::gui_server {
@@ -54,14 +55,7 @@ void put_commands(LivePicture& picture, const sim::Engine& engine, const LookedA
 Status LiveFeed::run_begins(const runtime::RunView& run) {
   kinds_ = &run.kinds;
   touching_until_s_.assign(run.engine.spec().robots.size(), -1);
-  const world::WorldModel& world = run.engine.spec().world;
-  std::vector<std::pair<std::uint32_t, std::string>> bodies;
-  for (std::size_t o = 0; o < world.obstacle_count(); ++o) {
-    const std::uint32_t id = world.obstacle_id(o);
-    const world::Obstacle& obstacle = *world.obstacle(id);
-    if (!obstacle.removed) bodies.emplace_back(id, body_json(id, obstacle));
-  }
-  return begun_(run, std::move(bodies));
+  return begun_(run);
 }
 
 void LiveFeed::after_step(const runtime::StepView& step) {
@@ -160,15 +154,12 @@ void LiveFeed::draw_poses(const sim::Engine& engine, PosesAt& poses) const {
     // Negative when the robot drives backwards: the sign is that of the component along its
     // heading.
     robot.speed_mps = std::copysign(std::hypot(v_W.vx, v_W.vy), ahead);
-    const auto set = [&robot](bool on, RobotFlag flag) {
-      if (on) robot.flags = static_cast<std::uint16_t>(robot.flags | flag);
-    };
-    set(reported.known, kKnown);
-    set(reported.stale, kStale);
-    set(engine.stopped(RobotId(r)), kStopped);
-    set(!engine.armed(RobotId(r)), kUnarmed);
-    set(!spec.types[spec.robots[r].type].simulated, kReal);
-    set(touching_until_s_[r] >= poses.time_s, kTouching);
+    robot.set(reported.known, kKnown);
+    robot.set(reported.stale, kStale);
+    robot.set(engine.stopped(RobotId(r)), kStopped);
+    robot.set(!engine.armed(RobotId(r)), kUnarmed);
+    robot.set(!spec.types[spec.robots[r].type].simulated, kReal);
+    robot.set(touching_until_s_[r] >= poses.time_s, kTouching);
   }
 }
 
@@ -185,31 +176,19 @@ void LiveFeed::draw_truth(const sim::Engine& engine, bool wanted, PosesAt& poses
   }
 }
 
-void LiveFeed::draw_readings(const sim::Engine& engine, const LiveWants& wants,
+void LiveFeed::draw_readings(const sim::Engine& engine, const Audience& wants,
                              LivePicture& picture) {
   picture.reading_count = 0;
-  const sim::EngineSpec& spec = engine.spec();
-  const auto put = [&picture](const LookedAt& looked, std::uint8_t part, ReadingKind kind,
-                              const SampleHeader* header, const void* records) {
-    put_reading(picture, looked, part, kind, header, records);
-  };
-  for (const LookedAt& looked : wants.sensors) {
-    const RobotId robot(looked.slot);
-    // Readings of robots of other hosts are in the engines of those hosts.
-    if (looked.slot >= spec.robots.size() || !engine.is_local(robot)) continue;
+  for (const LookedAt& looked : wants.looked_at) {
     if (looked.sensor == onlook::kCommandsOf) {
       put_commands(picture, engine, looked);
       continue;
     }
-    const auto& sensors = spec.types[spec.robots[looked.slot].type].sensors;
-    if (looked.sensor >= sensors.size()) continue;
-    const ReadingKind kind = sensors[looked.sensor].kind;
-    const sim::SensorSample sample = engine.sensor(robot, looked.sensor);
-    put(looked, 0, kind, sample.header, sample.records);
-    if (!wants.parts) continue;
-    const sim::SensorParts parts = engine.sensor_parts(robot, looked.sensor);
-    put(looked, 1, kind, parts.real, parts.real_records);
-    put(looked, 2, kind, parts.imagined, parts.imagined_records);
+    onlook::for_each_part(
+        engine, RobotId(looked.slot), looked.sensor, wants.parts,
+        [&](std::uint8_t part, ReadingKind kind, const SampleHeader* header, const void* records) {
+          put_reading(picture, looked, part, kind, header, records);
+        });
   }
 }
 

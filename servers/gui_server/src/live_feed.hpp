@@ -14,15 +14,14 @@
 
 namespace rave::gui_server {
 
-/// Hands copies of a run to the server's thread: pictures as often as pages
-/// ask for them, at most 60 times a second, and four times without pages; events always. The thread
-/// of the run, which never waits here.
+/// Hands copies of a run to the server's thread: pictures as often as pages ask for them, at most
+/// 60 times a second, and four times without pages; events always. The thread of the run, which
+/// never waits here.
 class LiveFeed final : public runtime::RunObserver {
  public:
   using Clock = std::chrono::steady_clock;
-  /// Before the first step: what does not change. `bodies`: by number, as JSON.
-  using Begun = std::function<Status(const runtime::RunView& run,
-                                     std::vector<std::pair<std::uint32_t, std::string>> bodies)>;
+  /// Called before the first step.
+  using Begun = std::function<Status(const runtime::RunView& run)>;
 
   /// `catalogue`: of the run, for probes; outlives it.
   LiveFeed(std::shared_ptr<LiveBox> box, plugin::Catalogue& catalogue, Begun begun)
@@ -38,8 +37,7 @@ class LiveFeed final : public runtime::RunObserver {
   void draw_maps(const sim::Engine& engine, int slower);
   void draw_poses(const sim::Engine& engine, PosesAt& poses) const;
   static void draw_truth(const sim::Engine& engine, bool wanted, PosesAt& poses);
-  static void draw_readings(const sim::Engine& engine, const LiveWants& wants,
-                            LivePicture& picture);
+  static void draw_readings(const sim::Engine& engine, const Audience& wants, LivePicture& picture);
   void draw_probes(const sim::Engine& engine, LivePicture& picture);
 
   std::shared_ptr<LiveBox> box_;

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/gui_server/live_run.hpp"
 
-#include "components.hpp"
+#include <optional>
+
 #include "live_feed.hpp"
 #include "live_source.hpp"
-#include "parameters_json.hpp"
-#include "scenario_rights.hpp"
-#include "scene_json.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -17,37 +15,12 @@ const char* const kHeldByNobody =
 }  // namespace
 
 struct LiveRun::Impl {
-  Impl(const config::ExpandedScenario& of, runtime::RunControl& with, plugin::Catalogue& catalogue,
-       std::unique_ptr<plugin::Catalogue> of_server,
-       std::function<void(std::shared_ptr<Source>)> call, std::filesystem::path of_scenario)
-      : scenario(of),
-        control(with),
-        described(std::move(of_server)),
-        ready(std::move(call)),
-        file(std::move(of_scenario)),
-        box(std::make_shared<LiveBox>()),
-        feed(box, catalogue, [this](const runtime::RunView& run, auto bodies) {
-          return begin(run, std::move(bodies));
-        }) {}
-
-  Status begin(const runtime::RunView& run,
-               std::vector<std::pair<std::uint32_t, std::string>> bodies) {
-    LiveSource::Start start;
-    start.about.live = true;
-    start.about.name = run.info.scenario;
-    start.about.started = run.info.started;
-    start.about.step_s = run.info.step_s;
-    start.about.seed = run.info.seed;
+  Status begin(const runtime::RunView& run) {
+    RAVE_TRY_ASSIGN(auto start,
+                    LiveSource::Start::of(scenario, run.info, run.hybrids, run.engine.spec()));
     start.about.lock_step = !run.live;
-    start.about.duration_s = scenario.scenario.duration_s;
     // The server is in the process of the host: there is no shorter way.
     start.about.relay = true;
-    start.about.rights = rights_of(scenario.scenario.gui);
-    RAVE_TRY_ASSIGN(start.about.components, components_of(scenario.scenario.gui));
-    start.robots_json =
-        with_parameters(robots_of(scenario, run.info, run.hybrids), run.engine.spec());
-    for (const record::RecordedRobot& robot : run.info.robots) start.robots.push_back(robot.name);
-    start.bodies = std::move(bodies);
     start.scenario = file;
     if (described) {
       start.probes = std::make_shared<ProbeDesk>(std::move(described), run.info.step_s);
@@ -63,20 +36,23 @@ struct LiveRun::Impl {
   std::unique_ptr<plugin::Catalogue> described;
   std::function<void(std::shared_ptr<Source>)> ready;
   std::filesystem::path file;
-  std::shared_ptr<LiveBox> box;
-  std::shared_ptr<LiveSource> source;
-  LiveFeed feed;
+  std::shared_ptr<LiveBox> box = std::make_shared<LiveBox>();
+  std::shared_ptr<LiveSource> source{};
+  std::optional<LiveFeed> feed{};
 };
 
 LiveRun::LiveRun(const config::ExpandedScenario& scenario, runtime::RunControl& control,
                  plugin::Catalogue& catalogue, std::unique_ptr<plugin::Catalogue> described,
                  std::function<void(std::shared_ptr<Source>)> ready, std::filesystem::path file)
-    : impl_(std::make_unique<Impl>(scenario, control, catalogue, std::move(described),
-                                   std::move(ready), std::move(file))) {}
+    : impl_(new Impl{scenario, control, std::move(described), std::move(ready), std::move(file)}) {
+  impl_->feed.emplace(impl_->box, catalogue, [impl = impl_.get()](const runtime::RunView& run) {
+    return impl->begin(run);
+  });
+}
 
 LiveRun::~LiveRun() = default;
 
-runtime::RunObserver& LiveRun::observer() noexcept { return impl_->feed; }
+runtime::RunObserver& LiveRun::observer() noexcept { return *impl_->feed; }
 
 void LiveRun::end(std::string reason) {
   if (impl_->source) impl_->source->end(std::move(reason));

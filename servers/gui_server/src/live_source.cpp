@@ -6,6 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components.hpp"
+#include "parameters_json.hpp"
+#include "scenario_rights.hpp"
+#include "scene_json.hpp"
+
 namespace rave::gui_server {
 namespace {
 
@@ -90,6 +95,29 @@ class LivePlayhead final : public Playhead {
 
 }  // namespace
 
+Result<LiveSource::Start> LiveSource::Start::of(const config::ExpandedScenario& scenario,
+                                                const record::RunInfo& run,
+                                                const record::StringMap& hybrids,
+                                                const sim::EngineSpec& spec) {
+  Start start;
+  start.about.live = true;
+  start.about.name = run.scenario;
+  start.about.started = run.started;
+  start.about.step_s = run.step_s;
+  start.about.seed = run.seed;
+  start.about.duration_s = scenario.scenario.duration_s;
+  start.about.rights = rights_of(scenario.scenario.gui);
+  RAVE_TRY_ASSIGN(start.about.components, components_of(scenario.scenario.gui));
+  start.robots_json = with_parameters(robots_of(scenario, run, hybrids), spec);
+  for (const record::RecordedRobot& robot : run.robots) start.robots.push_back(robot.name);
+  for (std::size_t o = 0; o < spec.world.obstacle_count(); ++o) {
+    const std::uint32_t id = spec.world.obstacle_id(o);
+    const world::Obstacle& obstacle = *spec.world.obstacle(id);
+    if (!obstacle.removed) start.bodies.emplace_back(id, body_json(id, obstacle));
+  }
+  return start;
+}
+
 LiveSource::LiveSource(Start start, std::shared_ptr<LiveBox> box, std::unique_ptr<RunPort> port)
     : start_(std::move(start)),
       box_(std::move(box)),
@@ -152,10 +180,8 @@ void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience)
   // Nothing else is published with it, so it needs no order.
   box_->max_hz.store(audience.max_hz, std::memory_order_relaxed);
   // Only what differs is published: the host's thread copies the wants each time.
-  if (audience.looked_at != wants_.sensors || audience.parts != wants_.parts ||
-      audience.truth != wants_.truth || audience.maps != wants_.maps ||
-      audience.probes != wants_.probes) {
-    wants_ = {audience.looked_at, audience.parts, audience.truth, audience.maps, audience.probes};
+  if (audience != wants_) {
+    wants_ = audience;
     box_->wants.draft() = wants_;
     box_->wants.publish();
   }
@@ -170,13 +196,18 @@ void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience)
     state_.speed = 0;
   } else if (const auto& standing = picture().standing) {
     // A pause that was asked for is shown at once, before the run says that it stands.
-    const bool held = port_->paused() && standing->kind != PlayState::Kind::kEnded;
+    const bool held = paused() && standing->kind != PlayState::Kind::kEnded;
     state_.kind = held ? PlayState::Kind::kPaused : standing->kind;
     state_.reason = held ? "" : standing->reason;
     state_.speed = standing->speed;
   } else {
-    state_.kind = port_->paused() ? PlayState::Kind::kPaused : PlayState::Kind::kRunning;
+    state_.kind = paused() ? PlayState::Kind::kPaused : PlayState::Kind::kRunning;
   }
+}
+
+bool LiveSource::paused() const {
+  const auto* const run = port_->control();
+  return run != nullptr && run->paused();
 }
 
 void LiveSource::take_news() {
@@ -238,7 +269,7 @@ void LiveSource::take_picture(Playhead::Clock::time_point now) {
   if (measured) state_.speed = std::max(0.0, (state_.now_s - measured_s_) / passed_s);
   measured_at_ = now;
   measured_s_ = state_.now_s;
-  state_.pace = port_->pace();
+  if (const auto* const run = port_->control()) state_.pace = run->pace();
   if (const auto status = port_->own_status()) {
     own_host_.look(now, start_.about.name, poses_.step, *status);
   }
@@ -289,29 +320,30 @@ std::string LiveSource::take(const TransportMessage& transport) {
   if (transport.what == Do::kSeek) return kSeekLater;
   if (std::string why_not = port_->why_not_held(); !why_not.empty()) return why_not;
   if (state_.kind == PlayState::Kind::kEnded) return "The run has ended.";
+  runtime::RunControl& run = *port_->control();
   switch (transport.what) {
     case Do::kPlay:
-      port_->resume();
+      run.resume();
       break;
     case Do::kPause:
-      port_->pause();
+      run.pause();
       break;
     case Do::kStep:
       // The bar of the page steps back as well, which only a replay can do.
       if (transport.value < 1) return "A run cannot go back in time.";
-      port_->pause();
+      run.pause();
       // Paused first: a run that is stepped while it runs would not stop after the steps.
-      port_->step(static_cast<std::uint64_t>(std::min(std::round(transport.value), 1e6)));
+      run.step(static_cast<std::uint64_t>(std::min(std::round(transport.value), 1e6)));
       break;
     case Do::kPace:
-      port_->set_pace(transport.value <= 0 ? 0
-                                           : std::clamp(transport.value, kSlowestRun, kFastestRun));
-      state_.pace = port_->pace();
+      run.set_pace(transport.value <= 0 ? 0
+                                        : std::clamp(transport.value, kSlowestRun, kFastestRun));
+      state_.pace = run.pace();
       break;
     case Do::kSeek:
       break;
   }
-  state_.kind = port_->paused() ? PlayState::Kind::kPaused : PlayState::Kind::kRunning;
+  state_.kind = paused() ? PlayState::Kind::kPaused : PlayState::Kind::kRunning;
   return {};
 }
 

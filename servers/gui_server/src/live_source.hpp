@@ -5,7 +5,6 @@
 #include <future>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -17,6 +16,9 @@
 #include "map_book.hpp"
 #include "own_host.hpp"
 #include "probe_desk.hpp"
+#include "rave/config/expanded_scenario.hpp"
+#include "rave/record/run_info.hpp"
+#include "rave/sim/engine_spec.hpp"
 #include "run_port.hpp"
 #include "set_values.hpp"
 
@@ -32,6 +34,12 @@ class LiveSource : public Source {
     std::vector<std::pair<std::uint32_t, std::string>> bodies;
     std::shared_ptr<ProbeDesk> probes;  ///< Null: no virtual sensors can be tried.
     std::filesystem::path scenario;     ///< Its file, which may list other panels; may be empty.
+
+    /// What the scenario and the run say before the first step. Errors: those of components_of().
+    [[nodiscard]] static Result<Start> of(const config::ExpandedScenario& scenario,
+                                          const record::RunInfo& run,
+                                          const record::StringMap& hybrids,
+                                          const sim::EngineSpec& spec);
   };
   LiveSource(Start start, std::shared_ptr<LiveBox> box, std::unique_ptr<RunPort> port);
 
@@ -103,6 +111,7 @@ class LiveSource : public Source {
     std::uint32_t id = 0;
     std::string json;  ///< Empty: it went.
   };
+  [[nodiscard]] bool paused() const;
   void take_news();
   [[nodiscard]] bool shows_other(const LivePicture& next);
   void take_picture(Playhead::Clock::time_point now);
@@ -127,14 +136,13 @@ class LiveSource : public Source {
   std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t, double>> shown_readings_;
   std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t, double>> next_readings_;
   std::map<std::string, std::uint32_t, std::less<>> slots_;
-  std::vector<std::uint16_t> flags_;  ///< By robot: what the port knows beside the picture.
   Playhead::Clock::time_point status_at_{};
   std::vector<DriveState> leases_;  ///< By robot.
   std::vector<std::uint64_t> leases_changed_;
   std::uint64_t leases_revision_ = 1;
   std::deque<PosesAt> past_;
   PlayState state_;
-  LiveWants wants_;
+  Audience wants_;
   std::vector<Asked> asked_;
   Playhead::Clock::time_point measured_at_{};
   double measured_s_ = 0;

@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "rave/control/order_words.hpp"
+
 namespace rave::gui_server {
 namespace {
 
@@ -14,10 +16,7 @@ constexpr std::chrono::seconds kStandsAnyway{1};
 
 /// The person who orders it has the lease then.
 bool takes_lease(CommandMessage::Kind kind) {
-  using Kind = CommandMessage::Kind;
-  return kind == Kind::kDrive || kind == Kind::kGoal || kind == Kind::kPath ||
-         kind == Kind::kCancel || kind == Kind::kText || kind == Kind::kPlace ||
-         kind == Kind::kTake;
+  return runtime::is_order(kind) || kind == CommandMessage::Kind::kTake;
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <string>
 
 #include "page_text.hpp"
 #include "rave/web/rate_limit.hpp"

@@ -5,7 +5,8 @@
 
 #include "command_message.hpp"
 #include "members.hpp"
-#include "ticket_request.hpp"
+#include "rave/direct_line/order_members.hpp"
+#include "rave/direct_line/ticket.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -162,7 +163,7 @@ Result<ChatMessage> chat_of(Members& members) {
   using To = ChatMessage::To;
   ChatMessage chat;
   RAVE_TRY_ASSIGN(chat.request, members.index("request"));
-  RAVE_TRY_ASSIGN(chat.text, members.text("text", kLongestText, true));
+  RAVE_TRY_ASSIGN(chat.text, members.text("text", direct_line::kLongestText, true));
   // A line of blanks would appear in the chat as a name without words.
   if (chat.text.find_first_not_of(" \n") == std::string::npos) {
     return fail(ErrorCode::kParse, "`text`: expected a text that is not empty");
@@ -183,7 +184,7 @@ Result<ChatMessage> chat_of(Members& members) {
 
 Result<PageKeyMessage> page_key_message_of(Members& members) {
   RAVE_TRY_ASSIGN(const std::string text, members.word("key"));
-  RAVE_TRY_ASSIGN(std::string key, page_key_of(text));
+  RAVE_TRY_ASSIGN(std::string key, direct_line::page_key_of(text));
   return PageKeyMessage{std::move(key)};
 }
 

@@ -62,7 +62,7 @@ struct ChatMessage {
   enum class To : std::uint8_t { kAll, kRole, kUser, kTeam, kRobot } to = To::kAll;
   std::string name;        ///< Of the role, the user or the team.
   std::uint32_t slot = 0;  ///< Of the robot.
-  std::string text;        ///< 1 to kLongestText bytes.
+  std::string text;        ///< 1 to direct_line::kLongestText bytes.
   std::uint32_t request = 0;
 };
 inline constexpr WordTable<ChatMessage::To, 5> kChatTo = {{{"all", ChatMessage::To::kAll},

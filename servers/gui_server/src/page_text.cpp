@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "components.hpp"
+#include "rave/base/json_text.hpp"
 #include "rave/control/shadow_json.hpp"
 
 namespace rave::gui_server {
@@ -12,43 +13,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string text_of(const Json& message) {
-  // Names and texts come from files and other processes. Bytes that are no UTF-8 are replaced; by
-  // default dump() would throw.
-  return message.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-const char* level_word(LogEvent::Level level) {
-  switch (level) {
-    case LogEvent::Level::kInfo:
-      return "info";
-    case LogEvent::Level::kWarn:
-      return "warn";
-    case LogEvent::Level::kAlert:
-      return "alert";
-  }
-  return "info";
-}
+constexpr WordTable<LogEvent::Level, 3> kLevelWords = {{{"info", LogEvent::Level::kInfo},
+                                                        {"warn", LogEvent::Level::kWarn},
+                                                        {"alert", LogEvent::Level::kAlert}}};
 
 Json person_json(const Person& person) {
   return {{"name", person.name}, {"role", to_string(person.role)}};
 }
 
 }  // namespace
-
-const char* state_word(PlayState::Kind kind) {
-  switch (kind) {
-    case PlayState::Kind::kRunning:
-      return "running";
-    case PlayState::Kind::kPaused:
-      return "paused";
-    case PlayState::Kind::kWaiting:
-      return "waiting";
-    case PlayState::Kind::kEnded:
-      return "ended";
-  }
-  return "ended";
-}
 
 std::string hello_text(const Source& source, const Greeting& greeting) {
   const RunAbout& about = source.about();
@@ -85,7 +58,7 @@ std::string hello_text(const Source& source, const Greeting& greeting) {
   }
   if (greeting.foxglove) hello["foxglove"] = true;
   if (greeting.seen_by) hello["seen_by"] = person_json(*greeting.seen_by);
-  return text_of(hello);
+  return json_text(hello);
 }
 
 std::string events_text(std::span<const LogEvent> events, std::size_t first) {
@@ -96,11 +69,11 @@ std::string events_text(std::span<const LogEvent> events, std::size_t first) {
                                  {"until", event.until_s},
                                  {"count", event.count},
                                  {"kind", event.kind},
-                                 {"level", level_word(event.level)},
+                                 {"level", kLevelWords.of(event.level)},
                                  {"text", event.text},
                                  {"slots", event.slots}});
   }
-  return text_of(message);
+  return json_text(message);
 }
 
 std::string time_text(const PlayState& state, const RunAbout& about) {
@@ -110,11 +83,11 @@ std::string time_text(const PlayState& state, const RunAbout& about) {
                      {"begin_s", state.begin_s},
                      {"end_s", state.end_s},
                      {"duration_s", state.duration_s},
-                     {"state", state_word(state.kind)},
+                     {"state", kStateWords.of(state.kind)},
                      {"reason", state.reason},
                      {"pace", state.pace},
                      {"speed", state.speed}};
-  return text_of(time);
+  return json_text(time);
 }
 
 std::string leases_text(std::span<const DriveState> states, const Author& me, bool all) {
@@ -136,7 +109,7 @@ std::string leases_text(std::span<const DriveState> states, const Author& me, bo
     for (const auto& [key, value] : state.values) robot["values"][key] = Json::parse(value);
     if (state.shadow) robot["shadow"] = runtime::shadow_json<Json>(*state.shadow);
   }
-  return text_of(message);
+  return json_text(message);
 }
 
 std::string maps_text(std::span<const MapName> names) {
@@ -146,7 +119,7 @@ std::string maps_text(std::span<const MapName> names) {
     if (!name.global()) map["slot"] = name.slot;
     message["maps"].push_back(std::move(map));
   }
-  return text_of(message);
+  return json_text(message);
 }
 
 std::string probes_text(std::uint32_t request, std::span<const ProbeAnswer> answers) {
@@ -161,7 +134,7 @@ std::string probes_text(std::uint32_t request, std::span<const ProbeAnswer> answ
     }
     message["probes"].push_back(std::move(probe));
   }
-  return text_of(message);
+  return json_text(message);
 }
 
 std::string answer_text(const PageAnswer& answer) {
@@ -174,7 +147,7 @@ std::string answer_text(const PageAnswer& answer) {
       message["refused"].push_back({{"slot", slot}, {"text", text}});
     }
   }
-  return text_of(message);
+  return json_text(message);
 }
 
 }  // namespace rave::gui_server

@@ -16,8 +16,12 @@
 // What the server says to a page, as JSON; schemas/gui/messages.schema.json describes it.
 namespace rave::gui_server {
 
-/// The word for what the time of a run does, in all protocols.
-[[nodiscard]] const char* state_word(PlayState::Kind kind);
+/// The words for what the time of a run does, in all protocols.
+inline constexpr WordTable<PlayState::Kind, 4> kStateWords = {
+    {{"running", PlayState::Kind::kRunning},
+     {"paused", PlayState::Kind::kPaused},
+     {"waiting", PlayState::Kind::kWaiting},
+     {"ended", PlayState::Kind::kEnded}}};
 
 /// As whom a page is greeted.
 struct Greeting {

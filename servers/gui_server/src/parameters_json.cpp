@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "rave/assemble/parameter_key.hpp"
+#include "rave/base/json_text.hpp"
+#include "rave/base/word_table.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -12,6 +14,13 @@ namespace {
 using ParameterJson = nlohmann::ordered_json;
 /// Each robot has the list in the roster, which would be megabytes for a swarm.
 constexpr std::size_t kMostDescribed = 256;
+
+constexpr WordTable<ParamType, 6> kKinds = {{{"flag", ParamType::kBool},
+                                             {"integer", ParamType::kInteger},
+                                             {"number", ParamType::kNumber},
+                                             {"choice", ParamType::kChoice},
+                                             {"text", ParamType::kText},
+                                             {"numbers", ParamType::kNumbers}}};
 
 /// The value of a file as JSON has it; null: the file gives none.
 ParameterJson first_value(const ParamSpec& spec, const std::string& text) {
@@ -21,33 +30,11 @@ ParameterJson first_value(const ParamSpec& spec, const std::string& text) {
 
 /// Null: a list, which no control of the page shows for what is changed while a robot runs.
 ParameterJson parameter_json(const ParamSpec& spec, const std::string& key, bool lists = false) {
-  ParameterJson json = {{"key", key}};
-  switch (spec.type) {
-    case ParamType::kBool:
-      json["kind"] = "flag";
-      break;
-    case ParamType::kInteger:
-      json["kind"] = "integer";
-      break;
-    case ParamType::kNumber:
-      json["kind"] = "number";
-      break;
-    case ParamType::kChoice:
-      json["kind"] = "choice";
-      json["choices"] = ParameterJson::array();
-      for (std::uint64_t i = 0; i < spec.choice_count; ++i) {
-        json["choices"].push_back(spec.choices[i]);
-      }
-      break;
-    case ParamType::kText:
-      json["kind"] = "text";
-      break;
-    case ParamType::kNumbers:
-      if (!lists) return nullptr;
-      json["kind"] = "numbers";
-      break;
-    default:
-      return nullptr;
+  const std::string_view kind = kKinds.of(spec.type);
+  if (kind.empty() || (spec.type == ParamType::kNumbers && !lists)) return nullptr;
+  ParameterJson json = {{"key", key}, {"kind", kind}};
+  if (spec.type == ParamType::kChoice) {
+    json["choices"] = std::vector<std::string>(spec.choices, spec.choices + spec.choice_count);
   }
   json["unit"] = spec.unit;
   json["doc"] = spec.doc;
@@ -111,7 +98,7 @@ std::string described_json(const ParamSpec& spec) {
         break;
     }
   }
-  return json.dump(-1, ' ', false, ParameterJson::error_handler_t::replace);
+  return json_text(json);
 }
 
 std::string with_parameters(const std::string& robots_json, const sim::EngineSpec& spec) {
@@ -126,7 +113,7 @@ std::string with_parameters(const std::string& robots_json, const sim::EngineSpe
     robots[r]["parameters"] = found->second;
     if (spec.robots[r].twin) robots[r]["twin"] = twin_json(spec.types[*spec.robots[r].twin]);
   }
-  return robots.dump(-1, ' ', false, ParameterJson::error_handler_t::replace);
+  return json_text(robots);
 }
 
 }  // namespace rave::gui_server

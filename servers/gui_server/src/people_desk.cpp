@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "rave/base/json_text.hpp"
+
 namespace rave::gui_server {
 namespace {
 
@@ -15,10 +17,6 @@ constexpr const char* kNoAccounts =
     "This server has no accounts: only the link printed in its terminal gives access, and there is "
     "no audit log. To let others in, start the server with --accounts DIR, and over a network also "
     "with --listen, --certificate and --key.";
-
-std::string desk_text(const DeskJson& message) {
-  return message.dump(-1, ' ', false, DeskJson::error_handler_t::replace);
-}
 
 std::string role_and_teams(Role role, const Teams& teams) {
   return fmt::format("{}, teams {}", to_string(role), teams.text());
@@ -58,8 +56,8 @@ Result<std::string> do_account(Accounts& accounts, const AccountMessage& asked) 
   return fmt::format("{}: {}", asked.name, disabled ? "disabled" : "enabled");
 }
 
-PeopleDesk::Outcome account_outcome(const PeopleDesk::Options& at, const AccountMessage& asked,
-                                    const std::string& by) {
+PeopleDesk::Outcome outcome_of(const PeopleDesk::Options& at, const AccountMessage& asked,
+                               const std::string& by) {
   const auto text = do_account(*at.accounts, asked);
   if (!text) return refused(asked, text.error().message);
   // Noted only after the file was written: the log never claims a change that did not happen.
@@ -68,8 +66,8 @@ PeopleDesk::Outcome account_outcome(const PeopleDesk::Options& at, const Account
 }
 
 /// The secret goes to the page that asked, and to no other page, once.
-PeopleDesk::Outcome invitation_outcome(const PeopleDesk::Options& at,
-                                       const InvitationMessage& asked, const std::string& by) {
+PeopleDesk::Outcome outcome_of(const PeopleDesk::Options& at, const InvitationMessage& asked,
+                               const std::string& by) {
   if (!asked.make) {
     const auto withdrawn = at.accounts->withdraw(asked.id);
     if (!withdrawn) return refused(asked, withdrawn.error().message);
@@ -86,33 +84,29 @@ PeopleDesk::Outcome invitation_outcome(const PeopleDesk::Options& at,
                   asked.days);
   at.audit->note("invitation", {{"user", by}, {"detail", text}});
   PeopleDesk::Outcome outcome = done(asked, text);
-  outcome.message = desk_text(
-      {{"type", "invited"}, {"request", asked.request}, {"link", "/join?invite=" + *secret}});
+  outcome.message = json_text(DeskJson{
+      {"type", "invited"}, {"request", asked.request}, {"link", "/join?invite=" + *secret}});
   return outcome;
 }
 
-PeopleDesk::Outcome audit_outcome(const AuditLog& audit, const AuditMessage& asked) {
-  const AuditPage page = audit.read(asked.filter);
+PeopleDesk::Outcome outcome_of(const PeopleDesk::Options& at, const AuditMessage& asked,
+                               const std::string& /*by*/) {
+  const AuditPage page = at.audit->read(asked.filter);
   DeskJson message = {{"type", "audit_lines"},
                       {"request", asked.request},
                       {"more", page.more},
                       {"lines", DeskJson::array()}};
   for (const AuditLine& line : page.lines) {
-    DeskJson entry = {{"time", line.time}, {"what", line.what}};
-    const auto add = [&entry](const char* name, const std::string& value) {
-      if (!value.empty()) entry[name] = value;
-    };
-    add("user", line.user);
-    add("why", line.why);
-    add("by", line.by);
-    add("from", line.from);
-    add("detail", line.detail);
+    DeskJson entry;
+    for (const auto& [name, part] : kAuditFields) {
+      if (!(line.*part).empty()) entry[name] = line.*part;
+    }
     message["lines"].push_back(std::move(entry));
   }
   PeopleDesk::Outcome outcome = done(asked, fmt::format("{} lines", page.lines.size()));
   // Reading the log changes nothing, so the pages of other super-users need no news.
   outcome.changed = false;
-  outcome.message = desk_text(message);
+  outcome.message = json_text(message);
   return outcome;
 }
 
@@ -128,31 +122,15 @@ bool locks_out(const AccountMessage& asked, const std::string& by) {
 
 void PeopleDesk::take(const PeopleMessage& message, const std::string& by, const Tell& tell) {
   if (!options_.accounts) return tell(refused(message, kNoAccounts));
-  if (const auto* const account = std::get_if<AccountMessage>(&message)) {
-    if (locks_out(*account, by)) {
-      return tell(refused(message, "You cannot remove your own role of super-user."));
-    }
-    later(
-        message, [at = options_, asked = *account, by] { return account_outcome(at, asked, by); },
-        tell);
-  } else if (const auto* const invitation = std::get_if<InvitationMessage>(&message)) {
-    later(
-        message,
-        [at = options_, asked = *invitation, by] { return invitation_outcome(at, asked, by); },
-        tell);
-  } else if (const auto* const audit = std::get_if<AuditMessage>(&message)) {
-    later(
-        message, [log = options_.audit, asked = *audit] { return audit_outcome(*log, asked); },
-        tell);
+  const auto* const account = std::get_if<AccountMessage>(&message);
+  if (account != nullptr && locks_out(*account, by)) {
+    return tell(refused(message, "You cannot remove your own role of super-user."));
   }
-}
-
-void PeopleDesk::later(const PeopleMessage& message, std::function<Outcome()> act,
-                       const Tell& tell) {
   // Files and password hashes are slow, so another thread does the work, and the one of the server
   // gets the outcome.
-  const bool posted = options_.work([act = std::move(act), tell, post = options_.post] {
-    post([tell, outcome = act()] { tell(outcome); });
+  const bool posted = options_.work([at = options_, message, by, tell] {
+    const auto act = [&](const auto& asked) { return outcome_of(at, asked, by); };
+    at.post([tell, outcome = std::visit(act, message)] { tell(outcome); });
   });
   if (!posted) tell(refused(message, "The server is busy. Try again in a moment."));
 }
@@ -167,7 +145,7 @@ std::string PeopleDesk::message(const std::map<std::string, unsigned>& pages,
                       {"invitations", DeskJson::array()}};
   if (!options_.accounts) {
     message["why_not"] = kNoAccounts;
-    return desk_text(message);
+    return json_text(message);
   }
   const AccountsFile state = options_.accounts->state();
   std::map<std::string_view, unsigned> sessions;
@@ -191,7 +169,7 @@ std::string PeopleDesk::message(const std::map<std::string, unsigned>& pages,
                                       {"until_s", invitation.until_s},
                                       {"by", invitation.by}});
   }
-  return desk_text(message);
+  return json_text(message);
 }
 
 std::uint64_t PeopleDesk::revision() const {

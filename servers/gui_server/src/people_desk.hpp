@@ -52,8 +52,6 @@ class PeopleDesk {
   void note_gone(const std::string& name);
 
  private:
-  void later(const PeopleMessage& message, std::function<Outcome()> act, const Tell& tell);
-
   Options options_;
 };
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/gui_server/person.hpp"
 
+#include <fmt/format.h>
+
 #include "rave/base/control_characters.hpp"
 
 namespace rave::gui_server {
 
 std::string Teams::text() const {
   if (all) return "*";
-  if (names.empty()) return "-";
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
-  return text;
+  return names.empty() ? "-" : fmt::format("{}", fmt::join(names, ","));
 }
 
 Result<Teams> parse_teams(std::string_view text) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "parameters_json.hpp"
+#include "rave/base/json_text.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/onlook/reading_rows.hpp"
 #include "rave/probe/probe_block.hpp"
@@ -22,10 +23,6 @@ namespace {
 using ProbeJson = nlohmann::ordered_json;
 constexpr std::uint32_t kNumbers = 0x3fff'ffffU;
 constexpr const char* kWithoutObstacles = "senses: [mapped_real, simulated_robots, real_robots]";
-
-std::string dumped(const ProbeJson& json) {
-  return json.dump(-1, ' ', false, ProbeJson::error_handler_t::replace);
-}
 
 /// What a file has in each line of the entry, from its name on.
 std::vector<std::string> lines_of(const ProbeRequest& request) {
@@ -86,7 +83,7 @@ const std::string& ProbeDesk::catalogue_json() {
   for (const plugin::Driver* const driver : catalogue_->all()) {
     if (driver->info.kind == DriverKind::kVirtualSensor) drivers.push_back(driver_of(driver->info));
   }
-  return json_ = dumped(drivers);
+  return json_ = json_text(drivers);
 }
 
 Result<ProbeMade> ProbeDesk::make(const ProbeRequest& request, std::uint32_t robot) {
@@ -101,7 +98,7 @@ Result<ProbeMade> ProbeDesk::make(const ProbeRequest& request, std::uint32_t rob
   if (sensor->info().kind == ReadingKind::kNeighbours) {
     made.asked.number |= probe::kNamesRobotsBit;
   }
-  made.sensor_json = dumped(sensor_of(*sensor));
+  made.sensor_json = json_text(sensor_of(*sensor));
   return made;
 }
 

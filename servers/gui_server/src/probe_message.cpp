@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plain_name.hpp"
 #include "rave/base/control_characters.hpp"
+#include "rave/base/plain_name.hpp"
 
 namespace rave::gui_server {
 namespace {

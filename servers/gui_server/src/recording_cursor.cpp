@@ -140,7 +140,7 @@ Status RecordingCursor::show(const Bytes& bytes) {
     const double ahead =
         pose.velocity_W.vx * std::cos(robot.yaw_rad) + pose.velocity_W.vy * std::sin(robot.yaw_rad);
     robot.speed_mps = std::copysign(std::hypot(pose.velocity_W.vx, pose.velocity_W.vy), ahead);
-    robot.flags |= kKnown;
+    robot.set(true, kKnown);
   }
   return {};
 }
@@ -163,8 +163,7 @@ void RecordingCursor::set_flags() {
       // The list is in order of time. Flags are set anew for each moment, because a replay also
       // goes back.
       if (change.t_s > poses_.time_s + step_s_ / 2) break;
-      std::uint16_t& flags = poses_.robots[r].flags;
-      flags = static_cast<std::uint16_t>(change.on ? flags | change.flag : flags & ~change.flag);
+      poses_.robots[r].set(change.on, change.flag);
     }
   }
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <optional>
 #include <tuple>
 #include <vector>
@@ -15,7 +14,7 @@ namespace rave::gui_server {
 /// When flags of robots change, by robot and in order of time.
 struct FlagChange {
   double t_s = 0;
-  std::uint16_t flag = 0;
+  RobotFlag flag = kKnown;
   bool on = false;
 };
 using FlagHistory = std::vector<std::vector<FlagChange>>;

@@ -64,6 +64,12 @@ class WatchedPlayhead final : public Playhead {
   std::unique_ptr<Playhead> all_;
 };
 
+/// The answer of a host as this user gets it: it may name robots that are not seen.
+std::string told_to(const View& view, bool good, std::string text) {
+  if (view.may_read(text)) return text;
+  return good ? "Done." : "The request failed.";
+}
+
 /// What a power needs: the right of its name, if there is one.
 bool allowed(const View& view, bool live, const std::string& power) {
   const auto what = class_named(power);
@@ -265,9 +271,7 @@ void RestrictedSource::halt(const HaltMessage& halt, const Author& author, Reply
     if (mine.slots.empty()) return reply(false, kNotYours);
   }
   all_->halt(mine, author, [reply = std::move(reply), view = view_](bool good, std::string text) {
-    // The answer of a host may name robots that are not seen.
-    if (!view->may_read(text)) text = good ? "Done." : "The request failed.";
-    reply(good, std::move(text));
+    reply(good, told_to(*view, good, std::move(text)));
   });
 }
 
@@ -292,15 +296,11 @@ CommandMessage part_of(const CommandMessage& command, std::size_t i, std::uint32
 
 void RestrictedSource::command(const CommandMessage& command, const Author& author,
                                const SlotReply& reply) {
-  const auto read = [view = view_](bool good, std::string text) {
-    if (view->may_read(text)) return text;
-    return std::string(good ? "Done." : "The request failed.");
-  };
   if (command.of_obstacle()) {
     if (!may_edit(*view_)) return reply(kNoSlot, false, kNotYours);
     return all_->command(command, author,
-                         [reply, read](std::uint32_t slot, bool good, const std::string& text) {
-                           reply(slot, good, read(good, text));
+                         [reply, view = view_](std::uint32_t slot, bool good, std::string text) {
+                           reply(slot, good, told_to(*view, good, std::move(text)));
                          });
   }
   const InfoClass what =
@@ -314,8 +314,8 @@ void RestrictedSource::command(const CommandMessage& command, const Author& auth
     }
     // Robot by robot, because some may be refused, and points belong to places in the list.
     all_->command(part_of(command, i, *robot), author,
-                  [reply, read, slot](std::uint32_t, bool good, const std::string& text) {
-                    reply(slot, good, read(good, text));
+                  [reply, view = view_, slot](std::uint32_t, bool good, std::string text) {
+                    reply(slot, good, told_to(*view, good, std::move(text)));
                   });
   }
 }

@@ -14,14 +14,10 @@ namespace rave::gui_server {
 class RunPort {
  public:
   virtual ~RunPort() = default;
-  /// Why the run cannot be held, stepped, or given another pace; empty: it can.
+  /// The run, whose pace pages see; null: it is elsewhere and keeps its own.
+  [[nodiscard]] virtual runtime::RunControl* control() = 0;
+  /// Why the run cannot be held, stepped, or given another pace; empty: it can, by control().
   [[nodiscard]] virtual std::string why_not_held() const = 0;
-  [[nodiscard]] virtual bool paused() const = 0;
-  [[nodiscard]] virtual double pace() const = 0;
-  virtual void pause() = 0;
-  virtual void resume() = 0;
-  virtual void step(std::uint64_t count) = 0;
-  virtual void set_pace(double factor) = 0;
   /// Which robots are stopped or wait to be armed, by name; nothing if that is not known here.
   [[nodiscard]] virtual std::vector<runtime::RunStatus::Robot> robots() const = 0;
   /// Of a run of this process, which is not on the bus; empty: the run is elsewhere.
@@ -38,13 +34,8 @@ class LocalPort final : public RunPort {
   LocalPort(runtime::RunControl& control, std::string why_not_held)
       : control_(control), why_not_held_(std::move(why_not_held)) {}
 
+  [[nodiscard]] runtime::RunControl* control() override { return &control_; }
   [[nodiscard]] std::string why_not_held() const override { return why_not_held_; }
-  [[nodiscard]] bool paused() const override { return control_.paused(); }
-  [[nodiscard]] double pace() const override { return control_.pace(); }
-  void pause() override { control_.pause(); }
-  void resume() override { control_.resume(); }
-  void step(std::uint64_t count) override { control_.step(count); }
-  void set_pace(double factor) override { control_.set_pace(factor); }
   [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override {
     return control_.status().robots;
   }

@@ -2,9 +2,9 @@
 #include "scene_json.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "rave/base/json_text.hpp"
 #include "rave/config/map_image.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
@@ -165,11 +165,11 @@ std::string body_json(std::uint32_t id, const world::Obstacle& obstacle) {
   }
   if (body.code) json["barcode"] = *body.code;
   if (!body.colour.empty()) json["colour"] = body.colour;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 std::string body_json(std::uint32_t id, const config::ObstacleFile& obstacle) {
-  return file_json(id, obstacle).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(file_json(id, obstacle));
 }
 
 std::string robots_of(const config::ExpandedScenario& scenario, const record::RunInfo& run,

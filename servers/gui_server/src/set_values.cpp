@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "rave/base/json_text.hpp"
+
 namespace rave::gui_server {
 namespace {
 
@@ -11,7 +13,7 @@ std::string value_json(std::string_view kind, std::string_view text) {
   using Json = nlohmann::json;
   if (kind == "flag") return text == "true" ? "true" : "false";
   if (kind == "text" || kind == "choice") {
-    return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json_text(Json(text));
   }
   return Json::parse(text, nullptr, false).is_number() ? std::string(text) : std::string();
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
 #include <string_view>
 
 #include "rave/web/message.hpp"
@@ -21,8 +20,5 @@ namespace rave::gui_server {
 
 /// `/login.css`.
 [[nodiscard]] web::Response sign_in_style();
-
-/// Text as it may stand in HTML, in attributes too.
-[[nodiscard]] std::string escaped_html(std::string_view text);
 
 }  // namespace rave::gui_server

@@ -2,9 +2,10 @@
 #include "ticket_desk.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "rave/base/json_text.hpp"
+#include "rave/base/wall_clock.hpp"
 #include "secrets.hpp"
 #include "ticket_request.hpp"
 
@@ -15,15 +16,10 @@ using TicketJson = nlohmann::ordered_json;
 using direct_line::HostLine;
 using direct_line::RobotSet;
 
-std::int64_t day_ms() {
-  return std::chrono::duration_cast<std::chrono::milliseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
+std::int64_t day_ms() { return wall_ns() / 1'000'000; }
 
 web::Response json_response(int status, const TicketJson& json) {
-  web::Response response = web::text_response(
-      status, json.dump(-1, ' ', false, TicketJson::error_handler_t::replace) + "\n");
+  web::Response response = web::text_response(status, json_text(json) + "\n");
   response.type = "application/json";
   // A ticket is a secret: no cache on the way may keep it.
   response.headers.emplace_back("Cache-Control", "no-store");
@@ -87,8 +83,8 @@ std::uint64_t TicketDesk::epoch_of(const std::string& user) const {
 }
 
 web::Response TicketDesk::serve(const web::Request& request, const Asker& asker) {
-  const auto wanted = parse_ticket_request(request.body);
-  if (!wanted) return refused(400, wanted.error().message);
+  auto page_key = parse_ticket_request(request.body);
+  if (!page_key) return refused(400, page_key.error().message);
   const std::string origin(request.header("origin"));
   // The origin becomes a part of the ticket, so that a page of another site cannot use it.
   if (origin.empty()) return refused(400, "the request has no Origin header");
@@ -104,7 +100,7 @@ web::Response TicketDesk::serve(const web::Request& request, const Asker& asker)
   ticket.user = asker.person.name;
   ticket.role = to_string(asker.person.role);
   ticket.origin = origin;
-  ticket.page_key = wanted->page_key;
+  ticket.page_key = *std::move(page_key);
   ticket.epoch = epoch_of(ticket.user);
   ticket.expires_s = day_ms() / 1000 + direct_line::kTicketLife_s;
   // One for all hosts: the same page.

@@ -8,15 +8,8 @@
 
 namespace rave::gui_server {
 
-/// The body of `POST /ticket`.
-struct TicketRequest {
-  std::string page_key;  ///< 65 bytes; see direct_line::Ticket.
-};
-
-/// A public key in base64url, as its 65 bytes. Error: kParse.
-[[nodiscard]] Result<std::string> page_key_of(const std::string& text);
-
-/// Errors: kParse with what was expected.
-[[nodiscard]] Result<TicketRequest> parse_ticket_request(std::string_view body);
+/// The page key in the body of `POST /ticket`, as its 65 bytes; see direct_line::Ticket. Errors:
+/// kParse with what was expected.
+[[nodiscard]] Result<std::string> parse_ticket_request(std::string_view body);
 
 }  // namespace rave::gui_server

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "plain_name.hpp"
 #include "rave/base/check.hpp"
+#include "rave/base/plain_name.hpp"
 #include "rave/onlook/command_row.hpp"
 
 namespace rave::gui_server {

@@ -10,17 +10,12 @@
 
 namespace rave::gui_server::testing {
 
-/// A port to no run: it is not paused, knows no robots, and refuses what it is asked. Tests
+/// A port to no run: it has no control, knows no robots, and refuses what it is asked. Tests
 /// override what they look at.
 class FakePort : public RunPort {
  public:
+  [[nodiscard]] runtime::RunControl* control() override { return nullptr; }
   [[nodiscard]] std::string why_not_held() const override { return ""; }
-  [[nodiscard]] bool paused() const override { return false; }
-  [[nodiscard]] double pace() const override { return 1; }
-  void pause() override {}
-  void resume() override {}
-  void step(std::uint64_t /*count*/) override {}
-  void set_pace(double /*factor*/) override {}
   [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override { return {}; }
   [[nodiscard]] Result<std::future<Result<std::string>>> post(
       runtime::RunRequest /*request*/) override {

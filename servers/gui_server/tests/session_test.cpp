@@ -31,8 +31,8 @@ class KeptSocket final : public web::Socket {
 /// A run of this process that is held, or goes on.
 class HeldPort final : public testing::FakePort {
  public:
-  explicit HeldPort(const bool& held) : held_(held) {}
-  [[nodiscard]] bool paused() const override { return held_; }
+  explicit HeldPort(runtime::RunControl& run) : run_(run) {}
+  [[nodiscard]] runtime::RunControl* control() override { return &run_; }
   [[nodiscard]] std::optional<runtime::RunStatus> own_status() const override {
     runtime::RunStatus status;
     status.scenario = "yard";
@@ -42,7 +42,7 @@ class HeldPort final : public testing::FakePort {
   }
 
  private:
-  const bool& held_;
+  runtime::RunControl& run_;
 };
 
 class PageSessions : public ::testing::Test {
@@ -57,7 +57,7 @@ class PageSessions : public ::testing::Test {
     start.robots_json = R"([{"name":"anna","team":"","sensors":[]},)"
                         R"({"name":"bert","team":"","sensors":[]}])";
     source_ =
-        std::make_shared<LiveSource>(std::move(start), box_, std::make_unique<HeldPort>(held_));
+        std::make_shared<LiveSource>(std::move(start), box_, std::make_unique<HeldPort>(run_));
     robots_.assign(2, RobotState{1, 2, 0.5, 0, kKnown});
     Greeting greeting;
     greeting.user = {"ada", Role::kSuperUser, {}};
@@ -86,7 +86,7 @@ class PageSessions : public ::testing::Test {
   }
 
   void draw() {
-    if (!held_) {
+    if (!run_.paused()) {
       ++step_;
       for (RobotState& robot : robots_) robot.x_m += 0.01;
     }
@@ -111,7 +111,7 @@ class PageSessions : public ::testing::Test {
         socket_.texts, [type](const SessionJson& text) { return text.at("type") == type; }));
   }
 
-  bool held_ = false;
+  runtime::RunControl run_;
   KeptSocket socket_;
   std::shared_ptr<LiveBox> box_ = std::make_shared<LiveBox>();
   std::shared_ptr<LiveSource> source_;
@@ -134,7 +134,7 @@ TEST_F(PageSessions, GetAFrameForEachPictureOfARunThatGoesOn) {
 
 TEST_F(PageSessions, OfAHeldRunGetNothingButItsTime) {
   pass(1000ms);
-  held_ = true;
+  run_.pause();
   pass(200ms);
   static_cast<void>(frames());
   socket_.texts.clear();
@@ -146,7 +146,7 @@ TEST_F(PageSessions, OfAHeldRunGetNothingButItsTime) {
 
 TEST_F(PageSessions, OfAHeldRunGetWhatChangesAllTheSame) {
   pass(500ms);
-  held_ = true;
+  run_.pause();
   pass(500ms);
   static_cast<void>(frames());
   robots_[1].flags |= kStopped;
@@ -159,7 +159,7 @@ TEST_F(PageSessions, OfAHeldRunGetWhatChangesAllTheSame) {
   pass(500ms);
   EXPECT_EQ(frames(), 2U);
   EXPECT_EQ(others_, 1U);
-  held_ = false;
+  run_.resume();
   pass(500ms);
   EXPECT_GE(frames(), 8U);
 }

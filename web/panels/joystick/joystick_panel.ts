@@ -242,7 +242,6 @@ export class JoystickPanel extends LiveElement {
       @container (max-width: 420px) { .delay svg { display: none; } }
       header { display: flex; align-items: center; gap: 8px; padding: 10px 12px 8px; }
       header b { font-size: var(--fs-15); overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
-      .space { flex: 1; }
       rave-lease { margin: 0 12px 4px; flex: none; }
       .sources { flex: none; }
       .source { display: inline-flex; align-items: center; gap: 5px; height: 24px; padding: 0 8px; border-radius: 5px; color: var(--text-2); font-size: var(--fs-12); }

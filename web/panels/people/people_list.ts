@@ -114,7 +114,6 @@ export class PeopleList extends LiveElement {
       thead th.number { text-align: right; }
       .here { color: var(--ok); }
       .bad { color: var(--danger); }
-      .space { flex: 1; }
       .narrow { display: none; }
       .hidden { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
       @container (max-width: 460px) { .teams { display: none; } .narrow { display: block; white-space: normal; } thead th.number:nth-of-type(4), td.number:nth-of-type(3) { display: none; } }

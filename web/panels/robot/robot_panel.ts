@@ -172,7 +172,6 @@ export class RobotPanel extends LiveElement {
       :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); font-size: var(--fs-12); }
       header { display: flex; align-items: center; gap: 8px; padding: 10px 12px; flex: none; }
       header b { font-size: var(--fs-15); overflow: hidden; text-overflow: ellipsis; }
-      .space { flex: 1; }
       .scroll { flex: 1; overflow: auto; padding: 0 12px 12px; }
       .halt { display: flex; align-items: center; gap: 8px; margin-top: 8px; }
       .halt button { display: inline-flex; align-items: center; gap: 6px; height: var(--h-control); padding: 0 10px; border-radius: var(--r-3); font-size: var(--fs-12); }

@@ -93,7 +93,6 @@ export class TwinSection extends LiveElement {
       h4 { display: flex; align-items: center; gap: 6px; margin: 14px 0 6px; color: var(--text-2); font-size: var(--fs-12); font-weight: var(--fw-medium); }
       h4 em { font-style: normal; font-weight: 400; color: var(--text-3); font-size: var(--fs-11); }
       h4 em.real { color: var(--text-1); font-weight: var(--fw-strong); }
-      .space { flex: 1; }
       .row { display: flex; flex-wrap: wrap; gap: 8px; }
       .row button { display: inline-flex; align-items: center; gap: 6px; height: var(--h-control); padding: 0 10px; border-radius: var(--r-3); font-size: var(--fs-12); }
       .main { background: var(--intent-fill); color: #fff; }

@@ -239,7 +239,6 @@ export class RobotsPanel extends LiveElement {
       .field { margin: 10px 12px 8px; }
       .kinds { display: flex; align-items: center; gap: 6px; padding: 0 12px 8px; border-bottom: 1px solid var(--line-1); }
       .kinds em { font-style: normal; color: var(--text-3); font-size: var(--fs-11); }
-      .space { flex: 1; }
       .rows { flex: 1; overflow: auto; padding: 4px 0; }
       .team { display: flex; align-items: center; gap: 6px; width: 100%; height: 26px; padding: 0 12px; color: var(--text-2); font-size: var(--fs-12); text-align: left; }
       .team.many { height: 40px; }

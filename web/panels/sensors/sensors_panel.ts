@@ -251,7 +251,6 @@ export class SensorsPanel extends LookingPanel {
       :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); overflow: hidden; }
       .head, .about { display: flex; align-items: center; gap: 8px; padding: 8px 12px 0; flex-wrap: wrap; }
       .about { color: var(--text-2); font-size: var(--fs-12); padding-top: 4px; flex-wrap: nowrap; white-space: nowrap; overflow: hidden; }
-      .space { flex: 1; }
       .old { color: var(--stale-ink); }
       :host([embedded]) .head > :is(.glyph, b, .icon-button, .space), :host([compact]) :is(.course, .fields) { display: none; }
       .tag { display: inline-flex; align-items: center; gap: 6px; padding: 1px 8px; border-radius: var(--r-2); background: var(--virtual-fill); color: var(--virtual-ink); }

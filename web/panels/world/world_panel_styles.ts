@@ -7,7 +7,6 @@ export const worldPanelStyles = css`
   .bar { display: flex; align-items: center; gap: 2px; height: 40px; flex: none; padding: 0 10px; border-bottom: 1px solid var(--line-1); overflow: hidden; }
   .rule { width: 1px; height: 18px; margin: 0 8px; background: var(--line-2); flex: none; }
   .segments { flex: none; }
-  .space { flex: 1; }
   .tools { display: flex; gap: 2px; flex: none; }
   .colour-by { display: flex; align-items: center; gap: 8px; margin-right: 6px; color: var(--text-3); font-size: var(--fs-12); white-space: nowrap; }
   :host { container-type: inline-size; }

@@ -20,4 +20,9 @@ namespace rave {
 [[nodiscard]] Status write_file_atomically(const std::filesystem::path& path,
                                            std::string_view content);
 
+/// Creates a file that only the user can read (mode 0600), with its content on the disk. Never
+/// replaces another. Errors: kNotFound (no such folder), kIo.
+[[nodiscard]] Status write_private_file(const std::filesystem::path& path,
+                                        std::string_view content);
+
 }  // namespace rave

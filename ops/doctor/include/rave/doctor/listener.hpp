@@ -7,13 +7,11 @@
 #include <string>
 
 #include "rave/base/result.hpp"
+#include "rave/base/wall_clock.hpp"
 #include "rave/bus/config.hpp"
 #include "rave/doctor/probe.hpp"
 
 namespace rave::doctor {
-
-/// The system clock, nanoseconds since 1970.
-[[nodiscard]] std::int64_t clock_of_day();
 
 /// The data that a process sends to doctors of other machines: its machine, version, certificates.
 /// `stamp`: hash of the interfaces that hosts of a run must agree on.
@@ -27,7 +25,7 @@ class Listener {
   struct Options {
     std::string address;  ///< IPv4 address of the interface.
     About about;          ///< Its ports are filled in by the listener.
-    std::function<std::int64_t()> clock = clock_of_day;
+    std::function<std::int64_t()> clock = wall_ns;
   };
   /// Errors: kState (another listener is running), kIo.
   [[nodiscard]] static Result<std::unique_ptr<Listener>> open(Options options);

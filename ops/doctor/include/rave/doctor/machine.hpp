@@ -12,8 +12,7 @@ namespace rave::doctor {
 /// A network interface with an IPv4 address.
 struct Interface {
   std::string name;
-  std::string address;     ///< Empty: none.
-  std::uint32_t mask = 0;  ///< Network mask, in host byte order.
+  std::string address;  ///< Empty: none.
   bool up = false;
   bool multicast = false;
   bool loopback = false;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "rave/base/wall_clock.hpp"
 #include "rave/bus/clock_offset.hpp"
 #include "rave/doctor/finding.hpp"
 #include "rave/doctor/listener.hpp"
@@ -47,7 +48,7 @@ struct ProbeOptions {
   std::uint32_t domain = 0;
   bool multicast = false;
   int patience_ms = 300;  ///< Timeout for the answer to one question; each is asked 3 times.
-  std::function<std::int64_t()> clock = clock_of_day;
+  std::function<std::int64_t()> clock = wall_ns;
 };
 
 /// Probes another machine and collects all results, whatever fails. Sends real packets, at most 1

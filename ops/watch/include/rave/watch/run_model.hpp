@@ -72,17 +72,8 @@ class RunModel {
     bool simulated = true;
     std::string driver{};
   };
-  /// A host according to the manager.
-  struct Sight {
-    std::string name;
-    rave_wire_HostPhase phase{};
-    std::uint32_t robots = 0;
-    std::uint64_t step = 0;
-    double offset_s = 0;
-    double bound_s = -1;
-    std::string machine{};  ///< Of the manager, according to a host.
-    std::string folder{};
-  };
+  /// A host according to the manager, or the manager according to a host.
+  using Sight = rave_wire_HostSight;
   struct State {
     std::uint64_t writer = 0;
     std::string scenario;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "rave/base/result.hpp"
 #include "rave/direct_line/ticket.hpp"
@@ -15,7 +14,8 @@ namespace rave::direct_line {
 /// host looks for it.
 inline constexpr const char* kMemberKeyFile = "line.pub";
 
-/// Creates both files with a new key. Errors: kInvalidArgument (one of them exists), kIo.
+/// Creates both files with a new key. Errors: kInvalidArgument (one of them exists), kNotFound (no
+/// such folder), kIo.
 [[nodiscard]] Status make_key_files(const std::filesystem::path& file);
 /// Writes only the public half, for hosts. Error kIo.
 [[nodiscard]] Status write_public_key(const std::filesystem::path& file, const PublicKey& key);

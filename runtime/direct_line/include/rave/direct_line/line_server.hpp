@@ -28,16 +28,6 @@ struct LineOptions {
   std::function<std::int64_t()> clock_ms{};
 };
 
-/// Counters of a line server.
-struct LineCounts {
-  std::uint64_t welcomed = 0;
-  std::uint64_t refused_lines = 0;   ///< Connections without a valid ticket.
-  std::uint64_t refused_orders = 0;  ///< Not covered by the ticket, or not an order.
-  std::uint64_t orders = 0;          ///< Passed to the run.
-  std::uint64_t withdrawn = 0;       ///< Lines ended by a withdrawal.
-  std::size_t open = 0;              ///< Open lines with a valid ticket.
-};
-
 /// The direct line of a host: pages with a ticket of the GUI Server send orders over a WebSocket
 /// (`/ws`, subprotocol `rave.line.1`) directly to the run of this process. It does not need the GUI
 /// Server to be reachable. Runs in a thread of its own.
@@ -59,8 +49,6 @@ class LineServer {
   /// Processes a signed withdrawal (see ticket.hpp): tickets with a lower epoch and their lines
   /// end. A text with an invalid signature is logged and ignored. Asynchronous. Any thread.
   void withdraw(std::string signed_text);
-  /// Waits for the thread of the server. Any other thread.
-  [[nodiscard]] LineCounts counts() const;
 
  private:
   class Impl;

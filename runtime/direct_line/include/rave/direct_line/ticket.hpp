@@ -59,6 +59,9 @@ struct Ticket {
   friend bool operator==(const Ticket&, const Ticket&) = default;
 };
 
+/// A page key in base64url, as its 65 bytes. Error: kParse.
+[[nodiscard]] Result<std::string> page_key_of(std::string_view text);
+
 /// The id of a page for leases: a hash of its key, or of another secret that only the page has.
 /// Never 0.
 [[nodiscard]] std::uint64_t page_number(std::string_view key);

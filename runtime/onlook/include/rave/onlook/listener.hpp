@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
-#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -18,16 +17,6 @@
 #include "rave/sim/obstacle_change.hpp"
 
 namespace rave::onlook {
-
-/// A reading as rows of numbers, row by row.
-struct HeardReading {
-  LookedAt sensor;
-  std::uint8_t part = 0;  ///< 0: for the program, 1: real half, 2: virtual half.
-  double stamp_s = 0;
-  std::uint32_t rows = 0;
-  std::uint32_t fields = 0;
-  std::vector<float> values;
-};
 
 struct HeardEvent {
   double t_s = 0;
@@ -60,8 +49,7 @@ class Listener {
   void hear();
 
   /// The newest reading of each requested sensor and part, unless too old.
-  [[nodiscard]] const std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t>,
-                               HeardReading>&
+  [[nodiscard]] const std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t>, ReadingAt>&
   readings() const noexcept {
     return readings_;
   }
@@ -95,7 +83,7 @@ class Listener {
   std::uint64_t number_ = 0;
   Clock::time_point next_look_{};
   std::vector<rave_wire_LookedAt> sensors_;
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t>, HeardReading> readings_;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t>, ReadingAt> readings_;
   std::vector<HeardEvent> events_;
   std::map<std::string, Told> told_;                  ///< Events of the world, by their text.
   std::map<std::uint32_t, std::uint64_t> revisions_;  ///< By obstacle.

@@ -11,8 +11,8 @@
 
 namespace rave::onlook {
 
-/// Names and units of the numbers of a row, such as `range [m]`; empty for kValues, which only its
-/// driver can interpret.
+/// Names and units of the numbers of a row, such as `range [m]`. What those of kValues mean only
+/// their driver knows.
 [[nodiscard]] std::vector<std::string> fields_of(ReadingKind kind);
 
 /// Number of values per row; 0 for kNone.

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
-#include <span>
 #include <tuple>
 #include <vector>
 
@@ -38,6 +37,9 @@ class ReadingTeller {
 
  private:
   void put(const sim::Engine& engine, const LookedAt& looked, bool parts);
+  /// A new reading with room for `numbers`; null: it was told already, or there is no room.
+  rave_wire_Reading* begin(const LookedAt& looked, std::uint8_t part, std::uint32_t sequence,
+                           std::size_t numbers);
   void put_commands(const sim::Engine& engine, const LookedAt& looked);
   void put_part(const LookedAt& looked, std::uint8_t part, ReadingKind kind,
                 const SampleHeader* header, const void* records);

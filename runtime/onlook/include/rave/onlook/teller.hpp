@@ -63,14 +63,9 @@ class Teller {
     Asked asked;
     Clock::time_point heard;
   };
-  Teller(Options options, bus::Reader<bus::Look> looks, bus::Writer<bus::RunEvents> events,
-         ReadingTeller readings, bus::Writer<bus::MapTile> tiles,
-         std::optional<ObstacleTeller> obstacles)
+  Teller(Options options, ReadingTeller readings, std::optional<ObstacleTeller> obstacles)
       : options_(std::move(options)),
-        looks_(std::move(looks)),
-        events_(std::move(events)),
         readings_(std::move(readings)),
-        tiles_(std::move(tiles)),
         obstacles_(std::move(obstacles)) {}
 
   void hear(Clock::time_point now);

@@ -5,7 +5,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "rave/control/run_control.hpp"
@@ -16,8 +15,6 @@ namespace rave::gui_server {
 
 /// Largest number of robots in one message.
 inline constexpr std::size_t kMostCommanded = 2000;
-/// Largest size of a text to a robot or a user, bytes of UTF-8.
-inline constexpr std::size_t kLongestText = 1000;
 
 /// The sender of a request, as the run names it.
 struct Author {

@@ -7,7 +7,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -17,6 +16,7 @@
 #include "rave/gui_server/command.hpp"
 #include "rave/gui_server/rights.hpp"
 #include "rave/maps/map_tile.hpp"
+#include "rave/onlook/asked.hpp"
 #include "rave/probe/probes.hpp"
 
 // A source provides what the GUI Server shows: a recording, or a run. Plain values; SI units, frame
@@ -82,6 +82,9 @@ struct RobotState {
   /// earlier versions.
   float variance_xy_m2 = 0;
   float variance_yaw_rad2 = 0;
+  void set(bool on, RobotFlag flag) {
+    flags = static_cast<std::uint16_t>(on ? flags | flag : flags & ~flag);
+  }
   friend bool operator==(const RobotState&, const RobotState&) = default;
 };
 
@@ -99,23 +102,9 @@ struct PosesAt {
   std::uint32_t taken_us = 0;
 };
 
-/// One reading as rows of numbers.
-struct ReadingAt {
-  std::uint32_t slot = 0;
-  std::uint32_t sensor = 0;
-  std::uint8_t part = 0;  ///< 0: for the program, 1: real half, 2: virtual half.
-  double stamp_s = 0;
-  std::uint32_t rows = 0;
-  std::uint32_t fields = 0;
-  std::vector<float> values;
-};
-
-/// A sensor that a page shows.
-struct LookedAt {
-  std::uint32_t slot = 0;
-  std::uint32_t sensor = 0;
-  friend auto operator<=>(const LookedAt&, const LookedAt&) = default;
-};
+/// A reading, and a sensor that a page shows.
+using onlook::LookedAt;
+using onlook::ReadingAt;
 
 /// A chat message in a recording.
 struct ChatText {
@@ -250,6 +239,8 @@ struct Audience {
   /// Robots whose local maps are needed; ascending, without duplicates.
   std::vector<std::uint32_t> maps;
   std::vector<probe::Asked> probes;  ///< Ascending, without duplicates.
+
+  friend bool operator==(const Audience&, const Audience&) = default;
 };
 
 /// Used in one thread, that of the server.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace rave::gui_server {
+namespace rave {
 
 /// A letter or a digit of ASCII, or one of `signs`.
 [[nodiscard]] constexpr bool is_plain(char c, std::string_view signs) noexcept {
@@ -17,4 +17,4 @@ namespace rave::gui_server {
   return !name.empty() && std::ranges::all_of(name, [signs](char c) { return is_plain(c, signs); });
 }
 
-}  // namespace rave::gui_server
+}  // namespace rave

@@ -6,32 +6,10 @@
 #include <string_view>
 
 #include "rave/base/control_characters.hpp"
+#include "rave/base/markup.hpp"
 
 namespace rave::bus {
 namespace {
-
-std::string escape(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
 
 /// Names must not contain control characters; `$` would begin a variable in the XML.
 bool plain(std::string_view text) {
@@ -65,7 +43,7 @@ std::string general(const BusConfig& config) {
   std::string xml = fmt::format(
       "<General><Interfaces><NetworkInterface {}=\"{}\"{}/></Interfaces>"
       "<AllowMulticast>{}</AllowMulticast>",
-      kind, escape(config.interface), assume, multicast);
+      kind, escaped_markup(config.interface), assume, multicast);
   // Loopback loses packets only through full buffers and permits packets of 64 KB. Elsewhere a
   // fragment must fit into an Ethernet frame, or the loss of one frame would cost 40 others.
   if (config.loopback()) {
@@ -103,13 +81,14 @@ std::string discovery(const BusConfig& config, int hub) {
       config.lease.ns / 1'000'000);
   // The domain has another number within this process then.
   if (config.beside) xml += fmt::format("<ExternalDomainId>{}</ExternalDomainId>", config.domain);
-  if (!config.tag.empty()) xml += fmt::format("<Tag>{}</Tag>", escape(config.tag));
+  if (!config.tag.empty()) xml += fmt::format("<Tag>{}</Tag>", escaped_markup(config.tag));
   if (!peers.empty()) {
     xml += "<Peers>";
     for (const std::string& peer : peers) {
-      if (where.empty()) xml += fmt::format("<Peer address=\"{}\"/>", escape(peer));
+      if (where.empty()) xml += fmt::format("<Peer address=\"{}\"/>", escaped_markup(peer));
       for (const int place : where) {
-        xml += fmt::format("<Peer address=\"{}:{}\"/>", escape(peer), port_of(config, place));
+        xml +=
+            fmt::format("<Peer address=\"{}:{}\"/>", escaped_markup(peer), port_of(config, place));
       }
     }
     xml += "</Peers>";
@@ -142,13 +121,13 @@ std::string internals() {
 
 std::string security(const std::filesystem::path& folder) {
   const auto file = [&](const char* name) {
-    return "file:" + escape((std::filesystem::absolute(folder) / name).string());
+    return "file:" + escaped_markup((std::filesystem::absolute(folder) / name).string());
   };
   const auto library = [](const char* name, const char* what) {
     return fmt::format(
         "<Library path=\"{}/libdds_security_{}.so\" initFunction=\"init_{}\" "
         "finalizeFunction=\"finalize_{}\"/>",
-        escape(RAVE_DDS_SECURITY_FOLDER), name, what, what);
+        escaped_markup(RAVE_DDS_SECURITY_FOLDER), name, what, what);
   };
   return "<Security><Authentication>" + library("auth", "authentication") + "<IdentityCA>" +
          file("identity_ca.pem") + "</IdentityCA><IdentityCertificate>" + file("identity.pem") +

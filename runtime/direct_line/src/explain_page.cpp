@@ -1,26 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "explain_page.hpp"
 
+#include "rave/base/markup.hpp"
+
 namespace rave::direct_line {
-namespace {
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '<') {
-      safe += "&lt;";
-    } else if (c == '>') {
-      safe += "&gt;";
-    } else if (c == '&') {
-      safe += "&amp;";
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
-}
-
-}  // namespace
 
 web::Response explain_page(const std::string& host) {
   web::Response response;
@@ -29,10 +12,10 @@ web::Response explain_page(const std::string& host) {
   response.body = std::make_shared<const std::string>(
       "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>Host " +
-      escaped(host) +
+      escaped_markup(host) +
       "</title><style>body{font:16px/1.5 system-ui,sans-serif;max-width:36em;margin:3em "
       "auto;padding:0 1em;color-scheme:light dark}</style><h1>Host " +
-      escaped(host) +
+      escaped_markup(host) +
       "</h1><p>This browser accepts the certificate of this host. Close this tab and go back to "
       "the page: it uses the direct line to this host from now on.</p><p>The warning before this "
       "page means that the browser does not know the authority that signed the certificate. "

@@ -5,6 +5,8 @@
 
 #include <memory>
 
+#include "rave/base/markup.hpp"
+
 namespace rave::gui_server {
 namespace {
 
@@ -54,9 +56,9 @@ web::Response page_of(int status, std::string_view title, std::string_view below
       "<link rel=\"icon\" href=\"/icon.svg\"><link rel=\"stylesheet\" "
       "href=\"/login.css\"></head><body><main><header>{1}<div><h1>{0}</h1>"
       "<p>{2}</p></div></header>",
-      escaped_html(title), kMark, escaped_html(below));
+      escaped_markup(title), kMark, escaped_markup(below));
   if (!note.empty())
-    html += fmt::format("<p class=\"note\" role=\"alert\">{}</p>", escaped_html(note));
+    html += fmt::format("<p class=\"note\" role=\"alert\">{}</p>", escaped_markup(note));
   html += content + "</main></body></html>\n";
   web::Response response;
   response.status = status;
@@ -72,33 +74,6 @@ web::Response page_of(int status, std::string_view title, std::string_view below
 
 }  // namespace
 
-// Quotes too, because texts also stand in attributes.
-std::string escaped_html(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 web::Response sign_in_page(int status, std::string_view note, std::string_view name) {
   const std::string focus_name = name.empty() ? " autofocus" : "";
   const std::string focus_password = name.empty() ? "" : " autofocus";
@@ -112,7 +87,7 @@ web::Response sign_in_page(int status, std::string_view note, std::string_view n
           "type=\"password\" autocomplete=\"current-password\" maxlength=\"256\"{}>"
           "<button>Sign in</button></form>"
           "<p class=\"hint\">Have a link? Paste it as the name.</p>",
-          escaped_html(name), focus_name, focus_password));
+          escaped_markup(name), focus_name, focus_password));
 }
 
 web::Response join_page(int status, std::string_view note, std::string_view name,
@@ -129,7 +104,7 @@ web::Response join_page(int status, std::string_view note, std::string_view name
           "autocomplete=\"new-password\" maxlength=\"256\">"
           "<button>Join</button></form>"
           "<p class=\"hint\">Without a password you are in for seven days.</p>",
-          escaped_html(invitation), escaped_html(name)));
+          escaped_markup(invitation), escaped_markup(name)));
 }
 
 web::Response told_page(int status, std::string_view sentence, bool sign_in) {

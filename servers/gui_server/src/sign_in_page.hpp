@@ -22,7 +22,4 @@ namespace rave::gui_server {
 /// `/login.css`.
 [[nodiscard]] web::Response sign_in_style();
 
-/// Text as it may stand in HTML, in attributes too.
-[[nodiscard]] std::string escaped_html(std::string_view text);
-
 }  // namespace rave::gui_server

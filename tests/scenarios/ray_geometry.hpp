@@ -7,12 +7,13 @@
 
 #include "rave/math/polygon.hpp"
 #include "rave/math/transform.hpp"
+#include "rave/math_testing/polygon_measures.hpp"
 #include "rave/sim/engine.hpp"
 
 namespace rave::tests {
 
-/// The distance along a ray to a body that stands at X_WB, metres, by the reference functions of
-/// the mathematics library, which share nothing with the range engine; +infinity if it misses.
+/// The distance along a ray to a body that stands at X_WB, metres, by reference functions
+/// that share nothing with the range engine; +infinity if it misses.
 inline double ray_to_body(const world::WorldModel& world, std::uint32_t body, const Pose2& X_WB,
                           Vec2 p_W, double yaw_rad) {
   const Vec2 origin = transform_back(X_WB, p_W);

@@ -3,29 +3,25 @@
 
 #include <fmt/format.h>
 
-namespace rave {
+#include "rave/base/word_table.hpp"
 
-std::string_view to_string(ErrorCode code) noexcept {
-  switch (code) {
-    case ErrorCode::kInvalidArgument:
-      return "invalid_argument";
-    case ErrorCode::kParse:
-      return "parse";
-    case ErrorCode::kNotFound:
-      return "not_found";
-    case ErrorCode::kIo:
-      return "io";
-    case ErrorCode::kIncompatible:
-      return "incompatible";
-    case ErrorCode::kPlugin:
-      return "plugin";
-    case ErrorCode::kTimeout:
-      return "timeout";
-    case ErrorCode::kState:
-      return "state";
-  }
-  return "unknown";
-}
+namespace rave {
+namespace {
+
+constexpr WordTable<ErrorCode, 8> kCodes = {{
+    {"invalid_argument", ErrorCode::kInvalidArgument},
+    {"parse", ErrorCode::kParse},
+    {"not_found", ErrorCode::kNotFound},
+    {"io", ErrorCode::kIo},
+    {"incompatible", ErrorCode::kIncompatible},
+    {"plugin", ErrorCode::kPlugin},
+    {"timeout", ErrorCode::kTimeout},
+    {"state", ErrorCode::kState},
+}};
+
+}  // namespace
+
+std::string_view to_string(ErrorCode code) noexcept { return kCodes.of(code, "unknown"); }
 
 std::string SourceLocation::text() const {
   if (file.empty()) return {};

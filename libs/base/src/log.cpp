@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/base/log.hpp"
 
-namespace rave {
+#include "rave/base/word_table.hpp"
 
-std::string_view to_string(LogLevel level) noexcept {
-  switch (level) {
-    case LogLevel::kDebug:
-      return "debug";
-    case LogLevel::kInfo:
-      return "info";
-    case LogLevel::kWarning:
-      return "warning";
-    case LogLevel::kError:
-      return "error";
-  }
-  return "unknown";
-}
+namespace rave {
+namespace {
+
+constexpr WordTable<LogLevel, 4> kLevels = {{
+    {"debug", LogLevel::kDebug},
+    {"info", LogLevel::kInfo},
+    {"warning", LogLevel::kWarning},
+    {"error", LogLevel::kError},
+}};
+
+}  // namespace
+
+std::string_view to_string(LogLevel level) noexcept { return kLevels.of(level, "unknown"); }
 
 }  // namespace rave

@@ -6,14 +6,11 @@
 namespace rave {
 
 std::string escaped_markup(std::string_view text) {
-  constexpr WordTable<char, 5> kEntities = {
-      {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}}};
-  std::string escaped;
-  for (const char c : text) {
-    const std::string_view entity = kEntities.of(c);
-    escaped += entity.empty() ? std::string_view(&c, 1) : entity;
-  }
-  return escaped;
+  constexpr WordTable<char, 5> kEscapes = {
+      {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&#39;", '\''}}};
+  std::string out;
+  for (const char& c : text) out += kEscapes.of(c, {&c, 1});
+  return out;
 }
 
 }  // namespace rave

@@ -84,5 +84,11 @@ TEST(Result, AStatusIsSetAnew) {
   EXPECT_TRUE(status);
 }
 
+TEST(ErrorCode, HasANameForEachCode) {
+  for (int i = 0; i <= static_cast<int>(ErrorCode::kState); ++i) {
+    EXPECT_NE(to_string(static_cast<ErrorCode>(i)), "unknown") << i;
+  }
+}
+
 }  // namespace
 }  // namespace rave

@@ -11,19 +11,8 @@ constexpr std::chrono::seconds kWarnEvery{1};
 
 }  // namespace
 
-bool CommandBook::in_time(Clock::time_point now) {
-  if (since_ != Clock::time_point{}) {
-    const double passed_s = std::chrono::duration<double>(now - since_).count();
-    left_ = std::min(kPerSecond, left_ + std::max(0.0, passed_s) * kPerSecond);
-  }
-  since_ = now;
-  if (left_ < 1) return false;
-  left_ -= 1;
-  return true;
-}
-
 void CommandBook::hear(const Command& command, Clock::time_point now) {
-  if (!in_time(now)) {
+  if (!budget_.take(now)) {
     // No answer: the sender repeats what needs one, and a drive is renewed anyway.
     if (log_ != nullptr && (!warned_ || now - *warned_ >= kWarnEvery)) {
       warned_ = now;
@@ -41,10 +30,7 @@ void CommandBook::hear(const Command& command, Clock::time_point now) {
   if (command.number <= known.newest) return hear_again(command, known);
   const bool drive = command.kind == rave_wire_COMMAND_DRIVE;
   if (!drive && open_.size() >= kMostOpen) {
-    replies_.push_back({command.writer,
-                        command.robot,
-                        command.number,
-                        {false, "too many orders are waiting; try again later"}});
+    refuse(command, "too many orders are waiting; try again later");
     return;
   }
   known.newest = command.number;
@@ -66,10 +52,11 @@ void CommandBook::hear_again(const Command& command, const Known& known) {
     return open.key == Key(command.writer, command.robot) && open.number == command.number;
   });
   if (waits || command.number == known.newest) return;
-  replies_.push_back({command.writer,
-                      command.robot,
-                      command.number,
-                      {false, "the command arrived after a newer one for the same robot"}});
+  refuse(command, "the command arrived after a newer one for the same robot");
+}
+
+void CommandBook::refuse(const Command& command, const char* why) {
+  replies_.push_back({command.writer, command.robot, command.number, {false, why}});
 }
 
 std::vector<CommandBook::Reply> CommandBook::take() {

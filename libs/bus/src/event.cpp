@@ -3,35 +3,28 @@
 
 #include <fmt/format.h>
 
-namespace rave::bus {
+#include "rave/base/word_table.hpp"
 
-std::string_view to_string(EventKind kind) noexcept {
-  switch (kind) {
-    case EventKind::kParticipantAppeared:
-      return "participant appeared";
-    case EventKind::kParticipantLost:
-      return "participant lost";
-    case EventKind::kWriterAppeared:
-      return "writer appeared";
-    case EventKind::kWriterLost:
-      return "writer lost";
-    case EventKind::kReaderAppeared:
-      return "reader appeared";
-    case EventKind::kReaderLost:
-      return "reader lost";
-    case EventKind::kIncompatible:
-      return "incompatible";
-    case EventKind::kForeignRun:
-      return "foreign run";
-    case EventKind::kRefused:
-      return "refused";
-    case EventKind::kNotice:
-      return "notice";
-    case EventKind::kStoodStill:
-      return "stood still";
-  }
-  return "unknown";
-}
+namespace rave::bus {
+namespace {
+
+constexpr WordTable<EventKind, 11> kKinds = {{
+    {"participant appeared", EventKind::kParticipantAppeared},
+    {"participant lost", EventKind::kParticipantLost},
+    {"writer appeared", EventKind::kWriterAppeared},
+    {"writer lost", EventKind::kWriterLost},
+    {"reader appeared", EventKind::kReaderAppeared},
+    {"reader lost", EventKind::kReaderLost},
+    {"incompatible", EventKind::kIncompatible},
+    {"foreign run", EventKind::kForeignRun},
+    {"refused", EventKind::kRefused},
+    {"notice", EventKind::kNotice},
+    {"stood still", EventKind::kStoodStill},
+}};
+
+}  // namespace
+
+std::string_view to_string(EventKind kind) noexcept { return kKinds.of(kind, "unknown"); }
 
 std::string BusEvent::line() const {
   std::string line(to_string(kind));

@@ -8,25 +8,13 @@
 #include <utility>
 
 #include "rave/base/control_characters.hpp"
+#include "rave/base/utf8.hpp"
 
 namespace rave::bus {
 namespace {
 
-constexpr std::chrono::seconds kPerLine{1};
 /// Bounds the memory if a sender invents writer ids.
 constexpr std::size_t kMostWriters = 1000;
-
-/// Whether the bytes of one character (see character_at()) are not valid UTF-8 (RFC 3629, section
-/// 4).
-bool broken(std::string_view bytes) {
-  const auto byte = [bytes](std::size_t at) { return static_cast<unsigned char>(bytes[at]); };
-  const unsigned first = byte(0);
-  if (bytes.size() == 1) return first >= 0x80;
-  const unsigned second = byte(1);
-  return first < 0xc2 || first > 0xf4 || (first == 0xe0 && second < 0xa0) ||
-         (first == 0xed && second > 0x9f) || (first == 0xf0 && second < 0x90) ||
-         (first == 0xf4 && second > 0x8f);
-}
 
 /// The text with `?` for invalid UTF-8 and control characters.
 std::string printable(std::string_view text) {
@@ -35,7 +23,7 @@ std::string printable(std::string_view text) {
     const TextCharacter character = character_at(text, at);
     const std::string_view bytes = text.substr(at, character.bytes);
     if (result.size() + bytes.size() > EventLog::kMostBytes) return result + "...";
-    result += character.control || broken(bytes) ? std::string_view("?") : bytes;
+    result += character.control || utf8_at(text, at).length == 0 ? std::string_view("?") : bytes;
     at += character.bytes;
   }
   return result;
@@ -62,7 +50,7 @@ void EventLog::note(const BusEvent& event, Clock::time_point now) {
 void EventLog::write(LogLevel level, std::string_view source, std::string_view text,
                      Clock::time_point now) {
   if (log_ == nullptr) return;
-  if (!may_write(now)) {
+  if (!budget_.take(now)) {
     ++left_out_;
     return;
   }
@@ -74,15 +62,4 @@ void EventLog::write(LogLevel level, std::string_view source, std::string_view t
 }
 
 // A budget that refills by a line per second: other processes must not be able to fill the log.
-bool EventLog::may_write(Clock::time_point now) {
-  if (now - refilled_ >= kPerLine) {
-    const auto lines = static_cast<std::size_t>((now - refilled_) / kPerLine);
-    budget_ = std::min(kAtOnce, budget_ + std::min(lines, kAtOnce));
-    refilled_ = now;
-  }
-  if (budget_ == 0) return false;
-  --budget_;
-  return true;
-}
-
 }  // namespace rave::bus

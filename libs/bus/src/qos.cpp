@@ -34,32 +34,32 @@ Qos make_qos(const QosProfile& profile) {
 }
 
 PolicyAdvice advice_for_policy(std::uint32_t policy_id) noexcept {
-  switch (policy_id) {
-    case DDS_RELIABILITY_QOS_POLICY_ID:
-      return {"reliability", "make the writer reliable, or the reader best effort"};
-    case DDS_DURABILITY_QOS_POLICY_ID:
-      return {"durability", "make the writer transient-local, or the reader volatile"};
-    case DDS_DEADLINE_QOS_POLICY_ID:
-      return {"deadline", "give the writer a shorter deadline than the reader, or the reader none"};
-    case DDS_LATENCYBUDGET_QOS_POLICY_ID:
-      return {"latency budget", "give the reader a latency budget no less than the writer's"};
-    case DDS_LIVELINESS_QOS_POLICY_ID:
-      return {"liveliness", "give the reader automatic liveliness and no shorter a lease"};
-    case DDS_OWNERSHIP_QOS_POLICY_ID:
-      return {"ownership", "make both shared or both exclusive"};
-    case DDS_DESTINATIONORDER_QOS_POLICY_ID:
-      return {"destination order", "let the reader order by time of reception"};
-    case DDS_PRESENTATION_QOS_POLICY_ID:
-      return {"presentation", "leave the reader's access scope at instance"};
-    case DDS_DATA_REPRESENTATION_QOS_POLICY_ID:
-      return {"data representation", "let the other side use XCDR1, as ROS 2 does"};
-    case DDS_TYPE_CONSISTENCY_ENFORCEMENT_QOS_POLICY_ID:
-      return {"type consistency", "use the same version of RAVE on both sides"};
-    case DDS_PARTITION_QOS_POLICY_ID:
-      return {"partition", "let both take part in the same run"};
-    default:
-      return {"an unnamed policy", "compare the qualities of service of both ends"};
+  constexpr std::pair<std::uint32_t, PolicyAdvice> kAdvice[] = {
+      {DDS_RELIABILITY_QOS_POLICY_ID,
+       {"reliability", "make the writer reliable, or the reader best effort"}},
+      {DDS_DURABILITY_QOS_POLICY_ID,
+       {"durability", "make the writer transient-local, or the reader volatile"}},
+      {DDS_DEADLINE_QOS_POLICY_ID,
+       {"deadline", "give the writer a shorter deadline than the reader, or the reader none"}},
+      {DDS_LATENCYBUDGET_QOS_POLICY_ID,
+       {"latency budget", "give the reader a latency budget no less than the writer's"}},
+      {DDS_LIVELINESS_QOS_POLICY_ID,
+       {"liveliness", "give the reader automatic liveliness and no shorter a lease"}},
+      {DDS_OWNERSHIP_QOS_POLICY_ID, {"ownership", "make both shared or both exclusive"}},
+      {DDS_DESTINATIONORDER_QOS_POLICY_ID,
+       {"destination order", "let the reader order by time of reception"}},
+      {DDS_PRESENTATION_QOS_POLICY_ID,
+       {"presentation", "leave the reader's access scope at instance"}},
+      {DDS_DATA_REPRESENTATION_QOS_POLICY_ID,
+       {"data representation", "let the other side use XCDR1, as ROS 2 does"}},
+      {DDS_TYPE_CONSISTENCY_ENFORCEMENT_QOS_POLICY_ID,
+       {"type consistency", "use the same version of RAVE on both sides"}},
+      {DDS_PARTITION_QOS_POLICY_ID, {"partition", "let both take part in the same run"}},
+  };
+  for (const auto& [policy, advice] : kAdvice) {
+    if (policy == policy_id) return advice;
   }
+  return {"an unnamed policy", "compare the qualities of service of both ends"};
 }
 
 }  // namespace rave::bus

@@ -10,24 +10,9 @@ namespace rave::bus {
 
 Result<ReaderCore> ReaderCore::create(Bus& bus, const TopicSpec& topic) {
   ReaderCore core;
-  core.bus_ = &bus;
-  core.topic_ = topic.name;
-  RAVE_TRY_ASSIGN(core.reader_, bus.add_endpoint(topic, true));
-  core.local_ = bus.endpoint(core.reader_)->receiver.get();
+  RAVE_TRY_ASSIGN(const Bus::Endpoint* const endpoint, core.add(bus, topic, true));
+  core.local_ = endpoint->receiver.get();
   return core;
-}
-
-ReaderCore& ReaderCore::operator=(ReaderCore&& other) noexcept {
-  std::swap(bus_, other.bus_);
-  std::swap(topic_, other.topic_);
-  std::swap(reader_, other.reader_);
-  std::swap(local_, other.local_);
-  std::swap(sender_, other.sender_);
-  return *this;
-}
-
-ReaderCore::~ReaderCore() {
-  if (reader_ > 0) bus_->remove_endpoint(reader_);
 }
 
 std::size_t ReaderCore::begin_take() {
@@ -43,7 +28,7 @@ const void* ReaderCore::take_local(std::size_t& budget) {
     if (!datagram) return nullptr;
     if (datagram->writer == 0 && local_->may_meet()) {
       // The writer may have matched after the last check.
-      bus_->meet(*bus_->endpoint(reader_));
+      bus_->meet(*bus_->endpoint(entity_));
       datagram->writer = local_->sender();
     }
     if (datagram->writer == 0) {
@@ -65,7 +50,7 @@ bool ReaderCore::is_of(std::uint64_t writer, const dds_sample_info_t& info) {
   // Only samples of the local transport have no handle.
   const bool known = info.publication_handle == 0
                          ? writer == sender_
-                         : bus_->speaks_for(reader_, info.publication_handle, writer);
+                         : bus_->speaks_for(entity_, info.publication_handle, writer);
   if (!known) refuse(writer, "another process sent it in the name of this process");
   return known;
 }
@@ -74,6 +59,6 @@ void ReaderCore::refuse(std::uint64_t writer, std::string why) {
   bus_->note_refused(topic_, writer, std::move(why));
 }
 
-std::size_t ReaderCore::writers() const { return matched_ends(reader_, true); }
+std::size_t ReaderCore::writers() const { return matched_ends(entity_, true); }
 
 }  // namespace rave::bus

@@ -29,19 +29,6 @@ bool is_long(const RequestBook::Reply& reply) {
 
 }  // namespace
 
-bool RequestBook::Budget::take(double per_second, double most, Clock::time_point now) {
-  if (filled == Clock::time_point{}) {
-    left = most;
-  } else {
-    const double since_s = std::chrono::duration<double>(now - filled).count();
-    left = std::min(most, left + std::max(0.0, since_s) * per_second);
-  }
-  filled = now;
-  if (left < 1) return false;
-  left -= 1;
-  return true;
-}
-
 /// Null: no room for another sender.
 RequestBook::Asker* RequestBook::asker_of(std::uint64_t writer, Clock::time_point now) {
   auto place = askers_.find(writer);
@@ -120,11 +107,10 @@ void RequestBook::hear(const Heard& request, Clock::time_point now) {
   // A known sender uses its own budget. New senders share one, so that invented ids are stopped
   // before anything is stored about them.
   const bool known = askers_.contains(writer);
-  if (!known && !all_.take(kAllPerSecond, kAllAtOnce, now)) return;
+  if (!known && !all_.take(now)) return;
   Asker* const asker = asker_of(writer, now);
   if (asker == nullptr) return;
-  const bool in_time = asker->budget.take(kPerSecond, kAtOnce, now) &&
-                       (!known || all_.take(kAllPerSecond, kAllAtOnce, now));
+  const bool in_time = asker->budget.take(now) && (!known || all_.take(now));
   // A repetition, or an old request that arrives late.
   if (number <= asker->last) {
     if (in_time && asker->said && asker->said->number == number) {

@@ -19,14 +19,15 @@ inline constexpr std::int64_t kMaxTime_ns = 1'577'880'000'000'000'000;
 /// A bound of accumulated angles.
 inline constexpr double kMaxAngle_rad = 2e6 * std::numbers::pi;
 
-inline tl::unexpected<Error> invalid(std::string text) {
-  return tl::unexpected<Error>(Error{ErrorCode::kInvalidArgument, std::move(text), {}});
+template <class... Args>
+tl::unexpected<Error> invalid(fmt::format_string<Args...> format, Args&&... args) {
+  return fail(ErrorCode::kInvalidArgument, format, std::forward<Args>(args)...);
 }
 
 inline Status check_number(std::string_view field, double value, double limit) {
   // NaN fails this condition.
   if (std::fabs(value) <= limit) return {};
-  return invalid(fmt::format("{} is {}, not within +-{}", field, value, limit));
+  return invalid("{} is {}, not within +-{}", field, value, limit);
 }
 
 template <class Sequence>
@@ -34,8 +35,7 @@ Status check_numbers(std::string_view list, std::string_view field, const Sequen
                      std::size_t size, double limit) {
   const auto values = elements(numbers);
   if (values.size() != size) {
-    return invalid(
-        fmt::format("{}.{} has {} entries for {} robots", list, field, values.size(), size));
+    return invalid("{}.{} has {} entries for {} robots", list, field, values.size(), size);
   }
   // One pass that the compiler can vectorise; the faulty element is searched only on failure.
   bool good = true;
@@ -52,17 +52,15 @@ template <class Sequence>
 Status check_robot_numbers(std::string_view list, std::string_view entries, const Sequence& ids) {
   const auto values = elements(ids);
   if (values.size() > rave_wire_kMaxRobots) {
-    return invalid(
-        fmt::format("{} has {} robots, more than {}", list, values.size(), rave_wire_kMaxRobots));
+    return invalid("{} has {} robots, more than {}", list, values.size(), rave_wire_kMaxRobots);
   }
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (values[i - 1] >= values[i]) {
-      return invalid(
-          fmt::format("{}[{}] is {} after {}; ids ascend", entries, i, values[i], values[i - 1]));
+      return invalid("{}[{}] is {} after {}; ids ascend", entries, i, values[i], values[i - 1]);
     }
   }
   if (!values.empty() && values.back() == rave_wire_kNone) {
-    return invalid(fmt::format("{}: a robot without a number", entries));
+    return invalid("{}: a robot without a number", entries);
   }
   return {};
 }
@@ -94,18 +92,18 @@ inline bool usable(std::int64_t time_ns) {
 
 inline Status check_time(std::string_view field, std::int64_t time_ns) {
   if (usable(time_ns)) return {};
-  return invalid(fmt::format("{} is {}, not within +-{}", field, time_ns, kMaxTime_ns));
+  return invalid("{} is {}, not within +-{}", field, time_ns, kMaxTime_ns);
 }
 
 /// Names appear in logs and on terminals.
 inline Status check_label(std::string_view field, std::string_view text, bool needed) {
-  if (needed && text.empty()) return invalid(fmt::format("{} is empty", field));
+  if (needed && text.empty()) return invalid("{} is empty", field);
   if (!has_control_characters(text)) return {};
-  return invalid(fmt::format("{} has control characters", field));
+  return invalid("{} has control characters", field);
 }
 
 inline Status check_id(std::string_view field, std::uint32_t id) {
-  if (id == rave_wire_kNone) return invalid(fmt::format("{} is none", field));
+  if (id == rave_wire_kNone) return invalid("{} is none", field);
   return {};
 }
 
@@ -118,8 +116,8 @@ template <class Sequence>
 Status check_obstacle_changes(std::string_view list, const Sequence& sequence) {
   const auto changes = elements(sequence);
   if (changes.size() > rave_wire_kMaxObstacleChanges) {
-    return invalid(fmt::format("{} has {} entries, more than {}", list, changes.size(),
-                               rave_wire_kMaxObstacleChanges));
+    return invalid("{} has {} entries, more than {}", list, changes.size(),
+                   rave_wire_kMaxObstacleChanges);
   }
   for (std::size_t i = 0; i < changes.size(); ++i) {
     RAVE_TRY(check_obstacle_change(fmt::format("{}[{}]", list, i), changes[i]));

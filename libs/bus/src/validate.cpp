@@ -18,8 +18,7 @@ Status check_robots(std::string_view list, const rave_wire_PlanarRobots& robots)
   // Columns of different lengths would shift the fields of all robots behind the gap.
   const auto stamps = elements(robots.stamp_ns);
   if (stamps.size() != size) {
-    return invalid(
-        fmt::format("{}.stamp_ns has {} entries for {} robots", list, stamps.size(), size));
+    return invalid("{}.stamp_ns has {} entries for {} robots", list, stamps.size(), size);
   }
   const auto wrong = std::find_if_not(stamps.begin(), stamps.end(), usable);
   if (wrong == stamps.end()) return {};
@@ -34,8 +33,7 @@ Status check_reports(std::string_view list, const rave_wire_RobotReports& report
   RAVE_TRY(check_numbers(list, "variance_xy_m2", reports.variance_xy_m2, size, kMaxVariance));
   RAVE_TRY(check_numbers(list, "variance_yaw_rad2", reports.variance_yaw_rad2, size, kMaxVariance));
   if (reports.flags._length == size) return {};
-  return invalid(
-      fmt::format("{}.flags has {} entries for {} robots", list, reports.flags._length, size));
+  return invalid("{}.flags has {} entries for {} robots", list, reports.flags._length, size);
 }
 
 /// Checks the address of a request or answer.
@@ -54,7 +52,7 @@ Status check_line(const Sequence& sequence, std::size_t most) {
   const std::string_view text = text_of(sequence);
   if (text.empty()) return invalid("text is empty");
   if (text.size() > most) {
-    return invalid(fmt::format("text has {} bytes, more than {}", text.size(), most));
+    return invalid("text has {} bytes, more than {}", text.size(), most);
   }
   if (!has_control_characters(text)) return {};
   return invalid("text has control characters");
@@ -68,7 +66,7 @@ Status check_points(const Command& sample) {
   const bool path = sample.kind == rave_wire_COMMAND_PATH;
   const std::size_t expected = has_one ? 1 : 0;
   if (!path && points.size() != expected) {
-    return invalid(fmt::format("points has {} entries, not {}", points.size(), expected));
+    return invalid("points has {} entries, not {}", points.size(), expected);
   }
   for (const auto& point : points) {
     RAVE_TRY(check_number("points.x_m", point.x_m, kMaxPosition_m));
@@ -134,8 +132,7 @@ Status validate(const Packet& sample) {
   RAVE_TRY(check_number("y_m", sample.y_m, kMaxPosition_m));
   RAVE_TRY(check_number("antenna_z_m", sample.antenna_z_m, kMaxPosition_m));
   if (!(sample.range_m >= 0 && sample.range_m <= kMaxPosition_m)) {
-    return invalid(
-        fmt::format("range_m is {}, not within 0 and {}", sample.range_m, kMaxPosition_m));
+    return invalid("range_m is {}, not within 0 and {}", sample.range_m, kMaxPosition_m);
   }
   return {};
 }
@@ -147,7 +144,7 @@ Status validate(const HostInfo& sample) {
   RAVE_TRY(check_label("version", sample.version, false));
   if (sample.clock > rave_wire_CLOCK_REAL_TIME) return invalid("clock is unknown");
   if (sample.robots > rave_wire_kMaxRobots) {
-    return invalid(fmt::format("robots is {}, more than {}", sample.robots, rave_wire_kMaxRobots));
+    return invalid("robots is {}, more than {}", sample.robots, rave_wire_kMaxRobots);
   }
   return {};
 }
@@ -177,16 +174,15 @@ Status validate(const ProcessState& sample) {
   RAVE_TRY(check_writer(sample));
   if (sample.number == 0) return invalid("number is 0");
   if (sample.robots > rave_wire_kMaxRobots) {
-    return invalid(fmt::format("robots is {}, more than {}", sample.robots, rave_wire_kMaxRobots));
+    return invalid("robots is {}, more than {}", sample.robots, rave_wire_kMaxRobots);
   }
   if (sample.real_robots > sample.robots) {
-    return invalid(
-        fmt::format("real_robots is {}, of {} robots", sample.real_robots, sample.robots));
+    return invalid("real_robots is {}, of {} robots", sample.real_robots, sample.robots);
   }
   RAVE_TRY(check_time("cpu_ns", sample.cpu_ns));
   if (sample.missed_deadlines > sample.deadlines) {
-    return invalid(fmt::format("missed_deadlines is {}, of {} deadlines", sample.missed_deadlines,
-                               sample.deadlines));
+    return invalid("missed_deadlines is {}, of {} deadlines", sample.missed_deadlines,
+                   sample.deadlines);
   }
   RAVE_TRY(check_time("worst_late_ns", sample.worst_late_ns));
   RAVE_TRY(check_time("behind_ns", sample.behind_ns));
@@ -221,18 +217,17 @@ Status validate(const HostResultsPart& sample) {
   RAVE_TRY(check_writer(sample));
   RAVE_TRY(check_id("host", sample.host));
   if (sample.size == 0 || sample.size > kMost) {
-    return invalid(fmt::format("size is {}, not within 1 and {}", sample.size, kMost));
+    return invalid("size is {}, not within 1 and {}", sample.size, kMost);
   }
   // Sizes follow from each other, so every part but the last is full; anything else is refused.
   const std::uint64_t parts = (sample.size + kPart - 1) / kPart;
   if (sample.part >= parts) {
-    return invalid(
-        fmt::format("part is {}, but {} bytes have {} parts", sample.part, sample.size, parts));
+    return invalid("part is {}, but {} bytes have {} parts", sample.part, sample.size, parts);
   }
   const std::uint64_t expected = std::min(kPart, sample.size - sample.part * kPart);
   if (sample.bytes._length == expected) return {};
-  return invalid(fmt::format("bytes has {} entries in part {}, not {}", sample.bytes._length,
-                             sample.part, expected));
+  return invalid("bytes has {} entries in part {}, not {}", sample.bytes._length, sample.part,
+                 expected);
 }
 
 Status validate(const Request& sample) {

@@ -13,8 +13,7 @@ Status check_place(std::string_view list, std::size_t index, double x_m, double 
       std::fabs(yaw_rad) <= kMaxAngle_rad) {
     return {};
   }
-  return invalid(
-      fmt::format("{}[{}] has the impossible pose {}, {}, {}", list, index, x_m, y_m, yaw_rad));
+  return invalid("{}[{}] has the impossible pose {}, {}, {}", list, index, x_m, y_m, yaw_rad);
 }
 
 template <class Sequence>
@@ -28,7 +27,7 @@ Status check_poses(const Sequence& sequence) {
     RAVE_TRY(check_number("poses.wz_radps", pose.wz_radps, kMaxTurn_radps));
     // Variances may be infinite: unknown.
     if (!(pose.variance_xy_m2 >= 0 && pose.variance_yaw_rad2 >= 0)) {
-      return invalid(fmt::format("poses[{}] has an invalid variance", i));
+      return invalid("poses[{}] has an invalid variance", i);
     }
   }
   return {};
@@ -49,12 +48,12 @@ Status check_sent(const rave_wire_SentPackets& sent) {
     const auto& packet = packets[i];
     // In 64 bits: the sum must not wrap.
     if (std::uint64_t{packet.first_byte} + packet.size > sent.bytes._length) {
-      return invalid(fmt::format("sent.packets[{}] has {} bytes from {} on, of {}", i, packet.size,
-                                 packet.first_byte, sent.bytes._length));
+      return invalid("sent.packets[{}] has {} bytes from {} on, of {}", i, packet.size,
+                     packet.first_byte, sent.bytes._length);
     }
     RAVE_TRY(check_place("sent.packets", i, packet.x_m, packet.y_m, packet.antenna_z_m));
     if (!(packet.range_m >= 0)) {
-      return invalid(fmt::format("sent.packets[{}].range_m is {}", i, packet.range_m));
+      return invalid("sent.packets[{}].range_m is {}", i, packet.range_m);
     }
   }
   return {};
@@ -67,8 +66,8 @@ Status check_named(std::string_view list, const Sequence& sequence, std::size_t 
   const auto wrong = std::find_if(entries.begin(), entries.end(),
                                   [&](const auto& entry) { return entry.robot >= robots; });
   if (wrong == entries.end()) return {};
-  return invalid(fmt::format("{}[{}] is of robot {}, but there are {}", list,
-                             wrong - entries.begin(), wrong->robot, robots));
+  return invalid("{}[{}] is of robot {}, but there are {}", list, wrong - entries.begin(),
+                 wrong->robot, robots);
 }
 
 /// Like check_named(), but an event may concern the world instead of a robot.
@@ -77,8 +76,7 @@ Status check_events(std::string_view list, const Sequence& sequence, std::size_t
   const auto events = elements(sequence);
   for (std::size_t i = 0; i < events.size(); ++i) {
     if (events[i].robot < robots || events[i].robot == rave_wire_kNone) continue;
-    return invalid(
-        fmt::format("{}[{}] is of robot {}, but there are {}", list, i, events[i].robot, robots));
+    return invalid("{}[{}] is of robot {}, but there are {}", list, i, events[i].robot, robots);
   }
   return {};
 }
@@ -87,8 +85,8 @@ Status check_refused(const rave_wire_AuthorityState& authority, std::size_t robo
   RAVE_TRY(check_events("authority.refused", authority.refused, robots));
   const std::size_t told = authority.refused._length;
   if (told <= authority.refused_count) return {};
-  return invalid(fmt::format("authority.refused has {} entries; expected at most {}", told,
-                             authority.refused_count));
+  return invalid("authority.refused has {} entries; expected at most {}", told,
+                 authority.refused_count);
 }
 
 /// Checks an order; whether the robot takes it is decided by its host.
@@ -158,8 +156,8 @@ Status validate(const RunState& sample) {
   RAVE_TRY(check_writer(sample));
   RAVE_TRY(check_label("scenario", sample.scenario, false));
   if (sample.phase > rave_wire_RUN_FAILED) return invalid("phase is unknown");
-  if (!(sample.step_s > 0)) return invalid(fmt::format("step_s is {}", sample.step_s));
-  if (!(sample.speed >= 0)) return invalid(fmt::format("speed is {}", sample.speed));
+  if (!(sample.step_s > 0)) return invalid("step_s is {}", sample.step_s);
+  if (!(sample.speed >= 0)) return invalid("speed is {}", sample.speed);
   for (const auto& host : elements(sample.hosts)) {
     RAVE_TRY(check_label("hosts.name", host.name, true));
     if (host.phase > rave_wire_HOST_DROPPED) return invalid("hosts.phase is unknown");

@@ -15,11 +15,10 @@ constexpr std::uint32_t kMostFields = 64;
 Status check_reading(std::size_t index, const rave_wire_Reading& reading) {
   RAVE_TRY(check_id(fmt::format("entries[{}].robot", index), reading.robot));
   if (reading.part >= kParts) {
-    return invalid(fmt::format("entries[{}].part is {}, above 2", index, reading.part));
+    return invalid("entries[{}].part is {}, above 2", index, reading.part);
   }
   if (reading.fields > kMostFields) {
-    return invalid(
-        fmt::format("entries[{}].fields is {}, more than {}", index, reading.fields, kMostFields));
+    return invalid("entries[{}].fields is {}, more than {}", index, reading.fields, kMostFields);
   }
   return check_time(fmt::format("entries[{}].stamp_ns", index), reading.stamp_ns);
 }
@@ -35,7 +34,7 @@ Status validate(const Look& sample) {
   for (const rave_wire_Probe& probe : elements(sample.probes)) {
     RAVE_TRY(check_id("probes.robot", probe.robot));
     if ((probe.number & 0x8000'0000U) == 0) {
-      return invalid(fmt::format("probes.number is {}, which is a sensor's", probe.number));
+      return invalid("probes.number is {}, which is a sensor's", probe.number);
     }
     RAVE_TRY(check_label("probes.block", probe.block, true));
   }
@@ -52,8 +51,7 @@ Status validate(const Readings& sample) {
     numbers += std::uint64_t{readings[i].rows} * readings[i].fields;
   }
   if (numbers == sample.values._length) return {};
-  return invalid(
-      fmt::format("values has {} entries for readings of {}", sample.values._length, numbers));
+  return invalid("values has {} entries for readings of {}", sample.values._length, numbers);
 }
 
 Status validate(const RunEvents& sample) {

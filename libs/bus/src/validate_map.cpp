@@ -21,15 +21,15 @@ std::uint32_t side_of(std::uint32_t cells, std::uint32_t tile) {
 Status check_frame(const MapTile& sample) {
   // NaN fails this condition.
   if (!(sample.resolution_m >= kFinestCell_m && sample.resolution_m <= kCoarsestCell_m)) {
-    return invalid(fmt::format("resolution_m is {}, not within {} to {}", sample.resolution_m,
-                               kFinestCell_m, kCoarsestCell_m));
+    return invalid("resolution_m is {}, not within {} to {}", sample.resolution_m, kFinestCell_m,
+                   kCoarsestCell_m);
   }
   RAVE_TRY(check_number("origin_x_m", sample.origin_x_m, kMaxPosition_m));
   RAVE_TRY(check_number("origin_y_m", sample.origin_y_m, kMaxPosition_m));
   for (const std::uint32_t side : {sample.columns, sample.rows}) {
     if (side == 0 || side > rave_wire_kMaxMapCells) {
-      return invalid(fmt::format("the map has {} x {} cells; expected 1 to {} along each side",
-                                 sample.columns, sample.rows, rave_wire_kMaxMapCells));
+      return invalid("the map has {} x {} cells; expected 1 to {} along each side", sample.columns,
+                     sample.rows, rave_wire_kMaxMapCells);
     }
   }
   return {};
@@ -46,19 +46,18 @@ Status validate(const MapTile& sample) {
   const std::uint32_t width = side_of(sample.columns, sample.column);
   const std::uint32_t height = side_of(sample.rows, sample.row);
   if (width * height == 0) {
-    return invalid(fmt::format("a map of {} x {} cells has no tile ({}, {})", sample.columns,
-                               sample.rows, sample.column, sample.row));
+    return invalid("a map of {} x {} cells has no tile ({}, {})", sample.columns, sample.rows,
+                   sample.column, sample.row);
   }
   const auto cells = elements(sample.cells);
   if (cells.size() != std::size_t{width} * height) {
-    return invalid(
-        fmt::format("cells has {} entries for a tile of {} x {}", cells.size(), width, height));
+    return invalid("cells has {} entries for a tile of {} x {}", cells.size(), width, height);
   }
   const auto wrong = std::ranges::find_if(
       cells, [](std::uint8_t cell) { return cell > 100 && cell != rave_wire_kCellUnknown; });
   if (wrong == cells.end()) return {};
-  return invalid(fmt::format("cells[{}] is {}; expected 0 to 100, or {}", wrong - cells.begin(),
-                             *wrong, rave_wire_kCellUnknown));
+  return invalid("cells[{}] is {}; expected 0 to 100, or {}", wrong - cells.begin(), *wrong,
+                 rave_wire_kCellUnknown);
 }
 
 }  // namespace rave::bus

@@ -9,23 +9,9 @@ namespace rave::bus {
 
 Result<WriterCore> WriterCore::create(Bus& bus, const TopicSpec& topic) {
   WriterCore core;
-  core.bus_ = &bus;
-  core.topic_ = topic.name;
-  RAVE_TRY_ASSIGN(core.writer_, bus.add_endpoint(topic, false));
-  core.local_ = bus.endpoint(core.writer_)->sender.get();
+  RAVE_TRY_ASSIGN(const Bus::Endpoint* const endpoint, core.add(bus, topic, false));
+  core.local_ = endpoint->sender.get();
   return core;
-}
-
-WriterCore& WriterCore::operator=(WriterCore&& other) noexcept {
-  std::swap(bus_, other.bus_);
-  std::swap(topic_, other.topic_);
-  std::swap(writer_, other.writer_);
-  std::swap(local_, other.local_);
-  return *this;
-}
-
-WriterCore::~WriterCore() {
-  if (writer_ > 0) bus_->remove_endpoint(writer_);
 }
 
 bool WriterCore::goes_locally(const void* sample) {
@@ -34,7 +20,7 @@ bool WriterCore::goes_locally(const void* sample) {
   // reader is on another machine or has just come, and the sample goes by DDS, which reaches all.
   if (local_->due()) {
     const std::size_t count = readers();
-    if (local_->readers() != count) bus_->meet(*bus_->endpoint(writer_));
+    if (local_->readers() != count) bus_->meet(*bus_->endpoint(entity_));
     if (local_->readers() != count) return false;
     local_->counted();
   }
@@ -43,7 +29,7 @@ bool WriterCore::goes_locally(const void* sample) {
 
 Status WriterCore::write(const void* sample) {
   if (goes_locally(sample)) return {};
-  const dds_return_t code = dds_write(writer_, sample);
+  const dds_return_t code = dds_write(entity_, sample);
   if (code == DDS_RETCODE_OK) return {};
   if (code == DDS_RETCODE_TIMEOUT) {
     return fail(ErrorCode::kTimeout, "{}: a reader is too slow", topic_);
@@ -53,11 +39,11 @@ Status WriterCore::write(const void* sample) {
 }
 
 Status WriterCore::dispose(const void* key) {
-  const dds_return_t code = dds_dispose(writer_, key);
+  const dds_return_t code = dds_dispose(entity_, key);
   if (code == DDS_RETCODE_OK) return {};
   return fail(ErrorCode::kState, "{}: cannot dispose: {}", topic_, dds_strretcode(code));
 }
 
-std::size_t WriterCore::readers() const { return matched_ends(writer_, false); }
+std::size_t WriterCore::readers() const { return matched_ends(entity_, false); }
 
 }  // namespace rave::bus

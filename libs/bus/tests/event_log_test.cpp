@@ -68,5 +68,11 @@ TEST(EventLog, WithoutALogNothingIsWritten) {
   events.write(LogLevel::kError, "host", "text");
 }
 
+TEST(BusEvents, HaveNames) {
+  for (int i = 0; i <= static_cast<int>(EventKind::kStoodStill); ++i) {
+    EXPECT_NE(to_string(static_cast<EventKind>(i)), "unknown") << i;
+  }
+}
+
 }  // namespace
 }  // namespace rave::bus

@@ -15,9 +15,7 @@ void append_size(RawNode& schema, std::string_view key, const std::optional<std:
 }
 
 RawNode typed_schema(std::string_view type) {
-  RawNode schema = RawNode::mapping();
-  schema.append("type", RawNode::text(std::string(type)));
-  return schema;
+  return RawNode::mapping({{"type", RawNode::text(std::string(type))}});
 }
 
 template <class T>
@@ -45,8 +43,7 @@ void Codec<double>::read(const ReadContext& context, const RawNode& node, double
     context.wrong(node, too_large ? number_expectation("a number within the range of a double",
                                                        context.options)
                                   : expectation(context.options));
-  } else if (std::isnan(*found) || (std::isinf(*found) && !context.options.allow_infinite)) {
-    // YAML has `.inf` and `.nan`; a field says whether infinity means something in it.
+  } else if (!std::isfinite(*found)) {
     context.wrong(node, number_expectation("a finite number", context.options));
   } else if (!in_range(*found, context.options)) {
     context.wrong(node, expectation(context.options));
@@ -151,27 +148,8 @@ RawNode enum_schema(std::span<const std::string_view> names) {
 }
 
 RawNode nullable_schema(RawNode schema) {
-  RawNode choices = RawNode::sequence();
-  choices.push_back(std::move(schema));
-  choices.push_back(typed_schema("null"));
-  RawNode either = RawNode::mapping();
-  either.append("anyOf", std::move(choices));
-  return either;
-}
-
-RawNode shorthand_schema(RawNode schema) {
-  RawNode types = RawNode::sequence();
-  for (const char* type : {"array", "boolean", "number", "string"}) {
-    types.push_back(RawNode::text(type));
-  }
-  RawNode shorthand = RawNode::mapping();
-  shorthand.append("type", std::move(types));
-  RawNode choices = RawNode::sequence();
-  choices.push_back(std::move(schema));
-  choices.push_back(std::move(shorthand));
-  RawNode either = RawNode::mapping();
-  either.append("anyOf", std::move(choices));
-  return either;
+  return RawNode::mapping(
+      {{"anyOf", RawNode::sequence({std::move(schema), typed_schema("null")})}});
 }
 
 std::string enum_expectation(std::span<const std::string_view> names) {
@@ -195,25 +173,16 @@ int read_enum(const ReadContext& context, const RawNode& node,
   return -1;
 }
 
-bool check_list(const ReadContext& context, const RawNode& node, std::string_view expected) {
-  if (!node.is_sequence()) {
+bool check_collection(const ReadContext& context, const RawNode& node, RawNode::Kind kind,
+                      std::string_view expected) {
+  if (node.kind() != kind) {
     context.wrong(node, expected);
     return false;
   }
   if (in_length(node.size(), context.options)) return true;
-  context.error(node, fmt::format("found a list of {} item{}, expected {}", node.size(),
-                                  node.size() == 1 ? "" : "s", expected));
-  return false;
-}
-
-bool check_map(const ReadContext& context, const RawNode& node, std::string_view expected) {
-  if (!node.is_mapping()) {
-    context.wrong(node, expected);
-    return false;
-  }
-  if (in_length(node.size(), context.options)) return true;
-  context.error(node, fmt::format("found a mapping of {} entr{}, expected {}", node.size(),
-                                  node.size() == 1 ? "y" : "ies", expected));
+  const std::string_view item = kind == RawNode::Kind::kMapping ? "entry" : "item";
+  context.error(node, fmt::format("found {} of {} {}, expected {}", node.found_text(), node.size(),
+                                  plural(item, node.size()), expected));
   return false;
 }
 
@@ -228,20 +197,6 @@ FieldOptions element_options(const FieldOptions& options) {
 std::string item_label(const ReadContext& context, std::size_t index) {
   return context.label.empty() ? fmt::format("item {}", index + 1)
                                : fmt::format("item {} of {}", index + 1, context.label);
-}
-
-void add_shorthand(const ReadContext& context, const RawNode& node, Status status) {
-  if (!status && !context.label.empty()) {
-    status = tl::unexpected<Error>(std::move(status).error().with_context(context.label));
-  }
-  add_validation(node, context.diagnostics, std::move(status));
-}
-
-void add_validation(const RawNode& node, Diagnostics& diagnostics, Status status) {
-  if (status) return;
-  Error error = std::move(status).error();
-  if (error.where.file.empty() && error.where.line == 0) error.where = node.where();
-  diagnostics.add(std::move(error));
 }
 
 }  // namespace detail

@@ -2,10 +2,11 @@
 // From a scenario with its files to one complete description. Whatever reads an expanded scenario
 // needs no other file except those of maps and of components of the page.
 #include <algorithm>
-#include <map>
+#include <set>
 #include <utility>
 
 #include "expansion_checks.hpp"
+#include "rave/base/names.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/config/gui_of_scenario.hpp"
 #include "scenario_fields.hpp"
@@ -58,6 +59,18 @@ class Expansion {
     return std::nullopt;
   }
 
+  /// Reads the file that `where` names into `target`, which stays as it is after an error.
+  template <class T, class ReadText>
+  void read_into(T& target, const fs::path& path, const SourceLocation& where, ReadText read_text) {
+    const auto text = read(path, where);
+    if (!text) return;
+    Result<T> content = read_text(*text, path.string());
+    if (content) {
+      target = *std::move(content);
+    } else {
+      diagnostics_.add(std::move(content).error());
+    }
+  }
   static fs::path beside(const fs::path& folder, const std::string& name) {
     return (folder / name).lexically_normal();
   }
@@ -75,14 +88,7 @@ class Expansion {
     ScenarioFile& scenario = expanded_.scenario;
     if (scenario.world) {
       const fs::path path = beside(folder_, **scenario.world);
-      if (const auto text = read(path, scenario.world->where)) {
-        auto read_world = read_world_text(*text, path.string());
-        if (read_world) {
-          world = *std::move(read_world);
-        } else {
-          diagnostics_.add(std::move(read_world).error());
-        }
-      }
+      read_into(world, path, scenario.world->where, read_world_text);
       resolve_maps(world.maps, path.parent_path());
     }
     resolve_maps(scenario.maps, folder_);
@@ -104,17 +110,8 @@ class Expansion {
     if (const auto file = std::exchange(gui.file, std::nullopt)) {
       const fs::path path = beside(folder_, **file);
       folder = path.parent_path();
-      if (const auto text = read(path, file->where)) {
-        auto read_gui = read_gui_text(*text, path.string());
-        if (read_gui) {
-          gui = *std::move(read_gui);
-        } else {
-          diagnostics_.add(std::move(read_gui).error());
-        }
-      }
+      read_into(gui, path, file->where, read_gui_text);
     }
-    // Only the page needs these files and reports missing ones; a replay on another machine works
-    // without.
     for (GuiComponentFile& component : gui.components) {
       component.module.value = absolute(beside(folder, *component.module));
     }
@@ -167,14 +164,9 @@ class Expansion {
 
   void read_robot(const Located<std::string>& file, const Variables& variables, RobotFile& robot) {
     const fs::path path = beside(folder_, *file);
-    const auto text = read(path, file.where);
-    if (!text) return;
-    auto result = read_robot_text(*text, path.string(), variables);
-    if (result) {
-      robot = *std::move(result);
-    } else {
-      diagnostics_.add(std::move(result).error());
-    }
+    read_into(robot, path, file.where, [&variables](std::string_view text, std::string_view name) {
+      return read_robot_text(text, name, variables);
+    });
   }
 
   void add_robots(const RobotEntry& entry, std::size_t group) {
@@ -212,6 +204,13 @@ std::vector<std::size_t> robots_named(const ExpandedScenario& scenario, std::str
     if (scenario.group_of(scenario.robots[r]).name.value == name) found.push_back(r);
   }
   return found;
+}
+
+std::string robot_suggestion(const ExpandedScenario& scenario, std::string_view name) {
+  std::set<std::string_view> names;
+  for (const RobotGroup& group : scenario.groups) names.insert(*group.name);
+  for (const ExpandedRobot& robot : scenario.robots) names.insert(robot.name);
+  return suggestion(name, std::vector(names.begin(), names.end()));
 }
 
 Result<ExpandedScenario> expand_scenario_file(ScenarioFile scenario,

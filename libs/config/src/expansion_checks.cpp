@@ -25,7 +25,7 @@ class Checks {
     unique_barcodes();
     for (const RobotGroup& group : expanded_.groups) {
       timing(group.robot);
-      if (group.twin) twin(group);
+      if (group.twin) timing(group.twin->robot);
     }
     sightings();
     for (const TouchesCheckFile& check : scenario_.checks.touches) touches(check);
@@ -46,8 +46,7 @@ class Checks {
  private:
   template <class... Args>
   void report(const SourceLocation& where, fmt::format_string<Args...> format, Args&&... args) {
-    diagnostics_.add(
-        Error{ErrorCode::kParse, fmt::format(format, std::forward<Args>(args)...), where});
+    diagnostics_.add(where, fmt::format(format, std::forward<Args>(args)...));
   }
 
   void unique_obstacles() {
@@ -92,8 +91,6 @@ class Checks {
     }
   }
 
-  void twin(const RobotGroup& group) { timing(group.twin->robot); }
-
   void twins_exist(const Located<std::string>& name) {
     for (const std::size_t r : robots_named(expanded_, *name)) {
       const ExpandedRobot& robot = expanded_.robots[r];
@@ -130,12 +127,9 @@ class Checks {
 
   /// Checks that a name is a robot or an entry.
   void robots_exist(std::string_view key, const Located<std::string>& name) {
-    std::vector<std::string_view> names;
-    for (const ExpandedRobot& robot : expanded_.robots) names.push_back(robot.name);
-    // An entry stands for all its robots.
-    for (const RobotGroup& group : expanded_.groups) names.push_back(*group.name);
-    if (std::find(names.begin(), names.end(), *name) != names.end()) return;
-    report(name.where, "`{}`: there is no robot `{}`{}", key, *name, suggestion(*name, names));
+    if (!robots_named(expanded_, *name).empty()) return;
+    report(name.where, "`{}`: there is no robot `{}`{}", key, *name,
+           robot_suggestion(expanded_, *name));
   }
 
   static bool has_sensor(const RobotGroup& group, const std::string& name) {
@@ -174,16 +168,11 @@ class Checks {
   /// The groups of a robot or entry; reports an error if there are none.
   std::set<std::size_t> groups_of(const Located<std::string>& name) {
     std::set<std::size_t> found;
-    std::set<std::string_view> all;
-    for (const ExpandedRobot& robot : expanded_.robots) {
-      const std::string& entry = *expanded_.group_of(robot).name;
-      if (robot.name == *name || entry == *name) found.insert(robot.group);
-      all.insert(entry);
-      all.insert(robot.name);
+    for (const std::size_t r : robots_named(expanded_, *name)) {
+      found.insert(expanded_.robots[r].group);
     }
     if (found.empty()) {
-      const std::vector<std::string_view> names(all.begin(), all.end());
-      report(name.where, "there is no robot `{}`{}", *name, suggestion(*name, names));
+      report(name.where, "there is no robot `{}`{}", *name, robot_suggestion(expanded_, *name));
     }
     return found;
   }

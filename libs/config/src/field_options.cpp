@@ -79,18 +79,19 @@ bool in_range(double value, const FieldOptions& options) noexcept {
   return !options.max || (options.exclusive_max ? value < *options.max : value <= *options.max);
 }
 
+std::string plural(std::string_view noun, std::size_t count) {
+  if (count == 1) return std::string(noun);
+  return noun.ends_with('y') ? fmt::format("{}ies", noun.substr(0, noun.size() - 1))
+                             : fmt::format("{}s", noun);
+}
+
 std::string length_expectation(const FieldOptions& options, std::string_view item) {
-  const auto plural = [item](std::size_t n) {
-    if (n == 1) return std::string(item);
-    return item.ends_with('y') ? fmt::format("{}ies", item.substr(0, item.size() - 1))
-                               : fmt::format("{}s", item);
-  };
   const auto& low = options.min_items;
   const auto& high = options.max_items;
-  if (low && high && *low == *high) return fmt::format(" of {} {}", *low, plural(*low));
-  if (low && high) return fmt::format(" of {} to {} {}", *low, *high, plural(*high));
-  if (low) return fmt::format(" of at least {} {}", *low, plural(*low));
-  if (high) return fmt::format(" of at most {} {}", *high, plural(*high));
+  if (low && high && *low == *high) return fmt::format(" of {} {}", *low, plural(item, *low));
+  if (low && high) return fmt::format(" of {} to {} {}", *low, *high, plural(item, *high));
+  if (low) return fmt::format(" of at least {} {}", *low, plural(item, *low));
+  if (high) return fmt::format(" of at most {} {}", *high, plural(item, *high));
   return {};
 }
 

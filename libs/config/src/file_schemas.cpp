@@ -15,20 +15,15 @@ bool is_type(const RawNode& node, std::string_view type) {
 }
 
 RawNode variable_schema() {
-  RawNode schema = RawNode::mapping();
-  schema.append("type", RawNode::text("string"));
-  schema.append("pattern", RawNode::text("\\$\\("));
-  return schema;
+  return RawNode::mapping(
+      {{"type", RawNode::text("string")}, {"pattern", RawNode::text("\\$\\(")}});
 }
 
 /// Converts `{type: T, …}` to `{type: [T, string], pattern: …, …}`: limits of numbers do not apply
 /// to strings, and the pattern does not apply to numbers.
 void allow_variable_as_number(RawNode& schema) {
-  const RawNode type = *schema.find("type");
-  RawNode types = RawNode::sequence();
-  types.push_back(type);
-  types.push_back(RawNode::text("string"));
-  schema.set("type", std::move(types));
+  RawNode& type = *schema.find("type");
+  type = RawNode::sequence({type, RawNode::text("string")});
   schema.append("pattern", RawNode::text(kOneVariable));
 }
 
@@ -38,10 +33,7 @@ void allow_variable_as_choice(RawNode& schema) {
     choice.append(key, *schema.find(key));
     (void)schema.erase(key);
   }
-  RawNode choices = RawNode::sequence();
-  choices.push_back(std::move(choice));
-  choices.push_back(variable_schema());
-  schema.append("anyOf", std::move(choices));
+  schema.append("anyOf", RawNode::sequence({std::move(choice), variable_schema()}));
 }
 
 /// Extends the schema of robot files so that `$(name)` is valid for every number, bool and choice.
@@ -62,43 +54,36 @@ void allow_variables(RawNode& schema) {
   }
 }
 
-RawNode* child_of(RawNode& schema, std::string_view key) {
-  for (std::size_t i = 0; i < schema.size(); ++i) {
-    if (schema.key(i) == key) return &schema.child(i);
-  }
-  return nullptr;
-}
+}  // namespace
 
-std::string finish(const RawNode& body, std::string_view title, std::string_view file) {
-  RawNode schema = RawNode::mapping();
-  schema.append("$schema", RawNode::text("http://json-schema.org/draft-07/schema#"));
-  schema.append("$id", RawNode::text(std::string(file)));
-  schema.append("title", RawNode::text(std::string(title)));
+std::string json_schema(const RawNode& body, std::string_view title, std::string_view id) {
+  RawNode schema =
+      RawNode::mapping({{"$schema", RawNode::text("http://json-schema.org/draft-07/schema#")},
+                        {"$id", RawNode::text(std::string(id))},
+                        {"title", RawNode::text(std::string(title))}});
   for (std::size_t i = 0; i < body.size(); ++i) schema.append(body.key(i), body.child(i));
   return to_json(schema);
 }
 
-}  // namespace
-
 std::string robot_schema() {
   RawNode schema = Codec<RobotFile>::schema({});
   allow_variables(schema);
-  return finish(schema, "RAVE robot file", "robot.schema.json");
+  return json_schema(schema, "RAVE robot file", "robot.schema.json");
 }
 
 std::string world_schema() {
-  return finish(Codec<WorldFile>::schema({}), "RAVE world file", "world.schema.json");
+  return json_schema(Codec<WorldFile>::schema({}), "RAVE world file", "world.schema.json");
 }
 
 std::string scenario_schema() {
   RawNode schema = Codec<ScenarioFile>::schema({});
   RawNode* entry = &schema;
   for (const char* key : {"properties", "robots", "items", "properties"}) {
-    entry = child_of(*entry, key);
+    entry = entry->find(key);
   }
   // Robots written into a scenario have variables as those in files of their own do.
-  for (const char* key : {"robot", "twin_robot"}) allow_variables(*child_of(*entry, key));
-  return finish(schema, "RAVE scenario file", "scenario.schema.json");
+  for (const char* key : {"robot", "twin_robot"}) allow_variables(*entry->find(key));
+  return json_schema(schema, "RAVE scenario file", "scenario.schema.json");
 }
 
 }  // namespace rave::config

@@ -6,24 +6,10 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "known_keys.hpp"
 #include "rave/config/codecs.hpp"
 
 namespace rave::config {
 namespace {
-
-FieldOptions options_of(const FieldSpec& spec) {
-  FieldOptions o;
-  o.doc = spec.doc;
-  o.unit = spec.unit;
-  o.min = spec.min;
-  o.exclusive_min = spec.exclusive_min;
-  o.max = spec.max;
-  o.exclusive_max = spec.exclusive_max;
-  o.min_items = spec.min_items;
-  o.max_items = spec.max_items;
-  return o;
-}
 
 std::vector<std::string_view> views_of(const std::vector<std::string>& names) {
   return {names.begin(), names.end()};
@@ -63,7 +49,7 @@ ParamValue read_value(const ReadContext& context, const RawNode& node, const Fie
 std::string expectation_of(const FieldSpec& spec) {
   if (spec.type == ParamType::kEnum) return detail::enum_expectation(views_of(spec.choices));
   return with_type(spec.type, [&]<class T>(std::type_identity<T> /*type*/) -> std::string {
-    return Codec<T>::expectation(options_of(spec));
+    return Codec<T>::expectation(spec);
   });
 }
 
@@ -79,21 +65,20 @@ ParamValues read_params(const RawNode& node, std::span<const FieldSpec> specs,
                         std::string_view context, Diagnostics& diagnostics) {
   const std::string prefix = context.empty() ? std::string{} : fmt::format("{}: ", context);
   const auto report = [&](SourceLocation where, const std::string& message) {
-    diagnostics.add(Error{ErrorCode::kParse, prefix + message, std::move(where)});
+    diagnostics.add(std::move(where), prefix + message);
   };
   ParamValues values;
   if (!node.is_mapping() && !node.is_null()) {
     report(node.where(), fmt::format("found {}, expected a mapping", node.found_text()));
     return values;
   }
-  std::vector<KnownKey> known;
+  std::vector<detail::KnownKey> known;
   for (const FieldSpec& spec : specs) {
     known.push_back({spec.name, spec.unit});
     if (const RawNode* given = node.find(spec.name)) {
-      const FieldOptions options = options_of(spec);
       // Collected apart, because the name of the plug-in is put before each error.
       Diagnostics found;
-      const ReadContext read{found, options, fmt::format("`{}`", spec.name)};
+      const ReadContext read{found, spec, fmt::format("`{}`", spec.name)};
       values.add({spec.name, read_value(read, *given, spec), given->where()});
       for (const Error& error : found.errors()) report(error.where, error.message);
     } else if (spec.default_value) {
@@ -103,11 +88,7 @@ ParamValues read_params(const RawNode& node, std::span<const FieldSpec> specs,
              fmt::format("missing key `{}`: expected {}", spec.name, expectation_of(spec)));
     }
   }
-  for (std::size_t i = 0; i < node.size(); ++i) {
-    const bool is_known = std::any_of(known.begin(), known.end(),
-                                      [&](const KnownKey& key) { return key.name == node.key(i); });
-    if (!is_known) report(node.key_where(i), unknown_key_message(node.key(i), known));
-  }
+  detail::report_unknown_keys(node, known, prefix, diagnostics);
   return values;
 }
 
@@ -115,9 +96,7 @@ Result<ParamValues> read_params(const RawNode& node, std::span<const FieldSpec> 
                                 std::string_view context) {
   Diagnostics diagnostics;
   ParamValues values = read_params(node, specs, context, diagnostics);
-  if (diagnostics.ok()) return values;
-  diagnostics.sort();
-  return tl::unexpected<Error>(diagnostics.joined());
+  return diagnostics.value_or_errors(std::move(values));
 }
 
 }  // namespace rave::config

@@ -40,11 +40,8 @@ Status claim(const ExpandedScenario& scenario, const HostFile& file, std::size_t
   for (const Located<std::string>& name : file.robots) {
     const std::vector<std::size_t> robots = robots_named(scenario, name.value);
     if (robots.empty()) {
-      std::vector<std::string_view> names;
-      for (const RobotGroup& group : scenario.groups) names.emplace_back(group.name.value);
-      for (const ExpandedRobot& robot : scenario.robots) names.emplace_back(robot.name);
       return fail_at(name.where, ErrorCode::kParse, "there is no robot `{}`{}", name.value,
-                     suggestion(name.value, names));
+                     robot_suggestion(scenario, name.value));
     }
     for (const std::size_t robot : robots) {
       if (host_of[robot] != kNobody) {

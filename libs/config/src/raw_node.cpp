@@ -66,15 +66,17 @@ RawNode RawNode::integer(std::int64_t value) { return plain(fmt::format("{}", va
 RawNode RawNode::unsigned_integer(std::uint64_t value) { return plain(fmt::format("{}", value)); }
 RawNode RawNode::number(double value) { return plain(number_text(value)); }
 
-RawNode RawNode::sequence() {
+RawNode RawNode::sequence(std::vector<RawNode> items) {
   RawNode node;
   node.kind_ = Kind::kSequence;
+  node.children_ = std::move(items);
   return node;
 }
 
-RawNode RawNode::mapping() {
+RawNode RawNode::mapping(std::initializer_list<std::pair<std::string_view, RawNode>> entries) {
   RawNode node;
   node.kind_ = Kind::kMapping;
+  for (const auto& [key, value] : entries) node.append(std::string(key), value);
   return node;
 }
 
@@ -133,13 +135,16 @@ std::vector<std::string_view> RawNode::keys() const {
 }
 
 const RawNode* RawNode::find(std::string_view key) const noexcept {
-  for (std::size_t i = 0; i < keys_.size(); ++i) {
-    if (keys_[i].name == key) return &children_[i];
-  }
-  return nullptr;
+  const auto entry = std::ranges::find(keys_, key, &Key::name);
+  return entry == keys_.end() ? nullptr
+                              : &children_[static_cast<std::size_t>(entry - keys_.begin())];
 }
 
-// For errors: what the file has there, in the words of its author.
+RawNode* RawNode::find(std::string_view key) noexcept {
+  return const_cast<RawNode*>(
+      std::as_const(*this).find(key));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+}
+
 std::string RawNode::found_text() const {
   switch (kind_) {
     case Kind::kNull:
@@ -167,23 +172,20 @@ void RawNode::append(std::string key, RawNode value, std::string comment) {
 }
 
 void RawNode::set(std::string_view key, RawNode value) {
-  for (std::size_t i = 0; i < keys_.size(); ++i) {
-    if (keys_[i].name == key) {
-      children_[i] = std::move(value);
-      return;
-    }
+  if (RawNode* const present = find(key)) {
+    *present = std::move(value);
+  } else {
+    append(std::string(key), std::move(value));
   }
-  append(std::string(key), std::move(value));
 }
 
 bool RawNode::erase(std::string_view key) {
-  for (std::size_t i = 0; i < keys_.size(); ++i) {
-    if (keys_[i].name != key) continue;
-    keys_.erase(keys_.begin() + static_cast<std::ptrdiff_t>(i));
-    children_.erase(children_.begin() + static_cast<std::ptrdiff_t>(i));
-    return true;
-  }
-  return false;
+  const RawNode* const present = find(key);
+  if (present == nullptr) return false;
+  const auto i = present - children_.data();
+  keys_.erase(keys_.begin() + i);
+  children_.erase(children_.begin() + i);
+  return true;
 }
 
 void RawNode::set_where(std::shared_ptr<const std::string> file, int line, int column) {

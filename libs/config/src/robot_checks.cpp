@@ -89,34 +89,9 @@ void validate(const SensorFile& c, CheckContext& check) {
   }
 }
 
-void validate(const DeviceFile& c, CheckContext& check) {
-  check_name("name", *c.name, check);
-  check_params(c.params, check);
-}
-
 void validate(const SensorHalfFile& c, CheckContext& check) {
   check_params(c.params, check);
   check_layers(c.senses, check);
-}
-
-void validate(const TransmitterFile& c, CheckContext& check) {
-  check_name("name", *c.name, check);
-  check_params(c.params, check);
-}
-
-void validate(const CommunicatorFile& c, CheckContext& check) {
-  check_name("name", *c.name, check);
-  check_params(c.params, check);
-}
-
-void validate(const ActuatorFile& c, CheckContext& check) {
-  check_name("name", *c.name, check);
-  check_params(c.params, check);
-}
-
-void validate(const ControllerFile& c, CheckContext& check) {
-  check_name("name", *c.name, check);
-  check_params(c.params, check);
 }
 
 void validate(const ProgramFile& c, CheckContext& check) {

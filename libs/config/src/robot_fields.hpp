@@ -9,13 +9,13 @@ namespace rave::config {
 
 inline constexpr double kLongest_s = 1.0e6;
 
-constexpr FieldOptions period_s(std::string_view doc) {
+constexpr FieldOptions positive_s(std::string_view doc) {
   return {.doc = doc, .min = 0, .exclusive_min = true, .max = kLongest_s, .unit = "s"};
 }
-constexpr FieldOptions phase_s(std::string_view doc) {
+constexpr FieldOptions time_s(std::string_view doc) {
   return {.doc = doc, .min = 0, .max = kLongest_s, .unit = "s"};
 }
-constexpr FieldOptions error_size(std::string_view doc, std::string_view unit) {
+constexpr FieldOptions at_least_0(std::string_view doc, std::string_view unit) {
   return {.doc = doc, .min = 0, .unit = unit};
 }
 constexpr FieldOptions driver_name() {
@@ -40,22 +40,22 @@ void validate(const MountFile& c, CheckContext& check);
 template <class V>
 void describe(V& v, NoiseFile& c) {
   v.field("length_sigma_m", c.length_sigma_m,
-          error_size("Standard deviation of lengths and coordinates: of ranges, sightings, poses, "
+          at_least_0("Standard deviation of lengths and coordinates: of ranges, sightings, poses, "
                      "odometry and neighbours.",
                      "m"));
   v.field("angle_sigma_deg", c.angle_sigma_deg,
-          error_size("Standard deviation of angles: of sightings, poses, odometry and neighbours.",
+          at_least_0("Standard deviation of angles: of sightings, poses, odometry and neighbours.",
                      "deg"));
   v.field("velocity_sigma_mps", c.velocity_sigma_mps,
-          error_size("Standard deviation of velocities in m/s: of odometry, neighbours and "
+          at_least_0("Standard deviation of velocities in m/s: of odometry, neighbours and "
                      "velocities. Turning rates are not changed.",
                      "m/s"));
   v.field("length_quantum_m", c.length_quantum_m,
-          error_size("Step that lengths are rounded to; 0: not rounded.", "m"));
+          at_least_0("Step that lengths are rounded to; 0: not rounded.", "m"));
   v.field("angle_quantum_deg", c.angle_quantum_deg,
-          error_size("Step that angles are rounded to; 0: not rounded.", "deg"));
+          at_least_0("Step that angles are rounded to; 0: not rounded.", "deg"));
   v.field("velocity_quantum_mps", c.velocity_quantum_mps,
-          error_size("Step that velocities are rounded to; 0: not rounded.", "m/s"));
+          at_least_0("Step that velocities are rounded to; 0: not rounded.", "m/s"));
   v.field("dropout_probability", c.dropout_probability,
           {.doc = "Probability that a ray has no return, that a sighting or neighbour is missing, "
                   "or that a sample of another kind is empty.",
@@ -86,6 +86,11 @@ void describe(V& v, FilterFile& c) {
 
 void validate(const FilterFile& c, CheckContext& check);
 
+inline void validate(const NamedDriverFile& c, CheckContext& check) {
+  check_name("name", *c.name, check);
+  check_params(c.params, check);
+}
+
 constexpr FieldOptions device_name() {
   return {.doc = "Entry of `devices` that it belongs to; null: none."};
 }
@@ -96,8 +101,6 @@ void describe(V& v, DeviceFile& c) {
   v.required("driver", c.driver, driver_name());
   v.field("params", c.params, driver_params());
 }
-
-void validate(const DeviceFile& c, CheckContext& check);
 
 template <class V>
 void describe(V& v, SensorHalfFile& c) {
@@ -125,25 +128,21 @@ void describe(V& v, SensorFile& c) {
   v.field("virtual", c.imagined, {.doc = "Virtual half of a hybrid sensor; null: not hybrid."});
   v.field("mount", c.mount, {.doc = "Pose in the body frame."});
   v.field("period_s", c.period_s,
-          period_s("Time between two samples, a multiple of the step; null: the step."));
+          positive_s("Time between two samples, a multiple of the step; null: the step."));
   v.field("phase_s", c.phase_s,
-          phase_s("Time of the first sample, a multiple of the step, less than the period."));
+          time_s("Time of the first sample, a multiple of the step, less than the period."));
   v.field("senses", c.senses,
           {.doc = "Layers of the world that a virtual sensor senses; null: all.", .min_items = 1});
   v.field("params", c.params, driver_params());
   v.field("noise", c.noise,
           {.doc = "Noise added to the readings. A key without effect on the kind of the sensor is "
                   "refused; contacts and plain values take `dropout_probability` only."});
-  v.field("latency_s", c.latency_s,
-          {.doc = "Delay of the readings.", .min = 0, .max = kLongest_s, .unit = "s"});
-  v.field("max_age_s", c.max_age_s,
-          {.doc = "Age of the newest sample of a real sensor after which the robot is stopped; "
-                  "null: three periods of the sensor, at least 0.2 s. Required for a range sensor "
-                  "whose driver does not know the period.",
-           .min = 0,
-           .exclusive_min = true,
-           .max = kLongest_s,
-           .unit = "s"});
+  v.field("latency_s", c.latency_s, time_s("Delay of the readings."));
+  v.field(
+      "max_age_s", c.max_age_s,
+      positive_s("Age of the newest sample of a real sensor after which the robot is stopped; "
+                 "null: three periods of the sensor, at least 0.2 s. Required for a range sensor "
+                 "whose driver does not know the period."));
   v.field("filters", c.filters,
           {.doc = "Filters, applied in this order; for ranges, poses, odometry, velocities and "
                   "values.",
@@ -160,8 +159,6 @@ void describe(V& v, ActuatorFile& c) {
   v.field("params", c.params, driver_params());
 }
 
-void validate(const ActuatorFile& c, CheckContext& check);
-
 template <class V>
 void describe(V& v, ControllerFile& c) {
   v.required("name", c.name, {.doc = "Name that the program uses for it."});
@@ -170,8 +167,6 @@ void describe(V& v, ControllerFile& c) {
   v.field("params", c.params, driver_params());
 }
 
-void validate(const ControllerFile& c, CheckContext& check);
-
 template <class V>
 void describe(V& v, TransmitterFile& c) {
   v.required("name", c.name, {.doc = "Name that communicators use for it."});
@@ -179,8 +174,6 @@ void describe(V& v, TransmitterFile& c) {
   v.field("device", c.device, device_name());
   v.field("params", c.params, driver_params());
 }
-
-void validate(const TransmitterFile& c, CheckContext& check);
 
 template <class V>
 void describe(V& v, CommunicatorFile& c) {
@@ -193,8 +186,6 @@ void describe(V& v, CommunicatorFile& c) {
   v.field("params", c.params, driver_params());
 }
 
-void validate(const CommunicatorFile& c, CheckContext& check);
-
 constexpr auto enum_names(EnumTag<WorldLost> /*tag*/) {
   return std::array{EnumName{WorldLost::kStop, "stop"}, EnumName{WorldLost::kSlow, "slow"},
                     EnumName{WorldLost::kIgnore, "ignore"}};
@@ -204,56 +195,37 @@ template <class V>
 void describe(V& v, GuardFile& c) {
   v.field("arm", c.arm, {.doc = "Whether a real robot stands until it is armed."});
   v.field("max_speed_mps", c.max_speed_mps,
-          {.doc = "Largest speed, forward and backward; null: no limit.", .min = 0, .unit = "m/s"});
+          at_least_0("Largest speed, forward and backward; null: no limit.", "m/s"));
   v.field("max_turn_dps", c.max_turn_dps,
-          {.doc = "Largest turning rate, in both directions; null: no limit.",
-           .min = 0,
-           .unit = "deg/s"});
+          at_least_0("Largest turning rate, in both directions; null: no limit.", "deg/s"));
   v.field("fence_m", c.fence_m,
           {.doc = "Corners of the region of the world that its body may not leave; null: none.",
            .unit = "m",
            .min_items = 3,
            .max_items = 1000});
   v.field("separation_m", c.separation_m,
-          {.doc = "Least distance to the bodies of other robots; null: no limit.",
-           .min = 0,
-           .unit = "m"});
+          at_least_0("Least distance to the bodies of other robots; null: no limit.", "m"));
   v.field("world_lost", c.world_lost, {.doc = "Reaction when updates of the virtual world stop."});
   v.field("world_timeout_s", c.world_timeout_s,
-          {.doc = "Age of the virtual world after which it counts as lost.",
-           .min = 0,
-           .exclusive_min = true,
-           .max = kLongest_s,
-           .unit = "s"});
+          positive_s("Age of the virtual world after which it counts as lost."));
   v.field("slow_speed_mps", c.slow_speed_mps,
-          {.doc = "Largest speed while the world is lost, if `world_lost` is slow.",
-           .min = 0,
-           .unit = "m/s"});
-  v.field("deceleration_mps2", c.deceleration_mps2,
-          {.doc = "Deceleration that the robot always reaches when it brakes.",
-           .min = 0.01,
-           .max = 100,
-           .unit = "m/s^2"});
+          at_least_0("Largest speed while the world is lost, if `world_lost` is slow.", "m/s"));
+  v.field(
+      "deceleration_mps2", c.deceleration_mps2,
+      between(0.01, 100, "m/s^2", "Deceleration that the robot always reaches when it brakes."));
   v.field("reaction_s", c.reaction_s,
-          {.doc = "Time from a command to the reaction of the robot.",
-           .min = 0,
-           .max = 10,
-           .unit = "s"});
+          between(0, 10, "s", "Time from a command to the reaction of the robot."));
   v.field("watchdog_s", c.watchdog_s,
-          {.doc = "Age after which a command of the program expires.",
-           .min = 0,
-           .exclusive_min = true,
-           .max = kLongest_s,
-           .unit = "s"});
+          positive_s("Age after which a command of the program expires."));
 }
 
 template <class V>
 void describe(V& v, ProgramFile& c) {
   v.required("driver", c.driver, driver_name());
   v.field("period_s", c.period_s,
-          period_s("Time between two decisions, a multiple of the step; null: the step."));
+          positive_s("Time between two decisions, a multiple of the step; null: the step."));
   v.field("phase_s", c.phase_s,
-          phase_s("Time of the first decision, a multiple of the step, less than the period."));
+          time_s("Time of the first decision, a multiple of the step, less than the period."));
   v.field("isolate", c.isolate, {.doc = "Whether the program runs in its own process."});
   v.field("params", c.params, driver_params());
 }
@@ -285,16 +257,10 @@ void describe(V& v, RobotFile& c) {
           {.doc = "Pose in the world of the frame that `pose_from` reports in."});
   v.field(
       "staleness_s", c.staleness_s,
-      {.doc = "Age after which a reported pose counts as lost, also one reported by another host.",
-       .min = 0,
-       .max = kLongest_s,
-       .unit = "s"});
-  v.field("report_period_s", c.report_period_s,
-          {.doc = "Time between reports of the pose to other hosts, in real time; null: 0.1 s.",
-           .min = 0,
-           .exclusive_min = true,
-           .max = kLongest_s,
-           .unit = "s"});
+      time_s("Age after which a reported pose counts as lost, also one reported by another host."));
+  v.field(
+      "report_period_s", c.report_period_s,
+      positive_s("Time between reports of the pose to other hosts, in real time; null: 0.1 s."));
   v.field("ros2", c.ros2,
           {.doc = "Whether to publish readings, transforms and description to ROS 2, on the "
                   "network of the scenario's `ros2`."});

@@ -7,18 +7,9 @@ namespace rave::config {
 
 Result<RobotFile> read_robot_text(std::string_view text, std::string_view file_name,
                                   const Variables& given) {
-  Diagnostics diagnostics;
-  RobotFile robot;
-  if (auto tree = parse_yaml(text, file_name, diagnostics)) {
-    const std::size_t errors_before = diagnostics.size();
-    substitute_variables(*tree, given, diagnostics);
-    // Skipped after an error: an unresolved variable would be reported again as a text instead of a
-    // number.
-    if (diagnostics.size() == errors_before) robot = read_node<RobotFile>(*tree, diagnostics);
-  }
-  if (diagnostics.ok()) return robot;
-  diagnostics.sort();
-  return tl::unexpected<Error>(diagnostics.joined());
+  return read_text<RobotFile>(text, file_name, [&given](RawNode& tree, Diagnostics& diagnostics) {
+    substitute_variables(tree, given, diagnostics);
+  });
 }
 
 Result<RobotFile> read_robot_file(const std::filesystem::path& path, const Variables& given) {

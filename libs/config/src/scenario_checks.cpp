@@ -14,10 +14,8 @@ void Codec<Pace>::read(const ReadContext& context, const RawNode& node, Pace& va
 }
 
 RawNode Codec<Pace>::schema(const FieldOptions& /*options*/) {
-  RawNode schema = RawNode::mapping();
-  schema.append("type", RawNode::text("string"));
-  schema.append("pattern", RawNode::text("^(max|realtime|[0-9][0-9.e+-]*x)$"));
-  return schema;
+  return RawNode::mapping({{"type", RawNode::text("string")},
+                           {"pattern", RawNode::text("^(max|realtime|[0-9][0-9.e+-]*x)$")}});
 }
 
 std::string Codec<Pace>::expectation(const FieldOptions& /*options*/) {
@@ -117,21 +115,10 @@ void validate(const ScenarioFile& c, CheckContext& check) {
   }
 }
 
-namespace {
-
-RawNode* find_child(RawNode& mapping, std::string_view key) {
-  for (std::size_t i = 0; mapping.is_mapping() && i < mapping.size(); ++i) {
-    if (mapping.key(i) == key) return &mapping.child(i);
-  }
-  return nullptr;
-}
-
-}  // namespace
-
 // Robots written into a scenario have variables like those in files. They are replaced before the
 // scenario is read, because `$(v)` is no number.
 void substitute_inline_robots(RawNode& scenario, Diagnostics& diagnostics) {
-  RawNode* robots = find_child(scenario, "robots");
+  RawNode* robots = scenario.find("robots");
   if (!robots || !robots->is_sequence()) return;
   for (std::size_t i = 0; i < robots->size(); ++i) {
     RawNode& entry = robots->child(i);
@@ -140,7 +127,7 @@ void substitute_inline_robots(RawNode& scenario, Diagnostics& diagnostics) {
       for (std::size_t k = 0; k < values->size(); ++k) given[values->key(k)] = values->child(k);
     }
     for (const std::string_view key : {"robot", "twin_robot"}) {
-      RawNode* const robot = find_child(entry, key);
+      RawNode* const robot = entry.find(key);
       if (robot) substitute_variables(*robot, given, diagnostics);
     }
   }

@@ -19,13 +19,17 @@ struct Codec<Pace> {
   static std::string expectation(const FieldOptions& options);
 };
 
+/// A time of a run.
+constexpr FieldOptions instant_s(std::string_view doc) {
+  return {.doc = doc, .min = 0, .max = 1e9, .unit = "s"};
+}
+
 template <class V>
 void describe(V& v, ScatterFile& c) {
   v.field("count", c.count, {.doc = "Number of robots.", .min = 1, .max = kMaxRobots});
   v.required("x_m", c.x_m, length_m("Lower and upper limit of x."));
   v.required("y_m", c.y_m, length_m("Lower and upper limit of y."));
-  v.field("clearance_m", c.clearance_m,
-          {.doc = "Free space around each body.", .min = 0, .max = kFarthest_m, .unit = "m"});
+  v.field("clearance_m", c.clearance_m, distance_m("Free space around each body."));
 }
 
 void validate(const ScatterFile& c, CheckContext& check);
@@ -38,10 +42,8 @@ constexpr auto enum_names(EnumTag<HandOverTo> /*tag*/) {
 
 template <class V>
 void describe(V& v, HandOverFile& c) {
-  v.field("within_m", c.within_m,
-          {.doc = "Largest jump of the pose.", .min = 0, .max = kFarthest_m, .unit = "m"});
-  v.field("within_deg", c.within_deg,
-          {.doc = "Largest jump of the heading.", .min = 0, .max = 180, .unit = "deg"});
+  v.field("within_m", c.within_m, distance_m("Largest jump of the pose."));
+  v.field("within_deg", c.within_deg, between(0, 180, "deg", "Largest jump of the heading."));
 }
 
 template <class V>
@@ -85,15 +87,10 @@ template <class V>
 void describe(V& v, SightingsCheckFile& c) {
   v.required("real", c.real, {.doc = "Sensor with the recorded sightings."});
   v.required("twin", c.twin, {.doc = "Virtual camera on the same robot."});
-  v.field("range_m", c.range_m,
-          {.doc = "Largest difference in range.", .min = 0, .max = kFarthest_m, .unit = "m"});
-  v.field("bearing_deg", c.bearing_deg,
-          {.doc = "Largest difference in bearing.", .min = 0, .max = 180, .unit = "deg"});
+  v.field("range_m", c.range_m, distance_m("Largest difference in range."));
+  v.field("bearing_deg", c.bearing_deg, between(0, 180, "deg", "Largest difference in bearing."));
   v.field("min_within_pct", c.min_within_pct,
-          {.doc = "Share of the sightings that must lie within both.",
-           .min = 0,
-           .max = 100,
-           .unit = "%"});
+          between(0, 100, "%", "Share of the sightings that must lie within both."));
   v.field("min_compared", c.min_compared,
           {.doc = "Least number of sightings; the check fails with fewer.", .min = 1});
   v.field("max_unknown", c.max_unknown,
@@ -127,33 +124,22 @@ void describe(V& v, ArrivalCheckFile& c) {
            .exclusive_min = true,
            .max = kFarthest_m,
            .unit = "m"});
-  v.field(
-      "before_s", c.before_s,
-      {.doc = "Time limit; null: the end of the run.", .min = 0, .max = kLongest_s, .unit = "s"});
+  v.field("before_s", c.before_s, time_s("Time limit; null: the end of the run."));
 }
 
 template <class V>
 void describe(V& v, CaptureCheckFile& c) {
   v.required("predator", c.predator, {.doc = "Robot, or entry of robots, that hunts."});
   v.required("prey", c.prey, {.doc = "Robot, or entry of robots, that is hunted."});
-  v.field("within_m", c.within_m,
-          {.doc = "Gap between the outlines that counts as a capture.",
-           .min = 0,
-           .max = kFarthest_m,
-           .unit = "m"});
+  v.field("within_m", c.within_m, distance_m("Gap between the outlines that counts as a capture."));
   v.field("before_s", c.before_s,
-          {.doc = "Time limit of the capture, after which the check fails; null: no limit.",
-           .min = 0,
-           .max = 1e9,
-           .unit = "s"});
+          instant_s("Time limit of the capture, after which the check fails; null: no limit."));
   v.field("end_run", c.end_run, {.doc = "Whether the run ends with the first capture."});
 }
 
 template <class V>
 void describe(V& v, ChangeFile& c) {
-  v.required(
-      "at_s", c.at_s,
-      {.doc = "Time of the change, a multiple of the step.", .min = 0, .max = 1e9, .unit = "s"});
+  v.required("at_s", c.at_s, instant_s("Time of the change, a multiple of the step."));
   v.field("robot", c.robot, {.doc = "Robot, or entry of robots, that changes."});
   v.field("set", c.set,
           {.doc = "New values by key: program.PARAM, controller.NAME.PARAM, "
@@ -177,10 +163,7 @@ void describe(V& v, ChecksFile& c) {
 template <class V>
 void describe(V& v, PictureFile& c) {
   v.field("instant_s", c.instant_s,
-          {.doc = "Time of the drawn instant; null: the middle of the run.",
-           .min = 0,
-           .max = 1e9,
-           .unit = "s"});
+          instant_s("Time of the drawn instant; null: the middle of the run."));
   v.field("title", c.title, {.doc = "Title; empty: the name of the scenario."});
   v.field("odometry_sensor", c.odometry_sensor,
           {.doc = "Sensor whose track is drawn dashed; null: none."});
@@ -221,24 +204,16 @@ void describe_hosts(V& v, ScenarioFile& c) {
   v.field("on_lost_host", c.on_lost_host,
           {.doc = "Reaction to a host that is late or gone: wait for it, drop its robots, or drop "
                   "them and let the host come back."});
-  v.field("host_timeout_s", c.host_timeout_s,
-          {.doc = "Wall time after which a host that does not answer counts as late.",
-           .min = 0.1,
-           .max = 3600,
-           .unit = "s"});
+  v.field(
+      "host_timeout_s", c.host_timeout_s,
+      between(0.1, 3600, "s", "Wall time after which a host that does not answer counts as late."));
   v.field("clock", c.clock,
           {.doc = "Whether hosts wait for each other in each step or follow the wall clock; with a "
                   "live driver, a run is always in real time."});
   v.field("world_period_s", c.world_period_s,
-          {.doc = "Time between updates of the world to hosts, in real time.",
-           .min = 1e-3,
-           .max = 10,
-           .unit = "s"});
+          between(1e-3, 10, "s", "Time between updates of the world to hosts, in real time."));
   v.field("max_missed_pct", c.max_missed_pct,
-          {.doc = "Share of late steps above which a live run counts as incomplete.",
-           .min = 0,
-           .max = 100,
-           .unit = "%"});
+          between(0, 100, "%", "Share of late steps above which a live run counts as incomplete."));
 }
 
 constexpr auto enum_names(EnumTag<Ros2Multicast> /*tag*/) {
@@ -254,16 +229,12 @@ constexpr auto enum_names(EnumTag<Ros2Nodes> /*tag*/) {
 
 template <class V>
 void describe(V& v, GeoOriginFile& c) {
-  v.required(
-      "latitude_deg", c.latitude_deg,
-      {.doc = "Latitude, positive in the north (WGS 84).", .min = -90, .max = 90, .unit = "deg"});
+  v.required("latitude_deg", c.latitude_deg,
+             between(-90, 90, "deg", "Latitude, positive in the north (WGS 84)."));
   v.required("longitude_deg", c.longitude_deg,
-             {.doc = "Longitude, positive in the east.", .min = -180, .max = 180, .unit = "deg"});
+             between(-180, 180, "deg", "Longitude, positive in the east."));
   v.field("altitude_m", c.altitude_m,
-          {.doc = "Height above the ellipsoid (not above sea level).",
-           .min = -10'000,
-           .max = 100'000,
-           .unit = "m"});
+          between(-10'000, 100'000, "m", "Height above the ellipsoid (not above sea level)."));
   v.field(
       "yaw_deg", c.yaw_deg,
       {.doc =
@@ -285,8 +256,7 @@ void describe(V& v, Ros2File& c) {
   v.field("nodes", c.nodes,
           {.doc = "Format in which `ros2 node list` sees the run: Iron (2023) and later, Humble "
                   "and earlier, or none. All participants of a domain must use the same."});
-  v.field("period_s", c.period_s,
-          {.doc = "Time between two transforms.", .min = 0.001, .max = 60, .unit = "s"});
+  v.field("period_s", c.period_s, between(0.001, 60, "s", "Time between two transforms."));
 }
 
 template <class V>
@@ -294,15 +264,12 @@ void describe_run(V& v, ScenarioFile& c) {
   v.field("seed", c.seed, {.doc = "Random seed of the run."});
   v.field("duration_s", c.duration_s,
           {.doc = "Simulated time.", .min = 0, .exclusive_min = true, .max = 1e9, .unit = "s"});
-  v.field("step_s", c.step_s, {.doc = "Length of a step.", .min = 1e-4, .max = 10, .unit = "s"});
+  v.field("step_s", c.step_s, between(1e-4, 10, "s", "Length of a step."));
   v.field("threads", c.threads,
           {.doc = "Number of threads; the result does not depend on it.", .min = 1, .max = 1024});
   v.field("pace", c.pace, {.doc = "Largest speed: max, realtime, or a factor such as 10x."});
   v.field("history_s", c.history_s,
-          {.doc = "Length of the history for hybrid sensors and checks.",
-           .min = 0,
-           .max = 3600,
-           .unit = "s"});
+          between(0, 3600, "s", "Length of the history for hybrid sensors and checks."));
 }
 
 template <class V>

@@ -8,16 +8,7 @@
 namespace rave::config {
 
 Result<ScenarioFile> read_scenario_text(std::string_view text, std::string_view file_name) {
-  Diagnostics diagnostics;
-  ScenarioFile scenario;
-  if (auto tree = parse_yaml(text, file_name, diagnostics)) {
-    const std::size_t errors_before = diagnostics.size();
-    substitute_inline_robots(*tree, diagnostics);
-    if (diagnostics.size() == errors_before) scenario = read_node<ScenarioFile>(*tree, diagnostics);
-  }
-  if (diagnostics.ok()) return scenario;
-  diagnostics.sort();
-  return tl::unexpected<Error>(diagnostics.joined());
+  return read_text<ScenarioFile>(text, file_name, substitute_inline_robots);
 }
 
 Result<GuiFile> read_gui_text(std::string_view text, std::string_view file_name) {

@@ -15,6 +15,13 @@ inline constexpr double kSmallest_m = 1.0e-4;
 constexpr FieldOptions length_m(std::string_view doc) {
   return {.doc = doc, .min = -kFarthest_m, .max = kFarthest_m, .unit = "m"};
 }
+constexpr FieldOptions distance_m(std::string_view doc) {
+  return {.doc = doc, .min = 0, .max = kFarthest_m, .unit = "m"};
+}
+constexpr FieldOptions between(double min, double max, std::string_view unit,
+                               std::string_view doc) {
+  return {.doc = doc, .min = min, .max = max, .unit = unit};
+}
 constexpr FieldOptions angle_deg(std::string_view doc) {
   return {.doc = doc, .min = -360, .max = 360, .unit = "deg"};
 }
@@ -34,12 +41,10 @@ constexpr auto enum_names(EnumTag<SensedLayer> /*tag*/) {
 template <class V>
 void describe_outline(V& v, Outline& c) {
   v.field("disc_radius_m", c.disc_radius_m,
-          {.doc = "A disc of this radius.", .min = kSmallest_m, .max = kFarthest_m, .unit = "m"});
-  v.field("box_m", c.box_m,
-          {.doc = "A box of this length along x and width along y.",
-           .min = kSmallest_m,
-           .max = kFarthest_m,
-           .unit = "m"});
+          between(kSmallest_m, kFarthest_m, "m", "A disc of this radius."));
+  v.field(
+      "box_m", c.box_m,
+      between(kSmallest_m, kFarthest_m, "m", "A box of this length along x and width along y."));
   v.field("polygon_m", c.polygon_m,
           {.doc = "The corners [x, y] of a simple polygon.",
            .min = -kFarthest_m,

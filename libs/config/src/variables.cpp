@@ -17,6 +17,11 @@ namespace {
 constexpr std::string_view kOpen = "$(";
 constexpr std::string_view kEscaped = "$$(";
 
+std::string unknown_variable(std::string_view name, const RawNode& declared) {
+  return fmt::format("unknown variable `{}`; the robot file declares {}", name,
+                     join_names(declared.keys()));
+}
+
 class Substitution {
  public:
   Substitution(const RawNode& variables, Diagnostics& diagnostics)
@@ -61,53 +66,38 @@ class Substitution {
 
   const RawNode* look_up(const RawNode& node, std::string_view rest, std::size_t end) {
     if (end == std::string_view::npos) {
-      report(node.where(), "`$(` is not closed by `)`; write `$$(` for these characters");
+      diagnostics_.add(node.where(), "`$(` is not closed by `)`; write `$$(` for these characters");
       return nullptr;
     }
     const std::string_view name = rest.substr(kOpen.size(), end - kOpen.size());
     const RawNode* value = variables_.find(name);
-    if (!value) report(node.where(), unknown_variable(name, variables_));
+    if (!value) diagnostics_.add(node.where(), unknown_variable(name, variables_));
     return value;
   }
 
-  void report(SourceLocation where, std::string message) {
-    diagnostics_.add(Error{ErrorCode::kParse, std::move(message), std::move(where)});
-  }
-
- public:
-  static std::string unknown_variable(std::string_view name, const RawNode& declared) {
-    return fmt::format("unknown variable `{}`; the robot file declares {}", name,
-                       join_names(declared.keys()));
-  }
-
- private:
   const RawNode& variables_;
   Diagnostics& diagnostics_;
   std::shared_ptr<const std::string> file_;  // owned by all replaced nodes
 };
 
 void check_value(std::string_view name, const RawNode& value, Diagnostics& diagnostics) {
-  std::string message;
   if (!value.is_scalar()) {
-    message = fmt::format("the variable `{}`: found {}, expected a number, true, false or text",
-                          name, value.found_text());
+    diagnostics.add(value.where(), fmt::format("the variable `{}`: found {}, expected a number, "
+                                               "true, false or text",
+                                               name, value.found_text()));
   } else if (value.scalar().find(kOpen) != std::string::npos) {
-    message = fmt::format("the variable `{}` may not contain `$(`", name);
-  } else {
-    return;
+    diagnostics.add(value.where(), fmt::format("the variable `{}` may not contain `$(`", name));
   }
-  diagnostics.add(Error{ErrorCode::kParse, std::move(message), value.where()});
 }
 
 /// The declared variables with the given values, checked.
 RawNode values_in_force(RawNode declared, const Variables& given, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < declared.size(); ++i) {
     if (!is_variable_name(declared.key(i))) {
-      diagnostics.add(Error{ErrorCode::kParse,
-                            fmt::format("`{}` cannot name a variable: expected letters, digits and "
-                                        "`_`, the first no digit",
-                                        declared.key(i)),
-                            declared.key_where(i)});
+      diagnostics.add(declared.key_where(i),
+                      fmt::format("`{}` cannot name a variable: expected letters, digits and `_`, "
+                                  "the first no digit",
+                                  declared.key(i)));
     }
     check_value(declared.key(i), declared.child(i), diagnostics);
   }
@@ -116,8 +106,7 @@ RawNode values_in_force(RawNode declared, const Variables& given, Diagnostics& d
       check_value(name, value, diagnostics);
       declared.set(name, value);
     } else {
-      diagnostics.add(
-          Error{ErrorCode::kParse, Substitution::unknown_variable(name, declared), value.where()});
+      diagnostics.add(value.where(), unknown_variable(name, declared));
     }
   }
   return declared;

@@ -153,7 +153,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   void report(const YAML::Mark& mark, std::string message) {
-    diagnostics_.add(Error{ErrorCode::kParse, std::move(message), place(mark)});
+    diagnostics_.add(place(mark), std::move(message));
   }
 
   void open(RawNode node, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
@@ -334,19 +334,17 @@ std::optional<RawNode> parse_yaml(std::string_view text, std::string_view file_n
     diagnostics.add(abort.error);
     return std::nullopt;
   } catch (const YAML::Exception& e) {
-    diagnostics.add(Error{ErrorCode::kParse,
-                          fmt::format("YAML syntax: {}{}", e.msg, place_hint(e.msg)),
-                          builder.place(e.mark)});
+    diagnostics.add(builder.place(e.mark),
+                    fmt::format("YAML syntax: {}{}", e.msg, place_hint(e.msg)));
     return std::nullopt;
   } catch (const std::exception& e) {
-    diagnostics.add(Error{ErrorCode::kParse, fmt::format("YAML: {}", e.what()),
-                          SourceLocation{std::string(file_name), 0, 0}});
+    // yaml-cpp lets exceptions of the standard library through for some numeric escapes.
+    diagnostics.add({std::string(file_name), 0, 0}, fmt::format("YAML: {}", e.what()));
     return std::nullopt;
   }
   std::optional<RawNode> root = builder.take();
   if (!root || root->is_null()) {
-    diagnostics.add(Error{ErrorCode::kParse, "the file is empty",
-                          SourceLocation{std::string(file_name), 1, 1}});
+    diagnostics.add({std::string(file_name), 1, 1}, "the file is empty");
     return std::nullopt;
   }
   return root;

@@ -79,9 +79,6 @@ const Case kCases[] = {
     {"InfiniteRange", "frame: base\nrange_m: .inf\n",
      "a.yaml:2:10: `range_m`: found the number .inf, expected a finite number (greater than 0, in "
      "metres)"},
-    {"InfiniteOutOfRange", "frame: base\nhorizon_s: -.inf\n",
-     "a.yaml:2:12: `horizon_s`: found the number -.inf, expected a number (at least 0, in "
-     "seconds)"},
     {"NumberTooLarge", "frame: base\nrange_m: 1e999\n",
      "a.yaml:2:10: `range_m`: found the number 1e999, expected a number within the range of a "
      "double (greater than 0, in metres)"},
@@ -141,15 +138,11 @@ const Case kCases[] = {
      "metres)"},
     {"BadItemOfArray", "frame: base\nmounts:\n  - at_m: [1, x]\n",
      "a.yaml:3:15: item 2 of `at_m`: found the text \"x\", expected a number (in metres)"},
-    {"ListTooLong", "frame: base\nmounts: [[1, 2], [1, 2], [1, 2], [1, 2], [1, 2]]\n",
+    {"ListTooLong", "frame: base\nmounts: [{}, {}, {}, {}, {}]\n",
      "a.yaml:2:9: `mounts`: found a list of 5 items, expected a list of at most 4 items, each a "
      "mapping"},
     {"MappingForList", "frame: base\nmounts: {at_m: [1, 2]}\n",
      "a.yaml:2:9: `mounts`: found a mapping, expected a list of at most 4 items, each a mapping"},
-    {"BadShorthand", "frame: base\nmounts: [[1, 2], [1, b]]\n",
-     "a.yaml:2:22: item 2 of `mounts`: item 2: found the text \"b\", expected a number"},
-    {"ScalarForShorthand", "frame: base\nspare: 7\n",
-     "a.yaml:2:8: `spare`: found the number 7, expected a list of 2 items, each a number"},
     {"BadItemOfNestedList", "frame: base\nrows: [[1, 2], [3, four]]\n",
      "a.yaml:2:20: item 2 of item 2 of `rows`: found the text \"four\", expected a number"},
     {"ListForMap", "frame: base\nnamed: [1]\n",
@@ -204,11 +197,9 @@ INSTANTIATE_TEST_SUITE_P(Config, BadInput, testing::ValuesIn(kCases),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(BadInputTogether, AllErrorsAreReportedInTheOrderOfTheFile) {
-  Diagnostics diagnostics;
   const auto value = read_text<sample::Laser>(
-      "frame: base\nrays: 0\nrnage_m: 3\nrays: 4\nenabled: no\n", "a.yaml", diagnostics);
+      "frame: base\nrays: 0\nrnage_m: 3\nrays: 4\nenabled: no\n", "a.yaml");
   ASSERT_FALSE(value.has_value());
-  EXPECT_EQ(diagnostics.size(), 4U);
   EXPECT_EQ(value.error().text(),
             "a.yaml:2:7: `rays`: found the number 0, expected a whole number (from 1 to 100000)\n"
             "a.yaml:3:1: unknown key `rnage_m`; did you mean `range_m`?\n"

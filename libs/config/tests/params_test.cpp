@@ -10,23 +10,23 @@ namespace {
 
 std::vector<FieldSpec> specs() {
   std::vector<FieldSpec> all(7);
-  all[0] = {.name = "range_m", .type = ParamType::kDouble, .doc = "Farthest reading."};
+  all[0] = {{.doc = "Farthest reading."}, "range_m", ParamType::kDouble};
   all[0].min = 0;
   all[0].exclusive_min = true;
   all[0].unit = "m";
   all[0].default_value = 8.0;
-  all[1] = {.name = "rays", .type = ParamType::kInt, .min = 1};
+  all[1] = {{.min = 1}, "rays", ParamType::kInt};
   all[1].default_value = std::int64_t{180};
-  all[2] = {.name = "noisy", .type = ParamType::kBool};
+  all[2] = {{}, "noisy", ParamType::kBool};
   all[2].default_value = false;
-  all[3] = {.name = "kind", .type = ParamType::kEnum};
+  all[3] = {{}, "kind", ParamType::kEnum};
   all[3].choices = {"laser", "sonar"};
   all[3].default_value = "laser";
-  all[4] = {.name = "weights", .type = ParamType::kDoubleList, .min = 0};
+  all[4] = {{.min = 0}, "weights", ParamType::kDoubleList};
   all[4].min_items = 1;
   all[4].default_value = std::vector<double>{1, 2};
-  all[5] = {.name = "port", .type = ParamType::kString};
-  all[6] = {.name = "label", .type = ParamType::kString};
+  all[5] = {{}, "port", ParamType::kString};
+  all[6] = {{}, "label", ParamType::kString};
   all[6].default_value = "";
   return all;
 }

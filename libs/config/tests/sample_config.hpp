@@ -26,14 +26,7 @@ void describe(V& v, Mount& c) {
   v.field("heading_deg", c.heading_deg, {.min = -180, .max = 180, .unit = "deg"});
 }
 
-/// `[x, y]` stands for a mount that looks ahead.
-inline Status read_shorthand(const config::RawNode& node, Mount& c) {
-  RAVE_TRY_ASSIGN(c.at_m, (config::read_node<std::array<double, 2>>(node)));
-  return {};
-}
-
 struct Laser {
-  SourceLocation where;
   double range_m = 8;
   double min_range_m = 0;
   int rays = 180;
@@ -62,7 +55,6 @@ struct Laser {
 
 template <class V>
 void describe(V& v, Laser& c) {
-  v.location(c.where);
   v.field("range_m", c.range_m,
           {.doc = "Farthest reading.", .min = 0, .exclusive_min = true, .unit = "m"});
   v.field("min_range_m", c.min_range_m, {.doc = "Nearest reading.", .min = 0, .unit = "m"});
@@ -73,7 +65,7 @@ void describe(V& v, Laser& c) {
   v.required("frame", c.frame, {.doc = "The frame that it is mounted in.", .min_items = 1});
   v.field("driver", c.driver, {.doc = "The driver's name."});
   v.field("fov_deg", c.fov_deg, {.doc = "Opening angle.", .min = 0, .max = 360, .unit = "deg"});
-  v.field("horizon_s", c.horizon_s, {.min = 0, .unit = "s", .allow_infinite = true});
+  v.field("horizon_s", c.horizon_s, {.min = 0, .unit = "s"});
   v.field("mounts", c.mounts, {.doc = "Where copies of it sit.", .max_items = 4});
   v.field("rows", c.rows);
   v.field("named", c.named);

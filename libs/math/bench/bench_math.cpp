@@ -8,6 +8,7 @@
 #include "rave/math/polygon.hpp"
 #include "rave/math/random_batch.hpp"
 #include "rave/math/scalar.hpp"
+#include "rave/math_testing/polygon_measures.hpp"
 
 namespace rave {
 namespace {
@@ -72,13 +73,13 @@ void bench_fill_normal(benchmark::State& state) {
 }
 
 void bench_distance(benchmark::State& state) {
-  const auto a = ConvexPolygon::regular(static_cast<int>(state.range(0)), 0.3).value();
+  const auto a = regular_polygon(static_cast<int>(state.range(0)), 0.3);
   const auto b = ConvexPolygon::box(2, 0.2).value();
   run(state, -3, 3, [&](double x) { return distance(a, {x, 1, x}, b, {0, 0, 0.2}); });
 }
 
 void bench_time_of_impact(benchmark::State& state) {
-  const auto a = ConvexPolygon::regular(static_cast<int>(state.range(0)), 0.3).value();
+  const auto a = regular_polygon(static_cast<int>(state.range(0)), 0.3);
   const auto b = ConvexPolygon::box(2, 0.2).value();
   run(state, -1, 1, [&](double x) {
     return time_of_impact(a, {x, 0.45, x}, {0.05, -0.1, 0.1}, b, {0, 0, 0});

@@ -7,6 +7,7 @@
 
 #include "random_shapes.hpp"
 #include "rave/math/transform.hpp"
+#include "rave/math_testing/polygon_measures.hpp"
 
 namespace rave {
 namespace {
@@ -16,10 +17,10 @@ double reference_gap(const ConvexPolygon& a, const Pose2& X_WA, const ConvexPoly
                      const Pose2& X_WB) {
   double best = 1e9;
   for (const Vec2 v : a.vertices()) {
-    best = std::min(best, b.distance(transform_back(X_WB, transform(X_WA, v))));
+    best = std::min(best, distance_to(b, transform_back(X_WB, transform(X_WA, v))));
   }
   for (const Vec2 v : b.vertices()) {
-    best = std::min(best, a.distance(transform_back(X_WA, transform(X_WB, v))));
+    best = std::min(best, distance_to(a, transform_back(X_WA, transform(X_WB, v))));
   }
   return best;
 }
@@ -59,8 +60,8 @@ TEST(Distance, AgreesWithBruteForce) {
     if (found.distance_m > 0) {
       ++apart;
       ASSERT_NEAR(found.distance_m, reference_gap(a, X_WA, b, X_WB), 1e-12);
-      ASSERT_LT(a.distance(transform_back(X_WA, found.p_WA)), 1e-12);
-      ASSERT_LT(b.distance(transform_back(X_WB, found.p_WB)), 1e-12);
+      ASSERT_LT(distance_to(a, transform_back(X_WA, found.p_WA)), 1e-12);
+      ASSERT_LT(distance_to(b, transform_back(X_WB, found.p_WB)), 1e-12);
     } else {
       ++overlapping;
       // Moved by the depth they just touch, by less they do not.
@@ -101,8 +102,8 @@ TEST(DiscDistance, IsThatOfItsCenterLessTheRadius) {
     const Vec2 p_WC = random_pose(random, 3.0).position();
     const Separation found = distance(a, X_WA, p_WC, 0.25);
     expect_consistent(found);
-    ASSERT_NEAR(found.distance_m, a.signed_distance(transform_back(X_WA, p_WC)) - 0.25, 1e-13);
-    ASSERT_NEAR(a.signed_distance(transform_back(X_WA, found.p_WA)), 0, 1e-12);
+    ASSERT_NEAR(found.distance_m, signed_distance(a, transform_back(X_WA, p_WC)) - 0.25, 1e-13);
+    ASSERT_NEAR(signed_distance(a, transform_back(X_WA, found.p_WA)), 0, 1e-12);
     ASSERT_NEAR(std::sqrt(squared_norm(found.p_WB - p_WC)), 0.25, 1e-12);
   }
 }

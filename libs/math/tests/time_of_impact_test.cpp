@@ -8,6 +8,7 @@
 #include "random_shapes.hpp"
 #include "rave/math/separation.hpp"
 #include "rave/math/transform.hpp"
+#include "rave/math_testing/polygon_measures.hpp"
 
 namespace rave {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 constexpr double kSkin_m = 1e-4;
 
 TEST(TimeOfImpact, FastBodyStopsAtAThinWall) {
-  const ConvexPolygon robot = ConvexPolygon::regular(8, 0.1).value();
+  const ConvexPolygon robot = regular_polygon(8, 0.1);
   const ConvexPolygon wall = ConvexPolygon::box(0.05, 4).value();
   // 3 m/s for 0.1 s would carry it from 0.15 m before the wall to the far side.
   const Impact impact = time_of_impact(robot, {-0.175, 0.3, 0}, {0.3, 0, 0}, wall, {});
@@ -72,7 +73,7 @@ TEST(TimeOfImpact, InsideTheSkinOnlyTheWayOutIsFree) {
 }
 
 TEST(TimeOfImpact, APointedBodyMayTurnOnItsTip) {
-  const ConvexPolygon diamond = ConvexPolygon::regular(4, 0.5).value();
+  const ConvexPolygon diamond = regular_polygon(4, 0.5);
   const ConvexPolygon wall = ConvexPolygon::box(1, 4).value();
   const Impact impact = time_of_impact(diamond, {-1 - kSkin_m, 0, 0}, {0, 0, 0.5}, wall, {});
   EXPECT_FALSE(impact.hit);
@@ -84,7 +85,7 @@ TEST(TimeOfImpact, NoMotionIsFree) {
 }
 
 TEST(TimeOfImpact, PressingAndTurningOnAWallDoesNotCreepIn) {
-  const ConvexPolygon robot = ConvexPolygon::regular(7, 0.2).value();
+  const ConvexPolygon robot = regular_polygon(7, 0.2);
   const ConvexPolygon wall = ConvexPolygon::box(1, 40).value();
   Pose2 X_WA{-0.75, -10, 0.1};
   RandomStream random(61, 0, 0, 0);

@@ -11,9 +11,19 @@
 
 #include "rave/base/table.hpp"
 #include "rave/base/text_width.hpp"
+#include "rave/base/word_table.hpp"
 
 namespace rave::plugin {
 namespace {
+
+constexpr WordTable<ParamType, 6> kTypes = {{
+    {"bool", ParamType::kBool},
+    {"integer", ParamType::kInteger},
+    {"number", ParamType::kNumber},
+    {"text", ParamType::kText},
+    {"choice", ParamType::kChoice},
+    {"list", ParamType::kNumbers},
+}};
 
 /// Larger limits mean "no limit": the largest double or integer.
 bool is_unlimited(const ParamSpec& spec, double limit) noexcept {
@@ -79,23 +89,7 @@ std::string as_code(std::string_view text) {
 
 }  // namespace
 
-std::string_view to_string(ParamType type) noexcept {
-  switch (type) {
-    case ParamType::kBool:
-      return "bool";
-    case ParamType::kInteger:
-      return "integer";
-    case ParamType::kNumber:
-      return "number";
-    case ParamType::kText:
-      return "text";
-    case ParamType::kChoice:
-      return "choice";
-    case ParamType::kNumbers:
-      return "list";
-  }
-  return "unknown";
-}
+std::string_view to_string(ParamType type) noexcept { return kTypes.of(type, "unknown"); }
 
 std::string range_text(const ParamSpec& spec) {
   if (spec.type == ParamType::kText) return {};

@@ -1,56 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/plugin/registry.hpp"
 
+#include "rave/base/word_table.hpp"
+
 namespace rave {
+namespace {
 
-std::string_view to_string(DriverKind kind) noexcept {
-  switch (kind) {
-    case DriverKind::kSensor:
-      return "sensor";
-    case DriverKind::kVirtualSensor:
-      return "virtual sensor";
-    case DriverKind::kHybridSensor:
-      return "hybrid sensor";
-    case DriverKind::kActuator:
-      return "actuator";
-    case DriverKind::kVirtualActuator:
-      return "virtual actuator";
-    case DriverKind::kController:
-      return "controller";
-    case DriverKind::kCommunicator:
-      return "communicator";
-    case DriverKind::kTransmitter:
-      return "transmitter";
-    case DriverKind::kProgram:
-      return "program";
-    case DriverKind::kDevice:
-      return "device";
-  }
-  return "unknown";
-}
+constexpr WordTable<DriverKind, 10> kKinds = {{
+    {"sensor", DriverKind::kSensor},
+    {"virtual sensor", DriverKind::kVirtualSensor},
+    {"hybrid sensor", DriverKind::kHybridSensor},
+    {"actuator", DriverKind::kActuator},
+    {"virtual actuator", DriverKind::kVirtualActuator},
+    {"controller", DriverKind::kController},
+    {"communicator", DriverKind::kCommunicator},
+    {"transmitter", DriverKind::kTransmitter},
+    {"program", DriverKind::kProgram},
+    {"device", DriverKind::kDevice},
+}};
 
-std::string_view to_string(DriverClock clock) noexcept {
-  switch (clock) {
-    case DriverClock::kStepped:
-      return "stepped";
-    case DriverClock::kLive:
-      return "live";
-    case DriverClock::kEither:
-      return "stepped or live";
-  }
-  return "unknown";
-}
+constexpr WordTable<DriverClock, 3> kClocks = {{
+    {"stepped", DriverClock::kStepped},
+    {"live", DriverClock::kLive},
+    {"stepped or live", DriverClock::kEither},
+}};
 
-std::string_view to_string(SampleTiming timing) noexcept {
-  switch (timing) {
-    case SampleTiming::kUnknown:
-      return "at the pace of the device";
-    case SampleTiming::kPeriodic:
-      return "periodic";
-    case SampleTiming::kEvents:
-      return "when something happens";
-  }
-  return "unknown";
-}
+constexpr WordTable<SampleTiming, 3> kTimings = {{
+    {"at the pace of the device", SampleTiming::kUnknown},
+    {"periodic", SampleTiming::kPeriodic},
+    {"when something happens", SampleTiming::kEvents},
+}};
+
+}  // namespace
+
+std::string_view to_string(DriverKind kind) noexcept { return kKinds.of(kind, "unknown"); }
+
+std::string_view to_string(DriverClock clock) noexcept { return kClocks.of(clock, "unknown"); }
+
+std::string_view to_string(SampleTiming timing) noexcept { return kTimings.of(timing, "unknown"); }
 
 }  // namespace rave

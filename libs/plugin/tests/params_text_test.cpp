@@ -132,5 +132,20 @@ TEST(Markdown, IsASectionWithoutTheFolder) {
             "| `port` | text |  |  | required | Where it is. |\n");
 }
 
+TEST(Names, AreGivenToAllKindsOfDrivers) {
+  for (int i = 0; i <= static_cast<int>(ParamType::kNumbers); ++i) {
+    EXPECT_NE(to_string(static_cast<ParamType>(i)), "unknown") << i;
+  }
+  for (int i = 0; i <= static_cast<int>(DriverKind::kDevice); ++i) {
+    EXPECT_NE(rave::to_string(static_cast<DriverKind>(i)), "unknown") << i;
+  }
+  for (int i = 0; i <= static_cast<int>(DriverClock::kEither); ++i) {
+    EXPECT_NE(rave::to_string(static_cast<DriverClock>(i)), "unknown") << i;
+  }
+  for (int i = 0; i <= static_cast<int>(SampleTiming::kEvents); ++i) {
+    EXPECT_NE(rave::to_string(static_cast<SampleTiming>(i)), "unknown") << i;
+  }
+}
+
 }  // namespace
 }  // namespace rave::plugin

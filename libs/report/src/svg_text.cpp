@@ -2,10 +2,12 @@
 // What cairo leaves out of an SVG: title and description, and numbers that are the same each time.
 #include "svg_text.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <map>
 
 #include "legend.hpp"
+#include "rave/base/markup.hpp"
 
 namespace rave::report {
 namespace {
@@ -62,26 +64,10 @@ std::string description_of(const Picture& picture) {
 }  // namespace
 
 std::string xml_escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < 0x20 && c != '\n' ? ' ' : c;
-    }
-  }
-  return result;
+  const auto forbidden = [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\n'; };
+  std::string allowed(text);
+  std::ranges::replace_if(allowed, forbidden, ' ');
+  return escaped_markup(allowed);
 }
 
 std::string finished_svg(std::string svg, const Picture& picture) {

@@ -1,92 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstddef>
+#include <iterator>
+
+#include "rave/base/word_table.hpp"
 #include "rave/robot/command.hpp"
 #include "rave/robot/order.hpp"
 #include "rave/robot/reading.hpp"
 
 namespace rave {
+namespace {
+
+constexpr std::size_t index_of(ReadingKind kind) noexcept { return static_cast<std::size_t>(kind); }
+
+/// In the order of the kinds.
+constexpr struct {
+  std::string_view name;
+  std::uint32_t record_bytes;
+} kReadings[] = {{"nothing", 0},
+                 {"ranges", sizeof(float)},
+                 {"sightings", sizeof(Sighting)},
+                 {"pose", sizeof(PoseReading)},
+                 {"odometry", sizeof(OdometryReading)},
+                 {"neighbours", sizeof(NeighbourReading)},
+                 {"contact", sizeof(ContactReading)},
+                 {"velocity", sizeof(VelocityReading)},
+                 {"values", sizeof(double)}};
+static_assert(std::size(kReadings) == index_of(ReadingKind::kValues) + 1);
+
+constexpr WordTable<OrderKind, 7> kOrders = {{
+    {"nothing", OrderKind::kNone},
+    {"drive", OrderKind::kDrive},
+    {"goal", OrderKind::kGoal},
+    {"path", OrderKind::kPath},
+    {"cancel", OrderKind::kCancel},
+    {"text", OrderKind::kText},
+    {"place", OrderKind::kPlace},
+}};
+
+constexpr WordTable<CommandKind, 5> kCommands = {{
+    {"nothing", CommandKind::kNone},
+    {"velocity", CommandKind::kVelocity},
+    {"goal", CommandKind::kGoal},
+    {"joint", CommandKind::kJoint},
+    {"values", CommandKind::kValues},
+}};
+
+}  // namespace
 
 std::string_view to_string(ReadingKind kind) noexcept {
-  switch (kind) {
-    case ReadingKind::kNone:
-      return "nothing";
-    case ReadingKind::kRanges:
-      return "ranges";
-    case ReadingKind::kSightings:
-      return "sightings";
-    case ReadingKind::kPose:
-      return "pose";
-    case ReadingKind::kOdometry:
-      return "odometry";
-    case ReadingKind::kNeighbours:
-      return "neighbours";
-    case ReadingKind::kContact:
-      return "contact";
-    case ReadingKind::kVelocity:
-      return "velocity";
-    case ReadingKind::kValues:
-      return "values";
-  }
-  return "unknown";
+  return kind <= ReadingKind::kValues ? kReadings[index_of(kind)].name : "unknown";
 }
 
 std::uint32_t record_size(ReadingKind kind) noexcept {
-  switch (kind) {
-    case ReadingKind::kNone:
-      return 0;
-    case ReadingKind::kRanges:
-      return sizeof(float);
-    case ReadingKind::kSightings:
-      return sizeof(Sighting);
-    case ReadingKind::kPose:
-      return sizeof(PoseReading);
-    case ReadingKind::kOdometry:
-      return sizeof(OdometryReading);
-    case ReadingKind::kNeighbours:
-      return sizeof(NeighbourReading);
-    case ReadingKind::kContact:
-      return sizeof(ContactReading);
-    case ReadingKind::kVelocity:
-      return sizeof(VelocityReading);
-    case ReadingKind::kValues:
-      return sizeof(double);
-  }
-  return 0;
+  return kind <= ReadingKind::kValues ? kReadings[index_of(kind)].record_bytes : 0;
 }
 
-std::string_view to_string(OrderKind kind) noexcept {
-  switch (kind) {
-    case OrderKind::kNone:
-      return "nothing";
-    case OrderKind::kDrive:
-      return "drive";
-    case OrderKind::kGoal:
-      return "goal";
-    case OrderKind::kPath:
-      return "path";
-    case OrderKind::kCancel:
-      return "cancel";
-    case OrderKind::kText:
-      return "text";
-    case OrderKind::kPlace:
-      return "place";
-  }
-  return "unknown";
-}
+std::string_view to_string(OrderKind kind) noexcept { return kOrders.of(kind, "unknown"); }
 
-std::string_view to_string(CommandKind kind) noexcept {
-  switch (kind) {
-    case CommandKind::kNone:
-      return "nothing";
-    case CommandKind::kVelocity:
-      return "velocity";
-    case CommandKind::kGoal:
-      return "goal";
-    case CommandKind::kJoint:
-      return "joint";
-    case CommandKind::kValues:
-      return "values";
-  }
-  return "unknown";
-}
+std::string_view to_string(CommandKind kind) noexcept { return kCommands.of(kind, "unknown"); }
 
 }  // namespace rave

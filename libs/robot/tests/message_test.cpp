@@ -67,5 +67,17 @@ TEST_F(MessageTest, TooLongOrTooManyIsRefused) {
   EXPECT_EQ(out_.dropped, 2U);
 }
 
+TEST(Kinds, HaveNames) {
+  for (int i = 0; i <= static_cast<int>(ReadingKind::kValues); ++i) {
+    EXPECT_NE(to_string(static_cast<ReadingKind>(i)), "unknown") << i;
+  }
+  for (int i = 0; i <= static_cast<int>(OrderKind::kPlace); ++i) {
+    EXPECT_NE(to_string(static_cast<OrderKind>(i)), "unknown") << i;
+  }
+  for (int i = 0; i <= static_cast<int>(CommandKind::kValues); ++i) {
+    EXPECT_NE(to_string(static_cast<CommandKind>(i)), "unknown") << i;
+  }
+}
+
 }  // namespace
 }  // namespace rave

@@ -127,14 +127,9 @@ Status WorldAuthority::Impl::change_body(RobotId robot, std::span<const Paramete
 
 /// As in one process, see Engine::Impl::place().
 Status WorldAuthority::Impl::place(const WorldInput& input) {
-  const std::uint32_t r = input.robot.value();
-  const Vec2 p_WR = input.order.points_W.front();
-  const double yaw_rad = input.order.yaw_rad.value_or(truth.movers[r].X_WR.yaw);
-  const Status placed = truth.place(input.robot, {p_WR.x, p_WR.y, wrap_angle(yaw_rad)});
-  if (!placed) {
-    return fail(placed.error().code, "robot `{}`, place: {}", spec.robots[r].name,
-                placed.error().message);
-  }
+  const double yaw_rad = truth.movers[input.robot.value()].X_WR.yaw;
+  const Status placed = truth.place(input.robot, ordered_place(input, yaw_rad));
+  if (!placed) return refused_order(spec, input, placed.error().code, placed.error().message);
   events.push_back(noted_order(step, input, EventKind::kPlaced, hash));
   return {};
 }
@@ -142,14 +137,11 @@ Status WorldAuthority::Impl::place(const WorldInput& input) {
 Status WorldAuthority::check_place(const WorldInput& input) const {
   const Impl& authority = *impl_;
   RAVE_TRY(check_order(authority.spec, input));
-  const std::uint32_t r = input.robot.value();
-  const Vec2 p_WR = input.order.points_W.front();
-  const double yaw_rad = input.order.yaw_rad.value_or(authority.truth.movers[r].X_WR.yaw);
-  const Status room =
-      authority.truth.check_place(input.robot, {p_WR.x, p_WR.y, wrap_angle(yaw_rad)});
+  const WorldTruth& truth = authority.truth;
+  const double yaw_rad = truth.movers[input.robot.value()].X_WR.yaw;
+  const Status room = truth.check_place(input.robot, ordered_place(input, yaw_rad));
   if (room) return {};
-  return fail(room.error().code, "robot `{}`, place: {}", authority.spec.robots[r].name,
-              room.error().message);
+  return refused_order(authority.spec, input, room.error().code, room.error().message);
 }
 
 Result<std::uint64_t> WorldAuthority::ask(WorldInput input) {

@@ -44,9 +44,9 @@ Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& stat
   authority.truth.put_obstacles(world.obstacles, now);
   authority.history = ObstacleHistory(state.obstacles, state.obstacle_changes);
   authority.last_obstacles = world.obstacles;
-  authority.take_over(world);
-  authority.truth.take_over(SimTime{static_cast<std::int64_t>(world.step) * authority.spec.step.ns},
-                            state.pinned);
+  authority.truth.adopt_robots(world);
+  authority.truth.adopt_contacts(world);
+  authority.truth.take_over(now, state.pinned);
   authority.step = world.step + 1;
   authority.hash = state.hash;
   authority.done_hash = state.hash;
@@ -79,22 +79,6 @@ void WorldAuthority::Impl::put_refusal_texts(std::uint64_t in_step) {
     event.text = next != refused.end()
                      ? next++->text
                      : "refused; the reason is known only to the previous manager";
-  }
-}
-
-/// Where everybody is, as its own write_poses() and write_contacts() told it.
-void WorldAuthority::Impl::take_over(const WorldStep& world) {
-  for (std::uint32_t r = 0; r < truth.movers.size(); ++r) {
-    truth.movers[r].X_WR = {world.x_m[r], world.y_m[r], world.yaw_rad[r]};
-    truth.movers[r].present = (world.flags[r] & WorldStep::kPresent) != 0;
-    truth.velocity[r] = {world.vx_mps[r], world.vy_mps[r], world.wz_radps[r]};
-    truth.touch[r] = {};
-  }
-  for (const PushedRobot& pushed : world.pushed) {
-    truth.movers[pushed.robot.value()].X_WR = pushed.X_WR;
-  }
-  for (const TouchPoint& point : world.touches) {
-    truth.touch[point.robot.value()] = {true, point.direction_W};
   }
 }
 

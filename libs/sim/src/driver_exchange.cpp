@@ -105,18 +105,14 @@ void HandOvers::make(const Radio* radio) {
   }
 }
 
-Twin* HandOvers::find(RobotId robot) noexcept {
-  for (Twin& twin : twins_) {
-    if (twin.robot == robot) return &twin;
-  }
-  return nullptr;
+const Twin* HandOvers::find(RobotId robot) const noexcept {
+  const auto found = std::ranges::find(twins_, robot, &Twin::robot);
+  return found == twins_.end() ? nullptr : &*found;
 }
 
 const RobotType* HandOvers::other_type(RobotId robot) const noexcept {
-  for (const Twin& twin : twins_) {
-    if (twin.robot == robot) return twin.other.type;
-  }
-  return nullptr;
+  const Twin* const twin = find(robot);
+  return twin == nullptr ? nullptr : twin->other.type;
 }
 
 Status HandOvers::restore() {

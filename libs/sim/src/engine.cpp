@@ -8,6 +8,7 @@
 #include "engine_impl.hpp"
 #include "radio.hpp"
 #include "rave/base/check.hpp"
+#include "rave/base/word_table.hpp"
 #include "rave/math/transform.hpp"
 #include "spec_checks.hpp"
 
@@ -16,6 +17,34 @@ namespace {
 
 /// How old a real sample may be when it is fused.
 constexpr Duration kHybridHistory{1'000'000'000};
+
+constexpr WordTable<EventKind, 25> kEventWords = {{
+    {"contact", EventKind::kContact},
+    {"pinned", EventKind::kPinned},
+    {"pose stale", EventKind::kPoseStale},
+    {"pose back", EventKind::kPoseBack},
+    {"program failed", EventKind::kProgramFailed},
+    {"driver failed", EventKind::kDriverFailed},
+    {"driver back", EventKind::kDriverBack},
+    {"guard slowed", EventKind::kGuardSlowed},
+    {"guard stopped", EventKind::kGuardStopped},
+    {"stopped", EventKind::kStopped},
+    {"released", EventKind::kReleased},
+    {"armed", EventKind::kArmed},
+    {"changed", EventKind::kChanged},
+    {"change refused", EventKind::kChangeRefused},
+    {"obstacle added", EventKind::kObstacleAdded},
+    {"obstacle moved", EventKind::kObstacleMoved},
+    {"obstacle removed", EventKind::kObstacleRemoved},
+    {"captured", EventKind::kCaptured},
+    {"handed over", EventKind::kHandedOver},
+    {"hand over refused", EventKind::kHandOverRefused},
+    {"shadow reset", EventKind::kShadowReset},
+    {"ordered", EventKind::kOrdered},
+    {"said", EventKind::kSaid},
+    {"placed", EventKind::kPlaced},
+    {"lease", EventKind::kLease},
+}};
 
 Status check_pose_source(const RobotType& type, const std::string& robot) {
   if (!type.pose_from) return {};
@@ -84,61 +113,7 @@ Status check(const EngineSpec& spec) {
 
 }  // namespace
 
-std::string_view to_string(EventKind kind) noexcept {
-  switch (kind) {
-    case EventKind::kContact:
-      return "contact";
-    case EventKind::kPinned:
-      return "pinned";
-    case EventKind::kPoseStale:
-      return "pose stale";
-    case EventKind::kPoseBack:
-      return "pose back";
-    case EventKind::kProgramFailed:
-      return "program failed";
-    case EventKind::kDriverFailed:
-      return "driver failed";
-    case EventKind::kDriverBack:
-      return "driver back";
-    case EventKind::kGuardSlowed:
-      return "guard slowed";
-    case EventKind::kGuardStopped:
-      return "guard stopped";
-    case EventKind::kStopped:
-      return "stopped";
-    case EventKind::kReleased:
-      return "released";
-    case EventKind::kArmed:
-      return "armed";
-    case EventKind::kChanged:
-      return "changed";
-    case EventKind::kChangeRefused:
-      return "change refused";
-    case EventKind::kObstacleAdded:
-      return "obstacle added";
-    case EventKind::kObstacleMoved:
-      return "obstacle moved";
-    case EventKind::kObstacleRemoved:
-      return "obstacle removed";
-    case EventKind::kCaptured:
-      return "captured";
-    case EventKind::kHandedOver:
-      return "handed over";
-    case EventKind::kHandOverRefused:
-      return "hand over refused";
-    case EventKind::kShadowReset:
-      return "shadow reset";
-    case EventKind::kOrdered:
-      return "ordered";
-    case EventKind::kSaid:
-      return "said";
-    case EventKind::kPlaced:
-      return "placed";
-    case EventKind::kLease:
-      return "lease";
-  }
-  return "unknown";
-}
+std::string_view to_string(EventKind kind) noexcept { return kEventWords.of(kind, "unknown"); }
 
 Engine::Impl::Impl(EngineSpec s)
     : spec(std::move(s)),

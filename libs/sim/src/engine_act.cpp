@@ -12,11 +12,6 @@
 namespace rave::sim {
 namespace {
 
-bool is_finite(const Command& command) noexcept {
-  return std::all_of(std::begin(command.value), std::end(command.value),
-                     [](double value) { return std::isfinite(value); });
-}
-
 /// One text is kept per batch: that of the last one to fail.
 std::string_view text_for(const ErrorText& error, std::size_t slot) noexcept {
   return error.slot == slot ? std::string_view(error.text) : "failed, like others in this step";
@@ -140,7 +135,7 @@ void Engine::Impl::control(RobotGroup& group, const Block& block, Worker& worker
     for (std::uint32_t m = block.begin; m < block.end; ++m) {
       std::string_view problem = text_for(error, m - block.begin);
       Command& output = outputs[m - block.begin];
-      if (slots.failed[m] == 0 && !is_finite(output)) {
+      if (slots.failed[m] == 0 && !is_finite(output.value)) {
         slots.failed[m] = 1;
         problem = "gave a command that is not finite";
       }

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "engine_impl.hpp"
+#include "plugin_call.hpp"
 #include "rave/math/transform.hpp"
 #include "rave/sim/random_devices.hpp"
 
@@ -68,8 +69,8 @@ void Engine::Impl::show_past(SimTime stamp) {
   past_world.valid = true;
 }
 
-void Engine::Impl::sample_virtual_half(const SensorSlots& slots, RobotId robot, const Pose2& X_WR,
-                                       std::size_t member, ErrorText& error, bool& failed) {
+Status Engine::Impl::sample_virtual_half(const SensorSlots& slots, RobotId robot, const Pose2& X_WR,
+                                         std::size_t member) {
   FusionSlots& fusion = *slots.fusion;
   FusionWorld& past_world = *fusion_world;
   const SensorSpec& sensor = *slots.spec;
@@ -85,7 +86,7 @@ void Engine::Impl::sample_virtual_half(const SensorSlots& slots, RobotId robot, 
         {reinterpret_cast<float*>(records), fusion.capacity},
         std::span(fusion.bodies).subspan(std::size_t{fusion.capacity} * member, fusion.capacity));
     header.count = fusion.capacity;
-    return;
+    return {};
   }
   if (sensor.kind == ReadingKind::kContact) {
     // What was touched in the step may have been a layer that this half does not sense.
@@ -111,13 +112,9 @@ void Engine::Impl::sample_virtual_half(const SensorSlots& slots, RobotId robot, 
   item.header = &header;
   item.records = records;
   item.state = fusion.state.data() + sensor.hybrid->virtual_ops->state_size * member;
-  std::uint8_t broke = 0;
-  const WorldView* const view = &past_world.world;
   const CrashNote whose = crash_note(robot, robot, "sensor", sensor.hybrid->virtual_driver);
   const CrashScope scope(whose);
-  sensor.hybrid->virtual_ops->sample(fusion.imagined.at(0), view, &item, 1, &broke, &error);
-  header.count = std::min(header.count, fusion.capacity);
-  failed = broke != 0;
+  return sample_one(*sensor.hybrid->virtual_ops, fusion.imagined.at(0), past_world.world, item);
 }
 
 // The next sample that is delivered counts these as dropped.
@@ -127,10 +124,10 @@ bool Engine::Impl::withhold(FusionSlots& fusion, std::size_t member, const Sampl
 }
 
 void Engine::Impl::fail_fusion(const SensorSlots& slots, RobotId robot, std::size_t member,
-                               std::string_view driver, const ErrorText& error) {
+                               std::string_view driver, std::string_view why) {
   slots.fusion->failed[member] = 1;
   note({step, robot, EventKind::kDriverFailed, BodyId(),
-        fmt::format("sensor `{}` (driver `{}`): {}", slots.spec->name, driver, error.text)});
+        fmt::format("sensor `{}` (driver `{}`): {}", slots.spec->name, driver, why)});
 }
 
 /// Makes one reading of the real sample in `slots.scratch` and what the virtual half reads at its
@@ -161,11 +158,8 @@ bool Engine::Impl::fuse(RobotGroup& group, SensorSlots& slots, std::size_t membe
     fusion.real_noise->apply_noise(real, real_records,
                                    half_stream(spec, robot, device, kRealHalfDevice, sample));
   }
-  ErrorText error;
-  bool failed = false;
-  sample_virtual_half(slots, robot, *X_WR, member, error, failed);
-  if (failed) {
-    fail_fusion(slots, robot, member, slots.spec->hybrid->virtual_driver, error);
+  if (const Status seen = sample_virtual_half(slots, robot, *X_WR, member); !seen) {
+    fail_fusion(slots, robot, member, slots.spec->hybrid->virtual_driver, seen.error().message);
     return withhold(fusion, member, sample);
   }
   if (fusion.imagined_noise) {
@@ -183,8 +177,9 @@ bool Engine::Impl::fuse(RobotGroup& group, SensorSlots& slots, std::size_t membe
                       slots.scratch.data()};
   const CrashNote whose = crash_note(robot, robot, "sensor", slots.spec->driver);
   const CrashScope scope(whose);
+  ErrorText error;
   if (slots.spec->hybrid->ops->fuse(fusion.driver.at(0), &item, &error) != 0) {
-    fail_fusion(slots, robot, member, slots.spec->driver, error);
+    fail_fusion(slots, robot, member, slots.spec->driver, error.text);
     return withhold(fusion, member, sample);
   }
   sample.count = std::min(result.count, slots.capacity);

@@ -122,10 +122,10 @@ struct Engine::Impl final : private HandOvers::Site {
   [[nodiscard]] std::optional<Pose2> own_pose_at(RobotId robot, SimTime stamp,
                                                  Duration staleness) const;
   void show_past(SimTime stamp);
-  void sample_virtual_half(const SensorSlots& slots, RobotId robot, const Pose2& X_WR,
-                           std::size_t member, ErrorText& error, bool& failed);
+  Status sample_virtual_half(const SensorSlots& slots, RobotId robot, const Pose2& X_WR,
+                             std::size_t member);
   void fail_fusion(const SensorSlots& slots, RobotId robot, std::size_t member,
-                   std::string_view driver, const ErrorText& error);
+                   std::string_view driver, std::string_view why);
 
   // engine_sense.cpp: virtual sensors
   void sense();

@@ -101,9 +101,8 @@ Status Engine::Impl::place(const WorldInput& input) {
     return refused_order(spec, input, ErrorCode::kState,
                          "only the authority of the world can place robots");
   }
-  const Vec2 p_WR = input.order.points_W.front();
-  const double yaw_rad = input.order.yaw_rad.value_or(truth.movers[input.robot.value()].X_WR.yaw);
-  const Status placed = truth.place(input.robot, {p_WR.x, p_WR.y, wrap_angle(yaw_rad)});
+  const double yaw_rad = truth.movers[input.robot.value()].X_WR.yaw;
+  const Status placed = truth.place(input.robot, ordered_place(input, yaw_rad));
   if (!placed) return refused_order(spec, input, placed.error().code, placed.error().message);
   input_log.note_order(step, input, EventKind::kPlaced);
   return {};

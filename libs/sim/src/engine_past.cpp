@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine_impl.hpp"
+#include "plugin_call.hpp"
 #include "rave/math/transform.hpp"
 
 namespace rave::sim {
@@ -100,12 +101,7 @@ Result<SampleHeader> Engine::sample_at(RobotId robot, std::uint32_t sensor, SimT
   item.header = &header;
   item.records = records;
   item.state = state.data();
-  std::uint8_t failed = 0;
-  ErrorText error;
-  slots.spec->virtual_ops->sample(slots.instances.at(0), engine.past.world.get(), &item, 1, &failed,
-                                  &error);
-  if (failed != 0) return fail(ErrorCode::kPlugin, "{}", error.text);
-  header.count = std::min(header.count, slots.capacity);
+  RAVE_TRY(sample_one(*slots.spec->virtual_ops, slots.instances.at(0), *engine.past.world, item));
   return header;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine_impl.hpp"
+#include "plugin_call.hpp"
 #include "rave/base/check.hpp"
 
 namespace rave::sim {
@@ -103,22 +104,12 @@ bool Engine::program_alive(RobotId robot) const noexcept {
 std::string Engine::sensor_report(RobotId robot, std::uint32_t index) const {
   const SensorSlots& slots = impl_->roster.group_of(robot).sensors[index];
   if (slots.is_virtual()) return "{}";
-  std::string text;
-  slots.spec->hardware_ops->report(slots.instances.at(impl_->roster.member_of(robot)), &text,
-                                   [](void* context, const char* part, std::uint64_t size) {
-                                     static_cast<std::string*>(context)->append(part, size);
-                                   });
-  return text;
+  return report_of(*slots.spec->hardware_ops, slots.instances.at(impl_->roster.member_of(robot)));
 }
 
 std::string Engine::device_report(RobotId robot, std::uint32_t index) const {
   const DeviceSlots& slots = impl_->roster.group_of(robot).devices[index];
-  std::string text;
-  slots.spec->ops->report(slots.instances.at(impl_->roster.member_of(robot)), &text,
-                          [](void* context, const char* part, std::uint64_t size) {
-                            static_cast<std::string*>(context)->append(part, size);
-                          });
-  return text;
+  return report_of(*slots.spec->ops, slots.instances.at(impl_->roster.member_of(robot)));
 }
 
 void Engine::flip_percept_bit(RobotId robot, std::uint32_t sensor) noexcept {

@@ -6,6 +6,7 @@
 
 #include "engine_impl.hpp"
 #include "listed_fan.hpp"
+#include "plugin_call.hpp"
 #include "rave/math/transform.hpp"
 #include "rave/sim/random_devices.hpp"
 
@@ -86,16 +87,14 @@ void Engine::Impl::sample_device(RobotGroup& group, SensorSlots& slots, std::uin
   item.header = &header;
   item.records = records;
   item.state = slots.driver_state.data() + sensor.virtual_ops->state_size * member;
-  std::uint8_t failed = 0;
-  ErrorText error;
-  sensor.virtual_ops->sample(slots.instances.at(0), &truth.snapshot, &item, 1, &failed, &error);
-  header.count = std::min(header.count, slots.capacity);
-  if (failed == 0) return;
+  const Status sampled =
+      sample_one(*sensor.virtual_ops, slots.instances.at(0), truth.snapshot, item);
+  if (sampled) return;
   slots.failed[member] = 1;
   header.count = 0;
-  worker.events.push_back(
-      {step, robot, EventKind::kDriverFailed, BodyId(),
-       fmt::format("sensor `{}` (driver `{}`): {}", sensor.name, sensor.driver, error.text)});
+  worker.events.push_back({step, robot, EventKind::kDriverFailed, BodyId(),
+                           fmt::format("sensor `{}` (driver `{}`): {}", sensor.name, sensor.driver,
+                                       sampled.error().message)});
 }
 
 void Engine::Impl::sample_members(RobotGroup& group, SensorSlots& slots, std::uint32_t device,

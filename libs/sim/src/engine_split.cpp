@@ -246,24 +246,12 @@ void Engine::Impl::do_input(const WorldInput& input) {
 }
 
 void Engine::Impl::adopt(const WorldStep& world) {
+  truth.adopt_robots(world);
+  // Reported as in a run of one process: before robots are pushed out of another's way.
   for (std::uint32_t r = 0; r < truth.movers.size(); ++r) {
-    const std::uint8_t flags = world.flags[r];
-    truth.movers[r].X_WR = {world.x_m[r], world.y_m[r], world.yaw_rad[r]};
-    truth.movers[r].present = (flags & WorldStep::kPresent) != 0;
-    truth.velocity[r] = {world.vx_mps[r], world.vy_mps[r], world.wz_radps[r]};
-    truth.limited[r] = (flags & WorldStep::kLimited) != 0 ? 1 : 0;
-    // Touching robots are few, so only these are in the message; all others touch nothing.
-    truth.touch[r] = {};
-    // Reported as in a run of one process: before the robot is pushed out of another's way.
     if (!spec.types[spec.robots[r].type].pose_from) refresh_true(r);
   }
-  for (const PushedRobot& pushed : world.pushed) {
-    truth.movers[pushed.robot.value()].X_WR = pushed.X_WR;
-  }
-  for (const TouchPoint& point : world.touches) {
-    truth.touch[point.robot.value()] = {true, point.direction_W};
-  }
-  // A host has the poses of its own robots itself, and in a live run newer ones.
+  truth.adopt_contacts(world);
   for (const PoseReport& pose : world.poses) {
     if (!roster.is_local(pose.robot)) reported[pose.robot.value()] = pose.reported;
   }

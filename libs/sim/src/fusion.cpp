@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "declared_fan.hpp"
+#include "plugin_call.hpp"
 #include "rave/math/scalar.hpp"
 
 namespace rave::sim {
@@ -57,45 +58,34 @@ Status configure_imagined(const SensorSpec& sensor, const SensorInfo& real, Host
                           FusionSlots& slots, SensorInfo& imagined) {
   const HybridSpec& spec = *sensor.hybrid;
   RAVE_TRY(slots.imagined.make(spec.virtual_ops->instance, 1));
-  VirtualSensorSetup setup;
-  setup.host = host;
-  setup.params = spec.virtual_params.values().data();
-  setup.param_count = spec.virtual_params.values().size();
+  auto setup = setup_with<VirtualSensorSetup>(spec.virtual_params, host);
   setup.layers = sensor.layers;
   setup.period_s = real.period_s;
   setup.z_m = sensor.z_m;
   // The virtual driver may take its rays and limits from the real device.
   setup.real_half = &real;
-  VirtualDeclaration declaration;
-  ErrorText error;
-  if (spec.virtual_ops->configure(slots.imagined.at(0), &setup, &declaration, &error) != 0) {
-    return fail(ErrorCode::kPlugin, "{}", error.text);
-  }
-  slots.capacity = declaration.capacity;
-  slots.uses_fan = declaration.uses_fan != 0;
   // What the virtual half does not declare is as in the real one.
   imagined = real;
   imagined.bearings_rad = nullptr;
-  if (slots.uses_fan) {
-    RAVE_TRY(check_fan(declaration, sensor.kind));
-    slots.fan = FanTable::make(declaration.fan, sensor.layers);
-    slots.capacity = slots.fan.readings();
-    describe_fan(declaration, imagined);
-  }
-  imagined.capacity = slots.capacity;
+  RAVE_TRY_ASSIGN(
+      const VirtualDeclaration declaration,
+      declaration_of(*spec.virtual_ops, slots.imagined.at(0), setup, sensor.kind, imagined));
+  slots.capacity = imagined.capacity;
+  slots.uses_fan = declaration.uses_fan != 0;
+  if (slots.uses_fan) slots.fan = FanTable::make(declaration.fan, sensor.layers);
   if (slots.capacity == 0) return fail(ErrorCode::kPlugin, "declared room for 0 records");
   return {};
 }
 
 Result<std::optional<Processing>> noise_of(const NoiseSpec& noise, const SensorSpec& sensor,
-                                           const SensorInfo& half) {
-  std::optional<Processing> made;
-  if (!noise.any()) return made;
+                                           const SensorInfo& info, std::string_view half,
+                                           const std::string& driver) {
+  if (!noise.any()) return std::nullopt;
   ProcessingSpec spec;
   spec.noise = noise;
-  RAVE_TRY_ASSIGN(made,
-                  Processing::make(spec, sensor.kind, half.capacity, 0, range_limits_of(half)));
-  return made;
+  auto made = Processing::make(spec, sensor.kind, info.capacity, 0, range_limits_of(info));
+  if (!made) return tl::unexpected(in_half(half, driver, std::move(made).error()));
+  return *std::move(made);
 }
 
 /// Whole words, so that records of every member are aligned.
@@ -106,15 +96,11 @@ std::uint32_t stride_of(std::uint32_t capacity, ReadingKind kind) {
 Status start_driver(const HybridSpec& spec, const SensorInfo& real, const SensorInfo& imagined,
                     HostServices host, FusionSlots& slots) {
   RAVE_TRY(slots.driver.make(spec.ops->instance, 1));
-  HybridSetup setup;
-  setup.host = host;
-  setup.params = spec.params.values().data();
-  setup.param_count = spec.params.values().size();
+  auto setup = setup_with<HybridSetup>(spec.params, host);
   setup.real = &real;
   setup.imagined = &imagined;
-  ErrorText error;
-  if (spec.ops->start(slots.driver.at(0), &setup, &error) == 0) return {};
-  return fail(ErrorCode::kPlugin, "{}", error.text);
+  return called(
+      [&](ErrorText* error) { return spec.ops->start(slots.driver.at(0), &setup, error); });
 }
 
 void allocate(const SensorSpec& sensor, const SensorInfo& real, std::uint32_t members,
@@ -156,17 +142,10 @@ Result<std::unique_ptr<FusionSlots>> FusionSlots::make(const SensorSpec& spec,
     return tl::unexpected(in_half("virtual", hybrid.virtual_driver, std::move(made).error()));
   }
   if (spec.kind == ReadingKind::kRanges) RAVE_TRY(check_rays(hybrid, real, imagined));
-  auto real_noise = noise_of(hybrid.real_noise, spec, real);
-  if (!real_noise) {
-    return tl::unexpected(in_half("real", hybrid.real_driver, std::move(real_noise).error()));
-  }
-  slots->real_noise = *std::move(real_noise);
-  auto imagined_noise = noise_of(hybrid.virtual_noise, spec, imagined);
-  if (!imagined_noise) {
-    return tl::unexpected(
-        in_half("virtual", hybrid.virtual_driver, std::move(imagined_noise).error()));
-  }
-  slots->imagined_noise = *std::move(imagined_noise);
+  RAVE_TRY_ASSIGN(slots->real_noise,
+                  noise_of(hybrid.real_noise, spec, real, "real", hybrid.real_driver));
+  RAVE_TRY_ASSIGN(slots->imagined_noise,
+                  noise_of(hybrid.virtual_noise, spec, imagined, "virtual", hybrid.virtual_driver));
   RAVE_TRY(start_driver(hybrid, real, imagined, host, *slots));
   allocate(spec, real, members, *slots);
   return slots;

@@ -5,10 +5,11 @@
 #include "rave/sim/guard.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 
 #include "guard_fence.hpp"
+#include "rave/math/finite.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
 #include "rave/world/touching.hpp"
@@ -41,11 +42,6 @@ struct Drive {
 
 Drive scaled(const Drive& drive, double share) noexcept {
   return {share * drive.v_mps, share * drive.w_radps};
-}
-
-bool all_finite(const Command& command) noexcept {
-  return std::all_of(std::begin(command.value), std::end(command.value),
-                     [](double value) { return std::isfinite(value); });
 }
 
 /// Both scaled until `value` is within `limit`: the curve stays.
@@ -233,38 +229,27 @@ auto first_lost(const GuardInput& in) noexcept {
   });
 }
 
-/// Why the robot has to stand; kGuardLimits: it need not.
-std::uint32_t hold_reason(const GuardSpec& spec, const GuardInput& in) noexcept {
+/// Why the robot has to stand; empty: it need not.
+std::optional<GuardLimit> hold_reason(const GuardSpec& spec, const GuardInput& in) noexcept {
   // The order decides which reason is reported: first what people did, then what the robot lacks.
   // Comparisons are negated so that an age that is not a number counts as too old.
-  if (in.stopped) return static_cast<std::uint32_t>(GuardLimit::kStopped);
-  if (!in.armed) return static_cast<std::uint32_t>(GuardLimit::kUnarmed);
-  if (!in.pose_known) return static_cast<std::uint32_t>(GuardLimit::kPoseLost);
-  if (first_lost(in) != in.sensors.end()) {
-    return static_cast<std::uint32_t>(GuardLimit::kSensorLost);
-  }
+  if (in.stopped) return GuardLimit::kStopped;
+  if (!in.armed) return GuardLimit::kUnarmed;
+  if (!in.pose_known) return GuardLimit::kPoseLost;
+  if (first_lost(in) != in.sensors.end()) return GuardLimit::kSensorLost;
   if (spec.world_lost == WorldLostPolicy::kStop && !(in.world_age_s <= spec.world_timeout_s)) {
-    return static_cast<std::uint32_t>(GuardLimit::kWorldLost);
+    return GuardLimit::kWorldLost;
   }
-  if (!(in.command_age_s <= spec.watchdog_s)) {
-    return static_cast<std::uint32_t>(GuardLimit::kWatchdog);
-  }
+  if (!(in.command_age_s <= spec.watchdog_s)) return GuardLimit::kWatchdog;
   if (in.command.kind != CommandKind::kNone &&
       (in.command.kind != in.expected || in.command.kind == CommandKind::kGoal ||
-       !all_finite(in.command))) {
-    return static_cast<std::uint32_t>(GuardLimit::kBadCommand);
+       !is_finite(in.command.value))) {
+    return GuardLimit::kBadCommand;
   }
-  return kGuardLimits;
+  return std::nullopt;
 }
 
 }  // namespace
-
-std::string_view to_string(GuardLimit limit) noexcept {
-  constexpr std::array<std::string_view, kGuardLimits> kNames = {
-      "stop",        "not armed", "pose lost", "sensor lost", "world lost", "watchdog",
-      "bad command", "speed",     "turn rate", "fence",       "separation"};
-  return kNames[static_cast<std::size_t>(limit)];
-}
 
 double guard_reach_m(const GuardSpec& spec, const GuardInput& input) noexcept {
   const double delay_s = input.dt_s + spec.reaction_s + input.pose_age_s;
@@ -283,8 +268,7 @@ double guard_reach_m(const GuardSpec& spec, const GuardInput& input) noexcept {
 GuardOutput guard(const GuardSpec& spec, const GuardInput& input) noexcept {
   const bool velocity = input.expected == CommandKind::kVelocity;
   GuardOutput output;
-  const std::uint32_t reason = hold_reason(spec, input);
-  if (reason < kGuardLimits) {
+  if (const auto reason = hold_reason(spec, input)) {
     if (velocity) output.command = velocity_command(0, 0);
     const auto asks = [](double value) { return value != 0; };
     // A limit acts, and is an event, only if it changes something: not for a robot that stands
@@ -292,7 +276,7 @@ GuardOutput guard(const GuardSpec& spec, const GuardInput& input) noexcept {
     const bool moves =
         input.command.kind != CommandKind::kNone &&
         std::any_of(std::begin(input.command.value), std::end(input.command.value), asks);
-    if (moves) output.acted = 1U << reason;
+    if (moves) output.acted = bit(*reason);
     const auto lost = first_lost(input);
     if (lost != input.sensors.end()) output.lost_sensor = lost->index;
     return output;

@@ -268,9 +268,8 @@ void HandOvers::begin_scheduled() {
 }
 
 const HandOverState* HandOvers::state(RobotId robot) const noexcept {
-  const auto found = std::find_if(twins_.begin(), twins_.end(),
-                                  [robot](const Twin& twin) { return twin.robot == robot; });
-  return found == twins_.end() ? nullptr : &found->state;
+  const Twin* const twin = find(robot);
+  return twin == nullptr ? nullptr : &twin->state;
 }
 
 }  // namespace rave::sim

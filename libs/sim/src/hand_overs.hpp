@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "input_log.hpp"
@@ -128,7 +129,10 @@ class HandOvers {
   [[nodiscard]] Status check_near(const Twin& twin) const;
   void exchange(Twin& twin);
   void change_drivers(Twin& twin);
-  [[nodiscard]] Twin* find(RobotId robot) noexcept;
+  [[nodiscard]] const Twin* find(RobotId robot) const noexcept;
+  [[nodiscard]] Twin* find(RobotId robot) noexcept {
+    return const_cast<Twin*>(std::as_const(*this).find(robot));
+  }
   [[nodiscard]] RobotGroup& group_of(const Twin& twin) noexcept {
     return roster_.group_of(twin.robot);
   }

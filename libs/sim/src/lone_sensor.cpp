@@ -45,29 +45,19 @@ Result<std::unique_ptr<LoneSensor>> LoneSensor::make(SensorSpec spec, double ste
   parts->spec = std::move(spec);
   const SensorSpec& its = parts->spec;
   RAVE_TRY(parts->instance.make(its.virtual_ops->instance, 1));
-  VirtualSensorSetup setup;
-  setup.params = its.params.values().data();
-  setup.param_count = its.params.values().size();
+  auto setup = setup_with<VirtualSensorSetup>(its.params);
   setup.layers = its.layers;
   setup.period_s = its.period_steps * step_s;
   setup.z_m = its.z_m;
-  VirtualDeclaration declaration;
-  RAVE_TRY(called([&](ErrorText* error) {
-    return its.virtual_ops->configure(parts->instance.at(0), &setup, &declaration, error);
-  }));
   SensorInfo& info = parts->info;
   info.name = its.name.c_str();
   info.kind = its.kind;
-  info.capacity = declaration.capacity;
   info.X_RS = its.X_RS;
   info.z_m = its.z_m;
   info.period_s = setup.period_s;
+  RAVE_TRY_ASSIGN(const VirtualDeclaration declaration,
+                  declaration_of(*its.virtual_ops, parts->instance.at(0), setup, its.kind, info));
   parts->uses_fan = declaration.uses_fan != 0;
-  if (parts->uses_fan) {
-    RAVE_TRY(check_fan(declaration, its.kind));
-    info.capacity = declaration.fan.ray_count / declaration.fan.rays_per_reading;
-    describe_fan(declaration, info);
-  }
   // A person may try any parameters; what would take seconds per sample is refused.
   if (info.capacity > kMostRecords || (parts->uses_fan && declaration.fan.ray_count > kMostRays)) {
     return fail(ErrorCode::kInvalidArgument,
@@ -112,14 +102,11 @@ Status LoneSensor::sample(const world::Snapshot& world, RobotId robot, std::uint
   item.header = &its.header;
   item.records = its.records.data();
   item.state = its.state.data();
-  std::uint8_t failed = 0;
-  ErrorText error;
-  its.spec.virtual_ops->sample(its.instance.at(0), &world, &item, 1, &failed, &error);
-  its.header.count = std::min(its.header.count, its.info.capacity);
-  if (failed == 0) return {};
+  const Status sampled = sample_one(*its.spec.virtual_ops, its.instance.at(0), world, item);
+  if (sampled) return {};
   its.failed = true;
   its.header.count = 0;
-  return fail(ErrorCode::kPlugin, "the driver `{}`: {}", its.spec.driver, error.text);
+  return fail(ErrorCode::kPlugin, "the driver `{}`: {}", its.spec.driver, sampled.error().message);
 }
 
 }  // namespace rave::sim

@@ -14,11 +14,6 @@
 namespace rave::sim {
 namespace {
 
-bool all_finite(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(),
-                     [](double value) { return std::isfinite(value); });
-}
-
 std::int64_t time_ns(const EngineSpec& spec, std::uint64_t step) {
   return static_cast<std::int64_t>(step) * spec.step.ns;
 }
@@ -172,7 +167,7 @@ Status check_columns(const EngineSpec& spec, const WorldStep& world) {
       return fail(ErrorCode::kInvalidArgument, "a world of {} robots, but there are {}",
                   column->size(), count);
     }
-    if (!all_finite(*column)) {
+    if (!is_finite(*column)) {
       return fail(ErrorCode::kInvalidArgument, "a world with a pose that is not finite");
     }
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "guard_fence.hpp"
 #include "rave/base/control_characters.hpp"
 #include "rave/math/finite.hpp"
 #include "rave/math/scalar.hpp"
@@ -85,18 +86,6 @@ const world::Obstacle* obstacle_at(const world::WorldModel& world, const world::
   return nullptr;
 }
 
-/// By the number of edges to one side of the point.
-bool is_inside(const std::vector<Vec2>& corners, Vec2 p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
-    const Vec2 a = corners[i];
-    const Vec2 b = corners[j];
-    if ((a.y > p.y) == (b.y > p.y)) continue;
-    if (p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
-  }
-  return inside;
-}
-
 tl::unexpected<Error> wrong(const EngineSpec& spec, const WorldInput& input,
                             const std::string& what) {
   return refused_order(spec, input, ErrorCode::kInvalidArgument, what);
@@ -122,7 +111,7 @@ Status check_point(const EngineSpec& spec, const WorldInput& input, const Box& b
                              obstacle->body.name));
   }
   const auto& guard = spec.types[spec.robots[r].type].guard;
-  if (guard && !guard->fence_W.empty() && !is_inside(guard->fence_W, p_W)) {
+  if (guard && !guard->fence_W.empty() && inside_distance(guard->fence_W, p_W) < 0) {
     return wrong(spec, input,
                  fmt::format("({:.2f}, {:.2f}) is outside the fence of the robot", p_W.x, p_W.y));
   }
@@ -269,6 +258,11 @@ std::string order_text(const WorldInput& input) {
   }
   if (order.yaw_rad) text += fmt::format(", yaw {:.0f} deg", rad_to_deg(*order.yaw_rad));
   return text;
+}
+
+Pose2 ordered_place(const WorldInput& input, double yaw_rad) noexcept {
+  const Vec2 p_WR = input.order.points_W.front();
+  return {p_WR.x, p_WR.y, wrap_angle(input.order.yaw_rad.value_or(yaw_rad))};
 }
 
 tl::unexpected<Error> refused_order(const EngineSpec& spec, const WorldInput& input, ErrorCode code,

@@ -25,6 +25,9 @@ namespace rave::sim {
 /// Errors: kInvalidArgument, with the name of the robot.
 [[nodiscard]] Status check_order(const EngineSpec& spec, const WorldInput& input);
 
+/// The pose that an order to place a robot asks for; without a yaw, the robot keeps `yaw_rad`.
+[[nodiscard]] Pose2 ordered_place(const WorldInput& input, double yaw_rad) noexcept;
+
 /// The error of an order that was refused: with robot and kind.
 [[nodiscard]] tl::unexpected<Error> refused_order(const EngineSpec& spec, const WorldInput& input,
                                                   ErrorCode code, std::string_view why);

@@ -73,19 +73,19 @@ void Radio::hand_over(const RadioMoment& moment, Endpoint& to, MessageHead head,
   item.add(std::uint64_t{fits});
   moment.hash->add(item);
   if (!fits) return;
-  trace({RobotId(head.from),
-         RobotId(to.robot),
-         to.device,
-         true,
-         head.sequence,
-         head.stamp_ns,
-         moment.now.ns,
-         {}},
-        packet);
+  trace(head, to, true, moment.now.ns, packet);
 }
 
-void Radio::trace(const RadioTrace& trace, std::uint32_t packet) {
-  traces_.push_back(trace);
+void Radio::trace(const MessageHead& head, const Endpoint& at, bool delivered,
+                  std::int64_t complete_ns, std::uint32_t packet) {
+  traces_.push_back({RobotId(head.from),
+                     delivered ? RobotId(at.robot) : RobotId(),
+                     at.device,
+                     delivered,
+                     head.sequence,
+                     head.stamp_ns,
+                     complete_ns,
+                     {}});
   trace_packets_.push_back(packet);
 }
 
@@ -162,16 +162,7 @@ void Radio::send_out(const RadioMoment& moment) {
     carried_.push_back(packet);
     // The position when the last byte leaves, which the receiver measures its distance from.
     packets_[packet].origin = origin_of(moment, sender);
-    const MessageHead& head = packets_[packet].head;
-    trace({RobotId(head.from),
-           RobotId(),
-           sender.device,
-           false,
-           head.sequence,
-           head.stamp_ns,
-           packets_[packet].complete_ns,
-           {}},
-          packet);
+    trace(packets_[packet].head, sender, false, packets_[packet].complete_ns, packet);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -94,13 +95,11 @@ class Radio {
   Status check_packet_sizes(const RadioLine& line) const;
   Status open_line(RadioLine& line);
   [[nodiscard]] std::uint32_t team_of(std::uint32_t robot);
-  [[nodiscard]] Error named(std::uint32_t robot, std::string_view kind, std::string_view name,
-                            std::string_view driver, const SourceLocation& where,
-                            Error error) const;
 
   // radio.cpp
   void hand_over(const RadioMoment& moment, Endpoint& to, MessageHead head, std::uint32_t packet);
-  void trace(const RadioTrace& trace, std::uint32_t packet);
+  void trace(const MessageHead& head, const Endpoint& at, bool delivered, std::int64_t complete_ns,
+             std::uint32_t packet);
   void show_payloads();
   void offer(const RadioMoment& moment, Endpoint& sender, const MessageHead& message);
   void send_out(const RadioMoment& moment);
@@ -115,6 +114,12 @@ class Radio {
   void reach(std::uint32_t packet, const RadioMoment& moment, Reach& reach) const;
   void reach_one(std::uint32_t packet, const Endpoint& to, std::uint32_t to_index,
                  const RadioMoment& moment, Reach& reach) const;
+
+  /// What becomes of a packet, of which `query` says size, sender and number, on its way to an
+  /// endpoint; nothing if it does not arrive, which is counted in `reach`.
+  [[nodiscard]] std::optional<LinkAnswer> link(const PacketOrigin& sender, BodyId sender_body,
+                                               const Endpoint& to, LinkQuery query,
+                                               const RadioMoment& moment, Reach& reach) const;
 
   /// What the model of a receiver says; one that fails lets nothing arrive and is noted in `reach`.
   [[nodiscard]] LinkAnswer ask(std::uint32_t model, const LinkQuery& query, Reach& reach) const;

@@ -139,49 +139,24 @@ void Radio::hear_packet(const RadioMoment& moment, RadioLine& line, const RadioP
 
 bool Radio::in_reach(const RadioMoment& moment, const Endpoint& to, const RadioPacket& packet,
                      std::uint32_t from) {
-  const RadioDeclaration& receiver = models_[to.model].declaration;
-  const ReportedPose& there = moment.reported[to.robot];
   // The rule of reach_one(), with what the packet says instead of what the sender's host knows.
-  const bool sight = packet.line_of_sight || receiver.line_of_sight != 0;
   const std::optional<Vec2> said = position_of(moment, packet, from);
+  const PacketOrigin origin{said.value_or(Vec2{}), packet.range_m, packet.antenna_z_m,
+                            said.has_value(), packet.line_of_sight};
+  const bool known = from < spec_.robots.size();
   LinkQuery query;
-  Vec2 p_from;
-  const Vec2 p_to{there.pose.x_m, there.pose.y_m};
-  if (said && there.known) {
-    p_from = *said;
-    query.distance_m = std::sqrt(squared_norm(p_to - p_from));
-  } else if (sight || packet.range_m > 0 || receiver.range_m > 0) {
-    ++counts_.lost_range;
-    return false;
-  }
-  if ((packet.range_m > 0 && query.distance_m > packet.range_m) ||
-      (receiver.range_m > 0 && query.distance_m > receiver.range_m)) {
-    ++counts_.lost_range;
-    return false;
-  }
-  if (sight) {
-    const world::Snapshot& world = *moment.snapshot;
-    const BodyId sender = from < spec_.robots.size() ? world.body_of(RobotId(from)) : BodyId();
-    query.obstructed =
-        world.visible(p_from, p_to, 0.5 * (packet.antenna_z_m + receiver.antenna_z_m), kAllLayers,
-                      sender, world.body_of(RobotId(to.robot)))
-            ? 0
-            : 1;
-  }
   query.bytes = static_cast<std::uint32_t>(packet.payload.size());
   // The number of a stranger depends on who else was heard before, its name does not.
-  query.from = from < spec_.robots.size() ? from : packet.sender;
-  query.to = to.robot;
+  query.from = known ? from : packet.sender;
   query.sequence = packet.sequence;
   query.device = LinkQuery::kRadioDevice | sending_device(from, packet);
-  query.seed = spec_.seed;
+  const BodyId body = known ? moment.snapshot->body_of(RobotId(from)) : BodyId();
   Reach asked;
-  const LinkAnswer answer = ask(to.model, query, asked);
-  if (asked.failed_model != kNobody) count_failure(moment, asked);
   // How long it took is up to the device; what the model adds is left out.
-  if (answer.arrives != 0) return true;
-  ++(query.obstructed != 0 ? counts_.lost_obstacle : counts_.lost_chance);
-  return false;
+  const bool arrives = link(origin, body, to, query, moment, asked).has_value();
+  counts_ += asked.counts;
+  if (asked.failed_model != kNobody) count_failure(moment, asked);
+  return arrives;
 }
 
 void Radio::transmit(const RadioMoment& moment, RadioLine& line, std::uint32_t packet) {
@@ -229,15 +204,7 @@ void Radio::transmit(const RadioMoment& moment, RadioLine& line, std::uint32_t p
     return;
   }
   ++counts_.sent;
-  trace({RobotId(stored.head.from),
-         RobotId(),
-         sender.device,
-         false,
-         stored.head.sequence,
-         stored.head.stamp_ns,
-         stored.complete_ns,
-         {}},
-        packet);
+  trace(stored.head, sender, false, stored.complete_ns, packet);
 }
 
 }  // namespace rave::sim

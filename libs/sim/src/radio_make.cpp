@@ -7,6 +7,7 @@
 #include "plugin_call.hpp"
 #include "radio.hpp"
 #include "rave/base/check.hpp"
+#include "robot_group.hpp"
 
 namespace rave::sim {
 namespace {
@@ -26,13 +27,6 @@ Status check(const RadioDeclaration& radio) {
 }
 
 }  // namespace
-
-Error Radio::named(std::uint32_t robot, std::string_view kind, std::string_view name,
-                   std::string_view driver, const SourceLocation& where, Error error) const {
-  if (error.where.file.empty()) error.where = where;
-  return std::move(error).with_context(fmt::format("robot `{}`, {} `{}` (driver `{}`)",
-                                                   spec_.robots[robot].name, kind, name, driver));
-}
 
 Status Radio::make() {
   // One entry more than robots: the endpoints of robot r are those from its entry to the next.
@@ -57,20 +51,12 @@ Status Radio::make_models() {
       RadioModel& model = models_.emplace_back();
       model.spec = &communicator;
       RAVE_TRY(model.instance.make(communicator.ops->instance, 1));
-      DeviceSetup setup;
-      setup.robot = info_of({spec_, logs_, this}, RobotId(r));
-      setup.host = services_of(logs_[r]);
-      setup.params = communicator.params.values().data();
-      setup.param_count = communicator.params.values().size();
-      setup.step_s = spec_.step.seconds();
+      const DeviceSetup setup = device_setup({spec_, logs_, this}, RobotId(r), communicator.params);
       Status status = called([&](ErrorText* error) {
         return communicator.ops->start(model.instance.at(0), &setup, &model.declaration, error);
       });
       if (status) status = check(model.declaration);
-      if (!status) {
-        return tl::unexpected(named(r, "communicator", communicator.name, communicator.driver,
-                                    communicator.where, status.error()));
-      }
+      RAVE_TRY(of_part(spec_.robots[r], named_part("communicator", communicator), status));
       const RadioDeclaration& radio = model.declaration;
       longest_message_ = std::max(longest_message_, radio.max_message_bytes);
       infos_[t].push_back({communicator.name.c_str(), radio.max_messages, radio.max_mailbox_bytes,
@@ -188,11 +174,8 @@ void Radio::clear() {
 
 Status Radio::configure_line(RadioLine& line) {
   RAVE_TRY(line.instance.make(line.spec->ops->instance, 1));
-  HardwareSetup setup;
-  setup.robot = info_of({spec_, logs_, this}, RobotId(line.robot));
-  setup.host = services_of(logs_[line.robot]);
-  setup.params = line.spec->params.values().data();
-  setup.param_count = line.spec->params.values().size();
+  auto setup =
+      setup_of<HardwareSetup>({spec_, logs_, this}, RobotId(line.robot), line.spec->params);
   setup.folder = spec_.types[spec_.robots[line.robot].type].folder.c_str();
   RAVE_TRY(called([&](ErrorText* error) {
     return line.spec->ops->configure(line.instance.at(0), &setup, &line.declaration, error);
@@ -244,10 +227,7 @@ Status Radio::open() {
     // Configured once; a reset opens the same devices again.
     if (!configured_) status = configure_line(line);
     if (status && line.declaration.in_process == 0) status = open_line(line);
-    if (!status) {
-      return tl::unexpected(named(line.robot, "transmitter", line.spec->name, line.spec->driver,
-                                  line.spec->where, status.error()));
-    }
+    RAVE_TRY(of_part(spec_.robots[line.robot], named_part("transmitter", *line.spec), status));
   }
   if (!configured_) name_channels();
   configured_ = true;
@@ -281,12 +261,7 @@ std::vector<ToClose> Radio::take_open() {
 std::string Radio::report(RobotId robot, std::uint32_t transmitter) const {
   RAVE_CHECK(local_[robot.value()] != 0);
   const RadioLine& line = lines_[first_line_[robot.value()] + transmitter];
-  std::string text;
-  line.spec->ops->report(line.instance.at(0), &text,
-                         [](void* context, const char* part, std::uint64_t size) {
-                           static_cast<std::string*>(context)->append(part, size);
-                         });
-  return text;
+  return report_of(*line.spec->ops, line.instance.at(0));
 }
 
 }  // namespace rave::sim

@@ -109,48 +109,52 @@ LinkAnswer Radio::ask(std::uint32_t model, const LinkQuery& query, Reach& reach)
   return answer;
 }
 
-void Radio::reach_one(std::uint32_t packet, const Endpoint& to, std::uint32_t to_index,
-                      const RadioMoment& moment, Reach& reach) const {
-  const StoredPacket& sent = packets_[packet];
-  const Endpoint& from = endpoints_[sent.endpoint];
-  const PacketOrigin& sender = sent.origin;
+std::optional<LinkAnswer> Radio::link(const PacketOrigin& sender, BodyId sender_body,
+                                      const Endpoint& to, LinkQuery query,
+                                      const RadioMoment& moment, Reach& reach) const {
   const RadioDeclaration& receiver = models_[to.model].declaration;
   const ReportedPose& there = moment.reported[to.robot];
   const bool sight = sender.line_of_sight || receiver.line_of_sight != 0;
   const bool limited = sender.range_m > 0 || receiver.range_m > 0;
-  LinkQuery query;
   if (sender.located && there.known) {
     query.distance_m = std::sqrt(squared_norm(position(there) - sender.p_W));
   } else if (limited || sight) {
     ++reach.counts.lost_range;
-    return;
+    return std::nullopt;
   }
   if ((sender.range_m > 0 && query.distance_m > sender.range_m) ||
       (receiver.range_m > 0 && query.distance_m > receiver.range_m)) {
     ++reach.counts.lost_range;
-    return;
+    return std::nullopt;
   }
-  const world::Snapshot& world = *moment.snapshot;
   if (sight) {
     const double z_m = 0.5 * (sender.antenna_z_m + receiver.antenna_z_m);
-    query.obstructed =
-        world.visible(sender.p_W, position(there), z_m, kAllLayers,
-                      world.body_of(RobotId(from.robot)), world.body_of(RobotId(to.robot)))
-            ? 0
-            : 1;
+    const bool visible =
+        moment.snapshot->visible(sender.p_W, position(there), z_m, kAllLayers, sender_body,
+                                 moment.snapshot->body_of(RobotId(to.robot)));
+    query.obstructed = visible ? 0 : 1;
   }
-  query.bytes = sent.head.size;
-  query.from = from.robot;
   query.to = to.robot;
-  query.sequence = sent.head.sequence;
-  query.device = LinkQuery::kRadioDevice | from.device;
   query.seed = spec_.seed;
   const LinkAnswer answer = ask(to.model, query, reach);
-  if (answer.arrives == 0) {
-    ++(query.obstructed != 0 ? reach.counts.lost_obstacle : reach.counts.lost_chance);
-    return;
-  }
-  const std::int64_t arrival_ns = sent.complete_ns + from_seconds(answer.delay_s).ns;
+  if (answer.arrives != 0) return answer;
+  ++(query.obstructed != 0 ? reach.counts.lost_obstacle : reach.counts.lost_chance);
+  return std::nullopt;
+}
+
+void Radio::reach_one(std::uint32_t packet, const Endpoint& to, std::uint32_t to_index,
+                      const RadioMoment& moment, Reach& reach) const {
+  const StoredPacket& sent = packets_[packet];
+  const Endpoint& from = endpoints_[sent.endpoint];
+  LinkQuery query;
+  query.bytes = sent.head.size;
+  query.from = from.robot;
+  query.sequence = sent.head.sequence;
+  query.device = LinkQuery::kRadioDevice | from.device;
+  const auto answer =
+      link(sent.origin, moment.snapshot->body_of(RobotId(from.robot)), to, query, moment, reach);
+  if (!answer) return;
+  const std::int64_t arrival_ns = sent.complete_ns + from_seconds(answer->delay_s).ns;
   // Rounded up to a step, and never the step in which it was sent: no robot may see in step k what
   // another did in step k.
   const std::int64_t steps = (arrival_ns + spec_.step.ns - 1) / spec_.step.ns;

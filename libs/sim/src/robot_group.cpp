@@ -31,13 +31,18 @@ CrashNote crash_note_of(const GroupContext& context, RobotId id, const char* par
   return {part, driver.c_str(), robot, robot};
 }
 
-Error named_error(const GroupContext& context, RobotId id, std::string_view kind,
-                  std::string_view name, std::string_view driver, const SourceLocation& where,
-                  Error error) {
-  if (error.where.file.empty()) error.where = where;
-  return std::move(error).with_context(fmt::format("robot `{}`, {} `{}` (driver `{}`)",
-                                                   context.spec.robots[id.value()].name, kind, name,
-                                                   driver));
+Status of_part(const RobotSpec& robot, const NamedPart& part, Status status) {
+  if (status) return status;
+  Error error = std::move(status).error();
+  if (error.where.file.empty()) error.where = part.where;
+  return tl::unexpected(std::move(error).with_context(fmt::format(
+      "robot `{}`, {} `{}` (driver `{}`)", robot.name, part.kind, part.name, part.driver)));
+}
+
+DeviceSetup device_setup(const GroupContext& context, RobotId id, const plugin::ParamSet& params) {
+  auto setup = setup_of<DeviceSetup>(context, id, params);
+  setup.step_s = context.spec.step.seconds();
+  return setup;
 }
 
 HardwareDevice* device_of(const RobotGroup& group, std::optional<std::uint32_t> index,
@@ -71,18 +76,11 @@ namespace {
 
 Status configure_device(const GroupContext& context, RobotGroup& group, DeviceSlots& slots,
                         std::size_t member) {
-  HardwareDeviceSetup setup;
-  setup.robot = info_of(context, group.members[member]);
-  setup.host = services_of(context.logs[group.members[member].value()]);
-  setup.params = slots.spec->params.values().data();
-  setup.param_count = slots.spec->params.values().size();
+  auto setup = setup_of<HardwareDeviceSetup>(context, group.members[member], slots.spec->params);
   setup.folder = group.type->folder.c_str();
   void* const instance = slots.instances.at(member);
   // What sensors and actuators of this device get, as the common base that they know.
   slots.bases.push_back(slots.spec->ops->base(instance));
-  const CrashNote whose =
-      crash_note_of(context, group.members[member], "device", slots.spec->driver);
-  const CrashScope scope(whose);
   return called(
       [&](ErrorText* error) { return slots.spec->ops->configure(instance, &setup, error); });
 }
@@ -95,11 +93,8 @@ Status make_devices(const GroupContext& context, RobotGroup& group) {
     RAVE_TRY(slots.instances.make(slots.spec->ops->instance, group.members.size()));
     slots.open.assign(group.members.size(), 0);
     for (std::size_t m = 0; m < group.members.size(); ++m) {
-      const Status status = configure_device(context, group, slots, m);
-      if (!status) {
-        return tl::unexpected(named_error(context, group.members[m], "device", slots.spec->name,
-                                          slots.spec->driver, slots.spec->where, status.error()));
-      }
+      RAVE_TRY(start_part(context, group.members[m], named_part("device", *slots.spec),
+                          [&] { return configure_device(context, group, slots, m); }));
     }
   }
   return {};
@@ -107,32 +102,18 @@ Status make_devices(const GroupContext& context, RobotGroup& group) {
 
 Status open_devices(const GroupContext& context, RobotGroup& group) {
   for (DeviceSlots& slots : group.devices) {
+    const NamedPart part = named_part("device", *slots.spec);
     for (std::size_t m = 0; m < group.members.size(); ++m) {
       // close() comes also after an error of open().
       slots.open[m] = 1;
-      context.note("device", slots.spec->name, slots.spec->driver);
-      const CrashNote whose =
-          crash_note_of(context, group.members[m], "device", slots.spec->driver);
-      const CrashScope scope(whose);
-      const Status status = called(
-          [&](ErrorText* error) { return slots.spec->ops->open(slots.instances.at(m), error); });
-      if (!status) {
-        return tl::unexpected(named_error(context, group.members[m], "device", slots.spec->name,
-                                          slots.spec->driver, slots.spec->where, status.error()));
-      }
+      context.note(part);
+      RAVE_TRY(start_part(context, group.members[m], part, [&] {
+        return called(
+            [&](ErrorText* error) { return slots.spec->ops->open(slots.instances.at(m), error); });
+      }));
     }
   }
   return {};
-}
-
-DeviceSetup device_setup(const GroupContext& context, RobotId id, const plugin::ParamSet& params) {
-  DeviceSetup setup;
-  setup.robot = info_of(context, id);
-  setup.host = services_of(context.logs[id.value()]);
-  setup.params = params.values().data();
-  setup.param_count = params.values().size();
-  setup.step_s = context.spec.step.seconds();
-  return setup;
 }
 
 Status start_controllers(const GroupContext& context, RobotGroup& group) {
@@ -147,16 +128,11 @@ Status start_controllers(const GroupContext& context, RobotGroup& group) {
     slots.failed.assign(count, 0);
     for (std::size_t m = 0; m < count; ++m) {
       const DeviceSetup setup = device_setup(context, group.members[m], slots.spec->params);
-      const CrashNote whose =
-          crash_note_of(context, group.members[m], "controller", slots.spec->driver);
-      const CrashScope scope(whose);
-      const Status status = called([&](ErrorText* error) {
-        return slots.spec->ops->start(slots.instances.at(m), &setup, error);
-      });
-      if (!status) {
-        return tl::unexpected(named_error(context, group.members[m], "controller", slots.spec->name,
-                                          slots.spec->driver, slots.spec->where, status.error()));
-      }
+      RAVE_TRY(start_part(context, group.members[m], named_part("controller", *slots.spec), [&] {
+        return called([&](ErrorText* error) {
+          return slots.spec->ops->start(slots.instances.at(m), &setup, error);
+        });
+      }));
     }
   }
   return {};
@@ -167,8 +143,6 @@ Status start_actuator(const GroupContext& context, RobotGroup& group, ActuatorSl
   DeviceSetup setup = device_setup(context, group.members[m], slots.spec->params);
   setup.device = device_of(group, slots.spec->device, m);
   void* instance = slots.instances.at(m);
-  const CrashNote whose = crash_note_of(context, group.members[m], "actuator", slots.spec->driver);
-  const CrashScope scope(whose);
   if (slots.spec->virtual_ops != nullptr) {
     return called(
         [&](ErrorText* error) { return slots.spec->virtual_ops->start(instance, &setup, error); });
@@ -194,13 +168,11 @@ Status start_actuators(const GroupContext& context, RobotGroup& group) {
     // Virtual actuators obey. A real one says after it was opened, and a recorded one never does.
     slots.obeys.assign(count, 1);
     slots.open.assign(count, 0);
+    const NamedPart part = named_part("actuator", *slots.spec);
     for (std::size_t m = 0; m < count; ++m) {
-      context.note("actuator", slots.spec->name, slots.spec->driver);
-      const Status status = start_actuator(context, group, slots, m);
-      if (!status) {
-        return tl::unexpected(named_error(context, group.members[m], "actuator", slots.spec->name,
-                                          slots.spec->driver, slots.spec->where, status.error()));
-      }
+      context.note(part);
+      RAVE_TRY(start_part(context, group.members[m], part,
+                          [&] { return start_actuator(context, group, slots, m); }));
     }
   }
   return {};
@@ -234,14 +206,11 @@ void lay_out_program(const GroupContext& context, RobotGroup& group) {
     if (slots.spec == nullptr) continue;
     if (slots.spec->takes() != 0) item.answers = context.answers;
     ProgramSetup& setup = slots.setups[m];
-    setup.robot = info_of(context, group.members[m]);
-    setup.host = services_of(context.logs[group.members[m].value()]);
+    setup = setup_of<ProgramSetup>(context, group.members[m], slots.spec->params);
     setup.sensors = group.sensor_infos.data();
     setup.sensor_count = sensors;
     setup.controllers = group.controller_infos.data();
     setup.controller_count = controllers;
-    setup.params = slots.spec->params.values().data();
-    setup.param_count = slots.spec->params.values().size();
     setup.period_s = slots.spec->period_steps * context.spec.step.seconds();
     const auto communicators =
         context.radio->infos_of(context.spec.robots[group.members[m].value()].type);
@@ -252,36 +221,30 @@ void lay_out_program(const GroupContext& context, RobotGroup& group) {
   }
 }
 
+Status start_program(ProgramSlots& slots, std::size_t m) {
+  if (slots.spec->isolate) {
+    RAVE_TRY_ASSIGN(auto process, slots.spec->isolate(slots.setups[m]));
+    slots.processes.push_back(std::move(process));
+    return {};
+  }
+  return called([&](ErrorText* error) {
+    return slots.spec->ops->start(slots.instances.at(m), &slots.setups[m], error);
+  });
+}
+
 Status start_programs(const GroupContext& context, RobotGroup& group) {
   lay_out_program(context, group);
   ProgramSlots& slots = group.program;
   if (slots.spec == nullptr) return {};
-  const bool isolated = static_cast<bool>(slots.spec->isolate);
   slots.processes.clear();
   slots.instances.clear();
   // All instances in one array with a fixed stride, so that a block is one call into the plug-in.
-  if (!isolated) RAVE_TRY(slots.instances.make(slots.spec->ops->instance, group.members.size()));
+  if (!slots.spec->isolate) {
+    RAVE_TRY(slots.instances.make(slots.spec->ops->instance, group.members.size()));
+  }
+  const NamedPart part = {"program", slots.spec->driver, slots.spec->driver, slots.spec->where};
   for (std::size_t m = 0; m < group.members.size(); ++m) {
-    Status status;
-    if (isolated) {
-      auto process = slots.spec->isolate(slots.setups[m]);
-      if (process) {
-        slots.processes.push_back(*std::move(process));
-      } else {
-        status = tl::unexpected(std::move(process).error());
-      }
-    } else {
-      const CrashNote whose =
-          crash_note_of(context, group.members[m], "program", slots.spec->driver);
-      const CrashScope scope(whose);
-      status = called([&](ErrorText* error) {
-        return slots.spec->ops->start(slots.instances.at(m), &slots.setups[m], error);
-      });
-    }
-    if (!status) {
-      return tl::unexpected(named_error(context, group.members[m], "program", slots.spec->driver,
-                                        slots.spec->driver, slots.spec->where, status.error()));
-    }
+    RAVE_TRY(start_part(context, group.members[m], part, [&] { return start_program(slots, m); }));
   }
   return {};
 }
@@ -303,11 +266,8 @@ Status make_body(GroupContext context, RobotGroup& group) {
   for (std::size_t s = 0; s < group.sensors.size(); ++s) {
     SensorSlots& slots = group.sensors[s];
     slots.spec = &group.type->sensors[s];
-    const Status status = make_sensor(context, group, slots);
-    if (!status) {
-      return tl::unexpected(named_error(context, group.members.front(), "sensor", slots.spec->name,
-                                        slots.spec->driver, slots.spec->where, status.error()));
-    }
+    RAVE_TRY(of_part(context.spec.robots[group.members.front().value()],
+                     named_part("sensor", *slots.spec), make_sensor(context, group, slots)));
   }
   group.actuators.resize(group.type->actuators.size());
   for (std::size_t a = 0; a < group.actuators.size(); ++a) {

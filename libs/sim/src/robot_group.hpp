@@ -13,6 +13,7 @@
 #include "instances.hpp"
 #include "near_lists.hpp"
 #include "opening_note.hpp"
+#include "plugin_call.hpp"
 #include "rave/sim/engine_spec.hpp"
 #include "rave/sim/range_engine.hpp"
 
@@ -162,6 +163,22 @@ struct RobotLog {
   std::string source;
 };
 
+/// A driver or program of a robot, as messages name it.
+struct NamedPart {
+  const char* kind;  ///< "device", "sensor", ...
+  const std::string& name;
+  const std::string& driver;
+  const SourceLocation& where;  ///< Of its driver in the robot file.
+};
+
+[[nodiscard]] inline NamedPart named_part(const char* kind, const DriverSpec& spec) {
+  return {kind, spec.name, spec.driver, spec.where};
+}
+
+/// `status`; an error also names the robot, the part and its driver, and the place of the driver in
+/// the robot file.
+[[nodiscard]] Status of_part(const RobotSpec& robot, const NamedPart& part, Status status);
+
 /// What a group needs to know of its engine while it is made.
 struct GroupContext {
   const EngineSpec& spec;
@@ -170,14 +187,26 @@ struct GroupContext {
   OpeningNote* opening = nullptr;          ///< Told of each driver that is about to be opened.
   const AnswerService* answers = nullptr;  ///< For programs that take orders.
 
-  void note(std::string_view kind, std::string_view name, std::string_view driver) const {
-    if (opening != nullptr) opening->set(kind, name, driver);
+  void note(const NamedPart& part) const {
+    if (opening != nullptr) opening->set(part.kind, part.name, part.driver);
   }
 };
 
 /// The services and the description of one robot, for its drivers.
 [[nodiscard]] HostServices services_of(RobotLog& log);
 [[nodiscard]] RobotInfo info_of(const GroupContext& context, RobotId id);
+
+/// The data for starting a driver or program of one robot.
+template <class Setup>
+[[nodiscard]] Setup setup_of(const GroupContext& context, RobotId id,
+                             const plugin::ParamSet& params) {
+  auto setup = setup_with<Setup>(params, services_of(context.logs[id.value()]));
+  setup.robot = info_of(context, id);
+  return setup;
+}
+
+[[nodiscard]] DeviceSetup device_setup(const GroupContext& context, RobotId id,
+                                       const plugin::ParamSet& params);
 
 /// Makes the devices, sensors and actuators of a group, but opens nothing. Errors name robot and
 /// device; then the group is to be thrown away.

@@ -15,10 +15,15 @@ namespace rave::sim {
 /// What a crash says of the driver or program of one robot; see CrashScope.
 [[nodiscard]] CrashNote crash_note_of(const GroupContext& context, RobotId id, const char* part,
                                       const std::string& driver);
-/// An error with robot, part and driver, and with the place of the driver in the robot file.
-[[nodiscard]] Error named_error(const GroupContext& context, RobotId id, std::string_view kind,
-                                std::string_view name, std::string_view driver,
-                                const SourceLocation& where, Error error);
+/// Runs `start`, which calls the plug-in of a part. Its error, or a crash in it, names the robot
+/// and the part.
+template <class Start>
+Status start_part(const GroupContext& context, RobotId id, const NamedPart& part, Start start) {
+  const CrashNote whose = crash_note_of(context, id, part.kind, part.driver);
+  const CrashScope scope(whose);
+  return of_part(context.spec.robots[id.value()], part, start());
+}
+
 /// The object of the device that a sensor or actuator names; null if it names none.
 [[nodiscard]] HardwareDevice* device_of(const RobotGroup& group, std::optional<std::uint32_t> index,
                                         std::size_t member);

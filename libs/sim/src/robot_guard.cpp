@@ -68,31 +68,25 @@ Command standing(CommandKind kind) noexcept {
 }
 
 std::string_view text_of(GuardLimit limit) noexcept {
-  switch (limit) {
-    case GuardLimit::kStopped:
-      return "stop: it stands until it is released";
-    case GuardLimit::kUnarmed:
-      return "not armed: it stands until it is armed";
-    case GuardLimit::kPoseLost:
-      return "pose lost: its pose is not reported";
-    case GuardLimit::kSensorLost:
-      return "sensor lost: a sensor gives no samples";
-    case GuardLimit::kWorldLost:
-      return "world lost: no updates of the virtual world";
-    case GuardLimit::kWatchdog:
-      return "watchdog: its program gives no commands";
-    case GuardLimit::kBadCommand:
-      return "bad command: not finite, or of a kind that cannot be guarded";
-    case GuardLimit::kSpeed:
-      return "speed: above its limit";
-    case GuardLimit::kTurn:
-      return "turn rate: above its limit";
-    case GuardLimit::kFence:
-      return "fence: it would leave its region";
-    case GuardLimit::kSeparation:
-      return "separation: it would come too close to another robot";
-  }
-  return "unknown";
+  constexpr std::array<std::string_view, kGuardLimits> kTexts = {
+      "stop: it stands until it is released",
+      "not armed: it stands until it is armed",
+      "pose lost: its pose is not reported",
+      "sensor lost: a sensor gives no samples",
+      "world lost: no updates of the virtual world",
+      "watchdog: its program gives no commands",
+      "bad command: not finite, or of a kind that cannot be guarded",
+      "speed: above its limit",
+      "turn rate: above its limit",
+      "fence: it would leave its region",
+      "separation: it would come too close to another robot",
+  };
+  return kTexts[static_cast<std::size_t>(limit)];
+}
+
+std::string_view to_string(GuardLimit limit) noexcept {
+  const std::string_view text = text_of(limit);
+  return text.substr(0, text.find(':'));
 }
 
 EventKind event_of(GuardLimit limit, const GuardSpec& limits) noexcept {

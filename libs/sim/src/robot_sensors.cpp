@@ -72,25 +72,17 @@ Status configure_virtual(const GroupContext& context, RobotGroup& group, SensorS
   // One instance for all robots of the group. What a driver remembers of each lies in driver_state,
   // so the engine can sample robots in any order and on any thread.
   RAVE_TRY(slots.instances.make(spec.virtual_ops->instance, 1));
-  VirtualSensorSetup setup;
-  setup.host = services_of(context.logs[group.members.front().value()]);
-  setup.params = spec.params.values().data();
-  setup.param_count = spec.params.values().size();
+  auto setup = setup_with<VirtualSensorSetup>(
+      spec.params, services_of(context.logs[group.members.front().value()]));
   setup.layers = spec.layers;
   setup.period_s = spec.period_steps * context.spec.step.seconds();
   setup.z_m = spec.z_m;
-  VirtualDeclaration declaration;
-  RAVE_TRY(called([&](ErrorText* error) {
-    return spec.virtual_ops->configure(slots.instances.at(0), &setup, &declaration, error);
-  }));
-  slots.capacity = declaration.capacity;
+  RAVE_TRY_ASSIGN(
+      const VirtualDeclaration declaration,
+      declaration_of(*spec.virtual_ops, slots.instances.at(0), setup, spec.kind, slots.info));
+  slots.capacity = slots.info.capacity;
   slots.uses_fan = declaration.uses_fan != 0;
-  if (slots.uses_fan) {
-    RAVE_TRY(check_fan(declaration, spec.kind));
-    slots.fan = FanTable::make(declaration.fan, spec.layers);
-    slots.capacity = slots.fan.readings();
-    describe_fan(declaration, slots.info);
-  }
+  if (slots.uses_fan) slots.fan = FanTable::make(declaration.fan, spec.layers);
   return {};
 }
 
@@ -103,11 +95,7 @@ Status configure_hardware(const GroupContext& context, RobotGroup& group, Sensor
   const SensorSpec& spec = *slots.spec;
   RAVE_TRY(slots.instances.make(spec.hardware_ops->instance, group.members.size()));
   for (std::size_t m = 0; m < group.members.size(); ++m) {
-    HardwareSetup setup;
-    setup.robot = info_of(context, group.members[m]);
-    setup.host = services_of(context.logs[group.members[m].value()]);
-    setup.params = spec.params.values().data();
-    setup.param_count = spec.params.values().size();
+    auto setup = setup_of<HardwareSetup>(context, group.members[m], spec.params);
     setup.folder = group.type->folder.c_str();
     setup.device = device_of(group, spec.device, m);
     HardwareDeclaration declaration;
@@ -179,20 +167,16 @@ void clear_sensors(RobotGroup& group) {
 
 Status open_sensors(GroupContext context, RobotGroup& group) {
   for (SensorSlots& slots : group.sensors) {
+    const SensorSpec& spec = *slots.spec;
+    const NamedPart part = {"sensor", spec.name, spec.hardware_driver(), spec.where};
     slots.open.assign(slots.queues.size(), 0);
     for (std::size_t m = 0; m < slots.queues.size(); ++m) {
-      context.note("sensor", slots.spec->name, slots.spec->hardware_driver());
-      const CrashNote whose =
-          crash_note_of(context, group.members[m], "sensor", slots.spec->hardware_driver());
-      const CrashScope scope(whose);
-      const Status status = called([&](ErrorText* error) {
-        return slots.spec->hardware_ops->open(slots.instances.at(m), slots.queues[m].get(), error);
-      });
-      if (!status) {
-        return tl::unexpected(named_error(context, group.members[m], "sensor", slots.spec->name,
-                                          slots.spec->hardware_driver(), slots.spec->where,
-                                          status.error()));
-      }
+      context.note(part);
+      RAVE_TRY(start_part(context, group.members[m], part, [&] {
+        return called([&](ErrorText* error) {
+          return spec.hardware_ops->open(slots.instances.at(m), slots.queues[m].get(), error);
+        });
+      }));
       // After success only: a sensor that could not be opened is not closed, unlike a device.
       slots.open[m] = 1;
     }

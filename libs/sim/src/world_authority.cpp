@@ -275,8 +275,4 @@ std::span<const Event> WorldAuthority::events() const noexcept { return impl_->d
 RunHash WorldAuthority::hash() const noexcept { return impl_->done_hash; }
 const world::Snapshot& WorldAuthority::snapshot() const noexcept { return impl_->truth.snapshot; }
 const world::WorldModel& WorldAuthority::world() const noexcept { return impl_->spec.world; }
-std::uint32_t WorldAuthority::host_count() const noexcept {
-  return static_cast<std::uint32_t>(impl_->hosts.size());
-}
-
 }  // namespace rave::sim

@@ -20,7 +20,6 @@ struct WorldAuthority::Impl {
   [[nodiscard]] Status check(const HostReport& report) const;
   [[nodiscard]] Status check(std::span<const HostReport* const> reports);
   void finish_step();
-  void take_over(const WorldStep& world);
   void put_refusal_texts(std::uint64_t in_step);
   void make_changes(WorldStep& world);
   void take_inputs(WorldStep& world);

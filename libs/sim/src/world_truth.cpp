@@ -123,6 +123,24 @@ void WorldTruth::take_over(SimTime now, std::span<const RobotId> pinned) {
   show(now);
 }
 
+void WorldTruth::adopt_robots(const WorldStep& world) {
+  for (std::uint32_t r = 0; r < movers.size(); ++r) {
+    movers[r].X_WR = {world.x_m[r], world.y_m[r], world.yaw_rad[r]};
+    movers[r].present = (world.flags[r] & WorldStep::kPresent) != 0;
+    velocity[r] = {world.vx_mps[r], world.vy_mps[r], world.wz_radps[r]};
+    limited[r] = (world.flags[r] & WorldStep::kLimited) != 0 ? 1 : 0;
+    // Touching robots are few, so only these are in the message; all others touch nothing.
+    touch[r] = {};
+  }
+}
+
+void WorldTruth::adopt_contacts(const WorldStep& world) {
+  for (const PushedRobot& pushed : world.pushed) movers[pushed.robot.value()].X_WR = pushed.X_WR;
+  for (const TouchPoint& point : world.touches) {
+    touch[point.robot.value()] = {true, point.direction_W};
+  }
+}
+
 std::vector<RobotId> WorldTruth::pinned() const {
   std::vector<RobotId> robots;
   for (std::uint32_t r = 0; r < pinned_before_.size(); ++r) {

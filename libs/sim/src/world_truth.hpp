@@ -46,6 +46,10 @@ struct WorldTruth {
   /// Takes over what another authority knew after show(): poses, velocities and touches stand in
   /// `movers`, `velocity` and `touch` already.
   void take_over(SimTime now, std::span<const RobotId> pinned);
+  /// Where robots are and how they move, as another process has decided.
+  void adopt_robots(const WorldStep& world);
+  /// Who was pushed elsewhere then, and who touches what.
+  void adopt_contacts(const WorldStep& world);
   /// Who could not get out of a real robot's way; ascending.
   [[nodiscard]] std::vector<RobotId> pinned() const;
   /// All robots whose bodies have another size than the spec says; ascending.
@@ -74,9 +78,8 @@ struct WorldTruth {
   /// telling. Errors: kInvalidArgument (what check_obstacle_change() says, a name that is taken,
   /// too many, it would overlap a simulated robot), kNotFound; then everything is as it was.
   Result<ObstacleChange> change_obstacle(ObstacleChange change, SimTime from, std::string& note);
-  /// The same without a check for overlaps: another process has checked, and given the id.
-  void put_obstacle(const ObstacleChange& change, SimTime from);
-  /// The same of many, one after the other; `placed`, which may be empty, is called after each.
+  /// The same of many, one after the other, without a check for overlaps: another process has
+  /// checked, and given the ids. `placed`, which may be empty, is called after each.
   void put_obstacles(std::span<const ObstacleChange> changes, SimTime from,
                      const std::function<void(const ObstacleChange&)>& placed = {});
   /// Puts the obstacles of the start back, and forgets all others; false if nothing had changed.

@@ -139,12 +139,8 @@ Result<ObstacleChange> WorldTruth::change_obstacle(ObstacleChange change, SimTim
     change.name = body.name;
     if (change.kind == Kind::kMove) RAVE_TRY(check_room_for(change, body, note));
   }
-  put_obstacle(change, from);
+  put_obstacles({&change, 1}, from);
   return change;
-}
-
-void WorldTruth::put_obstacle(const ObstacleChange& change, SimTime from) {
-  put_obstacles(std::span(&change, 1), from);
 }
 
 void WorldTruth::put_obstacles(std::span<const ObstacleChange> changes, SimTime from,

@@ -23,7 +23,7 @@ Script wheels_mps;  // The same.
 template <class Derived, class Record>
 class Scripted : public HardwareSensor {
  public:
-  static constexpr ReadingKind kReading = detail::kind_of<Record>();
+  static constexpr ReadingKind kReading = detail::kKindOf<Record>;
   Status configure(const HardwareSetup&, HardwareDeclaration&) override { return {}; }
   Status open(SampleSink& sink) override {
     thread_ = std::thread([&sink] {

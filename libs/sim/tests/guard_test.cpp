@@ -11,6 +11,7 @@
 #include "rave/math/decompose.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
+#include "rave/sim/event.hpp"
 #include "rave/world/touching.hpp"
 
 namespace rave::sim {
@@ -343,6 +344,18 @@ TEST(Guard, ARobotThatBrakesAsStatedStaysInside) {
       EXPECT_GT(in.X_WR.x + in.radius_m, 1.9);
     }
   }
+}
+
+TEST(Names, AreGivenToAllEventsAndLimits) {
+  for (const auto& [first, last] : {std::pair(EventKind::kContact, EventKind::kDriverBack),
+                                    std::pair(EventKind::kGuardSlowed, EventKind::kLease)}) {
+    for (auto kind = first; kind <= last;
+         kind = static_cast<EventKind>(static_cast<int>(kind) + 1)) {
+      EXPECT_NE(to_string(kind), "unknown") << static_cast<int>(kind);
+    }
+  }
+  EXPECT_EQ(to_string(GuardLimit::kUnarmed), "not armed");
+  EXPECT_EQ(to_string(GuardLimit::kSeparation), "separation");
 }
 
 }  // namespace

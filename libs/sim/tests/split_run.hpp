@@ -23,7 +23,7 @@ class SplitRun {
       return;
     }
     authority = *std::move(made);
-    reports.resize(authority->host_count());
+    reports.resize(std::size_t{1} + *std::ranges::max_element(host_of));
     for (std::uint32_t host = 0; host < reports.size(); ++host) {
       EngineSpec spec = make();
       spec.local.emplace();

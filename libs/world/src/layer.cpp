@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/world/layer.hpp"
 
-namespace rave {
+#include "rave/base/word_table.hpp"
 
-std::string_view to_string(Layer layer) noexcept {
-  switch (layer) {
-    case Layer::kVirtualObstacles:
-      return "virtual_obstacles";
-    case Layer::kMappedReal:
-      return "mapped_real";
-    case Layer::kSimulatedRobots:
-      return "simulated_robots";
-    case Layer::kRealRobots:
-      return "real_robots";
-  }
-  return "unknown";
-}
+namespace rave {
+namespace {
+
+constexpr WordTable<Layer, 4> kLayers = {{
+    {"virtual_obstacles", Layer::kVirtualObstacles},
+    {"mapped_real", Layer::kMappedReal},
+    {"simulated_robots", Layer::kSimulatedRobots},
+    {"real_robots", Layer::kRealRobots},
+}};
+
+}  // namespace
+
+std::string_view to_string(Layer layer) noexcept { return kLayers.of(layer, "unknown"); }
 
 }  // namespace rave

@@ -6,7 +6,7 @@
 
 namespace rave {
 
-/// Text as it may stand in HTML and XML, also between quotes of an attribute.
+/// The text for HTML or XML, between tags or in a quoted attribute.
 [[nodiscard]] std::string escaped_markup(std::string_view text);
 
 }  // namespace rave

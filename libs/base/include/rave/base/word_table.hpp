@@ -15,12 +15,13 @@ template <class Value, std::size_t kRows>
 struct WordTable {
   std::pair<std::string_view, Value> rows[kRows];
 
-  /// The first word for `value`; empty: it has none.
-  [[nodiscard]] constexpr std::string_view of(Value value) const noexcept {
+  /// The first word for `value`; `otherwise` if it has none.
+  [[nodiscard]] constexpr std::string_view of(Value value,
+                                              std::string_view otherwise = {}) const noexcept {
     for (const auto& [word, its] : rows) {
       if (its == value) return word;
     }
-    return {};
+    return otherwise;
   }
   /// What `word` stands for; empty: it is not in the table.
   [[nodiscard]] constexpr std::optional<Value> find(std::string_view word) const noexcept {

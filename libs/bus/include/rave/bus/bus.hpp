@@ -68,6 +68,7 @@ class Bus {
   static constexpr std::size_t kMaxEvents = 1000;
 
  private:
+  friend class EndpointOwner;
   friend class WriterCore;
   friend class ReaderCore;
   friend class WaitSet;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "rave/base/log.hpp"
+#include "rave/bus/budget.hpp"
 #include "rave/bus/topics.hpp"
 
 namespace rave::bus {
@@ -77,13 +78,12 @@ class CommandBook {
     BegunCommand begun;
   };
 
-  [[nodiscard]] bool in_time(Clock::time_point now);
   void hear_again(const Command& command, const Known& known);
+  void refuse(const Command& command, const char* why);
 
   BeginCommand begin_;
   LogSink* log_;
-  double left_ = kPerSecond;
-  Clock::time_point since_{};
+  Budget budget_{kPerSecond, kPerSecond};
   std::optional<Clock::time_point> warned_{};  ///< When the log last told of too many commands.
   std::map<Key, Known> known_;
   std::vector<Open> open_;  ///< In the order of arrival.

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "rave/base/log.hpp"
+#include "rave/bus/budget.hpp"
 #include "rave/bus/event.hpp"
 
 namespace rave::bus {
@@ -34,11 +35,8 @@ class EventLog {
              Clock::time_point now = Clock::now());
 
  private:
-  [[nodiscard]] bool may_write(Clock::time_point now);
-
   LogSink* log_;
-  std::size_t budget_ = kAtOnce;
-  Clock::time_point refilled_{};
+  Budget budget_{1, double{kAtOnce}};
   std::uint64_t left_out_ = 0;
   std::map<std::uint64_t, std::string> told_;  ///< By writer: the last event logged.
 };

@@ -9,21 +9,18 @@
 
 #include "rave/bus/bus.hpp"
 #include "rave/bus/endpoint.hpp"
+#include "rave/bus/endpoint_owner.hpp"
 #include "rave/bus/validate.hpp"
 
 namespace rave::bus {
 
 /// The part of Reader that does not depend on the message type. Owner: a Reader.
-class ReaderCore {
+class ReaderCore : public EndpointOwner {
  public:
   /// The limit per call, so that a sender that never stops cannot occupy the receiver's thread.
   static constexpr std::size_t kMostAtOnce = 4096;
 
   [[nodiscard]] static Result<ReaderCore> create(Bus& bus, const TopicSpec& topic);
-  ReaderCore() = default;
-  ReaderCore(ReaderCore&& other) noexcept { *this = std::move(other); }
-  ReaderCore& operator=(ReaderCore&& other) noexcept;
-  ~ReaderCore();
 
   /// Begins a take. Returns how many datagrams it may read; 0: all samples come through DDS.
   [[nodiscard]] std::size_t begin_take();
@@ -33,18 +30,13 @@ class ReaderCore {
   /// Whether a take that has (`got`) received a sample by the local transport may skip DDS this
   /// time.
   [[nodiscard]] bool leaves_dds(bool got);
-  void note_foreign() { bus_->note_foreign(topic_); }
+  void note_foreign() { bus().note_foreign(topic_); }
   /// Whether the sample comes from the process whose id it carries; if not, it is refused.
   [[nodiscard]] bool is_of(std::uint64_t writer, const dds_sample_info_t& info);
   void refuse(std::uint64_t writer, std::string why);
   [[nodiscard]] std::size_t writers() const;
-  [[nodiscard]] Bus& bus() const noexcept { return *bus_; }
-  [[nodiscard]] dds_entity_t handle() const noexcept { return reader_; }
 
  private:
-  Bus* bus_ = nullptr;
-  const char* topic_ = nullptr;
-  dds_entity_t reader_ = 0;
   LocalReceiver* local_ = nullptr;  ///< Owned by the bus; null: all samples come through DDS.
   std::uint64_t sender_ = 0;        ///< The sender of the last sample of the local transport.
 };

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "rave/base/log.hpp"
+#include "rave/bus/budget.hpp"
 
 namespace rave::bus {
 
@@ -72,14 +73,8 @@ class RequestBook {
   [[nodiscard]] bool idle() const noexcept { return open_.empty() && kept_ == 0; }
 
  private:
-  /// A token bucket: what may be taken now. It refills with time.
-  struct Budget {
-    double left = 0;
-    Clock::time_point filled{};
-    [[nodiscard]] bool take(double per_second, double most, Clock::time_point now);
-  };
   struct Asker {
-    Budget budget{};
+    Budget budget{kPerSecond, kAtOnce};
     std::uint64_t last = 0;  ///< The highest number that was accepted or refused.
     std::size_t open = 0;
     Clock::time_point heard{};
@@ -102,7 +97,7 @@ class RequestBook {
 
   BeginRequest begin_;
   LogSink* log_;
-  Budget all_{};
+  Budget all_{kAllPerSecond, kAllAtOnce};
   std::map<std::uint64_t, Asker> askers_;  ///< By writer.
   std::vector<Open> open_;                 ///< In the order of arrival.
   std::vector<Reply> replies_;

@@ -6,30 +6,22 @@
 #include <utility>
 
 #include "rave/bus/bus.hpp"
+#include "rave/bus/endpoint_owner.hpp"
 
 namespace rave::bus {
 
 /// The part of Writer that does not depend on the message type. Owner: a Writer.
-class WriterCore {
+class WriterCore : public EndpointOwner {
  public:
   [[nodiscard]] static Result<WriterCore> create(Bus& bus, const TopicSpec& topic);
-  WriterCore() = default;
-  WriterCore(WriterCore&& other) noexcept { *this = std::move(other); }
-  WriterCore& operator=(WriterCore&& other) noexcept;
-  ~WriterCore();
 
   [[nodiscard]] Status write(const void* sample);
   [[nodiscard]] Status dispose(const void* key);
   [[nodiscard]] std::size_t readers() const;
-  [[nodiscard]] Bus& bus() const noexcept { return *bus_; }
-  [[nodiscard]] dds_entity_t handle() const noexcept { return writer_; }
 
  private:
   [[nodiscard]] bool goes_locally(const void* sample);
 
-  Bus* bus_ = nullptr;
-  const char* topic_ = nullptr;
-  dds_entity_t writer_ = 0;
   LocalSender* local_ = nullptr;  ///< Owned by the bus; null: all samples use DDS.
 };
 

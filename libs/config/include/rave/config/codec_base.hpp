@@ -64,8 +64,7 @@ class CheckContext {
   /// Reports an error at the given place, such as that of a Located value further down.
   template <class... Args>
   void error_at(SourceLocation where, fmt::format_string<Args...> format, Args&&... args) {
-    diagnostics_.add(Error{ErrorCode::kParse, fmt::format(format, std::forward<Args>(args)...),
-                           std::move(where)});
+    diagnostics_.add(std::move(where), fmt::format(format, std::forward<Args>(args)...));
   }
   /// Where the struct stands in the file.
   [[nodiscard]] SourceLocation where() const { return mapping_.where(); }

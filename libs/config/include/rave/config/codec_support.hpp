@@ -9,7 +9,6 @@
 #include <string>
 #include <string_view>
 
-#include "rave/base/result.hpp"
 #include "rave/config/codec_base.hpp"
 
 // Shared by the codecs; internal to this library.
@@ -25,19 +24,16 @@ RawNode list_schema(RawNode items, const FieldOptions& options);
 RawNode map_schema(RawNode values, const FieldOptions& options);
 RawNode enum_schema(std::span<const std::string_view> names);
 RawNode nullable_schema(RawNode schema);
-RawNode shorthand_schema(RawNode schema);
 /// The row of the table that the node names, or -1 after reporting.
 int read_enum(const ReadContext& context, const RawNode& node,
               std::span<const std::string_view> names);
 std::string enum_expectation(std::span<const std::string_view> names);
-/// Whether the node is a list (or mapping) of allowed length; reports if not.
-bool check_list(const ReadContext& context, const RawNode& node, std::string_view expected);
-bool check_map(const ReadContext& context, const RawNode& node, std::string_view expected);
+/// Whether the node is a list or mapping, as asked, of allowed length; reports if not.
+bool check_collection(const ReadContext& context, const RawNode& node, RawNode::Kind kind,
+                      std::string_view expected);
 /// The options for elements: those of the list or map without its length limits.
 FieldOptions element_options(const FieldOptions& options);
 std::string item_label(const ReadContext& context, std::size_t index);
-void add_shorthand(const ReadContext& context, const RawNode& node, Status status);
-void add_validation(const RawNode& node, Diagnostics& diagnostics, Status status);
 
 template <class E>
 constexpr auto name_column() {

@@ -43,7 +43,9 @@ struct Codec<std::optional<T>> {
 template <class T>
 struct Codec<std::vector<T>> {
   static void read(const ReadContext& context, const RawNode& node, std::vector<T>& value) {
-    if (!detail::check_list(context, node, expectation(context.options))) return;
+    if (!detail::check_collection(context, node, RawNode::Kind::kSequence,
+                                  expectation(context.options)))
+      return;
     value.clear();
     value.reserve(node.size());
     const FieldOptions options = detail::element_options(context.options);
@@ -72,8 +74,8 @@ template <class T, std::size_t kCount>
 struct Codec<std::array<T, kCount>> {
   static void read(const ReadContext& context, const RawNode& node, std::array<T, kCount>& value) {
     const FieldOptions fixed = with_length(context.options);
-    if (!detail::check_list({context.diagnostics, fixed, context.label}, node,
-                            expectation(context.options))) {
+    if (!detail::check_collection({context.diagnostics, fixed, context.label}, node,
+                                  RawNode::Kind::kSequence, expectation(context.options))) {
       return;
     }
     const FieldOptions options = detail::element_options(fixed);
@@ -107,7 +109,9 @@ template <class T>
 struct Codec<std::map<std::string, T>> {
   static void read(const ReadContext& context, const RawNode& node,
                    std::map<std::string, T>& value) {
-    if (!detail::check_map(context, node, expectation(context.options))) return;
+    if (!detail::check_collection(context, node, RawNode::Kind::kMapping,
+                                  expectation(context.options)))
+      return;
     value.clear();
     const FieldOptions options = detail::element_options(context.options);
     for (std::size_t i = 0; i < node.size(); ++i) {

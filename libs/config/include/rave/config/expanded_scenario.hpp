@@ -66,6 +66,9 @@ struct ExpandedScenario {
 [[nodiscard]] std::vector<std::size_t> robots_named(const ExpandedScenario& scenario,
                                                     std::string_view name);
 
+/// The end of a message about a name that robots_named() does not find; see suggestion().
+[[nodiscard]] std::string robot_suggestion(const ExpandedScenario& scenario, std::string_view name);
+
 /// One host of a scenario with several hosts.
 struct PlannedHost {
   std::string name;

@@ -24,8 +24,6 @@ struct FieldOptions {
   /// Length limits of a list or map (entries) or of a text (bytes).
   std::optional<std::size_t> min_items = {};
   std::optional<std::size_t> max_items = {};
-  /// Whether a double may be `.inf` or `-.inf`. NaN is never allowed.
-  bool allow_infinite = false;
 };
 
 /// The unit in words (`metres` for `m`); the symbol itself if it is not one of the usual ones.
@@ -39,6 +37,9 @@ struct FieldOptions {
 
 /// ` of at least 1 and at most 3 items`, ` of 2 items`, or empty if the length is free.
 [[nodiscard]] std::string length_expectation(const FieldOptions& options, std::string_view item);
+
+/// The noun for `count` things: `item`, `items`; `entry`, `entries`.
+[[nodiscard]] std::string plural(std::string_view noun, std::size_t count);
 
 /// Whether the length lies within min_items and max_items.
 [[nodiscard]] bool in_length(std::size_t size, const FieldOptions& options) noexcept;

@@ -26,9 +26,7 @@
 //   }
 //
 // Optional, also found by argument-dependent lookup:
-//   Status validate(const Laser&);                      an error without a place gets the mapping's
-//   void validate(const Laser&, config::CheckContext&); may report several, each at its key
-//   Status read_shorthand(const config::RawNode&, Laser&);   called for a value that is no mapping
+//   void validate(const Laser&, config::CheckContext&); may report several errors, each at its key
 //
 // Types: bool, integers, double, std::string, enums (see EnumTag), described structs, RawNode, and
 // optional, vector, array, map<std::string, …> and Located of these. An optional is unset by
@@ -50,29 +48,29 @@ template <class T>
 [[nodiscard]] Result<T> read_node(const RawNode& node) {
   Diagnostics diagnostics;
   T value = read_node<T>(node, diagnostics);
-  if (diagnostics.ok()) return value;
-  diagnostics.sort();
-  return tl::unexpected<Error>(diagnostics.joined());
+  return diagnostics.value_or_errors(std::move(value));
 }
 
-/// Reads a struct from YAML text. `file_name` is used in messages only. On failure the diagnostics
-/// hold every error found, sorted by place; the Error joins the first of them.
-template <class T>
+/// Reads a struct from YAML text. `file_name` is used in messages only. `prepare` may change the
+/// tree before it is read, and adds its errors to the diagnostics. The Error joins all errors
+/// found.
+template <class T, class Prepare>
 [[nodiscard]] Result<T> read_text(std::string_view text, std::string_view file_name,
-                                  Diagnostics& diagnostics) {
+                                  Prepare&& prepare) {
+  Diagnostics diagnostics;
   T value{};
-  if (const auto node = parse_yaml(text, file_name, diagnostics)) {
-    value = read_node<T>(*node, diagnostics);
+  if (auto tree = parse_yaml(text, file_name, diagnostics)) {
+    const std::size_t errors_before = diagnostics.size();
+    prepare(*tree, diagnostics);
+    // Skipped after an error: what could not be prepared would be reported again.
+    if (diagnostics.size() == errors_before) value = read_node<T>(*tree, diagnostics);
   }
-  if (diagnostics.ok()) return value;
-  diagnostics.sort();
-  return tl::unexpected<Error>(diagnostics.joined());
+  return diagnostics.value_or_errors(std::move(value));
 }
 
 template <class T>
 [[nodiscard]] Result<T> read_text(std::string_view text, std::string_view file_name) {
-  Diagnostics diagnostics;
-  return read_text<T>(text, file_name, diagnostics);
+  return read_text<T>(text, file_name, [](RawNode& /*tree*/, Diagnostics& /*diagnostics*/) {});
 }
 
 /// Reads a struct from a YAML file of at most kMaxFileBytes. Errors: those of rave::read_file, and
@@ -96,16 +94,9 @@ template <class T>
   return to_yaml(write_node(value));
 }
 
-/// The JSON Schema (draft 07) of the files that read_text<T> accepts. `id` becomes `$id`.
-template <class T>
-[[nodiscard]] std::string json_schema(std::string_view title, std::string_view id) {
-  RawNode schema = RawNode::mapping();
-  schema.append("$schema", RawNode::text("http://json-schema.org/draft-07/schema#"));
-  schema.append("$id", RawNode::text(std::string(id)));
-  schema.append("title", RawNode::text(std::string(title)));
-  const RawNode body = Codec<T>::schema(FieldOptions{});
-  for (std::size_t i = 0; i < body.size(); ++i) schema.append(body.key(i), body.child(i));
-  return to_json(schema);
-}
+/// The JSON Schema (draft 07) of files with this content, such as `Codec<T>::schema({})`. `id`
+/// becomes `$id`.
+[[nodiscard]] std::string json_schema(const RawNode& body, std::string_view title,
+                                      std::string_view id);
 
 }  // namespace rave::config

@@ -11,6 +11,7 @@
 
 #include "rave/base/result.hpp"
 #include "rave/config/diagnostics.hpp"
+#include "rave/config/field_options.hpp"
 #include "rave/config/raw_node.hpp"
 
 namespace rave::config {
@@ -21,20 +22,13 @@ enum class ParamType : std::uint8_t { kBool, kInt, kDouble, kString, kEnum, kDou
 /// The value of a parameter; an enum is stored as the name of its choice.
 using ParamValue = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
 
-/// The description of one parameter at run time; corresponds to FieldOptions of a struct member.
-struct FieldSpec {
-  std::string name;
+/// The description of one parameter at run time. Its texts must outlive it. Limits apply to each
+/// number of a list, `min_items` and `max_items` to the length of a list or the bytes of a string.
+struct FieldSpec : FieldOptions {
+  std::string name{};
   ParamType type = ParamType::kDouble;
-  std::string doc = {};
-  std::optional<double> min = {};  ///< Applies to each number of a list.
-  bool exclusive_min = false;
-  std::optional<double> max = {};
-  bool exclusive_max = false;
-  std::string unit = {};                         ///< SI symbol, or empty.
-  std::vector<std::string> choices = {};         ///< For an enum.
-  std::optional<std::size_t> min_items = {};     ///< Length of a list, or bytes of a string.
-  std::optional<std::size_t> max_items = {};     ///< Length of a list, or bytes of a string.
-  std::optional<ParamValue> default_value = {};  ///< Empty: the parameter is required.
+  std::vector<std::string> choices{};         ///< For an enum.
+  std::optional<ParamValue> default_value{};  ///< Empty: the parameter is required.
 };
 
 /// One parameter with its value.

@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "rave/base/error.hpp"
@@ -31,8 +33,10 @@ class RawNode {
   [[nodiscard]] static RawNode number(double value);
   /// A scalar as it would be written without quotes: a number, true, false or plain text.
   [[nodiscard]] static RawNode plain(std::string value);
-  [[nodiscard]] static RawNode sequence();
-  [[nodiscard]] static RawNode mapping();
+  [[nodiscard]] static RawNode sequence(std::vector<RawNode> items = {});
+  /// The keys must differ.
+  [[nodiscard]] static RawNode mapping(
+      std::initializer_list<std::pair<std::string_view, RawNode>> entries = {});
 
   [[nodiscard]] Kind kind() const noexcept { return kind_; }
   [[nodiscard]] bool is_null() const noexcept { return kind_ == Kind::kNull; }
@@ -67,6 +71,7 @@ class RawNode {
   [[nodiscard]] std::vector<std::string_view> keys() const;
   /// The value of a key of a mapping; nullptr if there is none. Valid until the mapping changes.
   [[nodiscard]] const RawNode* find(std::string_view key) const noexcept;
+  [[nodiscard]] RawNode* find(std::string_view key) noexcept;
 
   /// The place of the value; without a file if it was built by code.
   [[nodiscard]] SourceLocation where() const;

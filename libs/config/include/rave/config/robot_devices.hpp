@@ -57,11 +57,16 @@ struct FilterFile {
   bool operator==(const FilterFile&) const = default;
 };
 
-/// Hardware that sensors and actuators of the robot share.
-struct DeviceFile {
+/// What all entries of a robot that a driver serves have in common.
+struct NamedDriverFile {
   Located<std::string> name;
   Located<std::string> driver;
   RawNode params;  ///< A mapping or null.
+  bool operator==(const NamedDriverFile&) const = default;
+};
+
+/// Hardware that sensors and actuators of the robot share.
+struct DeviceFile : NamedDriverFile {
   bool operator==(const DeviceFile&) const = default;
 };
 
@@ -78,9 +83,7 @@ struct SensorHalfFile {
 };
 
 /// An entry of `sensors:`.
-struct SensorFile {
-  Located<std::string> name;
-  Located<std::string> driver;
+struct SensorFile : NamedDriverFile {
   std::optional<Located<std::string>> device;  ///< Names one of the robot's devices.
   /// Both set for a hybrid sensor, whose driver fuses them.
   std::optional<SensorHalfFile> real;
@@ -92,7 +95,6 @@ struct SensorFile {
   /// Unset: the default of the driver's kind (virtual: all layers; hybrid: those that its real half
   /// cannot sense).
   std::optional<Located<std::vector<SensedLayer>>> senses;
-  RawNode params;  ///< A mapping or null.
   NoiseFile noise;
   double latency_s = 0;
   /// Real sensors and real halves of hybrid ones: the age from which a reading is too old; above 0.
@@ -103,39 +105,27 @@ struct SensorFile {
 };
 
 /// An entry of `actuators:`.
-struct ActuatorFile {
-  Located<std::string> name;
-  Located<std::string> driver;
+struct ActuatorFile : NamedDriverFile {
   std::optional<Located<std::string>> device;  ///< Names one of the robot's devices.
-  RawNode params;                              ///< A mapping or null.
   bool operator==(const ActuatorFile&) const = default;
 };
 
 /// An entry of `controllers:`.
-struct ControllerFile {
-  Located<std::string> name;
-  Located<std::string> driver;
+struct ControllerFile : NamedDriverFile {
   Located<std::string> actuator;  ///< Names one of the robot's actuators.
-  RawNode params;                 ///< A mapping or null.
   bool operator==(const ControllerFile&) const = default;
 };
 
 /// The device that carries messages of the robot.
-struct TransmitterFile {
-  Located<std::string> name;
-  Located<std::string> driver;
+struct TransmitterFile : NamedDriverFile {
   std::optional<Located<std::string>> device;  ///< Names one of the robot's devices.
-  RawNode params;                              ///< A mapping or null.
   bool operator==(const TransmitterFile&) const = default;
 };
 
 /// The channel through which the program communicates. Robots hear each other if their
 /// communicators have the same name.
-struct CommunicatorFile {
-  Located<std::string> name;
-  Located<std::string> driver;
+struct CommunicatorFile : NamedDriverFile {
   Located<std::string> transmitter;  ///< Names one of the robot's transmitters.
-  RawNode params;                    ///< A mapping or null.
   bool operator==(const CommunicatorFile&) const = default;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <concepts>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -17,18 +16,12 @@ concept Described = std::is_class_v<T> && requires(Writer& v, T& c) { describe(v
 
 template <Described T>
 struct Codec<T> {
-  static constexpr bool kHasShorthand = requires(const RawNode& n, T& c) {
-    { read_shorthand(n, c) } -> std::same_as<Status>;
-  };
-
   static void read(const ReadContext& context, const RawNode& node, T& value) {
     const std::size_t errors_before = context.diagnostics.size();
     if (node.is_mapping()) {
       Reader reader(node, context.diagnostics);
       describe(reader, value);
       reader.finish();
-    } else if constexpr (kHasShorthand) {
-      detail::add_shorthand(context, node, read_shorthand(node, value));
     } else {
       context.wrong(node, "a mapping");
     }
@@ -36,8 +29,6 @@ struct Codec<T> {
     if constexpr (requires(CheckContext& c) { validate(value, c); }) {
       CheckContext check(node, context.diagnostics);
       validate(std::as_const(value), check);
-    } else if constexpr (requires { validate(value); }) {
-      detail::add_validation(node, context.diagnostics, validate(std::as_const(value)));
     }
   }
   static RawNode write(const T& value) {
@@ -51,8 +42,7 @@ struct Codec<T> {
     SchemaWriter writer;
     T value{};
     describe(writer, value);
-    RawNode schema = std::move(writer).take();
-    return kHasShorthand ? detail::shorthand_schema(std::move(schema)) : schema;
+    return std::move(writer).take();
   }
   static std::string expectation(const FieldOptions&) { return "a mapping"; }
 };

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,8 +14,23 @@
 // What `describe(v, config)` is called with. All have the same functions:
 //   v.field(name, member, options)     may be left out: then the member keeps its initial value
 //   v.required(name, member, options)  must be given
-//   v.location(member)                 a SourceLocation that receives the place of the mapping
 namespace rave::config {
+namespace detail {
+
+/// A key that a mapping may have, and the unit of its value.
+struct KnownKey {
+  std::string_view name;
+  std::string_view unit;
+};
+
+/// Reports each key of the mapping that is not a known one. `prefix` begins the messages.
+void report_unknown_keys(const RawNode& mapping, std::span<const KnownKey> known,
+                         std::string_view prefix, Diagnostics& diagnostics);
+
+/// The comment of a written field: `[m] Sentence.`
+[[nodiscard]] std::string comment_of(const FieldOptions& options);
+
+}  // namespace detail
 
 /// Reads the entries of a mapping into a struct.
 class Reader {
@@ -34,17 +50,11 @@ class Reader {
       missing(name, Codec<T>::expectation(options));
     }
   }
-  void location(SourceLocation& target) { target = mapping_.where(); }
 
   /// Reports the keys that no field used. Call it once, after describe.
-  void finish();
+  void finish() { detail::report_unknown_keys(mapping_, known_, "", diagnostics_); }
 
  private:
-  struct Known {
-    std::string_view name;
-    std::string_view unit;
-  };
-
   template <class T>
   void read(std::string_view name, const RawNode& node, T& target, const FieldOptions& options) {
     const ReadContext context{diagnostics_, options, fmt::format("`{}`", name)};
@@ -55,7 +65,7 @@ class Reader {
 
   const RawNode& mapping_;
   Diagnostics& diagnostics_;
-  std::vector<Known> known_;
+  std::vector<detail::KnownKey> known_;
 };
 
 /// Writes a struct as a mapping with comments.
@@ -63,19 +73,16 @@ class Writer {
  public:
   template <class T>
   void field(std::string_view name, const T& value, const FieldOptions& options = {}) {
-    mapping_.append(std::string(name), Codec<T>::write(value), comment_of(options));
+    mapping_.append(std::string(name), Codec<T>::write(value), detail::comment_of(options));
   }
   template <class T>
   void required(std::string_view name, const T& value, const FieldOptions& options = {}) {
     field(name, value, options);
   }
-  void location(const SourceLocation& /*where*/) {}
 
   [[nodiscard]] RawNode take() && { return std::move(mapping_); }
 
  private:
-  static std::string comment_of(const FieldOptions& options);
-
   RawNode mapping_ = RawNode::mapping();
 };
 
@@ -92,7 +99,6 @@ class SchemaWriter {
     add(name, Codec<T>::schema(options), options, nullptr);
     required_.push_back(RawNode::text(std::string(name)));
   }
-  void location(const SourceLocation& /*where*/) {}
 
   [[nodiscard]] RawNode take() &&;
 

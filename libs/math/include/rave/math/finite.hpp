@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "rave/math/pose.hpp"
 
 namespace rave {
 
+/// Whether no number is infinite or NaN.
+[[nodiscard]] inline bool is_finite(std::span<const double> numbers) noexcept {
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+}
 /// Whether no number is infinite or NaN.
 [[nodiscard]] inline bool is_finite(Vec2 p) noexcept {
   return std::isfinite(p.x) && std::isfinite(p.y);

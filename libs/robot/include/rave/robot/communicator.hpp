@@ -87,11 +87,10 @@ constexpr CommunicatorOps communicator_ops() noexcept {
   };
   ops.link = [](const void* instance, const LinkQuery* queries, LinkAnswer* answers,
                 std::uint64_t count, ErrorText* error) {
-    return guarded(error, [&]() -> Status {
+    return guarded(error, [&] {
       for (std::size_t i = 0; i < count; ++i) {
         answers[i] = static_cast<const T*>(instance)->T::link(queries[i]);
       }
-      return {};
     });
   };
   return ops;

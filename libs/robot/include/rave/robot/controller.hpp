@@ -75,14 +75,8 @@ constexpr ControllerOps controller_ops() noexcept {
                    std::uint64_t count, std::uint8_t* failed, ErrorText* error) {
     for (std::size_t i = 0; i < count; ++i) {
       if (failed[i] != 0) continue;
-      const int status = guarded(error, [&]() -> Status {
-        outputs[i] = instance_at<T>(first, stride, i).T::control(inputs[i]);
-        return {};
-      });
-      if (status != 0) {
-        failed[i] = 1;
-        error->slot = static_cast<std::uint32_t>(i);
-      }
+      guarded_slot(i, failed, error,
+                   [&] { outputs[i] = instance_at<T>(first, stride, i).T::control(inputs[i]); });
     }
   };
   return ops;

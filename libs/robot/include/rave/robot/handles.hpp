@@ -10,20 +10,27 @@
 // Handles: names that a program looks up once, in start().
 namespace rave {
 
-/// A sensor of one kind of records; looked up by name once, used every step.
-template <class Record>
-class SensorHandle {
+/// A device with its description; looked up by name once, used every step.
+template <class Info>
+class DeviceHandle {
  public:
-  SensorHandle() = default;
-  explicit SensorHandle(std::uint32_t index, const SensorInfo* info) : index_(index), info_(info) {}
+  DeviceHandle() = default;
+  explicit DeviceHandle(std::uint32_t index, const Info* info) : index_(index), info_(info) {}
   [[nodiscard]] bool valid() const noexcept { return info_ != nullptr; }
   [[nodiscard]] std::uint32_t index() const noexcept { return index_; }
-  /// Name, mounting, rays and limits. The handle must be valid.
-  [[nodiscard]] const SensorInfo& info() const noexcept { return *info_; }
+  /// Name, mounting, rays and limits, as far as the device has them. The handle must be valid.
+  [[nodiscard]] const Info& info() const noexcept { return *info_; }
 
  private:
   std::uint32_t index_ = 0;
-  const SensorInfo* info_ = nullptr;
+  const Info* info_ = nullptr;
+};
+
+/// A sensor of one kind of records.
+template <class Record>
+class SensorHandle : public DeviceHandle<SensorInfo> {
+ public:
+  using DeviceHandle::DeviceHandle;
 };
 
 /// A range sensor: one float in metres per ray; +infinity means no return.
@@ -42,57 +49,32 @@ class ControllerHandle {
   bool valid_ = false;
 };
 
-/// A communicator; looked up by name once.
-class CommunicatorHandle {
- public:
-  CommunicatorHandle() = default;
-  explicit CommunicatorHandle(std::uint32_t index, const CommunicatorInfo* info)
-      : index_(index), info_(info) {}
-  [[nodiscard]] bool valid() const noexcept { return info_ != nullptr; }
-  [[nodiscard]] std::uint32_t index() const noexcept { return index_; }
-  /// Name and limits. The handle must be valid.
-  [[nodiscard]] const CommunicatorInfo& info() const noexcept { return *info_; }
-
- private:
-  std::uint32_t index_ = 0;
-  const CommunicatorInfo* info_ = nullptr;
-};
+/// A communicator.
+using CommunicatorHandle = DeviceHandle<CommunicatorInfo>;
 
 namespace detail {
+/// The kind of the readings whose records are of type `Record`.
 template <class Record>
-constexpr ReadingKind kind_of() noexcept;
+inline constexpr ReadingKind kKindOf = ReadingKind::kNone;
 template <>
-constexpr ReadingKind kind_of<float>() noexcept {
-  return ReadingKind::kRanges;
-}
+inline constexpr ReadingKind kKindOf<float> = ReadingKind::kRanges;
 template <>
-constexpr ReadingKind kind_of<Sighting>() noexcept {
-  return ReadingKind::kSightings;
-}
+inline constexpr ReadingKind kKindOf<Sighting> = ReadingKind::kSightings;
 template <>
-constexpr ReadingKind kind_of<PoseReading>() noexcept {
-  return ReadingKind::kPose;
-}
+inline constexpr ReadingKind kKindOf<PoseReading> = ReadingKind::kPose;
 template <>
-constexpr ReadingKind kind_of<OdometryReading>() noexcept {
-  return ReadingKind::kOdometry;
-}
+inline constexpr ReadingKind kKindOf<OdometryReading> = ReadingKind::kOdometry;
 template <>
-constexpr ReadingKind kind_of<NeighbourReading>() noexcept {
-  return ReadingKind::kNeighbours;
-}
+inline constexpr ReadingKind kKindOf<NeighbourReading> = ReadingKind::kNeighbours;
 template <>
-constexpr ReadingKind kind_of<ContactReading>() noexcept {
-  return ReadingKind::kContact;
-}
+inline constexpr ReadingKind kKindOf<ContactReading> = ReadingKind::kContact;
 template <>
-constexpr ReadingKind kind_of<VelocityReading>() noexcept {
-  return ReadingKind::kVelocity;
-}
+inline constexpr ReadingKind kKindOf<VelocityReading> = ReadingKind::kVelocity;
 template <>
-constexpr ReadingKind kind_of<double>() noexcept {
-  return ReadingKind::kValues;
-}
+inline constexpr ReadingKind kKindOf<double> = ReadingKind::kValues;
+
+template <class Record>
+concept ReadingRecord = kKindOf<Record> != ReadingKind::kNone;
 }  // namespace detail
 
 }  // namespace rave

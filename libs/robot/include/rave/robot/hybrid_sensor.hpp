@@ -59,10 +59,7 @@ constexpr HybridSensorOps hybrid_sensor_ops() noexcept {
     return guarded(error, [&] { return static_cast<T*>(instance)->start(*setup); });
   };
   ops.fuse = [](const void* instance, const FuseItem* item, ErrorText* error) {
-    return guarded(error, [&]() -> Status {
-      static_cast<const T*>(instance)->T::fuse(*item);
-      return {};
-    });
+    return guarded(error, [&] { static_cast<const T*>(instance)->T::fuse(*item); });
   };
   return ops;
 }

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "rave/base/log.hpp"
@@ -81,14 +82,19 @@ inline constexpr char kTakesNoParameters[] =
 
 namespace detail {
 
-/// Runs `body`, which returns a Status. A failure or an exception is written to `error`. Returns 0
-/// or 1.
+/// Runs `body`, which returns a Status or nothing. A failure or an exception is written to `error`.
+/// Returns 0 or 1.
 template <class Body>
 int guarded(ErrorText* error, Body&& body) noexcept {
   try {
-    const Status status = body();
-    if (status) return 0;
-    error->set(status.error().text());
+    if constexpr (std::is_void_v<std::invoke_result_t<Body>>) {
+      body();
+      return 0;
+    } else {
+      const Status status = body();
+      if (status) return 0;
+      error->set(status.error().text());
+    }
   } catch (const std::exception& e) {
     error->set(std::string("threw an exception: ") + e.what());
   } catch (...) {
@@ -97,14 +103,19 @@ int guarded(ErrorText* error, Body&& body) noexcept {
   return 1;
 }
 
+/// Runs `body` for the i-th of several instances. Its failure also sets `failed[i]`.
+template <class Body>
+void guarded_slot(std::size_t i, std::uint8_t* failed, ErrorText* error, Body&& body) noexcept {
+  if (guarded(error, body) == 0) return;
+  failed[i] = 1;
+  error->slot = static_cast<std::uint32_t>(i);
+}
+
 /// Calls close() and ignores failures and exceptions.
 template <class T>
 void close_quietly(void* instance) noexcept {
   ErrorText ignored;
-  guarded(&ignored, [&]() -> Status {
-    static_cast<T*>(instance)->close();
-    return {};
-  });
+  guarded(&ignored, [&] { static_cast<T*>(instance)->close(); });
 }
 
 /// Calls `take` with the text of an instance's report(); not at all if report() throws.
@@ -112,10 +123,9 @@ template <class T>
 void hand_over_report(void* instance, void* context,
                       void (*take)(void* context, const char* text, std::uint64_t size)) noexcept {
   ErrorText ignored;
-  guarded(&ignored, [&]() -> Status {
+  guarded(&ignored, [&] {
     const std::string text = static_cast<T*>(instance)->report();
     take(context, text.data(), text.size());
-    return {};
   });
 }
 
@@ -125,10 +135,7 @@ constexpr InstanceOps instance_ops() noexcept {
   ops.size = sizeof(T);
   ops.alignment = alignof(T);
   ops.construct = [](void* where, ErrorText* error) {
-    return guarded(error, [&]() -> Status {
-      ::new (where) T();
-      return {};
-    });
+    return guarded(error, [&] { ::new (where) T(); });
   };
   ops.destroy = [](void* instance) { static_cast<T*>(instance)->~T(); };
   return ops;

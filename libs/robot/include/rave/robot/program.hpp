@@ -66,15 +66,10 @@ constexpr ProgramOps program_ops() noexcept {
                   std::uint8_t* failed, ErrorText* error) {
     for (std::size_t i = 0; i < count; ++i) {
       if (failed[i] != 0) continue;
-      const int status = guarded(error, [&]() -> Status {
+      guarded_slot(i, failed, error, [&] {
         Commands commands(items[i]);
         instance_at<Program>(first, stride, i).Program::decide(Percepts(items[i]), commands);
-        return {};
       });
-      if (status != 0) {
-        failed[i] = 1;
-        error->slot = static_cast<std::uint32_t>(i);
-      }
     }
   };
   return ops;

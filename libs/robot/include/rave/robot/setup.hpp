@@ -51,19 +51,19 @@ class Setup {
 
   /// The sensor `name` whose records are of type `Record` (float for ranges, Sighting, PoseReading,
   /// ...); with an empty name the first such sensor. Error kNotFound lists the existing ones.
-  template <class Record>
+  template <detail::ReadingRecord Record>
   [[nodiscard]] Result<SensorHandle<Record>> sensor(std::string_view name = {}) const {
-    auto index = find_sensor(detail::kind_of<Record>(), name);
+    auto index = find_sensor(detail::kKindOf<Record>, name);
     if (!index) return tl::unexpected(index.error());
     return SensorHandle<Record>(*index, &raw_->sensors[*index]);
   }
   /// All sensors whose records are of type `Record`, possibly none; for programs that work with any
   /// set of sensors.
-  template <class Record>
+  template <detail::ReadingRecord Record>
   [[nodiscard]] std::vector<SensorHandle<Record>> all_sensors() const {
     std::vector<SensorHandle<Record>> found;
     for (std::uint32_t i = 0; i < raw_->sensor_count; ++i) {
-      if (raw_->sensors[i].kind == detail::kind_of<Record>()) {
+      if (raw_->sensors[i].kind == detail::kKindOf<Record>) {
         found.emplace_back(i, &raw_->sensors[i]);
       }
     }

@@ -20,6 +20,7 @@
 #include "rave/robot/processing.hpp"
 #include "rave/robot/program.hpp"
 #include "rave/robot/sample_queue.hpp"
+#include "rave/sim/driver_spec.hpp"
 #include "rave/sim/guard.hpp"
 #include "rave/sim/hand_over.hpp"
 #include "rave/sim/obstacle_change.hpp"
@@ -49,12 +50,8 @@ using ProgramProcessFactory =
     std::function<Result<std::unique_ptr<ProgramProcess>>(const ProgramSetup&)>;
 
 /// Hardware that sensors and actuators of a robot share.
-struct DeviceSpec {
-  std::string name;
-  std::string driver;
+struct DeviceSpec : DriverSpec {
   const HardwareDeviceOps* ops = nullptr;
-  plugin::ParamSet params;
-  SourceLocation where{};  ///< Of its driver in the robot file, for errors.
 };
 
 /// The additional parts of a hybrid sensor: the virtual half, and the driver that fuses both
@@ -73,14 +70,11 @@ struct HybridSpec {
 /// One sensor of a robot type. Exactly one of the two ops is set. With `hybrid`, hardware_ops and
 /// `params` are those of the real half, `layers` those of the virtual half, and `driver` names the
 /// driver that fuses.
-struct SensorSpec {
-  std::string name;
-  std::string driver;
+struct SensorSpec : DriverSpec {
   ReadingKind kind = ReadingKind::kNone;
   const VirtualSensorOps* virtual_ops = nullptr;
   const HardwareSensorOps* hardware_ops = nullptr;
   std::optional<std::uint32_t> device;  ///< Hardware: index into RobotType::devices.
-  plugin::ParamSet params;
   Pose2 X_RS;
   double z_m = 0;
   std::uint32_t period_steps = 1;
@@ -92,7 +86,6 @@ struct SensorSpec {
   std::optional<double> max_age_s;
   ProcessingSpec processing;
   std::optional<HybridSpec> hybrid;
-  SourceLocation where{};  ///< Of its driver in the robot file, for errors.
 
   /// Name of the driver of `hardware_ops`.
   [[nodiscard]] const std::string& hardware_driver() const noexcept {
@@ -104,29 +97,21 @@ struct SensorSpec {
 /// sensors are returned unchanged.
 [[nodiscard]] SensorSpec virtual_half_of(SensorSpec sensor);
 
-struct ControllerSpec {
-  std::string name;
-  std::string driver;
+struct ControllerSpec : DriverSpec {
   const ControllerOps* ops = nullptr;
-  plugin::ParamSet params;
   CommandKind accepts = CommandKind::kNone;
   std::uint32_t actuator = 0;  ///< Index into RobotType::actuators.
   /// The parameters that may change during a run; valid as long as `ops`.
   std::span<const ParamSpec> param_specs;
-  SourceLocation where{};  ///< Of its driver in the robot file, for errors.
 };
 
 /// One actuator. Exactly one of the two ops is set.
-struct ActuatorSpec {
-  std::string name;
-  std::string driver;
+struct ActuatorSpec : DriverSpec {
   const VirtualActuatorOps* virtual_ops = nullptr;
   const HardwareActuatorOps* hardware_ops = nullptr;
   std::optional<std::uint32_t> device;  ///< Hardware: index into RobotType::devices.
-  plugin::ParamSet params;
   /// The parameters that may change during a run; valid as long as `ops`.
   std::span<const ParamSpec> param_specs;
-  SourceLocation where{};  ///< Of its driver in the robot file, for errors.
 };
 
 struct ProgramSpec {

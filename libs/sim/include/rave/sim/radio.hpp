@@ -4,32 +4,23 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string>
 
 #include "rave/base/ids.hpp"
-#include "rave/plugin/param_set.hpp"
 #include "rave/robot/communicator.hpp"
 #include "rave/robot/transmitter.hpp"
+#include "rave/sim/driver_spec.hpp"
 
 namespace rave::sim {
 
 /// A transmitter of a robot type: the device that carries its messages.
-struct TransmitterSpec {
-  std::string name;
-  std::string driver;
+struct TransmitterSpec : DriverSpec {
   const TransmitterOps* ops = nullptr;
-  plugin::ParamSet params;
-  SourceLocation where{};  ///< Of its driver in the robot file, for errors.
 };
 
 /// A communicator of a robot type: the channel through which its program sends and receives.
-struct CommunicatorSpec {
-  std::string name;
-  std::string driver;
+struct CommunicatorSpec : DriverSpec {
   const CommunicatorOps* ops = nullptr;
-  plugin::ParamSet params;
   std::uint32_t transmitter = 0;  ///< Index into RobotType::transmitters.
-  SourceLocation where{};         ///< Of its driver in the robot file, for errors.
 };
 
 /// Counts of all messages of a run. For messages between robots of this host

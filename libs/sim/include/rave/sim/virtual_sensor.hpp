@@ -136,14 +136,8 @@ constexpr VirtualSensorOps virtual_sensor_ops() noexcept {
   ops.sample = [](const void* instance, const WorldView* world, const SampleItem* items,
                   std::uint64_t count, std::uint8_t* failed, ErrorText* error) {
     for (std::size_t i = 0; i < count; ++i) {
-      const int status = guarded(error, [&]() -> Status {
-        static_cast<const T*>(instance)->T::sample(*world, items[i]);
-        return {};
-      });
-      if (status != 0) {
-        failed[i] = 1;
-        error->slot = static_cast<std::uint32_t>(i);
-      }
+      guarded_slot(i, failed, error,
+                   [&] { static_cast<const T*>(instance)->T::sample(*world, items[i]); });
     }
   };
   return ops;

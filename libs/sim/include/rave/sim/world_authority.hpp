@@ -101,7 +101,6 @@ class WorldAuthority {
   [[nodiscard]] std::span<const Event> events() const noexcept;
   /// The hash of poses, contacts, pins, and changes of bodies and obstacles in the completed steps.
   [[nodiscard]] RunHash hash() const noexcept;
-  [[nodiscard]] std::uint32_t host_count() const noexcept;
   /// Makes the report of a lost host for the next step: its simulated robots stand; its real robots
   /// are at their last reported poses, marked as stale. Reuses the memory of `report`.
   void speak_for(std::uint32_t host, HostReport& report) const;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bus_search.hpp"
+#include "error_text.hpp"
 #include "rave/base/names.hpp"
 #include "rave/base/thread.hpp"
 #include "rave/control/client.hpp"
@@ -383,6 +384,18 @@ Result<runtime::RunStatus> AskedRun::status(Duration patience) const {
   RAVE_TRY_ASSIGN(auto answer, ask(Request{}, patience));
   if (!answer.good) return fail(ErrorCode::kState, "{}: {}", name_, answer.text);
   return std::move(answer.status);
+}
+
+int refused(const AskedRun& run, const std::string& why) {
+  complain(Error{ErrorCode::kState, why, {}}.with_context(run.name()));
+  return kNotGood;
+}
+
+Result<int> ask_and_tell(const AskedRun& run, const Request& request) {
+  RAVE_TRY_ASSIGN(const Answer answer, run.ask(request));
+  if (!answer.good) return refused(run, answer.text);
+  put(stdout, fmt::format("{}: {}\n", run.name(), answer.text));
+  return kGood;
 }
 
 }  // namespace rave::cli

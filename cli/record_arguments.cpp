@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "record_arguments.hpp"
-
-#include "bus_arguments.hpp"
-#include "run_arguments.hpp"
+#include "commands/export.hpp"
+#include "commands/gui.hpp"
+#include "commands/info.hpp"
+#include "commands/play.hpp"
+#include "commands/report.hpp"
+#include "commands/verify.hpp"
 #include "shared_arguments.hpp"
 
 namespace rave::cli {
 namespace {
 
-void add_info(CLI::App& root, InfoCommand& c) {
-  CLI::App& app = *root.add_subcommand("info", "Show the contents of a recording");
+void add_info(CLI::App& root, Command& chosen) {
+  const auto [app, c] = add_command(root, chosen, "info", "Show the contents of a recording", info);
   add_record(app, c.file);
   app.add_flag("--check", c.check,
                "Read the complete file and verify every checksum [only index, start and end]");
@@ -21,8 +23,9 @@ void add_info(CLI::App& root, InfoCommand& c) {
       "  rave info runs/20260101-120000-mixed-reality --check");
 }
 
-void add_verify(CLI::App& root, VerifyCommand& c) {
-  CLI::App& app = *root.add_subcommand("verify", "Run a recording again and compare every bit");
+void add_verify(CLI::App& root, Command& chosen) {
+  const auto [app, c] =
+      add_command(root, chosen, "verify", "Run a recording again and compare every bit", verify);
   add_record(app, c.file);
   add_threads(app, c.threads);
   app.add_flag("--quiet", c.quiet, "Print errors and differences only");
@@ -34,9 +37,10 @@ void add_verify(CLI::App& root, VerifyCommand& c) {
       "  rave verify runs/20260101-120000-mixed-reality");
 }
 
-void add_play(CLI::App& root, PlayCommand& c) {
-  CLI::App& app = *root.add_subcommand(
-      "play", "Use robots of a recording as recorded real robots in a new scenario");
+void add_play(CLI::App& root, Command& chosen) {
+  const auto [app, c] =
+      add_command(root, chosen, "play",
+                  "Use robots of a recording as recorded real robots in a new scenario", play);
   add_record(app, c.file);
   add_values(app, "--robot", c.robots, "Robot of the recording; repeatable [all]", "NAME");
   add_values(app, "--anew", c.anew,
@@ -57,8 +61,9 @@ void add_play(CLI::App& root, PlayCommand& c) {
       "  rave play run.mcap --robot hunter --program wander --write my/scenario");
 }
 
-void add_export(CLI::App& root, ExportCommand& c) {
-  CLI::App& app = *root.add_subcommand("export", "Write a part of a recording as CSV");
+void add_export(CLI::App& root, Command& chosen) {
+  const auto [app, c] =
+      add_command(root, chosen, "export", "Write a part of a recording as CSV", export_recording);
   add_record(app, c.file);
   add_word(app, "what", c.what, "poses, readings or events", "WHAT")
       ->check(one_of({"poses", "readings", "events"}));
@@ -74,12 +79,13 @@ void add_export(CLI::App& root, ExportCommand& c) {
       "  rave export run.mcap readings --robot hunter --sensor laser --output laser.csv");
 }
 
-void add_report(CLI::App& root, GapCommand& c) {
+void add_report(CLI::App& root, Command& chosen) {
   CLI::App& parent = *root.add_subcommand("report", "Analyse a recording");
   parent.require_subcommand(1);
   parent.footer("Example:\n  rave report gap run.mcap --robot walker-3");
-  CLI::App& app = *parent.add_subcommand(
-      "gap", "Compare a recorded robot with its simulated twin under the same commands");
+  const auto [app, c] = add_command(
+      parent, chosen, "gap",
+      "Compare a recorded robot with its simulated twin under the same commands", report_gap);
   add_record(app, c.file);
   add_value(app, "--robot", c.robot, "Recorded robot [the only one]", "NAME");
   add_value(app, "--twin", c.twin,
@@ -101,8 +107,9 @@ void add_report(CLI::App& root, GapCommand& c) {
       "  rave report gap run.mcap --robot real-3 --commands commanded --twin robots/wanderer.yaml");
 }
 
-void add_gui(CLI::App& root, GuiCommand& c) {
-  CLI::App& app = *root.add_subcommand("gui", "Show a run or a recording in the browser");
+void add_gui(CLI::App& root, Command& chosen) {
+  const auto [app, c] =
+      add_command(root, chosen, "gui", "Show a run or a recording in the browser", gui);
   add_word(app, "what", c.file, "Recording, folder of a run, or scenario of a run in progress",
            "WHAT");
   add_page_options(app, c.page);
@@ -119,13 +126,13 @@ void add_gui(CLI::App& root, GuiCommand& c) {
 
 }  // namespace
 
-void add_record_commands(CLI::App& root, RecordCommands& commands) {
-  add_info(root, commands.info);
-  add_verify(root, commands.verify);
-  add_play(root, commands.play);
-  add_export(root, commands.csv);
-  add_report(root, commands.gap);
-  add_gui(root, commands.gui);
+void add_record_commands(CLI::App& root, Command& chosen) {
+  add_info(root, chosen);
+  add_verify(root, chosen);
+  add_play(root, chosen);
+  add_export(root, chosen);
+  add_report(root, chosen);
+  add_gui(root, chosen);
 }
 
 }  // namespace rave::cli

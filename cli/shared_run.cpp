@@ -209,41 +209,32 @@ Result<runtime::RunOutcome> put_together(ManagedEnd& managed, const Crew& crew,
 
 }  // namespace
 
-int run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario,
-               const std::vector<config::PlannedHost>& hosts) {
+Result<int> run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario,
+                       const std::vector<config::PlannedHost>& hosts) {
   RunCommand options = asked;
   BusOptions bus_options = options.bus;
   // A run that this process starts is one of its own, even if the same scenario runs elsewhere on
   // the bus.
   if (bus_options.run.empty()) bus_options.run = bus::RunId::random().text();
-  auto bus = bus_config(bus_options, "environment manager", runtime::shared_number(scenario));
-  if (!bus) return complain(bus.error());
+  RAVE_TRY_ASSIGN(auto bus,
+                  bus_config(bus_options, "environment manager", runtime::shared_number(scenario)));
   const bool lines = wants_lines(options, hosts.size());
   // A line has an end of its own on the bus.
-  make_room(*bus, lines ? 2 * hosts.size() : hosts.size(), bus::Reach::kHub);
-  const auto opened = RunStart::open(options, scenario.scenario.name.value);
-  if (!opened) return complain(opened.error());
-  RunStart& start = **opened;
+  make_room(bus, lines ? 2 * hosts.size() : hosts.size(), bus::Reach::kHub);
+  RAVE_TRY_ASSIGN(const auto opened, RunStart::open(options, scenario.scenario.name.value));
+  RunStart& start = *opened;
   Console& console = start.console();
-  if (auto written =
-          write_file_atomically(start.path() / "scenario.yaml", config::write_expanded(scenario));
-      !written) {
-    return complain(written.error());
-  }
-  if (auto fit = check_hosts_fit(scenario, options.plugins, hosts.size(), console); !fit) {
-    return complain(fit.error());
-  }
-  if (auto made = lines ? make_lines(options, start.path()) : Status(); !made) {
-    return complain(made.error());
-  }
-  Crew crew(options, *bus, start.path(), scenario.scenario, console);
+  RAVE_TRY(write_file_atomically(start.path() / "scenario.yaml", config::write_expanded(scenario)));
+  RAVE_TRY(check_hosts_fit(scenario, options.plugins, hosts.size(), console));
+  RAVE_TRY(lines ? make_lines(options, start.path()) : Status());
+  Crew crew(options, bus, start.path(), scenario.scenario, console);
   for (const config::PlannedHost& host : hosts) {
     if (host.elsewhere) {
       console.warn("run", "waiting for host `{}`; start it with: {}", host.name,
-                   host_command(options, host.name, bus->run));
+                   host_command(options, host.name, bus.run));
       continue;
     }
-    if (auto started = crew.start(host); !started) return complain(started.error());
+    RAVE_TRY(crew.start(host));
   }
   runtime::RunControl& control = start.control();
   start.serve(control::own_run_name(scenario.scenario.name.value), "run", "this run");
@@ -253,20 +244,17 @@ int run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario
   };
   std::unique_ptr<gui_server::GuiServer> page;
   if (options.gui) {
-    auto served = show_run(options, scenario, *bus, &control, console);
-    if (!served) return complain(served.error());
-    page = *std::move(served);
+    RAVE_TRY_ASSIGN(page, show_run(options, scenario, bus, &control, console));
   }
-  auto managed = manage_run({scenario, options, *bus, start.path(), console, control, stopping,
+  auto managed = manage_run({scenario, options, bus, start.path(), console, control, stopping,
                              [&crew] { return crew.all_ended(); }});
   // In lock-step the last step tells them; after a failure of the manager nothing does.
   if (!managed || (managed->live && control.stopping())) crew.interrupt();
   const std::vector<std::string> problems = crew.part();
   console.clear();
-  if (!managed) return complain(managed.error());
-  const auto outcome = put_together(*managed, crew, problems);
-  if (!outcome) return complain(outcome.error());
-  const int code = report_outcome(options, *outcome, start.path());
+  if (!managed) return tl::unexpected(managed.error());
+  RAVE_TRY_ASSIGN(const auto outcome, put_together(*managed, crew, problems));
+  const int code = report_outcome(options, outcome, start.path());
   if (page) replay_on_page(*page, options.quiet, start.path(), control);
   return code;
 }

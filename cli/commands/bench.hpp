@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "rave/base/result.hpp"
 #include "rave/swarm/compare.hpp"
 #include "rave/swarm/swarm_run.hpp"
 
@@ -21,10 +22,10 @@ struct BenchCompareCommand {
 };
 
 /// Measures a workload and prints a line of JSON. Returns 0, or 2 if it could not be run.
-[[nodiscard]] int bench_swarm(const BenchSwarmCommand& command);
+[[nodiscard]] Result<int> bench_swarm(const BenchSwarmCommand& command);
 
 /// Measures two builds in turn. Returns 0, 1 if a run failed or the hashes differ, 2 if a build is
 /// missing.
-[[nodiscard]] int bench_compare(const BenchCompareCommand& command);
+[[nodiscard]] Result<int> bench_compare(const BenchCompareCommand& command);
 
 }  // namespace rave::cli

@@ -200,13 +200,12 @@ class Checker {
 
 }  // namespace
 
-int check(const CheckCommand& options) {
-  const auto catalogue = open_catalogue(options.plugins);
-  if (!catalogue) return complain(catalogue.error());
+Result<int> check(const CheckCommand& options) {
+  RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.plugins));
   if (!options.draw.empty() && options.files.size() > 1) {
-    return complain({ErrorCode::kInvalidArgument, "--draw: expected exactly one file", {}});
+    return fail(ErrorCode::kInvalidArgument, "--draw: expected exactly one file");
   }
-  return Checker(options, **catalogue).run();
+  return Checker(options, *catalogue).run();
 }
 
 }  // namespace rave::cli

@@ -117,23 +117,17 @@ Result<control::Request> request_of(const EditCommand& options) {
 
 }  // namespace
 
-int edit_world(const EditCommand& options) {
-  const auto request = request_of(options);
-  if (!request) return complain(request.error());
-  const auto run = AskedRun::find(options.run, options.bus);
-  if (!run) return complain(run.error());
+Result<int> edit_world(const EditCommand& options) {
+  RAVE_TRY_ASSIGN(const auto request, request_of(options));
+  RAVE_TRY_ASSIGN(const auto run, AskedRun::find(options.run, options.bus));
   const auto asked = std::chrono::steady_clock::now();
-  const auto answer = run->ask(*request);
+  RAVE_TRY_ASSIGN(const auto answer, run.ask(request));
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - asked;
-  if (!answer) return complain(answer.error());
-  if (!answer->good) {
-    complain({ErrorCode::kState, fmt::format("{}: {}", run->name(), answer->text), {}});
-    return kNotGood;
-  }
+  if (!answer.good) return refused(run, answer.text);
   const std::string done = options.what == What::kList
                                ? ""
                                : fmt::format(" ({:.1f} ms after the request)", took.count());
-  put(stdout, fmt::format("{}: {}{}\n", run->name(), answer->text, done));
+  put(stdout, fmt::format("{}: {}{}\n", run.name(), answer.text, done));
   return kGood;
 }
 

@@ -236,9 +236,9 @@ Status write_csv(const ExportCommand& options) {
 
 }  // namespace
 
-int export_recording(const ExportCommand& options) {
-  const Status done = write_csv(options);
-  return done ? kGood : complain(done.error());
+Result<int> export_recording(const ExportCommand& options) {
+  RAVE_TRY(write_csv(options));
+  return kGood;
 }
 
 }  // namespace rave::cli

@@ -44,16 +44,12 @@ Status hides_nothing(ProjectKind kind, const std::string& name) {
 
 }  // namespace
 
-int new_project(const NewCommand& options) {
-  const auto kind = parse_project_kind(options.kind);
-  if (!kind) return complain(kind.error());
-  if (const auto hidden = hides_nothing(*kind, options.name); !hidden) {
-    return complain(hidden.error());
-  }
+Result<int> new_project(const NewCommand& options) {
+  RAVE_TRY_ASSIGN(const auto kind, parse_project_kind(options.kind));
+  RAVE_TRY(hides_nothing(kind, options.name));
   const std::string folder = options.directory.empty() ? options.name : options.directory;
-  const auto created = create_project(*kind, options.name, share_folder() / "templates", folder);
-  if (!created) return complain(created.error());
-  if (*kind == ProjectKind::kPanel) {
+  RAVE_TRY(create_project(kind, options.name, share_folder() / "templates", folder));
+  if (kind == ProjectKind::kPanel) {
     put(stdout, fmt::format("created {0}; edit {0}/{1}.mjs\n\nnext:\n"
                             "  node --test {2}\n\n"
                             "then name it in a scenario, and run that with --gui:\n"

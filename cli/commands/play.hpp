@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands/run.hpp"
+#include "rave/base/result.hpp"
 
 namespace rave::cli {
 
@@ -23,6 +24,6 @@ struct PlayCommand {
 
 /// Turns the robots of a recording into recorded real robots and runs them. Returns the exit code
 /// of `rave run`.
-[[nodiscard]] int play(const PlayCommand& options);
+[[nodiscard]] Result<int> play(const PlayCommand& options);
 
 }  // namespace rave::cli

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "rave/base/result.hpp"
+
 namespace rave::cli {
 
 /// `rave report gap`.
@@ -20,6 +22,6 @@ struct GapCommand {
 };
 
 /// Compares a recorded robot with its simulated twin. Returns 0, or 2 if it cannot.
-[[nodiscard]] int report_gap(const GapCommand& options);
+[[nodiscard]] Result<int> report_gap(const GapCommand& options);
 
 }  // namespace rave::cli

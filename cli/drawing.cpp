@@ -108,12 +108,6 @@ Status add_robots(sim::EngineSpec spec, Picture& picture) {
   return {};
 }
 
-std::string quote_names(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 Result<Picture> draw_world(const InputFile& input, runtime::BuiltScenario built) {
   Picture picture;
   std::vector<std::string> unplaced;
@@ -146,19 +140,18 @@ Result<Picture> draw_world(const InputFile& input, runtime::BuiltScenario built)
                                  : "Static bodies";
   if (!unplaced.empty()) {
     picture.caption.push_back(fmt::format("Not shown, because their poses come from devices: {}.",
-                                          quote_names(unplaced)));
+                                          fmt::join(unplaced, ", ")));
   }
   return picture;
 }
 
 }  // namespace
 
-Result<Picture> draw(const InputFile& input, runtime::BuiltScenario built) {
-  if (input.kind == FileKind::kRobot) return draw_one_robot(input, std::move(built));
-  return draw_world(input, std::move(built));
-}
-
-Status write_picture(const Picture& picture, const std::filesystem::path& path) {
+Status draw(const InputFile& input, runtime::BuiltScenario built,
+            const std::filesystem::path& path) {
+  RAVE_TRY_ASSIGN(const Picture picture, input.kind == FileKind::kRobot
+                                             ? draw_one_robot(input, std::move(built))
+                                             : draw_world(input, std::move(built)));
   const std::string ending = path.extension().string();
   if (ending == ".svg") return report::write_svg(picture, path);
   if (ending == ".png") return report::write_png(picture, path);

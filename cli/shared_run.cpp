@@ -43,7 +43,7 @@ class Crew {
   void look_after() {
     for (Member& member : members_) {
       if (!member.process) continue;
-      const auto code = member.process->ended();
+      const auto code = member.process->wait(std::chrono::milliseconds(0));
       if (!code) continue;
       member.process.reset();
       member.code = code;
@@ -83,11 +83,11 @@ class Crew {
 
   /// Waits for their ends. What went wrong, one sentence each.
   [[nodiscard]] std::vector<std::string> part() {
-    constexpr double kPatience_s = 20;
+    constexpr std::chrono::seconds kPatience{20};
     std::vector<std::string> problems;
     for (Member& member : members_) {
       if (member.process) {
-        member.code = member.process->wait(kPatience_s);
+        member.code = member.process->wait(kPatience);
         member.process.reset();
       }
       if (member.code == kGood) continue;
@@ -137,9 +137,8 @@ class Crew {
                                       fmt::format("{}", patience_s_),
                                       "--quiet"};
     for (const std::string& word : words_of(options_.bus, bus_.run)) words.push_back(word);
-    for (const std::string& plugins : options_.plugins) {
-      words.emplace_back("--plugins");
-      words.push_back(plugins);
+    for (const std::string& folder : options_.plugins) {
+      words.insert(words.end(), {"--plugins", folder});
     }
     if (options_.no_picture) words.emplace_back("--no-picture");
     if (options_.no_record) words.emplace_back("--no-record");
@@ -153,14 +152,11 @@ class Crew {
   void add_line(std::vector<std::string>& words) const {
     const LineArguments& line = options_.line;
     if (!line.web) return;
-    words.emplace_back("--web");
-    words.push_back(*line.web);
+    words.insert(words.end(), {"--web", *line.web});
     for (const auto& [option, value] :
          {std::pair("--web-key", line.web_key), std::pair("--web-certificate", line.certificate),
           std::pair("--web-certificate-key", line.key)}) {
-      if (value.empty()) continue;
-      words.emplace_back(option);
-      words.push_back(value);
+      if (!value.empty()) words.insert(words.end(), {option, value});
     }
   }
 

@@ -168,13 +168,7 @@ class Checker {
   }
 
   [[nodiscard]] bool draw_file(const InputFile& input, runtime::BuiltScenario built) const {
-    Status drawn;
-    auto picture = draw(input, std::move(built));
-    if (picture) {
-      drawn = write_picture(*picture, options_.draw);
-    } else {
-      drawn = tl::unexpected(std::move(picture).error());
-    }
+    const Status drawn = draw(input, std::move(built), options_.draw);
     if (!drawn) return complain(drawn.error()) == kGood;
     put(options_.expand ? stderr : stdout, fmt::format("drawn: {}\n", options_.draw));
     return true;

@@ -24,12 +24,6 @@ std::int64_t now_s() {
   return std::chrono::duration_cast<std::chrono::seconds>(now).count();
 }
 
-std::string list_of(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 /// `lab-keys/` and `lab-keys` in the same way.
 std::string plain(std::string folder) {
   while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
@@ -93,7 +87,7 @@ Result<int> new_keys(const KeysNewCommand& options) {
                   "Keep {0}/ca secret: whoever has it can create members. {0}/line.key is "
                   "for the\nGUI Server alone (--line-key): whoever has it can command every "
                   "robot.\n",
-                  folder, list_of(options.members), options.days, options.members.front()));
+                  folder, fmt::join(options.members, ", "), options.days, options.members.front()));
   return kGood;
 }
 
@@ -101,7 +95,7 @@ Result<int> add_keys(const KeysAddCommand& options) {
   const std::string folder = plain(options.folder);
   RAVE_TRY(keys::add_members(folder, options.members, options.days, now_s()));
   RAVE_TRY(give_line_key(folder));
-  put(stdout, fmt::format("added {} to {}\n", list_of(options.members), folder));
+  put(stdout, fmt::format("added {} to {}\n", fmt::join(options.members, ", "), folder));
   return kGood;
 }
 
@@ -126,7 +120,7 @@ Result<int> web_keys(const KeysWebCommand& options) {
                   keys::make_web_keys({folder, options.names, options.days, now_s()}));
   put(stdout,
       fmt::format("{} {} for {}; valid until {}\n", made.new_authority ? "created" : "renewed in",
-                  folder, list_of(options.names), keys::date_text(made.until_s)));
+                  folder, fmt::join(options.names, ", "), keys::date_text(made.until_s)));
   if (made.new_authority) {
     put(stdout,
         fmt::format(

@@ -101,4 +101,12 @@ Status write_file_atomically(const std::filesystem::path& path, std::string_view
   return {};
 }
 
+Status create_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error) return {};
+  return fail(ErrorCode::kIo, "cannot create the folder `{}`: {}", folder.string(),
+              error.message());
+}
+
 }  // namespace rave

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <filesystem>
 
+#include "rave/base/number.hpp"
 #include "rave/bus/run_id.hpp"
 #include "rave/direct_line/key_files.hpp"
 
@@ -15,9 +15,7 @@ namespace {
 constexpr const char* kHere = "this process";
 
 Result<std::uint16_t> port_of(std::string_view text, const std::string& whole) {
-  std::uint16_t port = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-  if (error == std::errc() && end == text.data() + text.size()) return port;
+  if (const auto port = number_of<std::uint16_t>(text)) return *port;
   return fail(ErrorCode::kInvalidArgument,
               "--web {}: expected ADDRESS:PORT, such as 192.168.1.20:8090", whole);
 }

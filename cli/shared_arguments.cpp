@@ -5,31 +5,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 #include <utility>
 
 #include "commands/run.hpp"
 #include "rave/base/names.hpp"
+#include "rave/base/number.hpp"
 
 namespace rave::cli {
-namespace {
-
-/// Nothing if the whole word is not a number. CLI11 would wrap negative whole numbers round.
-template <class Number>
-std::optional<Number> read_number(const std::string& word) {
-  Number number = 0;
-  const char* const end = word.data() + word.size();
-  const auto [parsed, problem] = std::from_chars(word.data(), end, number);
-  if (problem != std::errc() || parsed != end) return std::nullopt;
-  return number;
-}
-
-}  // namespace
 
 CLI::Validator number_in(double least, double most) {
   const auto check = [least, most](const std::string& word) -> std::string {
-    const auto number = read_number<double>(word);
+    const auto number = number_of<double>(word);
     if (number && *number >= least && *number <= most) return {};
     return fmt::format("found `{}`, expected a number from {} to {}", word, least, most);
   };
@@ -38,7 +25,8 @@ CLI::Validator number_in(double least, double most) {
 
 CLI::Validator whole_number_in(std::uint64_t least, std::uint64_t most) {
   const auto check = [least, most](const std::string& word) -> std::string {
-    const auto number = read_number<std::uint64_t>(word);
+    // CLI11 would wrap negative whole numbers round.
+    const auto number = number_of<std::uint64_t>(word);
     if (number && *number >= least && *number <= most) return {};
     return fmt::format("found `{}`, expected a whole number from {} to {}", word, least, most);
   };

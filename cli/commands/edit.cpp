@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
+#include <ranges>
+#include <string_view>
 #include <vector>
 
 #include "asked_run.hpp"
 #include "error_text.hpp"
+#include "rave/base/number.hpp"
 
 namespace rave::cli {
 namespace {
@@ -19,16 +21,12 @@ using What = EditCommand::What;
 /// The numbers in a word, between marks; none if it is anything else.
 std::vector<double> numbers_in(std::string_view word, char mark) {
   std::vector<double> numbers;
-  while (true) {
-    const std::string_view part = word.substr(0, word.find(mark));
-    double number = 0;
-    // from_chars() does not depend on the locale: 0.5 is read alike everywhere.
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
-    if (error != std::errc{} || end != part.data() + part.size()) return {};
-    numbers.push_back(number);
-    if (part.size() == word.size()) return numbers;
-    word.remove_prefix(part.size() + 1);
+  for (const auto part : std::views::split(word, mark)) {
+    const auto number = number_of<double>({part.begin(), part.end()});
+    if (!number) return {};
+    numbers.push_back(*number);
   }
+  return numbers;
 }
 
 tl::unexpected<Error> wrong(std::string_view option, const std::string& found,
@@ -51,12 +49,9 @@ Status take_place(const EditCommand& options, Entry& entry) {
 
 Status take_corners(const EditCommand& options, config::Outline& outline) {
   auto& polygon_m = outline.polygon_m.emplace();
-  std::string_view rest = options.corners;
-  while (!rest.empty()) {
-    const std::string_view word = rest.substr(0, rest.find(' '));
-    rest.remove_prefix(std::min(word.size() + 1, rest.size()));
+  for (const auto word : std::views::split(std::string_view(options.corners), ' ')) {
     if (word.empty()) continue;
-    const std::vector<double> corner = numbers_in(word, ',');
+    const std::vector<double> corner = numbers_in({word.begin(), word.end()}, ',');
     if (corner.size() != 2) {
       return wrong("--corners", options.corners, "places such as \"0,0 1,0 0.5,1\"");
     }

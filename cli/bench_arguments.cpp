@@ -56,12 +56,12 @@ void add_compare(CLI::App& parent, Command& chosen) {
   const auto [app, c] =
       add_command(parent, chosen, "compare",
                   "Compare the speed of two builds, measured alternately", bench_compare);
-  add_word(app, "a", c.options.a, "Build folder or executable", "BUILD_A");
-  add_word(app, "b", c.options.b, "Build folder or executable to compare with", "BUILD_B");
-  add_workload(app, c.options.workload, c.options.end);
-  add_value(app, "--rounds", c.options.rounds, "Runs of each build [7]", "N")
+  add_word(app, "a", c.a, "Build folder or executable", "BUILD_A");
+  add_word(app, "b", c.b, "Build folder or executable to compare with", "BUILD_B");
+  add_workload(app, c.workload, c.end);
+  add_value(app, "--rounds", c.rounds, "Runs of each build [7]", "N")
       ->check(whole_number_in(1, 1000));
-  app.add_flag("--allow-different-hash", c.options.allow_different_hash,
+  app.add_flag("--allow-different-hash", c.allow_different_hash,
                "Compare even if the run hashes differ");
   app.footer(
       "Prints one line of JSON, and one sentence to standard error. With --seconds, both builds "

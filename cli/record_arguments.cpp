@@ -42,14 +42,14 @@ void add_play(CLI::App& root, Command& chosen) {
       add_command(root, chosen, "play",
                   "Use robots of a recording as recorded real robots in a new scenario", play);
   add_record(app, c.file);
-  add_values(app, "--robot", c.robots, "Robot of the recording; repeatable [all]", "NAME");
-  add_values(app, "--anew", c.anew,
+  add_values(app, "--robot", c.how.robots, "Robot of the recording; repeatable [all]", "NAME");
+  add_values(app, "--anew", c.how.anew,
              "Virtual sensor that senses the new world instead of being played; repeatable",
              "SENSOR");
-  add_value(app, "--world", c.world, "World file [world of the recording]", "FILE");
-  add_value(app, "--program", c.program,
+  add_value(app, "--world", c.how.world, "World file [world of the recording]", "FILE");
+  add_value(app, "--program", c.how.program,
             "Program that receives the readings; its commands are ignored [none]", "NAME");
-  add_value(app, "--start", c.start_s, "Start time in the recording, in seconds [0]", "S")
+  add_value(app, "--start", c.how.start_s, "Start time in the recording, in seconds [0]", "S")
       ->check(number_in(0.0, 1e9));
   add_value(app, "--write", c.write, "Write the scenario to this folder, and do not run it", "DIR");
   add_run_options(app, c.run);
@@ -87,13 +87,13 @@ void add_report(CLI::App& root, Command& chosen) {
       parent, chosen, "gap",
       "Compare a recorded robot with its simulated twin under the same commands", report_gap);
   add_record(app, c.file);
-  add_value(app, "--robot", c.robot, "Recorded robot [the only one]", "NAME");
-  add_value(app, "--twin", c.twin,
+  add_value(app, "--robot", c.gap.robot, "Recorded robot [the only one]", "NAME");
+  add_value(app, "--twin", c.gap.twin,
             "Robot file with the simulated actuator of the twin [that of the robot]", "FILE");
-  add_value(app, "--commands", c.commands,
+  add_value(app, "--commands", c.gap.commands,
             "Velocity sensor to use as commands [what reached the actuator]", "SENSOR");
-  app.add_flag("--truth", c.truth, "Compare with the true pose instead of the reported pose");
-  add_value(app, "--window", c.window_s,
+  app.add_flag("--truth", c.gap.truth, "Compare with the true pose instead of the reported pose");
+  add_value(app, "--window", c.gap.window_s,
             "Time after which the twin is set to the robot again, in seconds [10]", "S")
       ->check(number_in(1e-3, 1e6));
   add_value(app, "--output", c.output,

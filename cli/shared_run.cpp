@@ -61,11 +61,9 @@ class Crew {
 
   /// No host comes again: all that were to run have died before the run began.
   [[nodiscard]] bool all_dead() const {
-    if (members_.empty()) return false;
-    for (const Member& member : members_) {
-      if (member.process || member.code == kGood) return false;
-    }
-    return true;
+    return !members_.empty() && std::ranges::none_of(members_, [](const Member& member) {
+      return member.process || member.code == kGood;
+    });
   }
 
   /// No host runs any more.

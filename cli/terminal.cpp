@@ -36,6 +36,10 @@ void put(std::FILE* stream, std::string_view text) {
   std::fflush(stream);
 }
 
+void put_note(std::string_view label, std::string_view text) {
+  put(stderr, fmt::format("{} {}\n", label, text));
+}
+
 std::string shell_word(const std::string& word) {
   constexpr std::string_view kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:@%,";

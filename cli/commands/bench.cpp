@@ -33,8 +33,8 @@ Result<int> bench_swarm(const BenchSwarmCommand& command) {
   return kGood;
 }
 
-Result<int> bench_compare(const BenchCompareCommand& command) {
-  swarm::CompareOptions options = command.options;
+Result<int> bench_compare(const swarm::CompareOptions& command) {
+  swarm::CompareOptions options = command;
   options.end = usual(options.end);
   const auto comparison = swarm::compare(options);
   if (!comparison) {

@@ -118,10 +118,13 @@ std::string state_text(const runtime::RunStatus& status) {
 
 Table runs_table(bool with_machines) {
   Table table;
-  table.columns = {{"run", Align::kLeft, false},     {"scenario", Align::kLeft, false},
-                   {"time", Align::kRight, false},   {"pace", Align::kRight, false},
-                   {"robots", Align::kRight, false}, {"state", Align::kLeft, false}};
-  if (with_machines) table.columns.push_back({"machine", Align::kLeft, false});
+  table.columns = {{"run"},
+                   {"scenario"},
+                   {"time", Align::kRight},
+                   {"pace", Align::kRight},
+                   {"robots", Align::kRight},
+                   {"state"}};
+  if (with_machines) table.columns.push_back({"machine"});
   return table;
 }
 

@@ -179,11 +179,11 @@ Result<int> show_shadows(const ShadowCommand& options) {
   }
   RAVE_TRY_ASSIGN(const auto status, run.status());
   Table table;
-  table.columns = {{"robot", Align::kLeft, false},
-                   {"difference", Align::kLeft, false},
-                   {"now", Align::kRight, false},
-                   {"most", Align::kRight, false},
-                   {"since", Align::kRight, false}};
+  table.columns = {{"robot"},
+                   {"difference"},
+                   {"now", Align::kRight},
+                   {"most", Align::kRight},
+                   {"since", Align::kRight}};
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const RunStatus::Robot& robot : status.robots) {
     if (!has(robot)) continue;

@@ -25,8 +25,7 @@ int tell(const RunCommand& options, bool whole, const std::string& summary,
   const Terminal errors = terminal_of(stderr);
   if (!options.quiet) put(stdout, summary + fmt::format("{}\n", folder.string()));
   for (const std::string& problem : problems) {
-    put(stderr,
-        fmt::format("{} {}\n", errors.red("problem:"), without_control_characters(problem, " ")));
+    put_note(errors.red("problem:"), without_control_characters(problem, " "));
   }
   if (whole && !options.quiet) put(stdout, terminal_of(stdout).green("done") + "\n");
   return whole ? kGood : kNotGood;

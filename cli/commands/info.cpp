@@ -137,10 +137,7 @@ std::string info_text(const record::RecordSummary& summary) {
   for (const std::string& damage : summary.damages) text += fmt::format("damaged: {}\n", damage);
   for (const std::string& piece : summary.unsummed) text += fmt::format("not checked: {}\n", piece);
   Table table;
-  table.columns = {{"topic", Align::kLeft, false},
-                   {"type", Align::kLeft, false},
-                   {"messages", Align::kRight, false},
-                   {"rate", Align::kRight, false}};
+  table.columns = {{"topic"}, {"type"}, {"messages", Align::kRight}, {"rate", Align::kRight}};
   for (const record::ChannelSummary& channel : summary.channels) {
     table.rows.push_back({channel.topic, channel.schema, fmt::format("{}", channel.messages),
                           fmt::format("{:.1f} Hz", channel.rate_hz)});

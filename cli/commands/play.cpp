@@ -5,7 +5,6 @@
 
 #include "error_text.hpp"
 #include "places.hpp"
-#include "played_scenario.hpp"
 #include "run_folder.hpp"
 
 namespace rave::cli {
@@ -18,13 +17,8 @@ constexpr const char* kScenarioFolder = "played";
 
 Result<PlayedScenario> make(const PlayCommand& options) {
   RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.run.plugins));
-  PlayArguments arguments;
+  PlayArguments arguments = options.how;
   RAVE_TRY_ASSIGN(arguments.record, record_file(options.file));
-  arguments.robots = options.robots;
-  arguments.anew = options.anew;
-  if (!options.world.empty()) arguments.world = options.world;
-  if (!options.program.empty()) arguments.program = options.program;
-  arguments.start_s = options.start_s;
   if (!options.write.empty()) {
     arguments.folder = options.write;
   } else {
@@ -50,9 +44,7 @@ Status keeps_its_record(const PlayCommand& options) {
 
 Result<int> play(const PlayCommand& options) {
   RAVE_TRY_ASSIGN(const auto played, make(options));
-  for (const std::string& note : played.notes) {
-    put(stderr, fmt::format("{} {}\n", terminal_of(stderr).yellow("note:"), note));
-  }
+  for (const std::string& note : played.notes) put_note(terminal_of(stderr).yellow("note:"), note);
   if (!options.write.empty()) {
     RAVE_TRY(write_played(played, options.write));
     put(stdout, fmt::format("wrote {0}; run it with `rave run {0}`\n", options.write));

@@ -9,7 +9,6 @@
 #include "places.hpp"
 #include "rave/base/file.hpp"
 #include "rave/base/table.hpp"
-#include "rave/replay/gap.hpp"
 
 namespace rave::cli {
 namespace {
@@ -21,9 +20,7 @@ std::vector<TableCell> row(std::string what, double metres, double degrees) {
 std::string table_of(const runtime::GapReport& gap) {
   Table table;
   table.title = fmt::format("{} against its simulated twin", gap.robot);
-  table.columns = {{"", Align::kLeft, false},
-                   {"distance", Align::kRight, false},
-                   {"heading", Align::kRight, false}};
+  table.columns = {{""}, {"distance", Align::kRight}, {"heading", Align::kRight}};
   for (const runtime::GapAt& at : gap.after) {
     table.rows.push_back(row(fmt::format("after {:g} s", at.after_s), at.metres, at.degrees));
   }
@@ -47,10 +44,7 @@ std::string table_of(const runtime::GapReport& gap) {
 Result<int> report_gap(const GapCommand& options) {
   RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.plugins));
   RAVE_TRY_ASSIGN(const auto record, record_file(options.file));
-  RAVE_TRY_ASSIGN(const auto gap,
-                  runtime::measure_gap(record, *catalogue,
-                                       {options.robot, options.twin, options.commands,
-                                        options.truth, options.window_s}));
+  RAVE_TRY_ASSIGN(const auto gap, runtime::measure_gap(record, *catalogue, options.gap));
   std::filesystem::path folder = options.output;
   if (folder.empty()) folder = record.parent_path();
   std::error_code error;

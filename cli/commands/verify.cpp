@@ -27,16 +27,12 @@ Result<int> tell(const VerifyCommand& options, const runtime::VerifyOutcome& out
                 "`{}` cannot be verified: {}, so no two runs are equal", options.file,
                 outcome.live_reason);
   }
-  for (const std::string& missing : outcome.missing) {
-    put(stderr, fmt::format("{} {}\n", errors.red("missing:"), missing));
-  }
+  for (const std::string& missing : outcome.missing) put_note(errors.red("missing:"), missing);
   if (!outcome.missing.empty()) {
     return fail(ErrorCode::kNotFound, "`{}` cannot be verified without the input files above",
                 options.file);
   }
-  for (const std::string& note : outcome.notes) {
-    put(stderr, fmt::format("{} {}\n", errors.yellow("note:"), note));
-  }
+  for (const std::string& note : outcome.notes) put_note(errors.yellow("note:"), note);
   if (outcome.ended_early) {
     put(stderr, fmt::format("{} after {} of {} steps\n", errors.red("stopped:"), outcome.steps,
                             outcome.recorded_steps));

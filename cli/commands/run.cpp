@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/run.hpp"
 
-#include "error_text.hpp"
 #include "places.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/control/folder.hpp"

@@ -5,7 +5,10 @@
 
 #include <vector>
 
+#include "terminal.hpp"
+
 namespace rave::cli {
+
 std::string host_command(const RunCommand& options, const std::string& host,
                          const bus::RunId& run) {
   std::vector<std::string> words = {"rave", "robot", options.scenario, "--host", host};

@@ -1,51 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <variant>
+#include <functional>
 
-#include "commands/bench.hpp"
-#include "commands/check.hpp"
-#include "commands/control.hpp"
-#include "commands/describe.hpp"
-#include "commands/doctor.hpp"
-#include "commands/drivers.hpp"
-#include "commands/edit.hpp"
-#include "commands/end.hpp"
-#include "commands/export.hpp"
-#include "commands/gui.hpp"
-#include "commands/hand_over.hpp"
-#include "commands/hosts.hpp"
-#include "commands/info.hpp"
-#include "commands/keys.hpp"
-#include "commands/new.hpp"
-#include "commands/order.hpp"
-#include "commands/people.hpp"
-#include "commands/play.hpp"
-#include "commands/report.hpp"
-#include "commands/run.hpp"
-#include "commands/schema.hpp"
-#include "commands/top.hpp"
-#include "commands/verify.hpp"
+#include "rave/base/result.hpp"
+
+namespace CLI {  // its own name. NOLINT(readability-identifier-naming)
+class App;
+}
 
 namespace rave::cli {
 
-struct VersionCommand {};
+/// What a command line asks for, with its options. Returns the exit code; an error is printed, and
+/// its exit code is kBadInput.
+using Command = std::function<Result<int>()>;
 
-/// The command line ends here: help was printed, or a complaint.
-struct Finished {
-  int exit_code = 0;
-};
+// Each adds the subcommands of a file to `root`. When the command line names one of them, it
+// becomes `chosen`.
+void add_run_commands(CLI::App& root, Command& chosen);      ///< `run`, `robot` and `env`.
+void add_file_commands(CLI::App& root, Command& chosen);     ///< About files, drivers, projects.
+void add_record_commands(CLI::App& root, Command& chosen);   ///< About recordings.
+void add_control_commands(CLI::App& root, Command& chosen);  ///< For runs in progress.
+void add_bench_commands(CLI::App& root, Command& chosen);    ///< Below `bench`.
+void add_keys_commands(CLI::App& root, Command& chosen);     ///< Below `keys`.
+void add_people_commands(CLI::App& root, Command& chosen);   ///< Below `people`.
+void add_watch_commands(CLI::App& root, Command& chosen);    ///< `top` and `doctor`.
 
-using Command =
-    std::variant<Finished, RunCommand, RobotCommand, EnvCommand, CheckCommand, DriversCommand,
-                 DescribeCommand, NewCommand, SchemaCommand, InfoCommand, VerifyCommand,
-                 PlayCommand, ExportCommand, GapCommand, GuiCommand, PsCommand, StopCommand,
-                 ArmCommand, SetCommand, HandOverCommand, ShadowCommand, EditCommand, OrderCommand,
-                 HoldCommand, EndCommand, BenchSwarmCommand, BenchCompareCommand, KeysNewCommand,
-                 KeysAddCommand, KeysShowCommand, KeysWebCommand, KeysLineCommand, PeopleCommand,
-                 TopCommand, DoctorCommand, VersionCommand>;
-
-/// Reads the command line. Prints help and complaints itself.
-[[nodiscard]] Command parse_arguments(int argc, const char* const* argv);
+/// Does what a command line asks for, and prints help and complaints. Returns the exit code.
+[[nodiscard]] int run_command_line(int argc, const char* const* argv);
 
 }  // namespace rave::cli

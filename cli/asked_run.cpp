@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bus_search.hpp"
+#include "error_text.hpp"
 #include "rave/base/names.hpp"
 #include "rave/base/thread.hpp"
 #include "rave/control/client.hpp"
@@ -140,15 +141,18 @@ std::vector<Reply> ask_each_of(bus::BusConfig config, const bus::RunId& run, std
   return replies;
 }
 
+/// Whether a socket here is that of a host, and the scenario in its name.
+bool names_host(std::string_view name) { return name.find(kOfHost) != std::string_view::npos; }
+std::string_view scenario_of(std::string_view name) {
+  return name.substr(0, std::min(name.find(kOfHost), name.rfind('-')));
+}
+
 /// The names of the sockets here of a scenario, of its hosts or of its runs themselves.
 std::vector<std::string> here_of(std::string_view scenario, bool hosts) {
   std::vector<std::string> names;
   for (std::string& name : control::running_runs().value_or(std::vector<std::string>{})) {
-    const std::string_view own = std::string_view(name).substr(0, name.rfind('-'));
-    const std::size_t mark = own.find(kOfHost);
-    if (own.substr(0, mark) == scenario && (mark != std::string_view::npos) == hosts) {
+    if (scenario_of(name) == scenario && names_host(name) == hosts)
       names.push_back(std::move(name));
-    }
   }
   return names;
 }
@@ -194,15 +198,13 @@ Result<std::vector<AskedRun>> AskedRun::find_to_end(const std::string& word,
   std::vector<AskedRun> hosts;
   bool any = false;
   for (const std::string& run : runs) {
-    const std::size_t mark = run.find(kOfHost);
-    const std::string scenario = run.substr(0, mark == std::string::npos ? run.rfind('-') : mark);
-    if (!word.empty() && scenario != word) continue;
-    any = any || mark == std::string::npos;
-    if (mark != std::string::npos) hosts.emplace_back(run);
+    if (!word.empty() && scenario_of(run) != word) continue;
+    any = any || !names_host(run);
+    if (names_host(run)) hosts.emplace_back(run);
   }
   auto here = control::find_run(word);
   // A host is meant where nothing else can be, and where it is named.
-  if (here && (!word.empty() || here->find(kOfHost) == std::string::npos)) {
+  if (here && (!word.empty() || !names_host(*here))) {
     return std::vector<AskedRun>{AskedRun(*std::move(here))};
   }
   if (!here && (any || here.error().code != ErrorCode::kNotFound)) {
@@ -284,9 +286,7 @@ Result<std::vector<Reply>> AskedRun::ask_each_on_bus(const std::string& word,
   return all;
 }
 
-bool AskedRun::is_host() const {
-  return bus_ ? !peer_.manager : name_.find(kOfHost) != std::string::npos;
-}
+bool AskedRun::is_host() const { return bus_ ? !peer_.manager : names_host(name_); }
 
 std::vector<AskedRun> AskedRun::hosts() const {
   std::vector<AskedRun> hosts;
@@ -297,9 +297,7 @@ std::vector<AskedRun> AskedRun::hosts() const {
     }
     return hosts;
   }
-  for (const std::string& name : here_of(name_.substr(0, name_.rfind('-')), true)) {
-    hosts.emplace_back(name);
-  }
+  for (const std::string& name : here_of(scenario_of(name_), true)) hosts.emplace_back(name);
   return hosts;
 }
 
@@ -314,7 +312,7 @@ Result<std::vector<AskedRun>> AskedRun::controllers(bool sure) const {
   // Who does not answer is asked all the same.
   const auto said = status();
   if (!said || !said->live) return itself;
-  const std::string scenario = name_.substr(0, name_.rfind('-'));
+  const std::string_view scenario = scenario_of(name_);
   if (const auto runs = here_of(scenario, false); sure && runs.size() > 1) {
     std::vector<std::string_view> here;
     for (const AskedRun& host : hosts) here.emplace_back(host.name());
@@ -383,6 +381,18 @@ Result<runtime::RunStatus> AskedRun::status(Duration patience) const {
   RAVE_TRY_ASSIGN(auto answer, ask(Request{}, patience));
   if (!answer.good) return fail(ErrorCode::kState, "{}: {}", name_, answer.text);
   return std::move(answer.status);
+}
+
+int refused(const AskedRun& run, const std::string& why) {
+  complain(Error{ErrorCode::kState, why, {}}.with_context(run.name()));
+  return kNotGood;
+}
+
+Result<int> ask_and_tell(const AskedRun& run, const Request& request) {
+  RAVE_TRY_ASSIGN(const Answer answer, run.ask(request));
+  if (!answer.good) return refused(run, answer.text);
+  put(stdout, fmt::format("{}: {}\n", run.name(), answer.text));
+  return kGood;
 }
 
 }  // namespace rave::cli

@@ -105,4 +105,10 @@ class AskedRun {
   control::BusPeer peer_;
 };
 
+/// Prints that a process refuses what it was asked, and why. Returns kNotGood.
+int refused(const AskedRun& run, const std::string& why);
+
+/// Asks a process and prints its answer. Returns the exit code.
+[[nodiscard]] Result<int> ask_and_tell(const AskedRun& run, const control::Request& request);
+
 }  // namespace rave::cli

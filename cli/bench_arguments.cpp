@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench_arguments.hpp"
-
 #include <string>
 
+#include "commands/bench.hpp"
 #include "shared_arguments.hpp"
 
 namespace rave::cli {
@@ -38,9 +37,10 @@ void add_workload(CLI::App& app, swarm::Workload& workload, swarm::RunEnd& end) 
       ->check(whole_number_in(0, UINT64_MAX));
 }
 
-void add_swarm(CLI::App& parent, BenchSwarmCommand& c) {
-  CLI::App& app = *parent.add_subcommand(
-      "swarm", "Measure the speed of robots that avoid boxes and each other");
+void add_swarm(CLI::App& parent, Command& chosen) {
+  const auto [app, c] =
+      add_command(parent, chosen, "swarm",
+                  "Measure the speed of robots that avoid boxes and each other", bench_swarm);
   add_workload(app, c.workload, c.end);
   add_value(app, "--write", c.write,
             "Also write the workload to this folder, as a scenario of the same length", "DIR");
@@ -52,15 +52,16 @@ void add_swarm(CLI::App& parent, BenchSwarmCommand& c) {
       "  rave run my/swarm --no-record --no-picture");
 }
 
-void add_compare(CLI::App& parent, BenchCompareCommand& c) {
-  CLI::App& app =
-      *parent.add_subcommand("compare", "Compare the speed of two builds, measured alternately");
-  add_word(app, "a", c.options.a, "Build folder or executable", "BUILD_A");
-  add_word(app, "b", c.options.b, "Build folder or executable to compare with", "BUILD_B");
-  add_workload(app, c.options.workload, c.options.end);
-  add_value(app, "--rounds", c.options.rounds, "Runs of each build [7]", "N")
+void add_compare(CLI::App& parent, Command& chosen) {
+  const auto [app, c] =
+      add_command(parent, chosen, "compare",
+                  "Compare the speed of two builds, measured alternately", bench_compare);
+  add_word(app, "a", c.a, "Build folder or executable", "BUILD_A");
+  add_word(app, "b", c.b, "Build folder or executable to compare with", "BUILD_B");
+  add_workload(app, c.workload, c.end);
+  add_value(app, "--rounds", c.rounds, "Runs of each build [7]", "N")
       ->check(whole_number_in(1, 1000));
-  app.add_flag("--allow-different-hash", c.options.allow_different_hash,
+  app.add_flag("--allow-different-hash", c.allow_different_hash,
                "Compare even if the run hashes differ");
   app.footer(
       "Prints one line of JSON, and one sentence to standard error. With --seconds, both builds "
@@ -74,12 +75,12 @@ void add_compare(CLI::App& parent, BenchCompareCommand& c) {
 
 }  // namespace
 
-void add_bench(CLI::App& root, BenchSwarmCommand& swarm, BenchCompareCommand& compare) {
+void add_bench_commands(CLI::App& root, Command& chosen) {
   CLI::App& parent = *root.add_subcommand("bench", "Measure the speed of this build");
   parent.require_subcommand(1);
   parent.footer("Example:\n  rave bench swarm --robots 10000");
-  add_swarm(parent, swarm);
-  add_compare(parent, compare);
+  add_swarm(parent, chosen);
+  add_compare(parent, chosen);
 }
 
 }  // namespace rave::cli

@@ -2,9 +2,12 @@
 #include "build_errors.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace rave::cli {
 namespace {
@@ -74,60 +77,56 @@ class Search {
   /// Devices in the order of the file: the one whose beginning is the last before the place.
   static bool take_from(RobotFile& robot, const SourceLocation& where) {
     SourceLocation best;
-    int list = -1;
-    std::size_t index = 0;
-    const auto consider = [&](const SourceLocation& name, const SourceLocation& driver, int l,
-                              std::size_t i) {
+    std::function<void()> take;
+    const auto consider = [&](const SourceLocation& name, const SourceLocation& driver,
+                              std::function<void()> erase) {
       const SourceLocation& begin = begins_before(name, driver) ? name : driver;
-      if (!begins_before(begin, where) || (list >= 0 && !begins_before(best, begin))) return;
-      std::tie(best, list, index) = std::tie(begin, l, i);
+      if (!begins_before(begin, where) || (take && !begins_before(best, begin))) return;
+      best = begin;
+      take = std::move(erase);
     };
-    for (std::size_t i = 0; i < robot.sensors.size(); ++i) {
-      consider(robot.sensors[i].name.where, robot.sensors[i].driver.where, 0, i);
+    const auto consider_all = [&](const auto& list, auto erase) {
+      for (const auto& item : list) {
+        consider(item.name.where, item.driver.where,
+                 [&robot, erase, name = item.name.value] { erase(robot, name); });
+      }
+    };
+    consider_all(robot.sensors, erase_sensor);
+    consider_all(robot.actuators, erase_actuator);
+    consider_all(robot.controllers, [](RobotFile& its, const std::string& name) {
+      std::erase_if(its.controllers, [&](const auto& c) { return c.name.value == name; });
+    });
+    consider_all(robot.devices, erase_device);
+    if (robot.program) {
+      const SourceLocation& place = robot.program->driver.where;
+      consider(place, place, [&robot] { robot.program.reset(); });
     }
-    for (std::size_t i = 0; i < robot.actuators.size(); ++i) {
-      consider(robot.actuators[i].name.where, robot.actuators[i].driver.where, 1, i);
-    }
-    for (std::size_t i = 0; i < robot.controllers.size(); ++i) {
-      consider(robot.controllers[i].name.where, robot.controllers[i].driver.where, 2, i);
-    }
-    for (std::size_t i = 0; i < robot.devices.size(); ++i) {
-      consider(robot.devices[i].name.where, robot.devices[i].driver.where, 4, i);
-    }
-    if (robot.program) consider(robot.program->driver.where, robot.program->driver.where, 3, 0);
-    if (list < 0) return false;
-    erase(robot, list, index);
-    return true;
+    if (take) take();
+    return !best.file.empty();
   }
 
-  static void erase(RobotFile& robot, int list, std::size_t index) {
-    const auto at = static_cast<std::ptrdiff_t>(index);
-    if (list == 0) {
-      const std::string name = robot.sensors[index].name.value;
-      // Else it would name a sensor that is no longer there, an error of this search.
-      if (robot.pose_from && robot.pose_from->value == name) robot.pose_from.reset();
-      robot.sensors.erase(robot.sensors.begin() + at);
-    } else if (list == 1) {
-      const std::string name = robot.actuators[index].name.value;
-      std::erase_if(robot.controllers, [&](const auto& c) { return c.actuator.value == name; });
-      robot.actuators.erase(robot.actuators.begin() + at);
-    } else if (list == 2) {
-      robot.controllers.erase(robot.controllers.begin() + at);
-    } else if (list == 4) {
-      const std::string name = robot.devices[index].name.value;
-      const auto uses = [&](const auto& item) { return item.device && item.device->value == name; };
-      // With a device goes what is part of it.
-      for (std::size_t i = robot.sensors.size(); i-- > 0;) {
-        const config::SensorFile& sensor = robot.sensors[i];
-        if (uses(sensor) || (sensor.real && uses(*sensor.real))) erase(robot, 0, i);
-      }
-      for (std::size_t i = robot.actuators.size(); i-- > 0;) {
-        if (uses(robot.actuators[i])) erase(robot, 1, i);
-      }
-      robot.devices.erase(robot.devices.begin() + at);
-    } else {
-      robot.program.reset();
+  static void erase_sensor(RobotFile& robot, const std::string& name) {
+    // Else it would name a sensor that is no longer there, an error of this search.
+    if (robot.pose_from && robot.pose_from->value == name) robot.pose_from.reset();
+    std::erase_if(robot.sensors, [&](const auto& sensor) { return sensor.name.value == name; });
+  }
+
+  static void erase_actuator(RobotFile& robot, const std::string& name) {
+    std::erase_if(robot.controllers, [&](const auto& c) { return c.actuator.value == name; });
+    std::erase_if(robot.actuators, [&](const auto& a) { return a.name.value == name; });
+  }
+
+  /// With a device goes what is part of it.
+  static void erase_device(RobotFile& robot, const std::string& name) {
+    const auto uses = [&](const auto& item) { return item.device && item.device->value == name; };
+    for (const config::SensorFile& sensor : std::vector(robot.sensors)) {
+      if (uses(sensor) || (sensor.real && uses(*sensor.real)))
+        erase_sensor(robot, sensor.name.value);
     }
+    for (const config::ActuatorFile& actuator : std::vector(robot.actuators)) {
+      if (uses(actuator)) erase_actuator(robot, actuator.name.value);
+    }
+    std::erase_if(robot.devices, [&](const auto& device) { return device.name.value == name; });
   }
 
   [[nodiscard]] bool is_tainted(const SourceLocation& where) const {

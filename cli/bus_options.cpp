@@ -64,19 +64,10 @@ std::vector<std::string> words_of(const BusOptions& options, const bus::RunId& r
   std::vector<std::string> words = {
       "--run",       run.text(),        "--domain",    std::to_string(options.domain),
       "--interface", options.interface, "--multicast", options.multicast};
-  for (const std::string& peer : options.peers) {
-    words.emplace_back("--peer");
-    words.push_back(peer);
-  }
-  if (!options.security.empty()) {
-    words.emplace_back("--security");
-    words.push_back(options.security);
-  }
+  for (const std::string& peer : options.peers) words.insert(words.end(), {"--peer", peer});
+  if (!options.security.empty()) words.insert(words.end(), {"--security", options.security});
   if (options.dds_only) words.emplace_back("--dds-only");
-  if (!options.tag.empty()) {
-    words.emplace_back("--bus-tag");
-    words.push_back(options.tag);
-  }
+  if (!options.tag.empty()) words.insert(words.end(), {"--bus-tag", options.tag});
   return words;
 }
 

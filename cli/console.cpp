@@ -5,6 +5,8 @@
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 
+#include <array>
+
 #include "rave/base/control_characters.hpp"
 
 namespace rave::cli {
@@ -15,17 +17,9 @@ constexpr std::chrono::seconds kPlainLine{10};
 constexpr std::size_t kPlainWidth = 120;
 
 spdlog::level::level_enum level_of(LogLevel level) noexcept {
-  switch (level) {
-    case LogLevel::kDebug:
-      return spdlog::level::debug;
-    case LogLevel::kInfo:
-      return spdlog::level::info;
-    case LogLevel::kWarning:
-      return spdlog::level::warn;
-    case LogLevel::kError:
-      break;
-  }
-  return spdlog::level::err;
+  constexpr std::array kLevels = {spdlog::level::debug, spdlog::level::info, spdlog::level::warn,
+                                  spdlog::level::err};
+  return kLevels[static_cast<std::size_t>(level)];
 }
 
 /// No message may move the cursor or begin a line of its own.

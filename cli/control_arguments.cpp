@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control_arguments.hpp"
-
-#include "bus_arguments.hpp"
+#include "commands/control.hpp"
+#include "commands/edit.hpp"
+#include "commands/end.hpp"
+#include "commands/hand_over.hpp"
+#include "commands/order.hpp"
 #include "shared_arguments.hpp"
 
 namespace rave::cli {
@@ -22,8 +24,8 @@ void add_robot_name(CLI::App& app, std::string& robot) {
   add_value(app, "--robot", robot, "Only this robot [all]", "NAME");
 }
 
-void add_ps(CLI::App& root, PsCommand& c) {
-  CLI::App& app = *root.add_subcommand("ps", "List runs in progress");
+void add_ps(CLI::App& root, Command& chosen) {
+  const auto [app, c] = add_command(root, chosen, "ps", "List runs in progress", list_runs);
   app.add_flag("--robots", c.robots, "Also list each robot, and whether it may move");
   app.add_flag("--network", c.network,
                "Also list runs of several processes found on the bus, including other machines; "
@@ -38,8 +40,9 @@ void add_ps(CLI::App& root, PsCommand& c) {
       "  rave ps --interface 192.168.1.9 --peer 192.168.1.2");
 }
 
-void add_stop(CLI::App& root, StopCommand& c) {
-  CLI::App& app = *root.add_subcommand("stop", "Stop robots of a run until they are released");
+void add_stop(CLI::App& root, Command& chosen) {
+  const auto [app, c] = add_command(root, chosen, "stop",
+                                    "Stop robots of a run until they are released", stop_robots);
   add_run_name(app, c.run);
   add_robot_name(app, c.robot);
   app.add_flag("--all", c.all, "Stop every robot of every run on this machine");
@@ -51,16 +54,18 @@ void add_stop(CLI::App& root, StopCommand& c) {
       "  rave stop predator-prey --robot predator");
 }
 
-void add_arm(CLI::App& root, ArmCommand& c) {
-  CLI::App& app = *root.add_subcommand("arm", "Permit real robots of a run to move");
+void add_arm(CLI::App& root, Command& chosen) {
+  const auto [app, c] =
+      add_command(root, chosen, "arm", "Permit real robots of a run to move", arm_robots);
   add_run_name(app, c.run);
   add_robot_name(app, c.robot);
   app.add_flag("--release", c.release, "Also release stopped robots");
   add_network_options(app, c.bus);
 }
 
-void add_set(CLI::App& root, SetCommand& c) {
-  CLI::App& app = *root.add_subcommand("set", "Change a parameter of a robot during a run");
+void add_set(CLI::App& root, Command& chosen) {
+  const auto [app, c] =
+      add_command(root, chosen, "set", "Change a parameter of a robot during a run", set_parameter);
   add_word(app, "robot", c.robot, "Name of the robot", "ROBOT");
   add_word(app, "key", c.key,
            "Parameter: program.PARAM, controller.NAME.PARAM, actuator.NAME.PARAM or body.scale",
@@ -74,20 +79,28 @@ void add_set(CLI::App& root, SetCommand& c) {
       "  rave set prey body.scale 1.5 --run predator-prey");
 }
 
-void add_hold(CLI::App& root, HoldCommand& c) {
-  CLI::App& pause = *root.add_subcommand("pause", "Pause a run (not a live one)");
-  CLI::App& resume = *root.add_subcommand("resume", "Continue a paused run");
-  CLI::App& step = *root.add_subcommand("step", "Compute single steps of a paused run");
-  for (CLI::App* const app : {&pause, &resume, &step}) {
-    add_run_name(*app, c.run);
-    add_network_options(*app, c.bus);
-  }
+Subcommand<HoldCommand> add_hold(CLI::App& root, Command& chosen, const char* name,
+                                 const char* what, control::Request::What request) {
+  const auto hold = add_command(root, chosen, name, what, hold_run);
+  hold.options.what = request;
+  add_run_name(hold.app, hold.options.run);
+  add_network_options(hold.app, hold.options.bus);
+  return hold;
+}
+
+void add_holds(CLI::App& root, Command& chosen) {
+  using What = control::Request::What;
+  add_hold(root, chosen, "pause", "Pause a run (not a live one)", What::kPause);
+  add_hold(root, chosen, "resume", "Continue a paused run", What::kResume);
+  const auto [step, c] =
+      add_hold(root, chosen, "step", "Compute single steps of a paused run", What::kStep);
   add_value(step, "--count", c.count, "Number of steps [1]", "N")
       ->check(whole_number_in(1, 1'000'000'000));
 }
 
-void add_end(CLI::App& root, EndCommand& c) {
-  CLI::App& app = *root.add_subcommand("end", "End a run and all of its processes");
+void add_end(CLI::App& root, Command& chosen) {
+  const auto [app, c] =
+      add_command(root, chosen, "end", "End a run and all of its processes", end_run);
   add_run_name(app, c.run);
   add_network_options(app, c.bus);
   app.footer(
@@ -100,9 +113,10 @@ void add_end(CLI::App& root, EndCommand& c) {
       "  rave end 3f2a91c0 --interface 192.168.1.9 --peer 192.168.1.2");
 }
 
-void add_hand_over(CLI::App& root, HandOverCommand& c) {
-  CLI::App& app = *root.add_subcommand(
-      "hand-over", "Switch a robot between real and simulated drivers during a run");
+void add_hand_over(CLI::App& root, Command& chosen) {
+  const auto [app, c] =
+      add_command(root, chosen, "hand-over",
+                  "Switch a robot between real and simulated drivers during a run", hand_over);
   add_word(app, "robot", c.robot, "Robot whose entry in the scenario has `twin:`", "ROBOT");
   add_word(app, "to", c.to, "real or simulated; or first (drivers of `file:`) or twin", "DRIVERS");
   add_run_option(app, c.run);
@@ -116,9 +130,10 @@ void add_hand_over(CLI::App& root, HandOverCommand& c) {
       "  rave hand-over create simulated --run corridor");
 }
 
-void add_shadow(CLI::App& root, ShadowCommand& c) {
-  CLI::App& app = *root.add_subcommand(
-      "shadow", "Show the distance between real robots and their simulated twins (shadows)");
+void add_shadow(CLI::App& root, Command& chosen) {
+  const auto [app, c] = add_command(
+      root, chosen, "shadow",
+      "Show the distance between real robots and their simulated twins (shadows)", show_shadows);
   add_run_name(app, c.run);
   add_robot_name(app, c.robot);
   app.add_flag("--reset", c.reset, "Move the twin to the pose of the robot");
@@ -126,77 +141,100 @@ void add_shadow(CLI::App& root, ShadowCommand& c) {
   add_network_options(app, c.bus);
 }
 
-void add_order(CLI::App& app, OrderCommand& c) {
+/// The beginning of a command for one robot.
+Subcommand<OrderCommand> add_order(CLI::App& root, Command& chosen, const char* name,
+                                   const char* what, OrderCommand::What order) {
+  const auto added = add_command(root, chosen, name, what, give_order);
+  added.options.what = order;
+  add_word(added.app, "robot", added.options.robot, "Name of the robot", "ROBOT");
+  return added;
+}
+
+/// The last options of such a command.
+void add_order_options(CLI::App& app, OrderCommand& c) {
   add_run_option(app, c.run);
   app.add_flag("--force", c.force, "Take the robot from the person who drives it");
   add_network_options(app, c.bus);
 }
 
-void add_orders(CLI::App& root, ControlCommands& commands) {
-  CLI::App& drive = *root.add_subcommand("drive", "Drive a robot of a run instead of its program");
-  add_word(drive, "robot", commands.drive.robot, "Name of the robot", "ROBOT");
-  add_word(drive, "velocity", commands.drive.numbers,
+void add_drive(CLI::App& root, Command& chosen) {
+  const auto [app, c] =
+      add_order(root, chosen, "drive", "Drive a robot of a run instead of its program",
+                OrderCommand::What::kDrive);
+  add_word(app, "velocity", c.numbers,
            "Speed forward in m/s, and turning rate to the left in rad/s", "V W")
       ->expected(2);
-  add_value(drive, "--for", commands.drive.for_s, "Duration in seconds [1]", "S")
-      ->check(number_in(0.1, 3600.0));
-  add_order(drive, commands.drive);
-  drive.footer(
+  add_value(app, "--for", c.for_s, "Duration in seconds [1]", "S")->check(number_in(0.1, 3600.0));
+  add_order_options(app, c);
+  app.footer(
       "The guard of the robot stays active. After the duration, or when this command is ended, "
       "the\n"
       "robot stops, and its program drives it again.\n\n"
       "Examples:\n"
       "  rave drive prey 0.3 0.5 --for 2");
-  CLI::App& goal = *root.add_subcommand("goal", "Send a robot of a run to a point or along a line");
-  add_word(goal, "robot", commands.goal.robot, "Name of the robot", "ROBOT");
-  add_value(goal, "points", commands.goal.numbers, "Points in the world frame, in metres",
-            "X Y [X Y ...]");
-  add_value(goal, "--speed", commands.goal.speed_mps, "Largest speed in m/s [that of the robot]",
-            "V");
-  goal.add_flag("--cancel", commands.goal.cancel, "Cancel the current order");
-  add_order(goal, commands.goal);
-  goal.footer(
+}
+
+void add_goal(CLI::App& root, Command& chosen) {
+  const auto [app, c] =
+      add_order(root, chosen, "goal", "Send a robot of a run to a point or along a line",
+                OrderCommand::What::kGoal);
+  add_value(app, "points", c.numbers, "Points in the world frame, in metres", "X Y [X Y ...]");
+  add_value(app, "--speed", c.speed_mps, "Largest speed in m/s [that of the robot]", "V");
+  app.add_flag("--cancel", c.cancel, "Cancel the current order");
+  add_order_options(app, c);
+  app.footer(
       "Examples:\n"
       "  rave goal prey 1.5 -2\n"
       "  rave goal prey 0 0 1 0 1 1 --speed 0.2\n"
       "  rave goal prey --cancel");
-  CLI::App& say = *root.add_subcommand("say", "Send a text to the program of a robot");
-  add_word(say, "robot", commands.say.robot, "Name of the robot", "ROBOT");
-  add_word(say, "text", commands.say.text, "Text, at most 1000 bytes", "TEXT");
-  add_order(say, commands.say);
-  CLI::App& place = *root.add_subcommand("place", "Move a simulated robot of a run to a pose");
-  add_word(place, "robot", commands.place.robot, "Name of the robot", "ROBOT");
-  add_word(place, "pose", commands.place.numbers, "Pose in the world frame, in metres and degrees",
-           "X Y [YAW]")
+}
+
+void add_say(CLI::App& root, Command& chosen) {
+  const auto [app, c] = add_order(root, chosen, "say", "Send a text to the program of a robot",
+                                  OrderCommand::What::kSay);
+  add_word(app, "text", c.text, "Text, at most 1000 bytes", "TEXT");
+  add_order_options(app, c);
+}
+
+void add_place(CLI::App& root, Command& chosen) {
+  const auto [app, c] =
+      add_order(root, chosen, "place", "Move a simulated robot of a run to a pose",
+                OrderCommand::What::kPlace);
+  add_word(app, "pose", c.numbers, "Pose in the world frame, in metres and degrees", "X Y [YAW]")
       // The heading may be left out; the robot then keeps the one that it has.
       ->expected(2, 3);
-  add_order(place, commands.place);
-  place.footer("Examples:\n  rave place prey 1.5 -2 90");
-  // Four commands share one structure, and this says which of them was given.
-  commands.drive.what = OrderCommand::What::kDrive;
-  commands.goal.what = OrderCommand::What::kGoal;
-  commands.say.what = OrderCommand::What::kSay;
-  commands.place.what = OrderCommand::What::kPlace;
+  add_order_options(app, c);
+  app.footer("Examples:\n  rave place prey 1.5 -2 90");
+}
+
+CLI::App& add_change(const Subcommand<EditCommand>& edit, EditCommand::What change,
+                     const char* name, const char* what) {
+  CLI::App& app = *edit.app.add_subcommand(name, what);
+  app.callback([&c = edit.options, change] { c.what = change; });
+  return app;
 }
 
 void add_name(CLI::App& app, std::string& name) {
   add_word(app, "name", name, "Name of the obstacle; `rave edit list` lists all", "NAME");
 }
 
-void add_place(CLI::App& app, std::string& at) {
+void add_at(CLI::App& app, std::string& at) {
   add_word(app, "--at", at, "X,Y or X,Y,DEG, in metres and degrees; DEG is 0 if left out", "PLACE");
 }
 
-void add_edit(CLI::App& root, EditCommand& c) {
-  CLI::App& app = *root.add_subcommand("edit", "Add, move and remove obstacles during a run");
+void add_edit(CLI::App& root, Command& chosen) {
+  using What = EditCommand::What;
+  const auto edit =
+      add_command(root, chosen, "edit", "Add, move and remove obstacles during a run", edit_world);
+  const auto& [app, c] = edit;
   add_run_name(app, c.run);
   // The name of the run is an argument of `edit` itself, so it stands before the subcommand.
   app.require_subcommand(1);
-  CLI::App& add = *app.add_subcommand("add", "Add an obstacle");
+  CLI::App& add = add_change(edit, What::kAdd, "add", "Add an obstacle");
   add_word(add, "shape", c.shape, "box, disc or polygon", "SHAPE")
       ->check(one_of({"box", "disc", "polygon"}));
   add_word(add, "--name", c.name, "Name of the obstacle, unique in the run", "NAME");
-  add_place(add, c.at);
+  add_at(add, c.at);
   add_value(add, "--size", c.size, "Length x width of a box (LxW), or radius of a disc, in metres",
             "SIZE");
   add_value(add, "--corners", c.corners, "Corners of a polygon, such as \"0,0 1,0 0.5,1\"",
@@ -208,12 +246,12 @@ void add_edit(CLI::App& root, EditCommand& c) {
       ->check(CLI::IsMember({"virtual_obstacles", "mapped_real"}).description(""));
   add_value(add, "--colour", c.colour, "Colour in pictures, #rrggbb", "COLOUR");
   add_value(add, "--barcode", c.barcode, "Barcode that landmark cameras read [none]", "N");
-  CLI::App& move = *app.add_subcommand("move", "Move an obstacle");
+  CLI::App& move = add_change(edit, What::kMove, "move", "Move an obstacle");
   add_name(move, c.name);
-  add_place(move, c.at);
-  CLI::App& remove = *app.add_subcommand("remove", "Remove an obstacle");
+  add_at(move, c.at);
+  CLI::App& remove = add_change(edit, What::kRemove, "remove", "Remove an obstacle");
   add_name(remove, c.name);
-  CLI::App& list = *app.add_subcommand("list", "List the obstacles and their poses");
+  CLI::App& list = add_change(edit, What::kList, "list", "List the obstacles and their poses");
   for (CLI::App* const each : {&add, &move, &remove, &list}) add_network_options(*each, c.bus);
   app.footer(
       "A change takes effect in the next step; the answer names that step. An obstacle that would\n"
@@ -229,17 +267,20 @@ void add_edit(CLI::App& root, EditCommand& c) {
 
 }  // namespace
 
-void add_control_commands(CLI::App& root, ControlCommands& commands) {
-  add_ps(root, commands.ps);
-  add_stop(root, commands.stop);
-  add_arm(root, commands.arm);
-  add_set(root, commands.set);
-  add_hold(root, commands.hold);
-  add_end(root, commands.end);
-  add_hand_over(root, commands.hand_over);
-  add_shadow(root, commands.shadow);
-  add_edit(root, commands.edit);
-  add_orders(root, commands);
+void add_control_commands(CLI::App& root, Command& chosen) {
+  add_ps(root, chosen);
+  add_stop(root, chosen);
+  add_arm(root, chosen);
+  add_set(root, chosen);
+  add_holds(root, chosen);
+  add_end(root, chosen);
+  add_hand_over(root, chosen);
+  add_shadow(root, chosen);
+  add_edit(root, chosen);
+  add_drive(root, chosen);
+  add_goal(root, chosen);
+  add_say(root, chosen);
+  add_place(root, chosen);
 }
 
 }  // namespace rave::cli

@@ -36,22 +36,12 @@ void keep_what_can_be_drawn(const InputFile& input, runtime::BuiltScenario& buil
   spec.robots = std::move(robots);
   spec.world.robots = std::move(bodies);
   for (sim::RobotType& type : spec.types) {
-    // Of hybrid sensors the virtual half is drawn: it needs no device.
-    for (sim::SensorSpec& sensor : type.sensors) {
-      sensor = sim::virtual_half_of(std::move(sensor));
-    }
-    std::erase_if(type.sensors, [](const auto& sensor) { return sensor.virtual_ops == nullptr; });
+    keep_virtual_sensors(type);
     for (sim::SensorSpec& sensor : type.sensors) {
       // One step is drawn, so all sense in it, and without noise.
       sensor.phase_steps = 0;
       sensor.processing = {};
     }
-    type.actuators.clear();
-    type.controllers.clear();
-    type.program.reset();
-    type.pose_from.reset();
-    // A real robot would wait for its pose source; here it stands where the file puts it.
-    type.simulated = true;
   }
   // One step of a few robots: a pool of threads would take longer to start.
   spec.threads = 1;
@@ -89,29 +79,16 @@ void add_rays(const sim::Engine& engine, RobotId robot, std::uint32_t index, Pic
 }
 
 Status add_robots(sim::EngineSpec spec, Picture& picture) {
-  // Before the engine takes the specification.
-  const std::vector<std::size_t> sensors = [&] {
-    std::vector<std::size_t> counts;
-    for (const sim::RobotSpec& robot : spec.robots) {
-      counts.push_back(spec.types[robot.type].sensors.size());
-    }
-    return counts;
-  }();
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(spec)));
   // Sensors read in a step; before the first one they have no sample.
   RAVE_TRY(engine->step());
   const world::WorldModel& world = engine->spec().world;
   for (std::uint32_t r = 0; r < world.robots.size(); ++r) {
     add_robot(world.robots[r], engine->true_pose(RobotId(r)), robot_kind(world.robots[r]), picture);
-    for (std::uint32_t s = 0; s < sensors[r]; ++s) add_rays(*engine, RobotId(r), s, picture);
+    const auto& sensors = engine->spec().types[engine->spec().robots[r].type].sensors;
+    for (std::uint32_t s = 0; s < sensors.size(); ++s) add_rays(*engine, RobotId(r), s, picture);
   }
   return {};
-}
-
-std::string quote_names(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 Result<Picture> draw_world(const InputFile& input, runtime::BuiltScenario built) {
@@ -146,19 +123,18 @@ Result<Picture> draw_world(const InputFile& input, runtime::BuiltScenario built)
                                  : "Static bodies";
   if (!unplaced.empty()) {
     picture.caption.push_back(fmt::format("Not shown, because their poses come from devices: {}.",
-                                          quote_names(unplaced)));
+                                          fmt::join(unplaced, ", ")));
   }
   return picture;
 }
 
 }  // namespace
 
-Result<Picture> draw(const InputFile& input, runtime::BuiltScenario built) {
-  if (input.kind == FileKind::kRobot) return draw_one_robot(input, std::move(built));
-  return draw_world(input, std::move(built));
-}
-
-Status write_picture(const Picture& picture, const std::filesystem::path& path) {
+Status draw(const InputFile& input, runtime::BuiltScenario built,
+            const std::filesystem::path& path) {
+  RAVE_TRY_ASSIGN(const Picture picture, input.kind == FileKind::kRobot
+                                             ? draw_one_robot(input, std::move(built))
+                                             : draw_world(input, std::move(built)));
   const std::string ending = path.extension().string();
   if (ending == ".svg") return report::write_svg(picture, path);
   if (ending == ".png") return report::write_png(picture, path);

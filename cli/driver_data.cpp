@@ -3,59 +3,35 @@
 
 #include <fmt/format.h>
 
+#include "rave/base/word_table.hpp"
 #include "rave/robot/command.hpp"
 
 namespace rave::cli {
 
 std::string_view record_type(ReadingKind kind) noexcept {
-  switch (kind) {
-    case ReadingKind::kNone:
-      break;
-    case ReadingKind::kRanges:
-      return "float";
-    case ReadingKind::kSightings:
-      return "Sighting";
-    case ReadingKind::kPose:
-      return "PoseReading";
-    case ReadingKind::kOdometry:
-      return "OdometryReading";
-    case ReadingKind::kNeighbours:
-      return "NeighbourReading";
-    case ReadingKind::kContact:
-      return "ContactReading";
-    case ReadingKind::kVelocity:
-      return "VelocityReading";
-    case ReadingKind::kValues:
-      return "double";
-  }
-  return "";
+  constexpr WordTable<ReadingKind, 8> kTypes = {{{"float", ReadingKind::kRanges},
+                                                 {"Sighting", ReadingKind::kSightings},
+                                                 {"PoseReading", ReadingKind::kPose},
+                                                 {"OdometryReading", ReadingKind::kOdometry},
+                                                 {"NeighbourReading", ReadingKind::kNeighbours},
+                                                 {"ContactReading", ReadingKind::kContact},
+                                                 {"VelocityReading", ReadingKind::kVelocity},
+                                                 {"double", ReadingKind::kValues}}};
+  return kTypes.of(kind);
 }
 
 std::vector<plugin::DriverFact> data_facts(const DriverInfo& info) {
+  using enum DriverKind;
   std::vector<plugin::DriverFact> facts;
-  switch (info.kind) {
-    case DriverKind::kSensor:
-    case DriverKind::kVirtualSensor:
-    case DriverKind::kHybridSensor: {
-      const auto kind = static_cast<ReadingKind>(info.data_kind);
-      facts.push_back(
-          {"gives", fmt::format("{} (C++ type {})", to_string(kind), record_type(kind))});
-      break;
-    }
-    case DriverKind::kActuator:
-    case DriverKind::kVirtualActuator:
-    case DriverKind::kController:
-      facts.push_back(
-          {"accepts", std::string(to_string(static_cast<CommandKind>(info.data_kind)))});
-      break;
-    case DriverKind::kCommunicator:
-    case DriverKind::kTransmitter:
-    case DriverKind::kProgram:
-    case DriverKind::kDevice:
-      break;
+  if (info.kind == kSensor || info.kind == kVirtualSensor || info.kind == kHybridSensor) {
+    const auto kind = static_cast<ReadingKind>(info.data_kind);
+    facts.push_back({"gives", fmt::format("{} (C++ type {})", to_string(kind), record_type(kind))});
+  } else if (info.kind == kActuator || info.kind == kVirtualActuator || info.kind == kController) {
+    const auto kind = static_cast<CommandKind>(info.data_kind);
+    facts.push_back({"accepts", std::string(to_string(kind))});
   }
   // Of other kinds it is the robot file that says when there are samples.
-  if (info.kind == DriverKind::kSensor && info.timing != SampleTiming::kUnknown) {
+  if (info.kind == kSensor && info.timing != SampleTiming::kUnknown) {
     facts.push_back({"samples", std::string(to_string(info.timing))});
   }
   return facts;

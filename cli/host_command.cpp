@@ -3,23 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
 #include <vector>
 
+#include "terminal.hpp"
+
 namespace rave::cli {
-namespace {
-
-/// As a shell takes it for one word.
-std::string shell_word(const std::string& word) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:@%,";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
-  return text + "'";
-}
-
-}  // namespace
 
 std::string host_command(const RunCommand& options, const std::string& host,
                          const bus::RunId& run) {

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <filesystem>
 
+#include "rave/base/number.hpp"
 #include "rave/bus/run_id.hpp"
 #include "rave/direct_line/key_files.hpp"
 
@@ -15,18 +15,37 @@ namespace {
 constexpr const char* kHere = "this process";
 
 Result<std::uint16_t> port_of(std::string_view text, const std::string& whole) {
-  std::uint16_t port = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-  if (error == std::errc() && end == text.data() + text.size()) return port;
+  if (const auto port = number_of<std::uint16_t>(text)) return *port;
   return fail(ErrorCode::kInvalidArgument,
               "--web {}: expected ADDRESS:PORT, such as 192.168.1.20:8090", whole);
 }
 
+/// Reads LineArguments::web. Error kInvalidArgument.
+Status read_place(const std::string& text, direct_line::LineOptions& options) {
+  if (text.empty()) return {};
+  // Digits alone are a port: `--web 8090`.
+  const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
+  const std::size_t bracket = text.rfind(']');
+  const std::size_t colon = text.rfind(':');
+  // Colons inside the brackets of an IPv6 address are part of it.
+  const bool has_port =
+      colon != std::string::npos && (bracket == std::string::npos || colon > bracket);
+  std::string address = digits ? "" : text.substr(0, has_port ? colon : std::string::npos);
+  if (address.starts_with('[') && address.ends_with(']')) {
+    address = address.substr(1, address.size() - 2);
+  }
+  if (!address.empty()) options.address = address;
+  if (digits) {
+    RAVE_TRY_ASSIGN(options.port, port_of(text, text));
+  } else if (has_port) {
+    RAVE_TRY_ASSIGN(options.port, port_of(std::string_view(text).substr(colon + 1), text));
+  }
+  return {};
+}
+
 Result<direct_line::LineOptions> options_of(const LineArguments& arguments, LogSink& log) {
-  RAVE_TRY_ASSIGN(const LinePlace place, parse_line_place(*arguments.web));
   direct_line::LineOptions options;
-  options.address = place.address;
-  options.port = place.port;
+  RAVE_TRY(read_place(*arguments.web, options));
   options.certificate = arguments.certificate;
   options.key = arguments.key;
   options.log = &log;
@@ -54,29 +73,6 @@ Result<std::filesystem::path> key_place(const LineArguments& arguments, const bu
 }
 
 }  // namespace
-
-Result<LinePlace> parse_line_place(const std::string& text) {
-  LinePlace place;
-  if (text.empty()) return place;
-  // Digits alone are a port: `--web 8090`.
-  const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
-  const std::size_t bracket = text.rfind(']');
-  const std::size_t colon = text.rfind(':');
-  // Colons inside the brackets of an IPv6 address are part of it.
-  const bool has_port =
-      colon != std::string::npos && (bracket == std::string::npos || colon > bracket);
-  std::string address = digits ? "" : text.substr(0, has_port ? colon : std::string::npos);
-  if (address.starts_with('[') && address.ends_with(']')) {
-    address = address.substr(1, address.size() - 2);
-  }
-  if (!address.empty()) place.address = address;
-  if (digits) {
-    RAVE_TRY_ASSIGN(place.port, port_of(text, text));
-  } else if (has_port) {
-    RAVE_TRY_ASSIGN(place.port, port_of(std::string_view(text).substr(colon + 1), text));
-  }
-  return place;
-}
 
 Result<HostLineEnds> open_host_line(const LineArguments& arguments, const std::string& host,
                                     const bus::BusConfig& bus, runtime::RunControl& control,

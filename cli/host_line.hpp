@@ -17,20 +17,14 @@ namespace rave::cli {
 
 /// Options of the direct line of a host.
 struct LineArguments {
-  std::optional<std::string> web;  ///< `ADDRESS:PORT` or a part of it; unset: no line.
+  /// `127.0.0.1:8090`, `:8090`, `8090`, `[::1]:8090` or an address alone; what is missing is
+  /// loopback or any port. Unset: no line.
+  std::optional<std::string> web;
   /// The file with the public key of the GUI Server; empty: `line.pub` beside the certificates.
   std::string web_key;
   std::string certificate;  ///< With `key`: TLS.
   std::string key;
 };
-
-/// `127.0.0.1:8090`, `:8090`, `8090`, `[::1]:8090` or an address alone; what is missing is loopback
-/// or any port. Error kInvalidArgument.
-struct LinePlace {
-  std::string address = "127.0.0.1";
-  std::uint16_t port = 0;
-};
-[[nodiscard]] Result<LinePlace> parse_line_place(const std::string& text);
 
 /// A line and its announcement. Destroy it before the control that it was given.
 struct HostLineEnds {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,22 +17,18 @@ class HostProcess {
  public:
   /// `words`: the executable and its arguments. Errors: kIo.
   [[nodiscard]] static Result<HostProcess> start(std::vector<std::string> words);
-  HostProcess(HostProcess&& other) noexcept;
-  HostProcess& operator=(HostProcess&& other) noexcept;
+  HostProcess(HostProcess&&) noexcept = default;
+  HostProcess& operator=(HostProcess&&) noexcept = default;
   ~HostProcess();
 
-  /// Its exit code, or minus the signal that killed it; empty while it runs.
-  [[nodiscard]] std::optional<int> ended();
-  /// Waits for its end, at most for that long.
-  [[nodiscard]] std::optional<int> wait(double longest_s);
+  /// Waits for its end, at most for that long. Its exit code, or minus the signal that killed it;
+  /// empty while it runs.
+  [[nodiscard]] std::optional<int> wait(std::chrono::milliseconds longest);
   /// Asks it to end, as Ctrl-C does.
   void interrupt() const noexcept;
-  /// 0 once it has ended.
-  [[nodiscard]] ::pid_t id() const noexcept { return child_.id(); }
 
  private:
   explicit HostProcess(process::Child child) : child_(std::move(child)) {}
-  void end() noexcept;
 
   process::Child child_;
 };

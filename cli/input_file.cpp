@@ -9,6 +9,7 @@
 
 #include "rave/base/file.hpp"
 #include "rave/base/names.hpp"
+#include "rave/base/word_table.hpp"
 #include "rave/config/yaml.hpp"
 
 namespace rave::cli {
@@ -60,15 +61,10 @@ std::string quoted(const std::string& file_name) {
 }  // namespace
 
 std::string_view to_string(FileKind kind) noexcept {
-  switch (kind) {
-    case FileKind::kRobot:
-      return "robot";
-    case FileKind::kWorld:
-      return "world";
-    case FileKind::kScenario:
-      break;
-  }
-  return "scenario";
+  constexpr WordTable<FileKind, 3> kWords = {{{"robot", FileKind::kRobot},
+                                              {"world", FileKind::kWorld},
+                                              {"scenario", FileKind::kScenario}}};
+  return kWords.of(kind);
 }
 
 Result<FileKind> recognise(const std::filesystem::path& path) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "keys_arguments.hpp"
-
+#include "commands/keys.hpp"
 #include "shared_arguments.hpp"
 
 namespace rave::cli {
@@ -14,8 +13,9 @@ void add_folder(CLI::App& app, std::string& folder, const char* what) {
   add_word(app, "folder", folder, what, "DIR");
 }
 
-void add_new(CLI::App& parent, KeysNewCommand& c) {
-  CLI::App& app = *parent.add_subcommand("new", "Create a set of certificates");
+void add_new(CLI::App& parent, Command& chosen) {
+  const auto [app, c] =
+      add_command(parent, chosen, "new", "Create a set of certificates", new_keys);
   add_folder(app, c.folder, "Folder to create");
   add_members(app, c.members);
   add_value(app, "--name", c.lab, "Name of the lab, part of all certificates [rave]", "LAB");
@@ -30,17 +30,18 @@ void add_new(CLI::App& parent, KeysNewCommand& c) {
       "  rave env lab --security lab-keys/env");
 }
 
-void add_add(CLI::App& parent, KeysAddCommand& c) {
-  CLI::App& app = *parent.add_subcommand("add", "Add members to a set of certificates");
+void add_add(CLI::App& parent, Command& chosen) {
+  const auto [app, c] =
+      add_command(parent, chosen, "add", "Add members to a set of certificates", add_keys);
   add_folder(app, c.folder, "Folder of the set, with its ca");
   add_members(app, c.members);
   add_value(app, "--days", c.days, "Days of validity [that of the ca]", "N");
   app.footer("Example:\n  rave keys add lab-keys gui");
 }
 
-void add_show(CLI::App& parent, KeysShowCommand& c) {
-  CLI::App& app =
-      *parent.add_subcommand("show", "Show the members of a set, their validity, and problems");
+void add_show(CLI::App& parent, Command& chosen) {
+  const auto [app, c] = add_command(
+      parent, chosen, "show", "Show the members of a set, their validity, and problems", show_keys);
   add_folder(app, c.folder, "Folder of a set or of one member");
   app.footer(
       "Exit code: 0 if all certificates are usable, 1 if not, 2 if there are none.\n\n"
@@ -48,8 +49,9 @@ void add_show(CLI::App& parent, KeysShowCommand& c) {
       "  rave keys show lab-keys");
 }
 
-void add_web(CLI::App& parent, KeysWebCommand& c) {
-  CLI::App& app = *parent.add_subcommand("web", "Create the certificate of the web page (TLS)");
+void add_web(CLI::App& parent, Command& chosen) {
+  const auto [app, c] =
+      add_command(parent, chosen, "web", "Create the certificate of the web page (TLS)", web_keys);
   add_folder(app, c.folder, "Folder; an authority that exists there is used again");
   add_word(app, "names", c.names, "Host names and addresses of the page", "NAME");
   add_value(app, "--days", c.days, "Days of validity, at most 397 [397]", "N");
@@ -61,9 +63,9 @@ void add_web(CLI::App& parent, KeysWebCommand& c) {
       "    --key web-keys/server_key.pem");
 }
 
-void add_line(CLI::App& parent, KeysLineCommand& c) {
-  CLI::App& app =
-      *parent.add_subcommand("line", "Create the key that a GUI Server signs tickets with");
+void add_line(CLI::App& parent, Command& chosen) {
+  const auto [app, c] = add_command(
+      parent, chosen, "line", "Create the key that a GUI Server signs tickets with", line_keys);
   add_word(app, "file", c.file, "For the GUI Server; FILE.pub is for hosts", "FILE");
   app.footer(
       "Example:\n"
@@ -74,16 +76,16 @@ void add_line(CLI::App& parent, KeysLineCommand& c) {
 
 }  // namespace
 
-void add_keys_commands(CLI::App& root, KeysCommands& commands) {
+void add_keys_commands(CLI::App& root, Command& chosen) {
   CLI::App& parent =
       *root.add_subcommand("keys", "Create certificates for encrypted communication");
   parent.require_subcommand(1);
   parent.footer("Example:\n  rave keys new lab-keys env left right");
-  add_new(parent, commands.make);
-  add_add(parent, commands.add);
-  add_show(parent, commands.show);
-  add_web(parent, commands.web);
-  add_line(parent, commands.line);
+  add_new(parent, chosen);
+  add_add(parent, chosen);
+  add_show(parent, chosen);
+  add_web(parent, chosen);
+  add_line(parent, chosen);
 }
 
 }  // namespace rave::cli

@@ -79,12 +79,7 @@ Status copy_filled_in(const fs::path& from, const fs::path& to, const std::strin
   for (const fs::path& file : files) {
     RAVE_TRY_ASSIGN(std::string text, read_file(from / file));
     const fs::path path = to / filled_in(file.string(), name);
-    std::error_code error;
-    fs::create_directories(path.parent_path(), error);
-    if (error) {
-      return fail(ErrorCode::kIo, "cannot create the folder `{}`: {}", path.parent_path().string(),
-                  error.message());
-    }
+    RAVE_TRY(create_folder(path.parent_path()));
     RAVE_TRY(write_file_atomically(path, filled_in(std::move(text), name)));
   }
   return {};

@@ -45,20 +45,12 @@ std::string how_to_reach(const std::string& link, const std::string& foxglove, s
 
 Result<std::unique_ptr<gui_server::GuiServer>> serve_page(
     const PageOptions& options, std::shared_ptr<gui_server::Source> source) {
-  gui_server::GuiOptions gui_options;
-  gui_options.page =
-      options.page.empty() ? share_folder() / "web" : std::filesystem::path(options.page);
-  gui_options.port = options.port;
-  gui_options.listen = options.listen;
-  gui_options.certificate = options.certificate;
-  gui_options.key = options.key;
-  gui_options.accounts = options.accounts;
-  gui_options.foxglove = options.foxglove;
-  gui_options.foxglove_origins = options.foxglove_origins;
-  if (options.accounts.empty() && options.listen != gui_server::GuiOptions().listen) {
-    gui_options.accounts = gui_server::Accounts::usual_folder();
+  PageOptions whole = options;
+  if (whole.page.empty()) whole.page = share_folder() / "web";
+  if (whole.accounts.empty() && whole.listen != gui_server::GuiOptions().listen) {
+    whole.accounts = gui_server::Accounts::usual_folder();
   }
-  RAVE_TRY_ASSIGN(auto server, gui_server::GuiServer::start(gui_options, std::move(source)));
+  RAVE_TRY_ASSIGN(auto server, gui_server::GuiServer::start(whole, std::move(source)));
   const std::string link = server->entry();
   put(stdout, how_to_reach(link, server->foxglove_address(), server->port()));
   std::fflush(stdout);

@@ -12,18 +12,11 @@
 
 namespace rave::cli {
 
-/// Where the page is served.
-struct PageOptions {
-  std::uint16_t port = 8080;
-  std::string page;  ///< Folder of the built page; empty: that of the installation.
+/// Where the page is served. Without `page` it is that of the installation; without `accounts` they
+/// are the user's, if it listens elsewhere than on loopback.
+struct PageOptions : gui_server::GuiOptions {
   bool no_open = false;
-  std::string listen = "127.0.0.1";
-  std::string certificate;  ///< With `key`: TLS.
-  std::string key;
-  std::string line_key;   ///< The file of the key that hosts believe; empty: none.
-  std::string accounts;   ///< Folder; empty: the user's, if it listens elsewhere than on loopback.
-  bool foxglove = false;  ///< Foxglove may connect.
-  std::vector<std::string> foxglove_origins;
+  std::string line_key;  ///< The file of the key that hosts believe; empty: none.
 };
 
 /// Serves the page, prints its link and opens it where there is a desktop. Without a source it

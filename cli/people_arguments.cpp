@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "people_arguments.hpp"
-
+#include "commands/people.hpp"
 #include "shared_arguments.hpp"
 
 namespace rave::cli {
 namespace {
 
-CLI::App& add_one(CLI::App& parent, const char* name, const char* what, PeopleCommand& c) {
-  CLI::App& app = *parent.add_subcommand(name, what);
-  add_value(app, "--accounts", c.folder, "Folder of the accounts [one per system user]", "DIR");
-  return app;
+Subcommand<PeopleCommand> add_one(CLI::App& parent, Command& chosen, const char* name,
+                                  const char* what, PeopleCommand::What change) {
+  const auto added = add_command(parent, chosen, name, what, people);
+  added.options.what = change;
+  add_value(added.app, "--accounts", added.options.folder,
+            "Folder of the accounts [one per system user]", "DIR");
+  return added;
 }
 
 void add_person(CLI::App& app, PeopleCommand& c) {
@@ -19,35 +21,29 @@ void add_person(CLI::App& app, PeopleCommand& c) {
 
 }  // namespace
 
-void add_people(CLI::App& root, PeopleCommand& command) {
+void add_people_commands(CLI::App& root, Command& chosen) {
+  using What = PeopleCommand::What;
   CLI::App& parent = *root.add_subcommand(
       "people", "Manage accounts of people who open the page over the network");
   parent.require_subcommand(1);
-  CLI::App& add = add_one(parent, "add", "Add an account; asks for the password", command);
-  add_word(add, "name", command.name, "Name of the account", "NAME");
-  add_person(add, command);
-  CLI::App& invite = add_one(parent, "invite", "Create an invitation and print its link", command);
-  add_person(invite, command);
-  add_value(invite, "--uses", command.uses, "Number of people who can use the link [1]", "N");
-  add_value(invite, "--days", command.days, "Days of validity [7]", "N");
-  add_one(parent, "list", "List accounts and open invitations", command);
-  CLI::App& remove = add_one(parent, "remove", "Remove an account and end its sessions", command);
-  add_word(remove, "name", command.name, "Name of the account", "NAME");
-  add_one(parent, "uninvite", "Withdraw all invitations", command);
+  const auto add =
+      add_one(parent, chosen, "add", "Add an account; asks for the password", What::kAdd);
+  add_word(add.app, "name", add.options.name, "Name of the account", "NAME");
+  add_person(add.app, add.options);
+  const auto [invite, c] =
+      add_one(parent, chosen, "invite", "Create an invitation and print its link", What::kInvite);
+  add_person(invite, c);
+  add_value(invite, "--uses", c.uses, "Number of people who can use the link [1]", "N");
+  add_value(invite, "--days", c.days, "Days of validity [7]", "N");
+  add_one(parent, chosen, "list", "List accounts and open invitations", What::kList);
+  const auto remove =
+      add_one(parent, chosen, "remove", "Remove an account and end its sessions", What::kRemove);
+  add_word(remove.app, "name", remove.options.name, "Name of the account", "NAME");
+  add_one(parent, chosen, "uninvite", "Withdraw all invitations", What::kUninvite);
   parent.footer(
       "Examples:\n"
       "  rave people add ada --role super_user\n"
       "  rave people invite --role observer --teams green --uses 20");
-}
-
-PeopleCommand chosen_people(const std::string& name, PeopleCommand command) {
-  using What = PeopleCommand::What;
-  command.what = name == "add"        ? What::kAdd
-                 : name == "invite"   ? What::kInvite
-                 : name == "remove"   ? What::kRemove
-                 : name == "uninvite" ? What::kUninvite
-                                      : What::kList;
-  return command;
 }
 
 }  // namespace rave::cli

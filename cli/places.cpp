@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdlib>
 #include <optional>
+#include <ranges>
+#include <string_view>
 
 #include "error_text.hpp"
 #include "rave/assemble/build.hpp"
@@ -61,11 +63,8 @@ std::vector<std::string> names_in(const std::vector<fs::path>& folders) {
 std::vector<std::string> folders_of_environment() {
   std::vector<std::string> folders;
   const char* const value = std::getenv("RAVE_PLUGIN_PATH");
-  std::string_view rest = value == nullptr ? "" : value;
-  while (!rest.empty()) {
-    const std::size_t colon = std::min(rest.find(':'), rest.size());
-    if (colon > 0) folders.emplace_back(rest.substr(0, colon));
-    rest.remove_prefix(std::min(colon + 1, rest.size()));
+  for (const auto word : std::views::split(std::string_view(value == nullptr ? "" : value), ':')) {
+    if (!word.empty()) folders.emplace_back(word.begin(), word.end());
   }
   return folders;
 }
@@ -104,9 +103,7 @@ Status add_plugin_folders(const std::vector<std::string>& given, plugin::Catalog
 
 Result<fs::path> record_file(std::string_view word) {
   RAVE_TRY_ASSIGN(auto run, record::open_run(word));
-  for (const std::string& note : run.notes) {
-    put(stderr, fmt::format("{} {}\n", terminal_of(stderr).yellow("missing:"), note));
-  }
+  for (const std::string& note : run.notes) put_note(terminal_of(stderr).yellow("missing:"), note);
   return std::move(run.file);
 }
 

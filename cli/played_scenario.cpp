@@ -371,11 +371,7 @@ Status write_played(const PlayedScenario& played, const fs::path& folder) {
   }
   for (const PlayedScenario::File& file : played.files) {
     const fs::path path = folder / file.path;
-    fs::create_directories(path.parent_path(), error);
-    if (error) {
-      return fail(ErrorCode::kIo, "cannot create the folder `{}`: {}", path.parent_path().string(),
-                  error.message());
-    }
+    RAVE_TRY(create_folder(path.parent_path()));
     RAVE_TRY(write_file_atomically(path, file.text));
   }
   return {};

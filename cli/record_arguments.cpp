@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "record_arguments.hpp"
-
-#include "bus_arguments.hpp"
-#include "run_arguments.hpp"
+#include "commands/export.hpp"
+#include "commands/gui.hpp"
+#include "commands/info.hpp"
+#include "commands/play.hpp"
+#include "commands/report.hpp"
+#include "commands/verify.hpp"
 #include "shared_arguments.hpp"
 
 namespace rave::cli {
 namespace {
 
-void add_info(CLI::App& root, InfoCommand& c) {
-  CLI::App& app = *root.add_subcommand("info", "Show the contents of a recording");
+void add_info(CLI::App& root, Command& chosen) {
+  const auto [app, c] = add_command(root, chosen, "info", "Show the contents of a recording", info);
   add_record(app, c.file);
   app.add_flag("--check", c.check,
                "Read the complete file and verify every checksum [only index, start and end]");
@@ -21,8 +23,9 @@ void add_info(CLI::App& root, InfoCommand& c) {
       "  rave info runs/20260101-120000-mixed-reality --check");
 }
 
-void add_verify(CLI::App& root, VerifyCommand& c) {
-  CLI::App& app = *root.add_subcommand("verify", "Run a recording again and compare every bit");
+void add_verify(CLI::App& root, Command& chosen) {
+  const auto [app, c] =
+      add_command(root, chosen, "verify", "Run a recording again and compare every bit", verify);
   add_record(app, c.file);
   add_threads(app, c.threads);
   app.add_flag("--quiet", c.quiet, "Print errors and differences only");
@@ -34,18 +37,19 @@ void add_verify(CLI::App& root, VerifyCommand& c) {
       "  rave verify runs/20260101-120000-mixed-reality");
 }
 
-void add_play(CLI::App& root, PlayCommand& c) {
-  CLI::App& app = *root.add_subcommand(
-      "play", "Use robots of a recording as recorded real robots in a new scenario");
+void add_play(CLI::App& root, Command& chosen) {
+  const auto [app, c] =
+      add_command(root, chosen, "play",
+                  "Use robots of a recording as recorded real robots in a new scenario", play);
   add_record(app, c.file);
-  add_values(app, "--robot", c.robots, "Robot of the recording; repeatable [all]", "NAME");
-  add_values(app, "--anew", c.anew,
+  add_values(app, "--robot", c.how.robots, "Robot of the recording; repeatable [all]", "NAME");
+  add_values(app, "--anew", c.how.anew,
              "Virtual sensor that senses the new world instead of being played; repeatable",
              "SENSOR");
-  add_value(app, "--world", c.world, "World file [world of the recording]", "FILE");
-  add_value(app, "--program", c.program,
+  add_value(app, "--world", c.how.world, "World file [world of the recording]", "FILE");
+  add_value(app, "--program", c.how.program,
             "Program that receives the readings; its commands are ignored [none]", "NAME");
-  add_value(app, "--start", c.start_s, "Start time in the recording, in seconds [0]", "S")
+  add_value(app, "--start", c.how.start_s, "Start time in the recording, in seconds [0]", "S")
       ->check(number_in(0.0, 1e9));
   add_value(app, "--write", c.write, "Write the scenario to this folder, and do not run it", "DIR");
   add_run_options(app, c.run);
@@ -57,8 +61,9 @@ void add_play(CLI::App& root, PlayCommand& c) {
       "  rave play run.mcap --robot hunter --program wander --write my/scenario");
 }
 
-void add_export(CLI::App& root, ExportCommand& c) {
-  CLI::App& app = *root.add_subcommand("export", "Write a part of a recording as CSV");
+void add_export(CLI::App& root, Command& chosen) {
+  const auto [app, c] =
+      add_command(root, chosen, "export", "Write a part of a recording as CSV", export_recording);
   add_record(app, c.file);
   add_word(app, "what", c.what, "poses, readings or events", "WHAT")
       ->check(one_of({"poses", "readings", "events"}));
@@ -74,20 +79,21 @@ void add_export(CLI::App& root, ExportCommand& c) {
       "  rave export run.mcap readings --robot hunter --sensor laser --output laser.csv");
 }
 
-void add_report(CLI::App& root, GapCommand& c) {
+void add_report(CLI::App& root, Command& chosen) {
   CLI::App& parent = *root.add_subcommand("report", "Analyse a recording");
   parent.require_subcommand(1);
   parent.footer("Example:\n  rave report gap run.mcap --robot walker-3");
-  CLI::App& app = *parent.add_subcommand(
-      "gap", "Compare a recorded robot with its simulated twin under the same commands");
+  const auto [app, c] = add_command(
+      parent, chosen, "gap",
+      "Compare a recorded robot with its simulated twin under the same commands", report_gap);
   add_record(app, c.file);
-  add_value(app, "--robot", c.robot, "Recorded robot [the only one]", "NAME");
-  add_value(app, "--twin", c.twin,
+  add_value(app, "--robot", c.gap.robot, "Recorded robot [the only one]", "NAME");
+  add_value(app, "--twin", c.gap.twin,
             "Robot file with the simulated actuator of the twin [that of the robot]", "FILE");
-  add_value(app, "--commands", c.commands,
+  add_value(app, "--commands", c.gap.commands,
             "Velocity sensor to use as commands [what reached the actuator]", "SENSOR");
-  app.add_flag("--truth", c.truth, "Compare with the true pose instead of the reported pose");
-  add_value(app, "--window", c.window_s,
+  app.add_flag("--truth", c.gap.truth, "Compare with the true pose instead of the reported pose");
+  add_value(app, "--window", c.gap.window_s,
             "Time after which the twin is set to the robot again, in seconds [10]", "S")
       ->check(number_in(1e-3, 1e6));
   add_value(app, "--output", c.output,
@@ -101,8 +107,9 @@ void add_report(CLI::App& root, GapCommand& c) {
       "  rave report gap run.mcap --robot real-3 --commands commanded --twin robots/wanderer.yaml");
 }
 
-void add_gui(CLI::App& root, GuiCommand& c) {
-  CLI::App& app = *root.add_subcommand("gui", "Show a run or a recording in the browser");
+void add_gui(CLI::App& root, Command& chosen) {
+  const auto [app, c] =
+      add_command(root, chosen, "gui", "Show a run or a recording in the browser", gui);
   add_word(app, "what", c.file, "Recording, folder of a run, or scenario of a run in progress",
            "WHAT");
   add_page_options(app, c.page);
@@ -119,13 +126,13 @@ void add_gui(CLI::App& root, GuiCommand& c) {
 
 }  // namespace
 
-void add_record_commands(CLI::App& root, RecordCommands& commands) {
-  add_info(root, commands.info);
-  add_verify(root, commands.verify);
-  add_play(root, commands.play);
-  add_export(root, commands.csv);
-  add_report(root, commands.gap);
-  add_gui(root, commands.gui);
+void add_record_commands(CLI::App& root, Command& chosen) {
+  add_info(root, chosen);
+  add_verify(root, chosen);
+  add_play(root, chosen);
+  add_export(root, chosen);
+  add_report(root, chosen);
+  add_gui(root, chosen);
 }
 
 }  // namespace rave::cli

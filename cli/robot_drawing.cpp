@@ -70,13 +70,7 @@ Status add_rays(sim::EngineSpec spec, std::vector<Look>& looks) {
   sim::RobotType& type = spec.types[0];
   // Rays are known only to a sensor that was made, and only virtual sensors can be made without a
   // device. An engine with just these gives them the same start as a run.
-  for (sim::SensorSpec& sensor : type.sensors) sensor = sim::virtual_half_of(std::move(sensor));
-  std::erase_if(type.sensors, [](const auto& sensor) { return sensor.virtual_ops == nullptr; });
-  type.actuators.clear();
-  type.controllers.clear();
-  type.program.reset();
-  type.pose_from.reset();
-  type.simulated = true;
+  keep_virtual_sensors(type);
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(spec)));
   std::uint32_t s = 0;
   for (Look& look : looks) {
@@ -139,6 +133,16 @@ void add_sensor(const Look& look, const Pose2& X_WR, double body_m, double scale
 }
 
 }  // namespace
+
+void keep_virtual_sensors(sim::RobotType& type) {
+  for (sim::SensorSpec& sensor : type.sensors) sensor = sim::virtual_half_of(std::move(sensor));
+  std::erase_if(type.sensors, [](const auto& sensor) { return sensor.virtual_ops == nullptr; });
+  type.actuators.clear();
+  type.controllers.clear();
+  type.program.reset();
+  type.pose_from.reset();
+  type.simulated = true;
+}
 
 Result<Picture> draw_one_robot(const InputFile& input, runtime::BuiltScenario built) {
   const world::Body body = built.spec.world.robots[0];

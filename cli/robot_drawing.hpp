@@ -13,4 +13,8 @@ namespace rave::cli {
 [[nodiscard]] Result<report::Picture> draw_one_robot(const InputFile& input,
                                                      runtime::BuiltScenario built);
 
+/// Leaves of a type what can be made without a device, program or wait: its virtual sensors, and of
+/// hybrid ones the virtual half. A real robot would wait for its pose source.
+void keep_virtual_sensors(sim::RobotType& type);
+
 }  // namespace rave::cli

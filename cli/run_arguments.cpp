@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run_arguments.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <string>
 #include <vector>
 
-#include "bus_arguments.hpp"
+#include "commands/hosts.hpp"
+#include "commands/run.hpp"
 #include "places.hpp"
 #include "rave/base/text_width.hpp"
 #include "shared_arguments.hpp"
@@ -15,8 +14,8 @@
 namespace rave::cli {
 namespace {
 
-void add_run(CLI::App& root, RunCommand& c) {
-  CLI::App& app = *root.add_subcommand("run", "Run a scenario");
+void add_run(CLI::App& root, Command& chosen) {
+  const auto [app, c] = add_command(root, chosen, "run", "Run a scenario", run);
   add_scenario(app, c.scenario);
   add_run_options(app, c);
   add_processes(app, c.processes, "Divide the robots evenly among N processes", 1);
@@ -45,8 +44,9 @@ void add_run(CLI::App& root, RunCommand& c) {
       "  rave run my/scenario.yaml --seed 7 --duration 30 --output results");
 }
 
-void add_robot(CLI::App& root, RobotCommand& c) {
-  CLI::App& app = *root.add_subcommand("robot", "Run the robots of one host of a scenario");
+void add_robot(CLI::App& root, Command& chosen) {
+  const auto [app, c] =
+      add_command(root, chosen, "robot", "Run the robots of one host of a scenario", robot);
   add_scenario(app, c.run.scenario);
   add_word(app, "--host", c.host, "Name of the host in the scenario", "NAME");
   add_value(app, "--wait-for-manager", c.manager_patience_s,
@@ -67,9 +67,10 @@ void add_robot(CLI::App& root, RobotCommand& c) {
       "  rave robot lab --host left --interface 192.168.1.7 --peer 192.168.1.2");
 }
 
-void add_env(CLI::App& root, EnvCommand& c) {
-  CLI::App& app = *root.add_subcommand(
-      "env", "Run the Environment Manager, which keeps the world that several hosts share");
+void add_env(CLI::App& root, Command& chosen) {
+  const auto [app, c] = add_command(
+      root, chosen, "env",
+      "Run the Environment Manager, which keeps the world that several hosts share", env);
   add_scenario(app, c.run.scenario);
   app.add_flag("--resume", c.resume,
                "Continue a run that lost its manager (default with on_lost_host: restart)");
@@ -89,27 +90,10 @@ void add_env(CLI::App& root, EnvCommand& c) {
 
 }  // namespace
 
-void add_run_options(CLI::App& app, RunCommand& c) {
-  add_value(app, "--output", c.output, "Folder for the results [runs/<time>-<scenario>]", "DIR");
-  app.add_flag("--replace", c.replace, "Remove the results of an earlier run from that folder");
-  add_whole_number(app, "--seed", c.seed, "Random seed (overrides the scenario)");
-  add_threads(app, c.threads);
-  add_value(app, "--duration", c.duration_s, "Simulated time, in seconds (overrides the scenario)",
-            "S")
-      ->check(number_in(1e-4, 1e9));
-  add_value(app, "--pace", c.pace,
-            "Speed: max, realtime, or a factor such as 10x (overrides the scenario)", "PACE");
-  app.add_flag("--no-picture", c.no_picture, "Do not draw picture.svg and picture.png");
-  app.add_flag("--no-record", c.no_record, "Do not write run.mcap");
-  app.add_flag("--arm", c.arm, "Arm all robots at the start: real robots may move immediately");
-  app.add_flag("--quiet", c.quiet, "Print errors and problems only");
-  add_plugins(app, c.plugins);
-}
-
-void add_run_commands(CLI::App& root, RunCommands& commands) {
-  add_run(root, commands.run);
-  add_robot(root, commands.robot);
-  add_env(root, commands.env);
+void add_run_commands(CLI::App& root, Command& chosen) {
+  add_run(root, chosen);
+  add_robot(root, chosen);
+  add_env(root, chosen);
 }
 
 }  // namespace rave::cli

@@ -5,6 +5,8 @@
 #include <ctime>
 #include <optional>
 
+#include "rave/base/file.hpp"
+
 namespace rave::cli {
 namespace {
 
@@ -80,11 +82,8 @@ Result<RunFolder> RunFolder::create(const WantedFolder& wanted, std::string_view
   if (!given.empty()) {
     RAVE_TRY(check_no_input(wanted));
     folder.path_ = given;
-    folder.is_new_ = fs::create_directories(given, error);
-    if (error) {
-      return fail(ErrorCode::kIo, "cannot create the folder `{}`: {}", given.string(),
-                  error.message());
-    }
+    folder.is_new_ = !fs::exists(given, error);
+    RAVE_TRY(create_folder(given));
     if (wanted.replace) remove_run(given, error);
     if (error) {
       return fail(ErrorCode::kIo, "cannot remove the earlier run in `{}`: {}", given.string(),

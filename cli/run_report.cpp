@@ -38,13 +38,13 @@ int report_outcome(const RunCommand& options, const runtime::RunOutcome& outcome
   }
   const Terminal errors = terminal_of(stderr);
   for (const std::string& problem : outcome.problems) {
-    put(stderr, fmt::format("{} {}\n", good ? errors.yellow("note:") : errors.red("problem:"),
-                            without_control_characters(problem, " ")));
+    put_note(good ? errors.yellow("note:") : errors.red("problem:"),
+             without_control_characters(problem, " "));
   }
   if (!good) {
     const std::string_view what =
         outcome.whole ? "a check of the scenario does not hold" : "the run did not complete";
-    put(stderr, fmt::format("{} {}\n", errors.red("FAILED:"), what));
+    put_note(errors.red("FAILED:"), what);
   } else if (!options.quiet) {
     put(stdout, terminal_of(stdout).green("done") + "\n");
   }

@@ -55,8 +55,4 @@ Result<config::ExpandedScenario> read_scenario(const RunCommand& options) {
   return scenario;
 }
 
-WantedFolder wanted_folder(const RunCommand& options) {
-  return {options.output, options.replace, find_scenario(options.scenario).value_or("")};
-}
-
 }  // namespace rave::cli

@@ -4,15 +4,11 @@
 #include "commands/run.hpp"
 #include "rave/base/result.hpp"
 #include "rave/config/expanded_scenario.hpp"
-#include "run_folder.hpp"
 
 namespace rave::cli {
 
 /// Reads the scenario of a command line, with what that overrides put in. Errors: those of
 /// find_scenario() and config::expand_scenario(), kInvalidArgument.
 [[nodiscard]] Result<config::ExpandedScenario> read_scenario(const RunCommand& options);
-
-/// The folder of the results that the options ask for.
-[[nodiscard]] WantedFolder wanted_folder(const RunCommand& options);
 
 }  // namespace rave::cli

@@ -6,7 +6,6 @@
 #include "interrupt.hpp"
 #include "places.hpp"
 #include "rave/host/host_run.hpp"
-#include "run_scenario.hpp"
 
 namespace rave::cli {
 
@@ -23,7 +22,9 @@ RunStart::RunStart(RunFolder folder, bool quiet)
     : folder_(std::move(folder)), console_(quiet), control_(ended_by_signals()) {}
 
 Result<std::unique_ptr<RunStart>> RunStart::open(const RunCommand& options, std::string_view name) {
-  RAVE_TRY_ASSIGN(auto folder, RunFolder::create(wanted_folder(options), name));
+  const WantedFolder wanted{options.output, options.replace,
+                            find_scenario(options.scenario).value_or("")};
+  RAVE_TRY_ASSIGN(auto folder, RunFolder::create(wanted, name));
   std::unique_ptr<RunStart> start(new RunStart(std::move(folder), options.quiet));
   // As soon as there is a folder, so that all later messages are in the file, too.
   RAVE_TRY(start->console_.open_file(start->path() / "console.log"));

@@ -5,31 +5,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 #include <utility>
 
-#include "bus_options.hpp"
+#include "commands/run.hpp"
 #include "rave/base/names.hpp"
+#include "rave/base/number.hpp"
 
 namespace rave::cli {
-namespace {
-
-/// Nothing if the whole word is not a number. CLI11 would wrap negative whole numbers round.
-template <class Number>
-std::optional<Number> read_number(const std::string& word) {
-  Number number = 0;
-  const char* const end = word.data() + word.size();
-  const auto [parsed, problem] = std::from_chars(word.data(), end, number);
-  if (problem != std::errc() || parsed != end) return std::nullopt;
-  return number;
-}
-
-}  // namespace
 
 CLI::Validator number_in(double least, double most) {
   const auto check = [least, most](const std::string& word) -> std::string {
-    const auto number = read_number<double>(word);
+    const auto number = number_of<double>(word);
     if (number && *number >= least && *number <= most) return {};
     return fmt::format("found `{}`, expected a number from {} to {}", word, least, most);
   };
@@ -38,7 +25,8 @@ CLI::Validator number_in(double least, double most) {
 
 CLI::Validator whole_number_in(std::uint64_t least, std::uint64_t most) {
   const auto check = [least, most](const std::string& word) -> std::string {
-    const auto number = read_number<std::uint64_t>(word);
+    // CLI11 would wrap negative whole numbers round.
+    const auto number = number_of<std::uint64_t>(word);
     if (number && *number >= least && *number <= most) return {};
     return fmt::format("found `{}`, expected a whole number from {} to {}", word, least, most);
   };
@@ -126,6 +114,46 @@ void add_line_options(CLI::App& app, LineArguments& line) {
 
 void add_record(CLI::App& app, std::string& file) {
   add_word(app, "file", file, "Recording (run.mcap), or folder of a run", "FILE");
+}
+
+void add_run_options(CLI::App& app, RunCommand& c) {
+  add_value(app, "--output", c.output, "Folder for the results [runs/<time>-<scenario>]", "DIR");
+  app.add_flag("--replace", c.replace, "Remove the results of an earlier run from that folder");
+  add_whole_number(app, "--seed", c.seed, "Random seed (overrides the scenario)");
+  add_threads(app, c.threads);
+  add_value(app, "--duration", c.duration_s, "Simulated time, in seconds (overrides the scenario)",
+            "S")
+      ->check(number_in(1e-4, 1e9));
+  add_value(app, "--pace", c.pace,
+            "Speed: max, realtime, or a factor such as 10x (overrides the scenario)", "PACE");
+  app.add_flag("--no-picture", c.no_picture, "Do not draw picture.svg and picture.png");
+  app.add_flag("--no-record", c.no_record, "Do not write run.mcap");
+  app.add_flag("--arm", c.arm, "Arm all robots at the start: real robots may move immediately");
+  app.add_flag("--quiet", c.quiet, "Print errors and problems only");
+  add_plugins(app, c.plugins);
+}
+
+void add_network_options(CLI::App& app, BusOptions& c) {
+  add_value(app, "--domain", c.domain, "DDS domain of a run with several processes [0]", "N")
+      ->check(whole_number_in(0, 230));
+  add_value(app, "--interface", c.interface,
+            "Network interface, by address or name [this machine only]", "ADDR");
+  add_values(app, "--peer", c.peers,
+             "Address of a machine with other processes of the run; repeatable", "ADDR");
+  add_value(app, "--multicast", c.multicast,
+            "Use of multicast: none, discovery (only to find processes) or data (for both) [none]",
+            "USE");
+  add_value(app, "--security", c.security,
+            "Encrypt; folder with the certificates of this process, made by `rave keys`", "DIR");
+  // Not for people: keeps tests on one machine apart, and lets a benchmark count what goes by DDS.
+  app.add_option("--bus-tag", c.tag)->group("");
+  app.add_flag("--dds-only", c.dds_only)->group("");
+}
+
+void add_bus_options(CLI::App& app, BusOptions& c) {
+  add_value(app, "--run", c.run,
+            "Name of the run, the same for all of its processes [name of the scenario]", "NAME");
+  add_network_options(app, c);
 }
 
 }  // namespace rave::cli

@@ -9,11 +9,32 @@
 #include <string>
 #include <vector>
 
+#include "arguments.hpp"
+#include "bus_options.hpp"
 #include "host_line.hpp"
 #include "page.hpp"
 
 /// What the arguments of several subcommands have in common. All write to what they are given.
 namespace rave::cli {
+
+struct RunCommand;
+
+/// A subcommand and its options.
+template <class Options>
+struct Subcommand {
+  CLI::App& app;
+  Options& options;  ///< Lives as long as `app`.
+};
+
+/// Adds a subcommand. When the command line names it, `act` with its options becomes `chosen`.
+template <class Options>
+Subcommand<Options> add_command(CLI::App& parent, Command& chosen, const char* name,
+                                const char* what, Result<int> (*act)(const Options&)) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& app = *parent.add_subcommand(name, what);
+  app.callback([&chosen, act, options] { chosen = [act, options] { return act(*options); }; });
+  return {app, *options};
+}
 
 /// A word or an option that may be missing. `type`: what help calls its value.
 template <class T>
@@ -66,6 +87,16 @@ void add_page_options(CLI::App& app, PageOptions& page);
 
 /// The direct line of a host.
 void add_line_options(CLI::App& app, LineArguments& line);
+
+/// What all that run something have in common: output, seed, threads, time, pace and the like.
+void add_run_options(CLI::App& app, RunCommand& c);
+
+/// The options with which a process reaches others: domain, interface, peers, multicast,
+/// certificates.
+void add_network_options(CLI::App& app, BusOptions& c);
+
+/// The same options and the name of the run.
+void add_bus_options(CLI::App& app, BusOptions& c);
 
 /// The record that a subcommand is about.
 void add_record(CLI::App& app, std::string& file);

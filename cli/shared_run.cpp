@@ -43,7 +43,7 @@ class Crew {
   void look_after() {
     for (Member& member : members_) {
       if (!member.process) continue;
-      const auto code = member.process->ended();
+      const auto code = member.process->wait(std::chrono::milliseconds(0));
       if (!code) continue;
       member.process.reset();
       member.code = code;
@@ -61,11 +61,9 @@ class Crew {
 
   /// No host comes again: all that were to run have died before the run began.
   [[nodiscard]] bool all_dead() const {
-    if (members_.empty()) return false;
-    for (const Member& member : members_) {
-      if (member.process || member.code == kGood) return false;
-    }
-    return true;
+    return !members_.empty() && std::ranges::none_of(members_, [](const Member& member) {
+      return member.process || member.code == kGood;
+    });
   }
 
   /// No host runs any more.
@@ -83,11 +81,11 @@ class Crew {
 
   /// Waits for their ends. What went wrong, one sentence each.
   [[nodiscard]] std::vector<std::string> part() {
-    constexpr double kPatience_s = 20;
+    constexpr std::chrono::seconds kPatience{20};
     std::vector<std::string> problems;
     for (Member& member : members_) {
       if (member.process) {
-        member.code = member.process->wait(kPatience_s);
+        member.code = member.process->wait(kPatience);
         member.process.reset();
       }
       if (member.code == kGood) continue;
@@ -137,9 +135,8 @@ class Crew {
                                       fmt::format("{}", patience_s_),
                                       "--quiet"};
     for (const std::string& word : words_of(options_.bus, bus_.run)) words.push_back(word);
-    for (const std::string& plugins : options_.plugins) {
-      words.emplace_back("--plugins");
-      words.push_back(plugins);
+    for (const std::string& folder : options_.plugins) {
+      words.insert(words.end(), {"--plugins", folder});
     }
     if (options_.no_picture) words.emplace_back("--no-picture");
     if (options_.no_record) words.emplace_back("--no-record");
@@ -153,14 +150,11 @@ class Crew {
   void add_line(std::vector<std::string>& words) const {
     const LineArguments& line = options_.line;
     if (!line.web) return;
-    words.emplace_back("--web");
-    words.push_back(*line.web);
+    words.insert(words.end(), {"--web", *line.web});
     for (const auto& [option, value] :
          {std::pair("--web-key", line.web_key), std::pair("--web-certificate", line.certificate),
           std::pair("--web-certificate-key", line.key)}) {
-      if (value.empty()) continue;
-      words.emplace_back(option);
-      words.push_back(value);
+      if (!value.empty()) words.insert(words.end(), {option, value});
     }
   }
 
@@ -209,41 +203,32 @@ Result<runtime::RunOutcome> put_together(ManagedEnd& managed, const Crew& crew,
 
 }  // namespace
 
-int run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario,
-               const std::vector<config::PlannedHost>& hosts) {
+Result<int> run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario,
+                       const std::vector<config::PlannedHost>& hosts) {
   RunCommand options = asked;
   BusOptions bus_options = options.bus;
   // A run that this process starts is one of its own, even if the same scenario runs elsewhere on
   // the bus.
   if (bus_options.run.empty()) bus_options.run = bus::RunId::random().text();
-  auto bus = bus_config(bus_options, "environment manager", runtime::shared_number(scenario));
-  if (!bus) return complain(bus.error());
+  RAVE_TRY_ASSIGN(auto bus,
+                  bus_config(bus_options, "environment manager", runtime::shared_number(scenario)));
   const bool lines = wants_lines(options, hosts.size());
   // A line has an end of its own on the bus.
-  make_room(*bus, lines ? 2 * hosts.size() : hosts.size(), bus::Reach::kHub);
-  const auto opened = RunStart::open(options, scenario.scenario.name.value);
-  if (!opened) return complain(opened.error());
-  RunStart& start = **opened;
+  make_room(bus, lines ? 2 * hosts.size() : hosts.size(), bus::Reach::kHub);
+  RAVE_TRY_ASSIGN(const auto opened, RunStart::open(options, scenario.scenario.name.value));
+  RunStart& start = *opened;
   Console& console = start.console();
-  if (auto written =
-          write_file_atomically(start.path() / "scenario.yaml", config::write_expanded(scenario));
-      !written) {
-    return complain(written.error());
-  }
-  if (auto fit = check_hosts_fit(scenario, options.plugins, hosts.size(), console); !fit) {
-    return complain(fit.error());
-  }
-  if (auto made = lines ? make_lines(options, start.path()) : Status(); !made) {
-    return complain(made.error());
-  }
-  Crew crew(options, *bus, start.path(), scenario.scenario, console);
+  RAVE_TRY(write_file_atomically(start.path() / "scenario.yaml", config::write_expanded(scenario)));
+  RAVE_TRY(check_hosts_fit(scenario, options.plugins, hosts.size(), console));
+  RAVE_TRY(lines ? make_lines(options, start.path()) : Status());
+  Crew crew(options, bus, start.path(), scenario.scenario, console);
   for (const config::PlannedHost& host : hosts) {
     if (host.elsewhere) {
       console.warn("run", "waiting for host `{}`; start it with: {}", host.name,
-                   host_command(options, host.name, bus->run));
+                   host_command(options, host.name, bus.run));
       continue;
     }
-    if (auto started = crew.start(host); !started) return complain(started.error());
+    RAVE_TRY(crew.start(host));
   }
   runtime::RunControl& control = start.control();
   start.serve(control::own_run_name(scenario.scenario.name.value), "run", "this run");
@@ -253,20 +238,17 @@ int run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario
   };
   std::unique_ptr<gui_server::GuiServer> page;
   if (options.gui) {
-    auto served = show_run(options, scenario, *bus, &control, console);
-    if (!served) return complain(served.error());
-    page = *std::move(served);
+    RAVE_TRY_ASSIGN(page, show_run(options, scenario, bus, &control, console));
   }
-  auto managed = manage_run({scenario, options, *bus, start.path(), console, control, stopping,
+  auto managed = manage_run({scenario, options, bus, start.path(), console, control, stopping,
                              [&crew] { return crew.all_ended(); }});
   // In lock-step the last step tells them; after a failure of the manager nothing does.
   if (!managed || (managed->live && control.stopping())) crew.interrupt();
   const std::vector<std::string> problems = crew.part();
   console.clear();
-  if (!managed) return complain(managed.error());
-  const auto outcome = put_together(*managed, crew, problems);
-  if (!outcome) return complain(outcome.error());
-  const int code = report_outcome(options, *outcome, start.path());
+  if (!managed) return tl::unexpected(managed.error());
+  RAVE_TRY_ASSIGN(const auto outcome, put_together(*managed, crew, problems));
+  const int code = report_outcome(options, outcome, start.path());
   if (page) replay_on_page(*page, options.quiet, start.path(), control);
   return code;
 }

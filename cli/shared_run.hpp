@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "commands/run.hpp"
+#include "rave/base/result.hpp"
 #include "rave/config/expanded_scenario.hpp"
 
 namespace rave::cli {
@@ -11,7 +12,8 @@ namespace rave::cli {
 /// `rave run` of a scenario with hosts: this process is the environment manager, and starts a
 /// `rave robot` for each host that is not elsewhere. Their folders lie in `hosts` of the run's own.
 /// Under the policy `restart`, a host that dies is started again. Returns the exit code.
-[[nodiscard]] int run_shared(const RunCommand& options, const config::ExpandedScenario& scenario,
-                             const std::vector<config::PlannedHost>& hosts);
+[[nodiscard]] Result<int> run_shared(const RunCommand& options,
+                                     const config::ExpandedScenario& scenario,
+                                     const std::vector<config::PlannedHost>& hosts);
 
 }  // namespace rave::cli

@@ -32,4 +32,10 @@ struct Terminal {
 /// Writes the whole text to a stream; what cannot be written is lost.
 void put(std::FILE* stream, std::string_view text);
 
+/// Writes a line to standard error: a text behind its label, which may be coloured.
+void put_note(std::string_view label, std::string_view text);
+
+/// A word as a shell takes it for one: in quotes where it must be.
+[[nodiscard]] std::string shell_word(const std::string& word);
+
 }  // namespace rave::cli

@@ -119,7 +119,7 @@ const CLI::App& chosen_app(const CLI::App& root) {
 }
 
 // Looked at before CLI11, which says something vague about it.
-std::optional<Finished> unknown_subcommand(const CLI::App& root, const std::string& word) {
+std::optional<int> unknown_subcommand(const CLI::App& root, const std::string& word) {
   std::vector<std::string> names;
   const std::vector<std::string_view> views = subcommands_of(root, names);
   if (word.starts_with("-") || std::find(views.begin(), views.end(), word) != views.end()) {
@@ -128,10 +128,10 @@ std::optional<Finished> unknown_subcommand(const CLI::App& root, const std::stri
   const std::string_view place = place_of(word);
   const auto error = fail(ErrorCode::kInvalidArgument, "there is no subcommand `{}`{}", word,
                           place.empty() ? suggestion(word, views) : fmt::format("; {}", place));
-  return Finished{complain(error.value())};
+  return complain(error.value());
 }
 
-Finished usage_error(const CLI::App& root, const CLI::ParseError& e) {
+int usage_error(const CLI::App& root, const CLI::ParseError& e) {
   const CLI::App& app = chosen_app(root);
   std::string message = about_value(e.what());
   const std::vector<std::string> extras = app.remaining();
@@ -154,7 +154,7 @@ Finished usage_error(const CLI::App& root, const CLI::ParseError& e) {
   const std::string name = full_name(root);
   complain({ErrorCode::kInvalidArgument, message, {}});
   put(stderr, fmt::format("for usage: `{} --help`\n", name));
-  return {kBadInput};
+  return kBadInput;
 }
 
 }  // namespace rave::cli

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "watch_arguments.hpp"
-
-#include "bus_arguments.hpp"
+#include "commands/doctor.hpp"
+#include "commands/top.hpp"
 #include "shared_arguments.hpp"
 
 namespace rave::cli {
+namespace {
 
-void add_top(CLI::App& root, TopCommand& c) {
-  CLI::App& app =
-      *root.add_subcommand("top", "Show live statistics of the hosts and robots of a run");
+void add_top(CLI::App& root, Command& chosen) {
+  const auto [app, c] = add_command(root, chosen, "top",
+                                    "Show live statistics of the hosts and robots of a run", top);
   add_value(app, "run", c.run,
             "Name of the run (--run), first digits of its number, or its scenario [the only run]",
             "RUN");
@@ -27,9 +27,9 @@ void add_top(CLI::App& root, TopCommand& c) {
       "  rave top --interface 192.168.1.7 --peer 192.168.1.2 --peer 192.168.1.7 --json");
 }
 
-void add_doctor(CLI::App& root, DoctorCommand& c) {
-  CLI::App& app =
-      *root.add_subcommand("doctor", "Find out why two machines do not find each other");
+void add_doctor(CLI::App& root, Command& chosen) {
+  const auto [app, c] = add_command(root, chosen, "doctor",
+                                    "Find out why two machines do not find each other", doctor);
   add_network_options(app, c.bus);
   app.add_flag("--listen", c.listen, "Answer `rave doctor` of another machine, until Ctrl-C");
   app.add_flag("--json", c.json, "Print the findings as JSON");
@@ -40,6 +40,13 @@ void add_doctor(CLI::App& root, DoctorCommand& c) {
       "Examples:\n"
       "  rave doctor --listen --interface 192.168.1.2       # on the one machine\n"
       "  rave doctor --interface 192.168.1.7 --peer 192.168.1.2");
+}
+
+}  // namespace
+
+void add_watch_commands(CLI::App& root, Command& chosen) {
+  add_top(root, chosen);
+  add_doctor(root, chosen);
 }
 
 }  // namespace rave::cli

@@ -19,25 +19,22 @@ swarm::RunEnd usual(swarm::RunEnd end) {
 
 }  // namespace
 
-int bench_swarm(const BenchSwarmCommand& command) {
+Result<int> bench_swarm(const BenchSwarmCommand& command) {
   const auto began = std::chrono::steady_clock::now();
-  const auto catalogue = open_catalogue({});
-  if (!catalogue) return complain(catalogue.error());
+  RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue({}));
   Console console(true);
-  const auto run =
-      swarm::run_swarm(command.workload, usual(command.end), **catalogue, &console, began);
-  if (!run) return complain(run.error());
+  RAVE_TRY_ASSIGN(const auto run, swarm::run_swarm(command.workload, usual(command.end), *catalogue,
+                                                   &console, began));
   if (!command.write.empty()) {
-    const double duration_s = static_cast<double>(run->steps) * swarm::kStep_s;
-    const auto written = swarm::write_scenario(command.workload, duration_s, command.write);
-    if (!written) return complain(written.error());
+    const double duration_s = static_cast<double>(run.steps) * swarm::kStep_s;
+    RAVE_TRY(swarm::write_scenario(command.workload, duration_s, command.write));
   }
-  put(stdout, swarm::swarm_json(*run) + "\n");
+  put(stdout, swarm::swarm_json(run) + "\n");
   return kGood;
 }
 
-int bench_compare(const BenchCompareCommand& command) {
-  swarm::CompareOptions options = command.options;
+Result<int> bench_compare(const swarm::CompareOptions& command) {
+  swarm::CompareOptions options = command;
   options.end = usual(options.end);
   const auto comparison = swarm::compare(options);
   if (!comparison) {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "rave/base/result.hpp"
 #include "rave/swarm/compare.hpp"
 #include "rave/swarm/swarm_run.hpp"
 
@@ -15,16 +16,11 @@ struct BenchSwarmCommand {
   std::string write;  ///< Folder for the scenario; empty: none.
 };
 
-/// `rave bench compare`. Without an end as many steps as A does in five seconds.
-struct BenchCompareCommand {
-  swarm::CompareOptions options;
-};
-
 /// Measures a workload and prints a line of JSON. Returns 0, or 2 if it could not be run.
-[[nodiscard]] int bench_swarm(const BenchSwarmCommand& command);
+[[nodiscard]] Result<int> bench_swarm(const BenchSwarmCommand& command);
 
-/// Measures two builds in turn. Returns 0, 1 if a run failed or the hashes differ, 2 if a build is
-/// missing.
-[[nodiscard]] int bench_compare(const BenchCompareCommand& command);
+/// `rave bench compare`: measures two builds in turn, without an end as many steps as A does in
+/// five seconds. Returns 0, 1 if a run failed or the hashes differ, 2 if a build is missing.
+[[nodiscard]] Result<int> bench_compare(const swarm::CompareOptions& command);
 
 }  // namespace rave::cli

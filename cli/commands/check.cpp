@@ -168,13 +168,7 @@ class Checker {
   }
 
   [[nodiscard]] bool draw_file(const InputFile& input, runtime::BuiltScenario built) const {
-    Status drawn;
-    auto picture = draw(input, std::move(built));
-    if (picture) {
-      drawn = write_picture(*picture, options_.draw);
-    } else {
-      drawn = tl::unexpected(std::move(picture).error());
-    }
+    const Status drawn = draw(input, std::move(built), options_.draw);
     if (!drawn) return complain(drawn.error()) == kGood;
     put(options_.expand ? stderr : stdout, fmt::format("drawn: {}\n", options_.draw));
     return true;
@@ -200,13 +194,12 @@ class Checker {
 
 }  // namespace
 
-int check(const CheckCommand& options) {
-  const auto catalogue = open_catalogue(options.plugins);
-  if (!catalogue) return complain(catalogue.error());
+Result<int> check(const CheckCommand& options) {
+  RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.plugins));
   if (!options.draw.empty() && options.files.size() > 1) {
-    return complain({ErrorCode::kInvalidArgument, "--draw: expected exactly one file", {}});
+    return fail(ErrorCode::kInvalidArgument, "--draw: expected exactly one file");
   }
-  return Checker(options, **catalogue).run();
+  return Checker(options, *catalogue).run();
 }
 
 }  // namespace rave::cli

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "rave/base/result.hpp"
+
 namespace rave::cli {
 
 /// `rave check`.
@@ -15,6 +17,6 @@ struct CheckCommand {
 };
 
 /// Checks files and prints all errors. Returns 0 or 2.
-[[nodiscard]] int check(const CheckCommand& options);
+[[nodiscard]] Result<int> check(const CheckCommand& options);
 
 }  // namespace rave::cli

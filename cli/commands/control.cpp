@@ -23,18 +23,6 @@ using control::Request;
 using control::request_of;
 using RunKind = runtime::RunRequest::Kind;
 
-/// Asks one run and prints its answer.
-int ask_run(const AskedRun& run, const Request& request) {
-  const auto answer = run.ask(request);
-  if (!answer) return complain(answer.error());
-  if (!answer->good) {
-    complain({ErrorCode::kState, fmt::format("{}: {}", run.name(), answer->text), {}});
-    return kNotGood;
-  }
-  put(stdout, fmt::format("{}: {}\n", run.name(), answer->text));
-  return kGood;
-}
-
 /// Asks all; those here at once, so that one that stands keeps no stop from the others.
 std::vector<Reply> ask_all(const std::vector<AskedRun>& runs, const Request& request) {
   std::vector<std::future<Result<control::Answer>>> answers;
@@ -60,8 +48,8 @@ int tell(const std::vector<Reply>& replies, const std::string& robot) {
     if (answer && answer->good) {
       put(stdout, fmt::format("{}: {}\n", name, answer->text));
     } else if (!done) {
-      const Error why = answer ? Error{ErrorCode::kState, answer->text, {}} : answer.error();
-      const int found = complain({why.code, fmt::format("{}: {}", name, why.message), {}});
+      Error why = answer ? Error{ErrorCode::kState, answer->text, {}} : answer.error();
+      const int found = complain(std::move(why).with_context(name));
       code = std::max(code, answer ? int{kNotGood} : found);
     }
   }
@@ -81,21 +69,15 @@ std::optional<std::size_t> robots_of(const std::vector<AskedRun>& runs) {
 
 /// Asks the processes that stop and arm the robots of a run, and prints what came of it. The
 /// manager of a run in real time is asked if it has more robots than they: it says where to ask.
-int ask_controllers(const AskedRun& run, const Request& request, bool sure) {
-  const auto controllers = run.controllers(sure);
-  if (!controllers) return complain(controllers.error());
-  std::vector<Reply> replies = ask_all(*controllers, request);
+Result<int> ask_controllers(const AskedRun& run, const Request& request, bool sure) {
+  RAVE_TRY_ASSIGN(const auto controllers, run.controllers(sure));
+  std::vector<Reply> replies = ask_all(controllers, request);
   // In lock-step the manager stops all robots itself. In real time each host stops its own.
-  const bool hosts = controllers->front().name() != run.name();
-  if (hosts && robots_of(*controllers) != robots_of({run})) {
+  const bool hosts = controllers.front().name() != run.name();
+  if (hosts && robots_of(controllers) != robots_of({run})) {
     replies.push_back({run.name(), run.ask(request)});
   }
   return tell(replies, request.run.robot);
-}
-
-int find_and_ask(const std::string& word, const BusOptions& bus, const Request& request) {
-  const auto run = AskedRun::find(word, bus);
-  return run ? ask_run(*run, request) : complain(run.error());
 }
 
 std::string pace_text(const runtime::RunStatus& status) {
@@ -136,10 +118,13 @@ std::string state_text(const runtime::RunStatus& status) {
 
 Table runs_table(bool with_machines) {
   Table table;
-  table.columns = {{"run", Align::kLeft, false},     {"scenario", Align::kLeft, false},
-                   {"time", Align::kRight, false},   {"pace", Align::kRight, false},
-                   {"robots", Align::kRight, false}, {"state", Align::kLeft, false}};
-  if (with_machines) table.columns.push_back({"machine", Align::kLeft, false});
+  table.columns = {{"run"},
+                   {"scenario"},
+                   {"time", Align::kRight},
+                   {"pace", Align::kRight},
+                   {"robots", Align::kRight},
+                   {"state"}};
+  if (with_machines) table.columns.push_back({"machine"});
   return table;
 }
 
@@ -171,24 +156,22 @@ void add_run(Table& table, const std::string& run, const Result<runtime::RunStat
 }
 
 /// Here or on the bus. Only who releases or arms has to be sure whom it is done to.
-int stop_run(const StopCommand& options, const Request& request) {
+Result<int> stop_run(const StopCommand& options, const Request& request) {
   if (!AskedRun::may_be_here(options.run)) {
     const auto replies = AskedRun::ask_each_on_bus(options.run, options.bus, request);
     if (replies && !replies->empty()) return tell(*replies, options.robot);
   }
-  const auto run = AskedRun::find(options.run, options.bus);
-  if (!run) return complain(run.error());
-  return ask_controllers(*run, request, false);
+  RAVE_TRY_ASSIGN(const auto run, AskedRun::find(options.run, options.bus));
+  return ask_controllers(run, request, false);
 }
 
 }  // namespace
 
-int list_runs(const PsCommand& options) {
-  const auto runs = control::running_runs();
-  if (!runs) return complain(runs.error());
+Result<int> list_runs(const PsCommand& options) {
+  RAVE_TRY_ASSIGN(const auto runs, control::running_runs());
   const bool network = options.network || options.bus.says_where();
   Table table = runs_table(network);
-  for (const std::string& run : *runs) {
+  for (const std::string& run : runs) {
     const auto status = AskedRun(run).status();
     // One that ended meanwhile is no more; one that is stuck is worth a line.
     if (!status && status.error().code == ErrorCode::kNotFound) continue;
@@ -207,25 +190,22 @@ int list_runs(const PsCommand& options) {
   return code;
 }
 
-int stop_robots(const StopCommand& options) {
+Result<int> stop_robots(const StopCommand& options) {
   const Request request = request_of({RunKind::kStop, options.robot});
   if (!options.all) return stop_run(options, request);
   if (!options.run.empty() || !options.robot.empty() || options.bus.says_where()) {
-    return complain({ErrorCode::kInvalidArgument,
-                     "--all stops only runs on this machine; stop a run of other machines by "
-                     "its name (`rave ps --network` lists them)",
-                     {}});
+    return fail(ErrorCode::kInvalidArgument,
+                "--all stops only runs on this machine; stop a run of other machines by its name "
+                "(`rave ps --network` lists them)");
   }
-  const auto runs = control::running_runs();
-  if (!runs) return complain(runs.error());
-  if (runs->empty()) {
-    return complain({ErrorCode::kNotFound,
-                     "no run is in progress on this machine; stop a run of other machines by its "
-                     "name (`rave ps --network` lists them)",
-                     {}});
+  RAVE_TRY_ASSIGN(const auto runs, control::running_runs());
+  if (runs.empty()) {
+    return fail(ErrorCode::kNotFound,
+                "no run is in progress on this machine; stop a run of other machines by its name "
+                "(`rave ps --network` lists them)");
   }
   std::vector<AskedRun> all;
-  for (const std::string& run : *runs) all.emplace_back(run);
+  for (const std::string& run : runs) all.emplace_back(run);
   std::vector<Reply> replies = ask_all(all, request);
   // In real time a manager has no robots of its own, and its hosts have been asked.
   std::erase_if(replies, [&replies](const Reply& reply) {
@@ -240,39 +220,31 @@ int stop_robots(const StopCommand& options) {
   return tell(replies, "");
 }
 
-int arm_robots(const ArmCommand& options) {
-  const auto run = AskedRun::find(options.run, options.bus);
-  if (!run) return complain(run.error());
+Result<int> arm_robots(const ArmCommand& options) {
+  RAVE_TRY_ASSIGN(const auto run, AskedRun::find(options.run, options.bus));
   if (options.release) {
     const Request release = request_of({RunKind::kRelease, options.robot});
     // Release first: if it fails, nothing is armed.
-    if (const int code = ask_controllers(*run, release, true); code != kGood) return code;
+    RAVE_TRY_ASSIGN(const int code, ask_controllers(run, release, true));
+    if (code != kGood) return code;
   }
-  return ask_controllers(*run, request_of({RunKind::kArm, options.robot}), true);
+  return ask_controllers(run, request_of({RunKind::kArm, options.robot}), true);
 }
 
-int set_parameter(const SetCommand& options) {
+Result<int> set_parameter(const SetCommand& options) {
   Request request = request_of({RunKind::kSet, options.robot});
   request.run.key = options.key;
   request.run.value = options.value;
-  return find_and_ask(options.run, options.bus, request);
+  RAVE_TRY_ASSIGN(const auto run, AskedRun::find(options.run, options.bus));
+  return ask_and_tell(run, request);
 }
 
-int hold_run(const HoldCommand& options) {
+Result<int> hold_run(const HoldCommand& options) {
   Request request;
+  request.what = options.what;
   request.count = options.count;
-  switch (options.what) {
-    case HoldCommand::What::kPause:
-      request.what = Request::What::kPause;
-      break;
-    case HoldCommand::What::kResume:
-      request.what = Request::What::kResume;
-      break;
-    case HoldCommand::What::kStep:
-      request.what = Request::What::kStep;
-      break;
-  }
-  return find_and_ask(options.run, options.bus, request);
+  RAVE_TRY_ASSIGN(const auto run, AskedRun::find(options.run, options.bus));
+  return ask_and_tell(run, request);
 }
 
 }  // namespace rave::cli

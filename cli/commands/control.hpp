@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "bus_options.hpp"
+#include "rave/base/result.hpp"
+#include "rave/control/protocol.hpp"
 
 // Requests from one terminal to a run in another.
 namespace rave::cli {
@@ -44,8 +46,7 @@ struct SetCommand {
 
 /// `rave pause`, `rave resume` and `rave step`.
 struct HoldCommand {
-  enum class What : std::uint8_t { kPause, kResume, kStep };
-  What what = What::kPause;
+  control::Request::What what = control::Request::What::kPause;  ///< Or kResume, kStep.
   std::string run;
   std::uint64_t count = 1;
   BusOptions bus;
@@ -53,10 +54,10 @@ struct HoldCommand {
 
 // `bus` selects where to search for a run that is not on this machine. Each prints what was done.
 // Returns 0; 1 if the run refuses; 2 if there is no such run, or it does not answer.
-[[nodiscard]] int list_runs(const PsCommand& options);
-[[nodiscard]] int stop_robots(const StopCommand& options);
-[[nodiscard]] int arm_robots(const ArmCommand& options);
-[[nodiscard]] int set_parameter(const SetCommand& options);
-[[nodiscard]] int hold_run(const HoldCommand& options);
+[[nodiscard]] Result<int> list_runs(const PsCommand& options);
+[[nodiscard]] Result<int> stop_robots(const StopCommand& options);
+[[nodiscard]] Result<int> arm_robots(const ArmCommand& options);
+[[nodiscard]] Result<int> set_parameter(const SetCommand& options);
+[[nodiscard]] Result<int> hold_run(const HoldCommand& options);
 
 }  // namespace rave::cli

@@ -29,7 +29,7 @@ Drivers drivers_named(std::string_view name, plugin::Catalogue& catalogue) {
 }
 
 /// Why a name describes nothing. A file that has it and cannot be used gives the reason.
-Error nothing_named(std::string_view name, plugin::Catalogue& catalogue) {
+tl::unexpected<Error> nothing_named(std::string_view name, plugin::Catalogue& catalogue) {
   std::vector<std::string_view> names;
   for (const plugin::Driver* driver : catalogue.all()) names.emplace_back(driver->info.name);
   std::sort(names.begin(), names.end());
@@ -42,16 +42,15 @@ Error nothing_named(std::string_view name, plugin::Catalogue& catalogue) {
   for (const plugin::RejectedPlugin& plugin : catalogue.rejected()) {
     message += "\n" + plugin.error.text();
   }
-  return {ErrorCode::kNotFound, std::move(message), {}};
+  return fail(ErrorCode::kNotFound, "{}", message);
 }
 
 }  // namespace
 
-int describe(const DescribeCommand& options) {
-  const auto catalogue = open_catalogue(options.plugins);
-  if (!catalogue) return complain(catalogue.error());
-  const std::vector<const plugin::Driver*> found = drivers_named(options.driver, **catalogue);
-  if (found.empty()) return complain(nothing_named(options.driver, **catalogue));
+Result<int> describe(const DescribeCommand& options) {
+  RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.plugins));
+  const Drivers found = drivers_named(options.driver, *catalogue);
+  if (found.empty()) return nothing_named(options.driver, *catalogue);
   config::RawNode list = config::RawNode::sequence();
   std::string text;
   for (const plugin::Driver* driver : found) {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "rave/base/result.hpp"
+
 namespace rave::cli {
 
 /// `rave describe`.
@@ -15,6 +17,6 @@ struct DescribeCommand {
 };
 
 /// Prints the descriptions of the drivers with a name; several kinds may share it. Returns 0 or 2.
-[[nodiscard]] int describe(const DescribeCommand& options);
+[[nodiscard]] Result<int> describe(const DescribeCommand& options);
 
 }  // namespace rave::cli

@@ -54,38 +54,35 @@ bus::BusConfig listening(bus::BusConfig config, const std::string& address) {
   return config;
 }
 
-int listen(const bus::BusConfig& config, doctor::About about) {
+Result<int> listen(const bus::BusConfig& config, doctor::About about) {
   const doctor::Machine machine = doctor::this_machine();
   const doctor::Interface* const interface = machine.find(config.interface);
   if (interface == nullptr || interface->address.empty()) {
-    return complain({ErrorCode::kNotFound, doctor::check_interface(machine, config).what, {}});
+    return fail(ErrorCode::kNotFound, "{}", doctor::check_interface(machine, config).what);
   }
   KeyWatch keys(false);
   // Joined before it answers: who gets an answer looks for it on the bus.
   about.participant = config.participant;
-  const auto bus = bus::Bus::open(listening(config, interface->address));
-  if (!bus) return complain(bus.error());
-  auto listener = doctor::Listener::open({interface->address, std::move(about)});
-  if (!listener) return complain(listener.error());
+  RAVE_TRY_ASSIGN(const auto bus, bus::Bus::open(listening(config, interface->address)));
+  RAVE_TRY_ASSIGN(auto listener, doctor::Listener::open({interface->address, std::move(about)}));
   put(stderr, fmt::format("listening at {}, domain {}, until Ctrl-C; run on the other machine:\n"
                           "  rave doctor --domain {} --interface ITS_ADDRESS --peer {}\n",
                           interface->address, config.domain, config.domain, interface->address));
-  (*listener)->serve([&keys] { return keys.ended(); },
-                     [](const std::string& who) { put(stderr, who + " asks\n"); });
+  listener->serve([&keys] { return keys.ended(); },
+                  [](const std::string& who) { put(stderr, who + " asks\n"); });
   return kGood;
 }
 
 }  // namespace
 
-int doctor(const DoctorCommand& options) {
+Result<int> doctor(const DoctorCommand& options) {
   const std::string name = fmt::format("rave doctor {:.8}", bus::RunId::random().text());
-  auto config = read_bus_options(options.bus, name, 0);
-  if (!config) return complain(config.error());
+  RAVE_TRY_ASSIGN(auto config, read_bus_options(options.bus, name, 0));
   // Room for every host: the doctor must find what a run would find.
-  make_room(*config, kMostHosts);
-  const doctor::About here = doctor::about_here(*config, runtime::interface_stamp());
-  if (options.listen) return listen(*config, here);
-  const doctor::Findings findings = doctor::examine(doctor::this_machine(), *config, here);
+  make_room(config, kMostHosts);
+  const doctor::About here = doctor::about_here(config, runtime::interface_stamp());
+  if (options.listen) return listen(config, here);
+  const doctor::Findings findings = doctor::examine(doctor::this_machine(), config, here);
   if (options.json) {
     put(stdout, doctor::to_json(findings));
   } else {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bus_options.hpp"
+#include "rave/base/result.hpp"
 
 namespace rave::cli {
 
@@ -14,6 +15,6 @@ struct DoctorCommand {
 
 /// Searches for the reasons why machines do not find each other. Returns 0 if there are none, 1 if
 /// there are, 2 on bad input.
-[[nodiscard]] int doctor(const DoctorCommand& options);
+[[nodiscard]] Result<int> doctor(const DoctorCommand& options);
 
 }  // namespace rave::cli

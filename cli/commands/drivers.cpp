@@ -105,21 +105,18 @@ std::string json_of(const Drivers& drivers, const plugin::Catalogue& catalogue) 
 
 }  // namespace
 
-int drivers(const DriversCommand& options) {
+Result<int> drivers(const DriversCommand& options) {
   std::optional<DriverKind> wanted;
   if (!options.kind.empty()) {
-    const auto kind = kind_of(options.kind);
-    if (!kind) return complain(kind.error());
-    wanted = *kind;
+    RAVE_TRY_ASSIGN(wanted, kind_of(options.kind));
   }
-  const auto catalogue = open_catalogue(options.plugins);
-  if (!catalogue) return complain(catalogue.error());
-  Drivers found = (*catalogue)->all();
+  RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.plugins));
+  Drivers found = catalogue->all();
   std::erase_if(found, [&](const auto* driver) { return wanted && driver->info.kind != *wanted; });
-  if (options.json) return put(stdout, json_of(found, **catalogue)), kGood;
+  if (options.json) return put(stdout, json_of(found, *catalogue)), kGood;
   if (options.markdown) return put(stdout, reference_of(found)), kGood;
   put(stdout, found.empty() ? "no drivers\n" : table_of(found, terminal_of(stdout)));
-  put(stderr, rejected_text(**catalogue, terminal_of(stderr)));
+  put(stderr, rejected_text(*catalogue, terminal_of(stderr)));
   return kGood;
 }
 

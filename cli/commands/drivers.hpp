@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "rave/base/result.hpp"
+
 namespace rave::cli {
 
 /// `rave drivers`.
@@ -16,6 +18,6 @@ struct DriversCommand {
 
 /// Lists the available drivers, and below them the plug-ins that could not be used. Returns 0, or 2
 /// for an unknown kind or a missing folder.
-[[nodiscard]] int drivers(const DriversCommand& options);
+[[nodiscard]] Result<int> drivers(const DriversCommand& options);
 
 }  // namespace rave::cli

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
+#include <ranges>
+#include <string_view>
 #include <vector>
 
 #include "asked_run.hpp"
 #include "error_text.hpp"
+#include "rave/base/number.hpp"
 
 namespace rave::cli {
 namespace {
@@ -19,16 +21,12 @@ using What = EditCommand::What;
 /// The numbers in a word, between marks; none if it is anything else.
 std::vector<double> numbers_in(std::string_view word, char mark) {
   std::vector<double> numbers;
-  while (true) {
-    const std::string_view part = word.substr(0, word.find(mark));
-    double number = 0;
-    // from_chars() does not depend on the locale: 0.5 is read alike everywhere.
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
-    if (error != std::errc{} || end != part.data() + part.size()) return {};
-    numbers.push_back(number);
-    if (part.size() == word.size()) return numbers;
-    word.remove_prefix(part.size() + 1);
+  for (const auto part : std::views::split(word, mark)) {
+    const auto number = number_of<double>({part.begin(), part.end()});
+    if (!number) return {};
+    numbers.push_back(*number);
   }
+  return numbers;
 }
 
 tl::unexpected<Error> wrong(std::string_view option, const std::string& found,
@@ -51,12 +49,9 @@ Status take_place(const EditCommand& options, Entry& entry) {
 
 Status take_corners(const EditCommand& options, config::Outline& outline) {
   auto& polygon_m = outline.polygon_m.emplace();
-  std::string_view rest = options.corners;
-  while (!rest.empty()) {
-    const std::string_view word = rest.substr(0, rest.find(' '));
-    rest.remove_prefix(std::min(word.size() + 1, rest.size()));
+  for (const auto word : std::views::split(std::string_view(options.corners), ' ')) {
     if (word.empty()) continue;
-    const std::vector<double> corner = numbers_in(word, ',');
+    const std::vector<double> corner = numbers_in({word.begin(), word.end()}, ',');
     if (corner.size() != 2) {
       return wrong("--corners", options.corners, "places such as \"0,0 1,0 0.5,1\"");
     }
@@ -117,23 +112,17 @@ Result<control::Request> request_of(const EditCommand& options) {
 
 }  // namespace
 
-int edit_world(const EditCommand& options) {
-  const auto request = request_of(options);
-  if (!request) return complain(request.error());
-  const auto run = AskedRun::find(options.run, options.bus);
-  if (!run) return complain(run.error());
+Result<int> edit_world(const EditCommand& options) {
+  RAVE_TRY_ASSIGN(const auto request, request_of(options));
+  RAVE_TRY_ASSIGN(const auto run, AskedRun::find(options.run, options.bus));
   const auto asked = std::chrono::steady_clock::now();
-  const auto answer = run->ask(*request);
+  RAVE_TRY_ASSIGN(const auto answer, run.ask(request));
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - asked;
-  if (!answer) return complain(answer.error());
-  if (!answer->good) {
-    complain({ErrorCode::kState, fmt::format("{}: {}", run->name(), answer->text), {}});
-    return kNotGood;
-  }
+  if (!answer.good) return refused(run, answer.text);
   const std::string done = options.what == What::kList
                                ? ""
                                : fmt::format(" ({:.1f} ms after the request)", took.count());
-  put(stdout, fmt::format("{}: {}{}\n", run->name(), answer->text, done));
+  put(stdout, fmt::format("{}: {}{}\n", run.name(), answer.text, done));
   return kGood;
 }
 

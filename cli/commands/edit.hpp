@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bus_options.hpp"
+#include "rave/base/result.hpp"
 
 // Changes from one terminal to the world of a run in another.
 namespace rave::cli {
@@ -29,6 +30,6 @@ struct EditCommand {
 
 /// Prints what was done and how long the run took to do it. Returns 0; 1 if the run refuses; 2 for
 /// bad input, or if there is no such run or it does not answer.
-[[nodiscard]] int edit_world(const EditCommand& options);
+[[nodiscard]] Result<int> edit_world(const EditCommand& options);
 
 }  // namespace rave::cli

@@ -11,13 +11,12 @@
 
 namespace rave::cli {
 
-int end_run(const EndCommand& options) {
-  const auto processes = AskedRun::find_to_end(options.run, options.bus);
-  if (!processes) return complain(processes.error());
+Result<int> end_run(const EndCommand& options) {
+  RAVE_TRY_ASSIGN(const auto processes, AskedRun::find_to_end(options.run, options.bus));
   control::Request request;
   request.what = control::Request::What::kEnd;
   int code = kGood;
-  for (const AskedRun& process : *processes) {
+  for (const AskedRun& process : processes) {
     const auto answer = process.ask(request);
     // On the bus it may be gone before its answer is here, which is what was asked for.
     const bool gone = !answer && answer.error().code == ErrorCode::kState;
@@ -26,8 +25,7 @@ int end_run(const EndCommand& options) {
       continue;
     }
     const std::string why = answer ? answer->text : answer.error().message;
-    complain({ErrorCode::kState, fmt::format("{}: {}", process.name(), why), {}});
-    code = kNotGood;
+    code = refused(process, why);
   }
   return code;
 }

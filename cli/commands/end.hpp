@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bus_options.hpp"
+#include "rave/base/result.hpp"
 
 namespace rave::cli {
 
@@ -14,6 +15,6 @@ struct EndCommand {
 };
 
 /// Returns 0 if all that were asked end, 1 if one did not answer, 2 if there is no such run.
-[[nodiscard]] int end_run(const EndCommand& options);
+[[nodiscard]] Result<int> end_run(const EndCommand& options);
 
 }  // namespace rave::cli

@@ -12,6 +12,7 @@
 
 #include "error_text.hpp"
 #include "places.hpp"
+#include "rave/base/word_table.hpp"
 #include "rave/record/mcap_reader.hpp"
 #include "rave/record/run_reader.hpp"
 #include "rave/robot/reading.hpp"
@@ -122,27 +123,16 @@ std::string columns_of(ReadingKind kind, std::size_t most) {
       text += fmt::format("{}{}_{}", i > 0 ? "," : "", name, i);
     return text;
   };
-  switch (kind) {
-    case ReadingKind::kRanges:
-      return numbered("range_m");
-    case ReadingKind::kValues:
-      return numbered("value");
-    case ReadingKind::kSightings:
-      return "code,range_m,bearing_rad";
-    case ReadingKind::kPose:
-      return "x_m,y_m,yaw_rad,variance_xy_m2,variance_yaw_rad2";
-    case ReadingKind::kOdometry:
-      return "x_m,y_m,yaw_rad,v_mps,w_radps,variance_xy_m2,variance_yaw_rad2";
-    case ReadingKind::kNeighbours:
-      return "robot,range_m,bearing_rad,vx_mps,vy_mps";
-    case ReadingKind::kContact:
-      return "touching,bearing_rad";
-    case ReadingKind::kVelocity:
-      return "v_mps,w_radps";
-    case ReadingKind::kNone:
-      break;
-  }
-  return {};
+  if (kind == ReadingKind::kRanges) return numbered("range_m");
+  if (kind == ReadingKind::kValues) return numbered("value");
+  constexpr WordTable<ReadingKind, 6> kColumns = {
+      {{"code,range_m,bearing_rad", ReadingKind::kSightings},
+       {"x_m,y_m,yaw_rad,variance_xy_m2,variance_yaw_rad2", ReadingKind::kPose},
+       {"x_m,y_m,yaw_rad,v_mps,w_radps,variance_xy_m2,variance_yaw_rad2", ReadingKind::kOdometry},
+       {"robot,range_m,bearing_rad,vx_mps,vy_mps", ReadingKind::kNeighbours},
+       {"touching,bearing_rad", ReadingKind::kContact},
+       {"v_mps,w_radps", ReadingKind::kVelocity}}};
+  return std::string(kColumns.of(kind));
 }
 
 template <class T>
@@ -236,9 +226,9 @@ Status write_csv(const ExportCommand& options) {
 
 }  // namespace
 
-int export_recording(const ExportCommand& options) {
-  const Status done = write_csv(options);
-  return done ? kGood : complain(done.error());
+Result<int> export_recording(const ExportCommand& options) {
+  RAVE_TRY(write_csv(options));
+  return kGood;
 }
 
 }  // namespace rave::cli

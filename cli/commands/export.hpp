@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "rave/base/result.hpp"
+
 namespace rave::cli {
 
 /// `rave export`.
@@ -17,6 +19,6 @@ struct ExportCommand {
 /// Writes a part of a recording as CSV (RFC 4180, UTF-8, a header line, SI units). Numbers have as
 /// many digits as it takes to read the same bits back. Returns 0; 2 for bad input, a recording that
 /// is damaged, or an output that cannot be written.
-[[nodiscard]] int export_recording(const ExportCommand& options);
+[[nodiscard]] Result<int> export_recording(const ExportCommand& options);
 
 }  // namespace rave::cli

@@ -81,7 +81,7 @@ Result<std::unique_ptr<gui_server::GuiServer>> serve(const GuiCommand& options,
 
 }  // namespace
 
-int gui(const GuiCommand& options) {
+Result<int> gui(const GuiCommand& options) {
   // Before the server has threads, so that none of them gets the signals.
   sigset_t signals;
   sigemptyset(&signals);
@@ -90,9 +90,8 @@ int gui(const GuiCommand& options) {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
   Afterwards afterwards;
-  const auto server = serve(options, afterwards);
-  if (!server) return complain(server.error());
-  afterwards.set_page(server->get());
+  RAVE_TRY_ASSIGN(const auto server, serve(options, afterwards));
+  afterwards.set_page(server.get());
   int signal = 0;
   sigwait(&signals, &signal);
   afterwards.set_page(nullptr);

@@ -5,6 +5,7 @@
 
 #include "commands/run.hpp"
 #include "page.hpp"
+#include "rave/base/result.hpp"
 
 namespace rave::cli {
 
@@ -16,6 +17,6 @@ struct GuiCommand {
 };
 
 /// Serves the page until SIGINT or SIGTERM. Returns 0, or 2 on bad input.
-[[nodiscard]] int gui(const GuiCommand& options);
+[[nodiscard]] Result<int> gui(const GuiCommand& options);
 
 }  // namespace rave::cli

@@ -31,11 +31,6 @@ constexpr auto kLookFar = std::chrono::milliseconds(200);
 /// A process on the bus may refuse this number of looks in a row.
 constexpr int kMostMisses = 10;
 
-int refused(const AskedRun& run, const std::string& text) {
-  complain({ErrorCode::kState, fmt::format("{}: {}", run.name(), text), {}});
-  return kNotGood;
-}
-
 Result<RunStatus> status_of(const std::string& local) { return AskedRun(local).status(); }
 
 std::optional<RunStatus::HandOver> hand_over_of(const RunStatus& status, const std::string& robot) {
@@ -101,21 +96,21 @@ Result<AskedRun> find_process(const std::string& word, std::string_view option,
 }
 
 /// Waits for the end of the hand-over that was begun after `before`.
-int await(const AskedRun& run, const std::string& robot, const RunStatus::HandOver& before) {
+Result<int> await(const AskedRun& run, const std::string& robot,
+                  const RunStatus::HandOver& before) {
   int misses = 0;
   for (;; std::this_thread::sleep_for(run.on_bus() ? kLookFar : kLook)) {
-    const auto answer = run.ask(Request{});
-    if (!answer) return complain(answer.error());
-    if (!answer->good) {
+    RAVE_TRY_ASSIGN(const auto answer, run.ask(Request{}));
+    if (!answer.good) {
       // Who is asked too much at once has not ended.
       if (run.on_bus() && ++misses < kMostMisses) continue;
       return refused(
           run, fmt::format("the hand-over of {} was requested, but its progress is unknown: {}; "
                            "see the log of that process",
-                           robot, answer->text));
+                           robot, answer.text));
     }
     misses = 0;
-    const auto now = hand_over_of(answer->status, robot);
+    const auto now = hand_over_of(answer.status, robot);
     if (!now) return refused(run, "the run ended before the robot was handed over");
     // The process counts hand-overs. A change of a counter, not the present drivers, says that this
     // one is done: another request may have come before.
@@ -159,57 +154,47 @@ void add_rows(const RunStatus& status, const RunStatus::Robot& robot, Table& tab
 
 }  // namespace
 
-int hand_over(const HandOverCommand& options) {
-  const auto run =
-      find_process(options.run, "--run", options.bus, [&options](const RunStatus::Robot& robot) {
-        return robot.name == options.robot && robot.hand_over;
-      });
-  if (!run) return complain(run.error());
-  const auto status = run->status();
-  if (!status) return complain(status.error());
+Result<int> hand_over(const HandOverCommand& options) {
+  const auto has = [&options](const RunStatus::Robot& robot) {
+    return robot.name == options.robot && robot.hand_over;
+  };
+  RAVE_TRY_ASSIGN(const auto run, find_process(options.run, "--run", options.bus, has));
+  RAVE_TRY_ASSIGN(const auto status, run.status());
   // Before the request, or a fast hand-over would be missed.
-  const auto before = hand_over_of(*status, options.robot).value_or(RunStatus::HandOver{});
+  const auto before = hand_over_of(status, options.robot).value_or(RunStatus::HandOver{});
   Request request = request_of({RunKind::kHandOver, options.robot});
   request.run.value = options.to;
-  const auto answer = run->ask(request);
-  if (!answer) return complain(answer.error());
-  if (!answer->good) return refused(*run, answer->text);
-  return await(*run, options.robot, before);
+  RAVE_TRY_ASSIGN(const auto answer, run.ask(request));
+  if (!answer.good) return refused(run, answer.text);
+  return await(run, options.robot, before);
 }
 
-int show_shadows(const ShadowCommand& options) {
-  const auto run =
-      find_process(options.run, {}, options.bus, [&options](const RunStatus::Robot& robot) {
-        return (options.robot.empty() || robot.name == options.robot) && robot.shadow;
-      });
-  if (!run) return complain(run.error());
+Result<int> show_shadows(const ShadowCommand& options) {
+  const auto has = [&options](const RunStatus::Robot& robot) {
+    return (options.robot.empty() || robot.name == options.robot) && robot.shadow;
+  };
+  RAVE_TRY_ASSIGN(const auto run, find_process(options.run, {}, options.bus, has));
   if (options.reset) {
-    const auto answer = run->ask(request_of({RunKind::kResetShadow, options.robot}));
-    if (!answer) return complain(answer.error());
-    if (!answer->good) return refused(*run, answer->text);
-    put(stdout, fmt::format("{}: {}\n", run->name(), answer->text));
-    return kGood;
+    return ask_and_tell(run, request_of({RunKind::kResetShadow, options.robot}));
   }
-  const auto status = run->status();
-  if (!status) return complain(status.error());
+  RAVE_TRY_ASSIGN(const auto status, run.status());
   Table table;
-  table.columns = {{"robot", Align::kLeft, false},
-                   {"difference", Align::kLeft, false},
-                   {"now", Align::kRight, false},
-                   {"most", Align::kRight, false},
-                   {"since", Align::kRight, false}};
+  table.columns = {{"robot"},
+                   {"difference"},
+                   {"now", Align::kRight},
+                   {"most", Align::kRight},
+                   {"since", Align::kRight}};
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const RunStatus::Robot& robot : status->robots) {
-    if (!robot.shadow || (!options.robot.empty() && options.robot != robot.name)) continue;
-    add_rows(*status, robot, table);
+  for (const RunStatus::Robot& robot : status.robots) {
+    if (!has(robot)) continue;
+    add_rows(status, robot, table);
     json.push_back(json_of(robot));
   }
   if (json.empty()) {
-    return refused(*run,
-                   options.robot.empty()
-                       ? "no robot of the run has a shadow; set `shadow: true` and `twin:` in "
-                         "its entry of the scenario"
-                       : fmt::format("robot `{}` has no shadow", options.robot));
+    return refused(run, options.robot.empty()
+                            ? "no robot of the run has a shadow; set `shadow: true` and `twin:` in "
+                              "its entry of the scenario"
+                            : fmt::format("robot `{}` has no shadow", options.robot));
   }
   put(stdout, options.json ? json.dump(2) + "\n" : render_table(table));
   return kGood;

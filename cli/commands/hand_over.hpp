@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bus_options.hpp"
+#include "rave/base/result.hpp"
 
 // Robots with two sets of drivers, and the shadows of real ones.
 namespace rave::cli {
@@ -27,9 +28,9 @@ struct ShadowCommand {
 
 /// Waits until the robot has its other drivers and says so. Returns 0; 1 if that is refused, by the
 /// run or after a while by the drivers; 2 if there is no such run.
-[[nodiscard]] int hand_over(const HandOverCommand& options);
+[[nodiscard]] Result<int> hand_over(const HandOverCommand& options);
 /// Prints how far shadows are from their robots. Returns 0; 1 if the run has none; 2 if there is no
 /// such run.
-[[nodiscard]] int show_shadows(const ShadowCommand& options);
+[[nodiscard]] Result<int> show_shadows(const ShadowCommand& options);
 
 }  // namespace rave::cli

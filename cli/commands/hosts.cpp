@@ -25,8 +25,7 @@ int tell(const RunCommand& options, bool whole, const std::string& summary,
   const Terminal errors = terminal_of(stderr);
   if (!options.quiet) put(stdout, summary + fmt::format("{}\n", folder.string()));
   for (const std::string& problem : problems) {
-    put(stderr,
-        fmt::format("{} {}\n", errors.red("problem:"), without_control_characters(problem, " ")));
+    put_note(errors.red("problem:"), without_control_characters(problem, " "));
   }
   if (whole && !options.quiet) put(stdout, terminal_of(stdout).green("done") + "\n");
   return whole ? kGood : kNotGood;
@@ -34,64 +33,52 @@ int tell(const RunCommand& options, bool whole, const std::string& summary,
 
 }  // namespace
 
-int robot(const RobotCommand& options) {
+Result<int> robot(const RobotCommand& options) {
   const RunCommand& run = options.run;
-  auto scenario = read_scenario(run);
-  if (!scenario) return complain(scenario.error());
-  const auto catalogue = open_catalogue(run.plugins);
-  if (!catalogue) return complain(catalogue.error());
-  auto others = open_catalogue(run.plugins);
-  if (!others) return complain(others.error());
-  const std::string name = fmt::format("{}-{}", scenario->scenario.name.value, options.host);
+  RAVE_TRY_ASSIGN(auto scenario, read_scenario(run));
+  RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(run.plugins));
+  const std::string name = fmt::format("{}-{}", scenario.scenario.name.value, options.host);
   runtime::HostOptions how;
+  RAVE_TRY_ASSIGN(how.others, open_catalogue(run.plugins));
   how.host = options.host;
   how.manager_patience = from_seconds(options.manager_patience_s);
-  how.others = *std::move(others);
-  auto bus = bus_of_run(run.bus, options.host, *scenario, bus::Reach::kHubs);
-  if (!bus) return complain(bus.error());
-  how.bus = *bus;
-  const auto opened = RunStart::open(run, name);
-  if (!opened) return complain(opened.error());
-  RunStart& start = **opened;
+  RAVE_TRY_ASSIGN(how.bus, bus_of_run(run.bus, options.host, scenario, bus::Reach::kHubs));
+  RAVE_TRY_ASSIGN(const auto opened, RunStart::open(run, name));
+  RunStart& start = *opened;
   runtime::RunControl& control = start.control();
   how.run =
-      start.run_options(run, control::own_run_name(scenario->scenario.name.value, options.host));
+      start.run_options(run, control::own_run_name(scenario.scenario.name.value, options.host));
   how.begin_request = control::bus_requests_of(control);
-  auto commands = control::commands_of(control, *scenario, options.host);
-  if (!commands) return complain(commands.error());
-  how.begin_command = *std::move(commands);
+  RAVE_TRY_ASSIGN(how.begin_command, control::commands_of(control, scenario, options.host));
   start.serve(how.run.run_name, "host", "this host");
-  const auto line = open_host_line(run.line, options.host, *bus, control, start.console());
+  const auto line = open_host_line(run.line, options.host, how.bus, control, start.console());
   if (!line) {
     start.discard();
-    return complain(line.error());
+    return tl::unexpected(line.error());
   }
-  const auto outcome = runtime::run_host(*scenario, **catalogue, std::move(how));
+  const auto outcome = runtime::run_host(scenario, *catalogue, std::move(how));
   // What a run left that broke off tells why.
   std::error_code error;
   if (!outcome && !std::filesystem::exists(start.path() / "run.mcap", error)) start.discard();
-  if (!outcome) return complain(outcome.error());
+  if (!outcome) return tl::unexpected(outcome.error());
   return tell(run, outcome->whole, fmt::format("host {}: {} steps\n", options.host, outcome->steps),
               outcome->problems, start.path());
 }
 
-int env(const EnvCommand& options) {
+Result<int> env(const EnvCommand& options) {
   const RunCommand& run = options.run;
-  auto scenario = read_scenario(run);
-  if (!scenario) return complain(scenario.error());
-  auto bus = bus_of_run(run.bus, "environment manager", *scenario, bus::Reach::kHub);
-  if (!bus) return complain(bus.error());
-  const std::string& name = scenario->scenario.name.value;
-  const auto opened = RunStart::open(run, name + "-env");
-  if (!opened) return complain(opened.error());
-  RunStart& start = **opened;
+  RAVE_TRY_ASSIGN(auto scenario, read_scenario(run));
+  RAVE_TRY_ASSIGN(auto bus, bus_of_run(run.bus, "environment manager", scenario, bus::Reach::kHub));
+  const std::string& name = scenario.scenario.name.value;
+  RAVE_TRY_ASSIGN(const auto opened, RunStart::open(run, name + "-env"));
+  RunStart& start = *opened;
   Console& console = start.console();
   runtime::RunControl& control = start.control();
   start.serve(control::own_run_name(name), "run", "this run");
   bool started = false;
-  auto managed = manage_run({*scenario,
+  auto managed = manage_run({scenario,
                              run,
-                             *bus,
+                             bus,
                              start.path(),
                              console,
                              control,
@@ -103,11 +90,10 @@ int env(const EnvCommand& options) {
                              options.resume});
   console.clear();
   if (!managed && !started) start.discard();
-  if (!managed) return complain(managed.error());
-  const auto outcome = managed->results->write(managed->end);
-  if (!outcome) return complain(outcome.error());
+  if (!managed) return tl::unexpected(managed.error());
+  RAVE_TRY_ASSIGN(const auto outcome, managed->results->write(managed->end));
   // A host that sent nothing is a problem; a check that could not be made has not failed.
-  return tell(run, outcome->whole && !outcome->checks_fail, outcome->summary, outcome->problems,
+  return tell(run, outcome.whole && !outcome.checks_fail, outcome.summary, outcome.problems,
               start.path());
 }
 

@@ -5,6 +5,7 @@
 
 #include "bus_options.hpp"
 #include "commands/run.hpp"
+#include "rave/base/result.hpp"
 
 namespace rave::cli {
 
@@ -23,7 +24,7 @@ struct EnvCommand {
 };
 
 /// Return 0 if the run completed for them, 1 if not, 2 on bad input.
-[[nodiscard]] int robot(const RobotCommand& options);
-[[nodiscard]] int env(const EnvCommand& options);
+[[nodiscard]] Result<int> robot(const RobotCommand& options);
+[[nodiscard]] Result<int> env(const EnvCommand& options);
 
 }  // namespace rave::cli

@@ -137,10 +137,7 @@ std::string info_text(const record::RecordSummary& summary) {
   for (const std::string& damage : summary.damages) text += fmt::format("damaged: {}\n", damage);
   for (const std::string& piece : summary.unsummed) text += fmt::format("not checked: {}\n", piece);
   Table table;
-  table.columns = {{"topic", Align::kLeft, false},
-                   {"type", Align::kLeft, false},
-                   {"messages", Align::kRight, false},
-                   {"rate", Align::kRight, false}};
+  table.columns = {{"topic"}, {"type"}, {"messages", Align::kRight}, {"rate", Align::kRight}};
   for (const record::ChannelSummary& channel : summary.channels) {
     table.rows.push_back({channel.topic, channel.schema, fmt::format("{}", channel.messages),
                           fmt::format("{:.1f} Hz", channel.rate_hz)});
@@ -150,15 +147,14 @@ std::string info_text(const record::RecordSummary& summary) {
 
 }  // namespace
 
-int info(const InfoCommand& options) {
-  const auto file = record_file(options.file);
-  if (!file) return complain(file.error());
-  const auto summary = record::describe_record(
-      *file, options.check ? record::RecordLook::kAll : record::RecordLook::kIndex);
-  if (!summary) return complain(summary.error());
-  put(stdout, options.json ? info_json(*file, *summary).dump(2) + "\n" : info_text(*summary));
+Result<int> info(const InfoCommand& options) {
+  RAVE_TRY_ASSIGN(const auto file, record_file(options.file));
+  RAVE_TRY_ASSIGN(const auto summary,
+                  record::describe_record(
+                      file, options.check ? record::RecordLook::kAll : record::RecordLook::kIndex));
+  put(stdout, options.json ? info_json(file, summary).dump(2) + "\n" : info_text(summary));
   // Scripts ask with the exit code whether a recording can be relied on.
-  return is_good(*summary) ? kGood : kNotGood;
+  return is_good(summary) ? kGood : kNotGood;
 }
 
 }  // namespace rave::cli

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "rave/base/result.hpp"
+
 namespace rave::cli {
 
 /// `rave info`.
@@ -14,6 +16,6 @@ struct InfoCommand {
 
 /// Prints the content of a recording. Returns 0; 1 if it is damaged, or was to be checked and a
 /// part cannot be; 2 if it is not a recording.
-[[nodiscard]] int info(const InfoCommand& options);
+[[nodiscard]] Result<int> info(const InfoCommand& options);
 
 }  // namespace rave::cli

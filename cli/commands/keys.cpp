@@ -24,12 +24,6 @@ std::int64_t now_s() {
   return std::chrono::duration_cast<std::chrono::seconds>(now).count();
 }
 
-std::string list_of(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 /// `lab-keys/` and `lab-keys` in the same way.
 std::string plain(std::string folder) {
   while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
@@ -82,13 +76,10 @@ Status give_line_key(const std::filesystem::path& folder) {
 
 }  // namespace
 
-int new_keys(const KeysNewCommand& options) {
+Result<int> new_keys(const KeysNewCommand& options) {
   const std::string folder = plain(options.folder);
-  const Status made =
-      keys::make_key_set({folder, options.lab, options.days, options.members, now_s()});
-  if (!made) return complain(made.error());
-  const Status line = give_line_key(folder);
-  if (!line) return complain(line.error());
+  RAVE_TRY(keys::make_key_set({folder, options.lab, options.days, options.members, now_s()}));
+  RAVE_TRY(give_line_key(folder));
   put(stdout,
       fmt::format("created {0} for {1}; valid for {2} days\n"
                   "next: copy {0}/{3} to where {3} runs, and start it there with\n"
@@ -96,59 +87,55 @@ int new_keys(const KeysNewCommand& options) {
                   "Keep {0}/ca secret: whoever has it can create members. {0}/line.key is "
                   "for the\nGUI Server alone (--line-key): whoever has it can command every "
                   "robot.\n",
-                  folder, list_of(options.members), options.days, options.members.front()));
+                  folder, fmt::join(options.members, ", "), options.days, options.members.front()));
   return kGood;
 }
 
-int add_keys(const KeysAddCommand& options) {
+Result<int> add_keys(const KeysAddCommand& options) {
   const std::string folder = plain(options.folder);
-  const Status added = keys::add_members(folder, options.members, options.days, now_s());
-  if (!added) return complain(added.error());
-  const Status line = give_line_key(folder);
-  if (!line) return complain(line.error());
-  put(stdout, fmt::format("added {} to {}\n", list_of(options.members), folder));
+  RAVE_TRY(keys::add_members(folder, options.members, options.days, now_s()));
+  RAVE_TRY(give_line_key(folder));
+  put(stdout, fmt::format("added {} to {}\n", fmt::join(options.members, ", "), folder));
   return kGood;
 }
 
-int show_keys(const KeysShowCommand& options) {
-  const auto set = keys::read_key_set(plain(options.folder));
-  if (!set) return complain(set.error());
-  Table table{"lab " + set->lab,
+Result<int> show_keys(const KeysShowCommand& options) {
+  RAVE_TRY_ASSIGN(const auto set, keys::read_key_set(plain(options.folder)));
+  Table table{"lab " + set.lab,
               {{""}, {"from"}, {"until"}, {"days left", Align::kRight}, {"SHA-256"}},
-              {row_of(set->authority)},
+              {row_of(set.authority)},
               {}};
-  for (const keys::KeyInfo& member : set->members) table.rows.push_back(row_of(member));
+  for (const keys::KeyInfo& member : set.members) table.rows.push_back(row_of(member));
   put(stdout, render_table(table, {.look = TableLook::kSpaces}));
   const Terminal terminal = terminal_of(stderr);
-  bool usable = judge(set->authority, terminal);
+  bool usable = judge(set.authority, terminal);
   // All are judged, also behind one that cannot be used.
-  for (const keys::KeyInfo& member : set->members) usable = judge(member, terminal) && usable;
+  for (const keys::KeyInfo& member : set.members) usable = judge(member, terminal) && usable;
   return usable ? kGood : kNotGood;
 }
 
-int web_keys(const KeysWebCommand& options) {
+Result<int> web_keys(const KeysWebCommand& options) {
   const std::string folder = plain(options.folder);
-  const auto made = keys::make_web_keys({folder, options.names, options.days, now_s()});
-  if (!made) return complain(made.error());
+  RAVE_TRY_ASSIGN(const auto made,
+                  keys::make_web_keys({folder, options.names, options.days, now_s()}));
   put(stdout,
-      fmt::format("{} {} for {}; valid until {}\n", made->new_authority ? "created" : "renewed in",
-                  folder, list_of(options.names), keys::date_text(made->until_s)));
-  if (made->new_authority) {
+      fmt::format("{} {} for {}; valid until {}\n", made.new_authority ? "created" : "renewed in",
+                  folder, fmt::join(options.names, ", "), keys::date_text(made.until_s)));
+  if (made.new_authority) {
     put(stdout,
         fmt::format(
             "next: tell browsers once to trust {0}/authority.pem\n"
             "  SHA-256 {1}\n"
             "Keep {0}/authority_key.pem secret: whoever has it can impersonate this server.\n",
-            folder, made->fingerprint));
+            folder, made.fingerprint));
   }
   put(stdout,
       fmt::format("serve with  --certificate {0}/server.pem --key {0}/server_key.pem\n", folder));
   return kGood;
 }
 
-int line_keys(const KeysLineCommand& options) {
-  const Status made = direct_line::make_key_files(options.file);
-  if (!made) return complain(made.error());
+Result<int> line_keys(const KeysLineCommand& options) {
+  RAVE_TRY(direct_line::make_key_files(options.file));
   put(stdout, fmt::format("created {0} and {0}.pub\n"
                           "next: rave gui SCENARIO --line-key {0}\n"
                           "      rave robot SCENARIO --host NAME --web --web-key {0}.pub\n"

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "rave/base/result.hpp"
+
 namespace rave::cli {
 
 /// `rave keys new`.
@@ -40,10 +42,10 @@ struct KeysLineCommand {
 
 // Each prints what was done, and never a private key. Returns 0; 2 for bad input; `keys show` 1 if
 // something cannot be used.
-[[nodiscard]] int new_keys(const KeysNewCommand& options);
-[[nodiscard]] int add_keys(const KeysAddCommand& options);
-[[nodiscard]] int show_keys(const KeysShowCommand& options);
-[[nodiscard]] int web_keys(const KeysWebCommand& options);
-[[nodiscard]] int line_keys(const KeysLineCommand& options);
+[[nodiscard]] Result<int> new_keys(const KeysNewCommand& options);
+[[nodiscard]] Result<int> add_keys(const KeysAddCommand& options);
+[[nodiscard]] Result<int> show_keys(const KeysShowCommand& options);
+[[nodiscard]] Result<int> web_keys(const KeysWebCommand& options);
+[[nodiscard]] Result<int> line_keys(const KeysLineCommand& options);
 
 }  // namespace rave::cli

@@ -10,22 +10,6 @@
 namespace rave::cli {
 namespace {
 
-/// A path as a shell takes it: in quotes where it must be.
-std::string quoted(const std::string& path) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+@%,:";
-  if (path.find_first_not_of(kPlain) == std::string::npos) return path;
-  std::string text = "'";
-  for (const char c : path) {
-    if (c == '\'') {
-      text += "'\\''";
-    } else {
-      text += c;
-    }
-  }
-  return text + "'";
-}
-
 /// Folders of one's own are searched first, so a project with the name of something that comes with
 /// RAVE would replace it in every scenario that is run with them.
 Status hides_nothing(ProjectKind kind, const std::string& name) {
@@ -44,32 +28,28 @@ Status hides_nothing(ProjectKind kind, const std::string& name) {
 
 }  // namespace
 
-int new_project(const NewCommand& options) {
-  const auto kind = parse_project_kind(options.kind);
-  if (!kind) return complain(kind.error());
-  if (const auto hidden = hides_nothing(*kind, options.name); !hidden) {
-    return complain(hidden.error());
-  }
+Result<int> new_project(const NewCommand& options) {
+  RAVE_TRY_ASSIGN(const auto kind, parse_project_kind(options.kind));
+  RAVE_TRY(hides_nothing(kind, options.name));
   const std::string folder = options.directory.empty() ? options.name : options.directory;
-  const auto created = create_project(*kind, options.name, share_folder() / "templates", folder);
-  if (!created) return complain(created.error());
-  if (*kind == ProjectKind::kPanel) {
+  RAVE_TRY(create_project(kind, options.name, share_folder() / "templates", folder));
+  if (kind == ProjectKind::kPanel) {
     put(stdout, fmt::format("created {0}; edit {0}/{1}.mjs\n\nnext:\n"
                             "  node --test {2}\n\n"
                             "then name it in a scenario, and run that with --gui:\n"
                             "  gui:\n    components:\n"
                             "      - {{module: {0}/{1}.mjs, roles: [observer, commander]}}\n",
-                            folder, options.name, quoted(folder)));
+                            folder, options.name, shell_word(folder)));
     return kGood;
   }
   const std::string prefix = executable_folder().parent_path().string();
-  const std::string shell_folder = quoted(folder);
-  const std::string build = quoted(folder + "/build");
+  const std::string shell_folder = shell_word(folder);
+  const std::string build = shell_word(folder + "/build");
   put(stdout, fmt::format("created {0}; edit {0}/{1}.cpp\n\nnext:\n"
                           "  cmake -S {2} -B {3} -DCMAKE_PREFIX_PATH={4}\n"
                           "  cmake --build {3}\n"
                           "  rave describe {1} --plugins {3}\n",
-                          folder, options.name, shell_folder, build, quoted(prefix)));
+                          folder, options.name, shell_folder, build, shell_word(prefix)));
   put(stdout,
       "then name it as `driver:` in a robot file, and pass --plugins to `rave run` or set "
       "RAVE_PLUGIN_PATH\n");

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "rave/base/result.hpp"
+
 namespace rave::cli {
 
 /// `rave new`.
@@ -13,6 +15,6 @@ struct NewCommand {
 };
 
 /// Makes a project for a robot program, driver or panel of one's own. Returns 0 or 2.
-[[nodiscard]] int new_project(const NewCommand& options);
+[[nodiscard]] Result<int> new_project(const NewCommand& options);
 
 }  // namespace rave::cli

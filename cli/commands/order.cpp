@@ -71,65 +71,52 @@ Result<Request> read_request(const OrderCommand& options) {
   return fail(ErrorCode::kInvalidArgument, "no order");
 }
 
-/// What came of it, and the process that has the robot.
-struct Given {
-  int code = kGood;
-  const AskedRun* by = nullptr;
-};
-
-/// Asks those who may have the robot, and prints what the one says that does.
-Given ask(const std::vector<AskedRun>& runs, const Request& request) {
-  std::vector<std::pair<const AskedRun*, Error>> refused;
+/// Asks those who may have the robot, and prints what the one says that does. Returns that process;
+/// null if all refuse.
+const AskedRun* ask(const std::vector<AskedRun>& runs, const Request& request) {
+  std::vector<Error> refusals;
   for (const AskedRun& run : runs) {
     const auto answer = run.ask(request);
     if (answer && answer->good) {
       put(stdout, fmt::format("{}: {}\n", run.name(), answer->text));
-      return {kGood, &run};
+      return &run;
     }
-    refused.emplace_back(&run,
-                         answer ? Error{ErrorCode::kState, answer->text, {}} : answer.error());
+    Error why = answer ? Error{ErrorCode::kState, answer->text, {}} : answer.error();
+    refusals.push_back(std::move(why).with_context(run.name()));
   }
-  Given given{kNotGood, nullptr};
   // Only if all refuse: of several hosts one has the robot, and the others say that they have not.
-  for (const auto& [run, why] : refused) {
-    complain({why.code, fmt::format("{}: {}", run->name(), why.message), {}});
-  }
-  return given;
+  for (const Error& why : refusals) complain(why);
+  return nullptr;
 }
 
 /// Keeps driving, and gives the robot back to its program.
-int drive_on(const AskedRun& run, const Request& drive, double for_s) {
+Result<int> drive_on(const AskedRun& run, const Request& drive, double for_s) {
   const auto end = Clock::now() + std::chrono::duration<double>(for_s);
   while (Clock::now() + kAgain < end) {
     std::this_thread::sleep_for(kAgain);
-    const auto answer = run.ask(drive);
-    if (!answer) return complain(answer.error());
-    if (answer->good) continue;
-    complain({ErrorCode::kState, fmt::format("{}: {}", run.name(), answer->text), {}});
-    return kNotGood;
+    RAVE_TRY_ASSIGN(const auto answer, run.ask(drive));
+    if (!answer.good) return refused(run, answer.text);
   }
   // The last velocity holds until the end, and then the program takes over; without the cancel it
   // would wait until the driver counts as gone.
   std::this_thread::sleep_until(end);
-  return ask({run}, request_of({RunKind::kCancel, drive.run.robot})).code;
+  return ask({run}, request_of({RunKind::kCancel, drive.run.robot})) != nullptr ? kGood : kNotGood;
 }
 
 }  // namespace
 
-int give_order(const OrderCommand& options) {
-  const auto request = read_request(options);
-  if (!request) return complain(request.error());
-  const auto run = AskedRun::find(options.run, options.bus);
-  if (!run) return complain(run.error());
-  const std::vector<AskedRun> runs = run->takers_of_orders(options.robot);
+Result<int> give_order(const OrderCommand& options) {
+  RAVE_TRY_ASSIGN(const auto request, read_request(options));
+  RAVE_TRY_ASSIGN(const auto run, AskedRun::find(options.run, options.bus));
+  const std::vector<AskedRun> runs = run.takers_of_orders(options.robot);
   if (options.force) {
     Request take = request_of({RunKind::kTake, options.robot});
     take.run.value = "force";
-    if (const int code = ask(runs, take).code; code != kGood) return code;
+    if (ask(runs, take) == nullptr) return kNotGood;
   }
-  const Given given = ask(runs, *request);
-  if (given.by == nullptr || options.what != OrderCommand::What::kDrive) return given.code;
-  return drive_on(*given.by, *request, options.for_s);
+  const AskedRun* const by = ask(runs, request);
+  if (by == nullptr) return kNotGood;
+  return options.what == OrderCommand::What::kDrive ? drive_on(*by, request, options.for_s) : kGood;
 }
 
 }  // namespace rave::cli

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bus_options.hpp"
+#include "rave/base/result.hpp"
 
 namespace rave::cli {
 
@@ -26,6 +27,6 @@ struct OrderCommand {
 
 /// Prints what was done. Returns 0; 1 if the run refuses; 2 if there is no such run, it does not
 /// answer, or the numbers are invalid.
-[[nodiscard]] int give_order(const OrderCommand& options);
+[[nodiscard]] Result<int> give_order(const OrderCommand& options);
 
 }  // namespace rave::cli

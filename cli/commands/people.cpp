@@ -146,10 +146,9 @@ Result<std::string> do_it(const PeopleCommand& options) {
 
 }  // namespace
 
-int people(const PeopleCommand& options) {
-  const auto done = do_it(options);
-  if (!done) return complain(done.error());
-  put(stdout, *done);
+Result<int> people(const PeopleCommand& options) {
+  RAVE_TRY_ASSIGN(const auto done, do_it(options));
+  put(stdout, done);
   return kGood;
 }
 

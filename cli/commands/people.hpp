@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "rave/base/result.hpp"
+
 namespace rave::cli {
 
 /// `rave people add|invite|list|remove|uninvite`: who may watch a run over the network.
@@ -18,6 +20,6 @@ struct PeopleCommand {
 
 /// Passwords come from the terminal, without being shown, or as the first line of what is piped in.
 /// Returns 0, or 2 on bad input.
-[[nodiscard]] int people(const PeopleCommand& options);
+[[nodiscard]] Result<int> people(const PeopleCommand& options);
 
 }  // namespace rave::cli

@@ -5,7 +5,6 @@
 
 #include "error_text.hpp"
 #include "places.hpp"
-#include "played_scenario.hpp"
 #include "run_folder.hpp"
 
 namespace rave::cli {
@@ -18,13 +17,8 @@ constexpr const char* kScenarioFolder = "played";
 
 Result<PlayedScenario> make(const PlayCommand& options) {
   RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.run.plugins));
-  PlayArguments arguments;
+  PlayArguments arguments = options.how;
   RAVE_TRY_ASSIGN(arguments.record, record_file(options.file));
-  arguments.robots = options.robots;
-  arguments.anew = options.anew;
-  if (!options.world.empty()) arguments.world = options.world;
-  if (!options.program.empty()) arguments.program = options.program;
-  arguments.start_s = options.start_s;
   if (!options.write.empty()) {
     arguments.folder = options.write;
   } else {
@@ -48,29 +42,24 @@ Status keeps_its_record(const PlayCommand& options) {
 
 }  // namespace
 
-int play(const PlayCommand& options) {
-  const auto played = make(options);
-  if (!played) return complain(played.error());
-  for (const std::string& note : played->notes) {
-    put(stderr, fmt::format("{} {}\n", terminal_of(stderr).yellow("note:"), note));
-  }
+Result<int> play(const PlayCommand& options) {
+  RAVE_TRY_ASSIGN(const auto played, make(options));
+  for (const std::string& note : played.notes) put_note(terminal_of(stderr).yellow("note:"), note);
   if (!options.write.empty()) {
-    if (auto written = write_played(*played, options.write); !written) {
-      return complain(written.error());
-    }
+    RAVE_TRY(write_played(played, options.write));
     put(stdout, fmt::format("wrote {0}; run it with `rave run {0}`\n", options.write));
     return kGood;
   }
-  if (auto kept = keeps_its_record(options); !kept) return complain(kept.error());
-  const auto folder = RunFolder::create({options.run.output, options.run.replace}, played->name);
-  if (!folder) return complain(folder.error());
-  const fs::path scenario = folder->path() / kScenarioFolder;
+  RAVE_TRY(keeps_its_record(options));
+  RAVE_TRY_ASSIGN(const auto folder,
+                  RunFolder::create({options.run.output, options.run.replace}, played.name));
+  const fs::path scenario = folder.path() / kScenarioFolder;
   std::error_code error;
   if (options.run.replace) fs::remove_all(scenario, error);
-  if (auto written = write_played(*played, scenario); !written) return complain(written.error());
+  RAVE_TRY(write_played(played, scenario));
   RunCommand run_options = options.run;
   run_options.scenario = scenario.string();
-  run_options.output = folder->path().string();
+  run_options.output = folder.path().string();
   run_options.replace = false;  // done
   return run(run_options);
 }

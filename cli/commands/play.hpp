@@ -6,23 +6,21 @@
 #include <vector>
 
 #include "commands/run.hpp"
+#include "played_scenario.hpp"
+#include "rave/base/result.hpp"
 
 namespace rave::cli {
 
 /// `rave play`.
 struct PlayCommand {
-  std::string file;                 ///< A record, or the folder of a run.
-  std::vector<std::string> robots;  ///< Empty: all.
-  std::vector<std::string> anew;    ///< Virtual sensors that sense the new world.
-  std::string world;                ///< Empty: that of the record.
-  std::string program;              ///< Empty: none.
-  double start_s = 0;
+  std::string file;   ///< A record, or the folder of a run.
+  PlayArguments how;  ///< Its record and folder are set by play().
   std::string write;  ///< A folder to write the scenario to, without running it.
   RunCommand run;     ///< How it is run; its scenario is set by play().
 };
 
 /// Turns the robots of a recording into recorded real robots and runs them. Returns the exit code
 /// of `rave run`.
-[[nodiscard]] int play(const PlayCommand& options);
+[[nodiscard]] Result<int> play(const PlayCommand& options);
 
 }  // namespace rave::cli

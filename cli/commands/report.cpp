@@ -9,7 +9,6 @@
 #include "places.hpp"
 #include "rave/base/file.hpp"
 #include "rave/base/table.hpp"
-#include "rave/replay/gap.hpp"
 
 namespace rave::cli {
 namespace {
@@ -21,9 +20,7 @@ std::vector<TableCell> row(std::string what, double metres, double degrees) {
 std::string table_of(const runtime::GapReport& gap) {
   Table table;
   table.title = fmt::format("{} against its simulated twin", gap.robot);
-  table.columns = {{"", Align::kLeft, false},
-                   {"distance", Align::kRight, false},
-                   {"heading", Align::kRight, false}};
+  table.columns = {{""}, {"distance", Align::kRight}, {"heading", Align::kRight}};
   for (const runtime::GapAt& at : gap.after) {
     table.rows.push_back(row(fmt::format("after {:g} s", at.after_s), at.metres, at.degrees));
   }
@@ -44,38 +41,29 @@ std::string table_of(const runtime::GapReport& gap) {
 
 }  // namespace
 
-int report_gap(const GapCommand& options) {
-  const auto catalogue = open_catalogue(options.plugins);
-  if (!catalogue) return complain(catalogue.error());
-  const auto record = record_file(options.file);
-  if (!record) return complain(record.error());
-  const auto gap = runtime::measure_gap(
-      *record, **catalogue,
-      {options.robot, options.twin, options.commands, options.truth, options.window_s});
-  if (!gap) return complain(gap.error());
+Result<int> report_gap(const GapCommand& options) {
+  RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.plugins));
+  RAVE_TRY_ASSIGN(const auto record, record_file(options.file));
+  RAVE_TRY_ASSIGN(const auto gap, runtime::measure_gap(record, *catalogue, options.gap));
   std::filesystem::path folder = options.output;
-  if (folder.empty()) folder = record->parent_path();
+  if (folder.empty()) folder = record.parent_path();
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
-  const std::string stem = "gap-" + gap->robot;
-  const std::string json = runtime::gap_json(*gap);
-  if (auto drawn = runtime::draw_gap(*gap, folder, stem); !drawn) {
-    return complain(drawn.error());
-  }
-  if (auto written = write_file_atomically(folder / (stem + ".json"), json); !written) {
-    return complain(written.error());
-  }
+  const std::string stem = "gap-" + gap.robot;
+  const std::string json = runtime::gap_json(gap);
+  RAVE_TRY(runtime::draw_gap(gap, folder, stem));
+  RAVE_TRY(write_file_atomically(folder / (stem + ".json"), json));
   if (options.json) {
     put(stdout, json);
     return kGood;
   }
-  put(stdout, table_of(*gap));
+  put(stdout, table_of(gap));
   put(stdout,
       fmt::format(
           "twin: {}\ncommands: {}\npose: {}, {:.2f} s from {:.2f} s, {:.2f} m; known in {} of "
           "{} steps\n",
-          gap->twin, gap->commands, gap->pose, gap->duration_s, gap->start_s, gap->driven_m,
-          gap->points.size(), gap->steps));
+          gap.twin, gap.commands, gap.pose, gap.duration_s, gap.start_s, gap.driven_m,
+          gap.points.size(), gap.steps));
   put(stdout, fmt::format("{}: {}.svg, {}.png, {}.json\n", folder.empty() ? "." : folder.string(),
                           stem, stem, stem));
   return kGood;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/run.hpp"
 
-#include "error_text.hpp"
 #include "places.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/control/folder.hpp"
@@ -26,13 +25,11 @@ Result<HostLineEnds> open_line(const RunCommand& options, const config::Expanded
 }
 
 /// A run whose robots all belong to this process.
-int run_alone(const RunCommand& options, const config::ExpandedScenario& scenario) {
-  const auto catalogue = open_catalogue(options.plugins);
-  if (!catalogue) return complain(catalogue.error());
+Result<int> run_alone(const RunCommand& options, const config::ExpandedScenario& scenario) {
+  RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.plugins));
   const std::string& name = scenario.scenario.name.value;
-  const auto opened = RunStart::open(options, name);
-  if (!opened) return complain(opened.error());
-  RunStart& start = **opened;
+  RAVE_TRY_ASSIGN(const auto opened, RunStart::open(options, name));
+  RunStart& start = *opened;
   Console& console = start.console();
   runtime::RunControl& control = start.control();
   runtime::RunOptions run_options = start.run_options(options, control::own_run_name(name));
@@ -45,23 +42,18 @@ int run_alone(const RunCommand& options, const config::ExpandedScenario& scenari
   std::unique_ptr<gui_server::GuiServer> page;
   std::unique_ptr<plugin::Catalogue> described;
   if (options.gui) {
-    auto found = open_catalogue(options.plugins);
-    if (!found) return complain(found.error());
-    described = *std::move(found);
+    RAVE_TRY_ASSIGN(described, open_catalogue(options.plugins));
   }
   gui_server::LiveRun live(
-      scenario, control, **catalogue, std::move(described),
+      scenario, control, *catalogue, std::move(described),
       [&page](auto source) { page->show(std::move(source)); },
       find_scenario(options.scenario).value_or(""));
   if (options.gui) {
-    auto served = serve_page(options.page);
-    if (!served) return complain(served.error());
-    page = *std::move(served);
+    RAVE_TRY_ASSIGN(page, serve_page(options.page));
     run_options.observers.push_back(&live.observer());
   }
-  const auto line = open_line(options, scenario, page.get(), start);
-  if (!line) return complain(line.error());
-  const auto outcome = runtime::run(scenario, **catalogue, run_options);
+  RAVE_TRY_ASSIGN(const auto line, open_line(options, scenario, page.get(), start));
+  const auto outcome = runtime::run(scenario, *catalogue, run_options);
   console.clear();
   if (outcome) {
     const int code = report_outcome(options, *outcome, start.path());
@@ -71,18 +63,16 @@ int run_alone(const RunCommand& options, const config::ExpandedScenario& scenari
   }
   // What a run left that broke off tells why.
   if (!started) start.discard();
-  return complain(outcome.error());
+  return tl::unexpected(outcome.error());
 }
 
 }  // namespace
 
-int run(const RunCommand& options) {
-  auto scenario = read_scenario(options);
-  if (!scenario) return complain(scenario.error());
-  if (options.gui && !options.pace) scenario->scenario.pace = config::Pace{1};
-  const auto hosts = config::plan_hosts(*scenario);
-  if (!hosts) return complain(hosts.error());
-  return hosts->empty() ? run_alone(options, *scenario) : run_shared(options, *scenario, *hosts);
+Result<int> run(const RunCommand& options) {
+  RAVE_TRY_ASSIGN(auto scenario, read_scenario(options));
+  if (options.gui && !options.pace) scenario.scenario.pace = config::Pace{1};
+  RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
+  return hosts.empty() ? run_alone(options, scenario) : run_shared(options, scenario, hosts);
 }
 
 }  // namespace rave::cli

@@ -9,6 +9,7 @@
 #include "bus_options.hpp"
 #include "host_line.hpp"
 #include "page.hpp"
+#include "rave/base/result.hpp"
 
 namespace rave::cli {
 
@@ -34,6 +35,6 @@ struct RunCommand {
 };
 
 /// Runs a scenario. Returns 0 if it completed and its checks hold, 1 if not, 2 on bad input.
-[[nodiscard]] int run(const RunCommand& options);
+[[nodiscard]] Result<int> run(const RunCommand& options);
 
 }  // namespace rave::cli

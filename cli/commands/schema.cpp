@@ -10,14 +10,13 @@
 
 namespace rave::cli {
 
-int schema(const SchemaCommand& options) {
+Result<int> schema(const SchemaCommand& options) {
   if (options.kind == "robot") return put(stdout, config::robot_schema()), kGood;
   if (options.kind == "world") return put(stdout, config::world_schema()), kGood;
   if (options.kind == "scenario") return put(stdout, config::scenario_schema()), kGood;
   constexpr std::array<std::string_view, 3> kKinds = {"robot", "world", "scenario"};
-  const auto error = fail(ErrorCode::kNotFound, "there is no kind of file `{}`{}", options.kind,
-                          suggestion(options.kind, kKinds));
-  return complain(error.value());
+  return fail(ErrorCode::kNotFound, "there is no kind of file `{}`{}", options.kind,
+              suggestion(options.kind, kKinds));
 }
 
 }  // namespace rave::cli

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "rave/base/result.hpp"
+
 namespace rave::cli {
 
 /// `rave schema`.
@@ -11,6 +13,6 @@ struct SchemaCommand {
 };
 
 /// Prints the JSON Schema of a kind of file. Returns 0 or 2.
-[[nodiscard]] int schema(const SchemaCommand& options);
+[[nodiscard]] Result<int> schema(const SchemaCommand& options);
 
 }  // namespace rave::cli

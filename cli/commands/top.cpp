@@ -142,27 +142,25 @@ Status show_live(const Look& look, const TopCommand& options, Duration interval,
 
 }  // namespace
 
-int top(const TopCommand& options) {
+Result<int> top(const TopCommand& options) {
   const bool live = terminal_of(stdout).is_terminal && !options.once && !options.json;
   KeyWatch keys(live && ::isatty(STDIN_FILENO) == 1);
-  auto config = bus_config(options.bus, "rave top", 0);
-  if (!config) return complain(config.error());
-  make_room(*config, kMostHosts);
-  const auto look = find_run(options, *config, keys.end());
+  RAVE_TRY_ASSIGN(auto config, bus_config(options.bus, "rave top", 0));
+  make_room(config, kMostHosts);
+  const auto look = find_run(options, config, keys.end());
   if (keys.ended()) return kGood;
-  if (!look) return complain(look.error());
+  if (!look) return tl::unexpected(look.error());
   const double usual_s = options.once ? kOnce_s : 1;
   const Duration interval = from_seconds(options.interval_s.value_or(usual_s));
   if (live) {
-    const Status shown = show_live(*look, options, interval, keys);
-    return shown ? kGood : complain(shown.error());
+    RAVE_TRY(show_live(*look, options, interval, keys));
+    return kGood;
   }
   bool over = false;  // The reader of a pipe waits for its end.
   do {
-    const auto view = (*look)(interval, options.robots, keys.next());
-    if (!view) return complain(view.error());
-    print(*view, options);
-    over = view->phase == watch::Phase::kEnded || view->phase == watch::Phase::kFailed;
+    RAVE_TRY_ASSIGN(const auto view, (*look)(interval, options.robots, keys.next()));
+    print(view, options);
+    over = view.phase == watch::Phase::kEnded || view.phase == watch::Phase::kFailed;
   } while (!options.once && !over && !keys.ended());
   return kGood;
 }

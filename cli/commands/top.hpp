@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bus_options.hpp"
+#include "rave/base/result.hpp"
 
 namespace rave::cli {
 
@@ -19,6 +20,6 @@ struct TopCommand {
 };
 
 /// Shows live statistics of a run until it is interrupted. Returns 0; 2 if there is no such run.
-[[nodiscard]] int top(const TopCommand& options);
+[[nodiscard]] Result<int> top(const TopCommand& options);
 
 }  // namespace rave::cli

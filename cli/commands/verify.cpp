@@ -20,26 +20,19 @@ void tell_difference(const runtime::RunDifference& difference, const Terminal& t
                   difference.step, difference.time_s, robot, difference.channel, difference.text));
 }
 
-int tell(const VerifyCommand& options, const runtime::VerifyOutcome& outcome) {
+Result<int> tell(const VerifyCommand& options, const runtime::VerifyOutcome& outcome) {
   const Terminal errors = terminal_of(stderr);
   if (!outcome.live_reason.empty()) {
-    return complain({ErrorCode::kInvalidArgument,
-                     fmt::format("`{}` cannot be verified: {}, so no two runs are equal",
-                                 options.file, outcome.live_reason),
-                     {}});
+    return fail(ErrorCode::kInvalidArgument,
+                "`{}` cannot be verified: {}, so no two runs are equal", options.file,
+                outcome.live_reason);
   }
-  for (const std::string& missing : outcome.missing) {
-    put(stderr, fmt::format("{} {}\n", errors.red("missing:"), missing));
-  }
+  for (const std::string& missing : outcome.missing) put_note(errors.red("missing:"), missing);
   if (!outcome.missing.empty()) {
-    return complain(
-        {ErrorCode::kNotFound,
-         fmt::format("`{}` cannot be verified without the input files above", options.file),
-         {}});
+    return fail(ErrorCode::kNotFound, "`{}` cannot be verified without the input files above",
+                options.file);
   }
-  for (const std::string& note : outcome.notes) {
-    put(stderr, fmt::format("{} {}\n", errors.yellow("note:"), note));
-  }
+  for (const std::string& note : outcome.notes) put_note(errors.yellow("note:"), note);
   if (outcome.ended_early) {
     put(stderr, fmt::format("{} after {} of {} steps\n", errors.red("stopped:"), outcome.steps,
                             outcome.recorded_steps));
@@ -60,11 +53,9 @@ int tell(const VerifyCommand& options, const runtime::VerifyOutcome& outcome) {
 
 }  // namespace
 
-int verify(const VerifyCommand& options) {
-  const auto catalogue = open_catalogue(options.plugins);
-  if (!catalogue) return complain(catalogue.error());
-  const auto record = record_file(options.file);
-  if (!record) return complain(record.error());
+Result<int> verify(const VerifyCommand& options) {
+  RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.plugins));
+  RAVE_TRY_ASSIGN(const auto record, record_file(options.file));
   Console console(options.quiet);
   runtime::VerifyOptions verify_options;
   verify_options.program_runner = program_runner();
@@ -72,9 +63,9 @@ int verify(const VerifyCommand& options) {
   verify_options.log = &console;
   verify_options.on_progress = [&](const report::Progress& progress) { console.show(progress); };
   verify_options.control = &ended_by_signals();
-  const auto outcome = runtime::verify(*record, **catalogue, verify_options);
+  RAVE_TRY_ASSIGN(const auto outcome, runtime::verify(record, *catalogue, verify_options));
   console.clear();
-  return outcome ? tell(options, *outcome) : complain(outcome.error());
+  return tell(options, outcome);
 }
 
 }  // namespace rave::cli

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "rave/base/result.hpp"
+
 namespace rave::cli {
 
 /// `rave verify`.
@@ -17,6 +19,6 @@ struct VerifyCommand {
 
 /// Repeats the run of a recording and compares. Returns 0 if all bits are equal, 1 if something
 /// differs, 2 if it cannot be repeated (a live run, missing files, not a recording).
-[[nodiscard]] int verify(const VerifyCommand& options);
+[[nodiscard]] Result<int> verify(const VerifyCommand& options);
 
 }  // namespace rave::cli

@@ -142,12 +142,7 @@ Result<config::ExpandedScenario> make_scenario(const Workload& workload, double 
 Status write_scenario(const Workload& workload, double duration_s,
                       const std::filesystem::path& folder) {
   RAVE_TRY(check(workload));
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    return fail(ErrorCode::kIo, "cannot create the folder `{}`: {}", folder.string(),
-                error.message());
-  }
+  RAVE_TRY(create_folder(folder));
   const Arena arena = make_arena(workload.robots, workload.seed);
   RAVE_TRY(write_file_atomically(folder / "robot.yaml", robot_text(workload)));
   RAVE_TRY(write_file_atomically(folder / "world.yaml", world_text(arena)));

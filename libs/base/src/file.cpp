@@ -105,4 +105,12 @@ Status write_private_file(const std::filesystem::path& path, std::string_view co
   return create_file(path, O_EXCL, 0600, content);
 }
 
+Status create_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error) return {};
+  return fail(ErrorCode::kIo, "cannot create the folder `{}`: {}", folder.string(),
+              error.message());
+}
+
 }  // namespace rave

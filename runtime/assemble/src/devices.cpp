@@ -29,22 +29,15 @@ Result<const Driver*> find_driver(const DeviceContext& context, std::span<const 
 }
 
 LayerMask layer_mask(const std::vector<config::SensedLayer>& layers) {
+  using config::SensedLayer;
+  constexpr std::pair<SensedLayer, Layer> kLayers[] = {
+      {SensedLayer::kVirtualObstacles, Layer::kVirtualObstacles},
+      {SensedLayer::kMappedReal, Layer::kMappedReal},
+      {SensedLayer::kSimulatedRobots, Layer::kSimulatedRobots},
+      {SensedLayer::kRealRobots, Layer::kRealRobots}};
   LayerMask mask = 0;
-  for (const config::SensedLayer layer : layers) {
-    switch (layer) {
-      case config::SensedLayer::kVirtualObstacles:
-        mask |= static_cast<LayerMask>(Layer::kVirtualObstacles);
-        break;
-      case config::SensedLayer::kMappedReal:
-        mask |= static_cast<LayerMask>(Layer::kMappedReal);
-        break;
-      case config::SensedLayer::kSimulatedRobots:
-        mask |= static_cast<LayerMask>(Layer::kSimulatedRobots);
-        break;
-      case config::SensedLayer::kRealRobots:
-        mask |= static_cast<LayerMask>(Layer::kRealRobots);
-        break;
-    }
+  for (const auto& [sensed, layer] : kLayers) {
+    if (std::ranges::find(layers, sensed) != layers.end()) mask |= static_cast<LayerMask>(layer);
   }
   return mask;
 }

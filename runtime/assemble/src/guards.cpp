@@ -12,15 +12,9 @@ namespace rave::runtime {
 namespace {
 
 sim::WorldLostPolicy policy_of(config::WorldLost policy) {
-  switch (policy) {
-    case config::WorldLost::kSlow:
-      return sim::WorldLostPolicy::kSlow;
-    case config::WorldLost::kIgnore:
-      return sim::WorldLostPolicy::kIgnore;
-    case config::WorldLost::kStop:
-      break;
-  }
-  return sim::WorldLostPolicy::kStop;
+  if (policy == config::WorldLost::kSlow) return sim::WorldLostPolicy::kSlow;
+  return policy == config::WorldLost::kIgnore ? sim::WorldLostPolicy::kIgnore
+                                              : sim::WorldLostPolicy::kStop;
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
-#include <tuple>
 #include <utility>
 
+#include "answer_json.hpp"
 #include "rave/base/control_characters.hpp"
 #include "rave/base/names.hpp"
 #include "rave/bus/request_parts.hpp"
@@ -23,44 +23,6 @@ using std::chrono::milliseconds;
 
 /// When no new process has appeared for this long, the search for processes is complete.
 constexpr milliseconds kMoment{400};
-/// The limit of messages about one request that are handled together.
-constexpr std::size_t kMostAtOnce = 16;
-
-/// Text from other processes made safe for a terminal: control characters are removed, except the
-/// line ends of a list.
-std::string plain(std::string_view text) {
-  std::string result;
-  while (true) {
-    const std::size_t end = text.find('\n');
-    result += without_control_characters(text.substr(0, end), " ");
-    if (end == std::string_view::npos) return result;
-    result += '\n';
-    text.remove_prefix(end + 1);
-  }
-}
-
-Result<Answer> read_answer(std::string_view line) {
-  RAVE_TRY_ASSIGN(Answer answer, parse_answer(line));
-  answer.text = plain(answer.text);
-  answer.status.scenario = plain(answer.status.scenario);
-  answer.status.run = plain(answer.status.run);
-  answer.status.waits_for = plain(answer.status.waits_for);
-  for (runtime::RunStatus::Robot& robot : answer.status.robots) {
-    robot.name = plain(robot.name);
-    robot.lease = plain(robot.lease);
-    robot.order = plain(robot.order);
-    for (std::string& word : robot.takes) word = plain(word);
-    for (auto& [key, value] : robot.changed)
-      std::tie(key, value) = std::pair(plain(key), plain(value));
-    if (robot.hand_over) robot.hand_over->last = plain(robot.hand_over->last);
-    if (!robot.shadow) continue;
-    for (auto& reading : robot.shadow->readings) {
-      reading.sensor = plain(reading.sensor);
-      reading.unit = plain(reading.unit);
-    }
-  }
-  return answer;
-}
 
 Result<std::string> request_line(const Request& request) {
   std::string line = write_request(request);
@@ -84,11 +46,14 @@ tl::unexpected<Error> silent(const BusPeer& peer, Duration patience) {
       peer.name, patience.seconds());
 }
 
-/// One of several processes that are asked at the same time.
+/// A process that is asked, perhaps one of several at the same time.
 struct Asked {
   BusPeer peer;
   std::uint64_t number = 0;
+  std::string line;  ///< What it is asked: the request, or the rest of the answer.
+  Clock::time_point until;
   Repeat repeat{};
+  bus::AnswerParts parts{};
   std::optional<Result<Answer>> answer{};
 };
 
@@ -110,15 +75,10 @@ struct BusRun::Impl {
   [[nodiscard]] bool knows(std::uint64_t writer) const {
     return std::ranges::find(peers, writer, &BusPeer::writer) != peers.end();
   }
-  /// A message about a request.
-  struct Said {
-    bool taken = false;
-    std::string text;
-  };
-  [[nodiscard]] std::vector<Said> take(const BusPeer& peer);
-  Status send(const BusPeer& peer, std::uint64_t request_number, std::string_view line);
-  void take(std::vector<Asked>& asked);
-  std::optional<Clock::time_point> send_due(std::vector<Asked>& asked, std::string_view line);
+  Status send(const Asked& one);
+  void take(std::vector<Asked>& asked, Duration patience);
+  void read(Asked& one, const bus::RequestAnswer& answer, Duration patience);
+  [[nodiscard]] Clock::time_point send_due(std::vector<Asked>& asked);
 };
 
 /// Reads which processes are present.
@@ -129,7 +89,7 @@ void BusRun::Impl::look() {
                      info.clock == rave_wire_CLOCK_REAL_TIME});
   });
   states.take([this](const bus::RunState& state) {
-    if (knows(state.writer)) scenario = plain(state.scenario);
+    if (knows(state.writer)) scenario = plain_text(state.scenario);
   });
   for (const bus::BusEvent& event : bus->take_events()) {
     if (event.kind != bus::EventKind::kParticipantLost || event.writer == 0) continue;
@@ -137,72 +97,64 @@ void BusRun::Impl::look() {
   }
 }
 
-/// The answers to the last request.
-std::vector<BusRun::Impl::Said> BusRun::Impl::take(const BusPeer& peer) {
-  std::vector<Said> said;
-  answers.take([&](const bus::RequestAnswer& answer) {
-    const bool ours =
-        answer.writer == peer.writer && answer.target == bus->writer() && answer.number == number;
-    // More answers than the request and its repetitions can cause: the sender is faulty.
-    if (!ours || said.size() >= kMostAtOnce) return;
-    said.push_back({answer.taken, std::string(bus::text_of(answer.text))});
-  });
-  return said;
-}
-
-Status BusRun::Impl::send(const BusPeer& peer, std::uint64_t request_number,
-                          std::string_view line) {
+Status BusRun::Impl::send(const Asked& one) {
   bus::Request request{};
-  request.target = peer.writer;
-  request.number = request_number;
+  request.target = one.peer.writer;
+  request.number = one.number;
   bus::put_text(request.from, from);
-  bus::borrow_text(request.text, line);
+  bus::borrow_text(request.text, one.line);
   return requests.write(request);
 }
 
-/// Reads the answers of the processes that have not answered yet.
-void BusRun::Impl::take(std::vector<Asked>& asked) {
+/// Reads the answers of the processes that have not answered yet. The next part of a long one may
+/// take `patience` again; there are few parts.
+void BusRun::Impl::take(std::vector<Asked>& asked, Duration patience) {
   answers.take([&](const bus::RequestAnswer& answer) {
     if (answer.target != bus->writer()) return;
     const auto one = std::ranges::find_if(asked, [&](const Asked& other) {
       return other.peer.writer == answer.writer && other.number == answer.number;
     });
-    if (one == asked.end() || one->answer) return;
-    const std::string text(bus::text_of(answer.text));
-    if (!answer.taken) {
-      one->answer = Answer{false, plain(text), {}};
-      return;
-    }
-    bus::AnswerParts parts;
-    if (Status added = parts.add(text); !added) {
-      one->answer = tl::unexpected(std::move(added).error());
-    } else if (!parts.complete()) {
-      one->answer = fail(ErrorCode::kParse, "the answer of `{}` is too long", one->peer.name);
-    } else {
-      one->answer = read_answer(parts.text());
-    }
+    if (one != asked.end() && !one->answer) read(*one, answer, patience);
   });
 }
 
-/// Sends the request to the processes that have not answered, repeating it when due; returns when
-/// to send next.
-std::optional<Clock::time_point> BusRun::Impl::send_due(std::vector<Asked>& asked,
-                                                        std::string_view line) {
-  std::optional<Clock::time_point> next;
+void BusRun::Impl::read(Asked& one, const bus::RequestAnswer& answer, Duration patience) {
+  const std::string text(bus::text_of(answer.text));
+  if (!answer.taken) {
+    one.answer = Answer{false, plain_text(text), {}};
+    return;
+  }
+  const std::size_t had = one.parts.text().size();
+  if (Status added = one.parts.add(text); !added) {
+    one.answer = tl::unexpected(std::move(added).error());
+  } else if (one.parts.complete()) {
+    one.answer = parse_answer(one.parts.text());
+  } else if (one.parts.text().size() > had) {
+    one.line = bus::request_for_rest(one.parts.text().size());
+    one.repeat = {};
+    one.until = Clock::now() + std::chrono::nanoseconds(patience.ns);
+  }
+}
+
+/// Sends what is due to the processes that have not answered; returns when to do so again, which is
+/// never if all have.
+Clock::time_point BusRun::Impl::send_due(std::vector<Asked>& asked) {
+  auto next = Clock::time_point::max();
   for (Asked& one : asked) {
     if (one.answer) continue;
+    const auto now = Clock::now();
     if (!knows(one.peer.writer)) {
       one.answer = gone(one.peer);
       continue;
     }
-    if (const auto now = Clock::now(); one.repeat.due(now)) {
-      if (Status sent = send(one.peer, one.number, line); !sent) {
+    if (one.repeat.due(now)) {
+      if (Status sent = send(one); !sent) {
         one.answer = tl::unexpected(std::move(sent).error());
         continue;
       }
       one.repeat.sent(now);
     }
-    next = std::min(next.value_or(one.repeat.next()), one.repeat.next());
+    next = std::min(next, one.repeat.next());
   }
   return next;
 }
@@ -278,38 +230,24 @@ std::vector<BusPeer> BusRun::all(Duration patience) {
 Result<Answer> BusRun::ask(const BusPeer& peer, const Request& request, Duration patience) {
   Impl& run = *impl_;
   RAVE_TRY_ASSIGN(std::string line, request_line(request));
-  ++run.number;
-  bus::AnswerParts parts;
-  auto end = Clock::now() + std::chrono::nanoseconds(patience.ns);
-  Repeat repeat;
-  while (Clock::now() < end) {
-    if (const auto now = Clock::now(); repeat.due(now)) {
-      RAVE_TRY(run.send(peer, run.number, line));
-      repeat.sent(now);
-    }
-    static_cast<void>(run.waits.wait(bus::left_until(std::min(repeat.next(), end))));
-    const std::size_t had = parts.text().size();
-    for (const Impl::Said& said : run.take(peer)) {
-      if (!said.taken) return Answer{false, said.text, {}};
-      RAVE_TRY(parts.add(said.text));
-      if (parts.complete()) return read_answer(parts.text());
-    }
-    if (parts.text().size() > had) {
-      line = bus::request_for_rest(parts.text().size());
-      repeat = {};
-      // Repeated for each part; there are few.
-      end = Clock::now() + std::chrono::nanoseconds(patience.ns);
-    }
+  std::vector<Asked> asked;
+  asked.push_back(
+      {peer, ++run.number, std::move(line), Clock::now() + std::chrono::nanoseconds(patience.ns)});
+  Asked& one = asked.front();
+  while (!one.answer && Clock::now() < one.until) {
+    const auto next = run.send_due(asked);
+    if (one.answer) break;
+    static_cast<void>(run.waits.wait(bus::left_until(std::min(next, one.until))));
+    run.take(asked, patience);
     run.look();
-    if (!run.knows(peer.writer)) return gone(peer);
   }
-  return silent(peer, patience);
+  return one.answer ? *std::move(one.answer) : silent(peer, patience);
 }
 
 std::vector<BusReply> BusRun::ask_each(const Request& request, const Meant& meant,
                                        Duration patience) {
   Impl& run = *impl_;
-  auto line = request_line(request);
+  const auto line = request_line(request);
   if (!line) return {};
   const auto latest = Clock::now() + std::chrono::nanoseconds(patience.ns);
   auto end = latest;  // The end of the search.
@@ -322,14 +260,15 @@ std::vector<BusReply> BusRun::ask_each(const Request& request, const Meant& mean
     for (const BusPeer& peer : run.peers) {
       const bool before = std::ranges::any_of(
           asked, [&peer](const Asked& one) { return one.peer.writer == peer.writer; });
-      if (!before && meant(peer, run.scenario)) asked.push_back({peer, ++run.number});
+      if (before || !meant(peer, run.scenario)) continue;
+      asked.push_back({peer, ++run.number, *line, latest});
     }
-    run.take(asked);
-    const auto next = run.send_due(asked, *line);
+    run.take(asked, patience);
+    const auto next = run.send_due(asked);
     const bool all =
         std::ranges::all_of(asked, [](const Asked& one) { return one.answer.has_value(); });
     if (Clock::now() >= latest || (all && Clock::now() >= end)) break;
-    static_cast<void>(run.waits.wait(bus::left_until(std::min(latest, next.value_or(end)))));
+    static_cast<void>(run.waits.wait(bus::left_until(std::min(latest, all ? end : next))));
   }
   std::vector<BusReply> replies;
   for (Asked& one : asked) {

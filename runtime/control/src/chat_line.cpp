@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <cstdint>
 #include <string_view>
 
+#include "rave/base/number.hpp"
 #include "rave/robot/order.hpp"
 
 namespace rave::runtime {
@@ -48,12 +49,8 @@ RunRequest chat_request(const ChatLine& line) {
 Result<ChatLine> chat_line(const RunRequest& request) {
   ChatLine line;
   std::string_view key = request.key;
-  const std::string_view number = take_word(key);
-  const char* const end = number.data() + number.size();
-  const auto [read, error] = std::from_chars(number.data(), end, line.number);
-  if (error != std::errc() || read != end || line.number == 0) {
-    return no_line("expected a number of at least 1");
-  }
+  line.number = number_of<std::uint64_t>(take_word(key)).value_or(0);
+  if (line.number == 0) return no_line("expected a number of at least 1");
   line.role = take_word(key);
   if (!is_one_of(line.role, kRoles)) {
     return no_line("expected the role observer, commander or super_user");

@@ -16,17 +16,6 @@ using Clock = std::chrono::steady_clock;
 /// Longer than a run itself waits for its step to end.
 constexpr auto kPatience = std::chrono::seconds(20);
 
-Status send_line(int file, std::string_view line) {
-  while (!line.empty()) {
-    const ssize_t sent = ::send(file, line.data(), line.size(), MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent < 0)
-      return fail(ErrorCode::kIo, "the run does not accept connections: {}", std::strerror(errno));
-    line.remove_prefix(static_cast<std::size_t>(sent));
-  }
-  return {};
-}
-
 Result<std::string> receive_line(int file) {
   std::string text;
   const auto end = Clock::now() + kPatience;
@@ -51,7 +40,9 @@ Result<std::string> receive_line(int file) {
 Result<Answer> ask(const std::string& run, const Request& request) {
   RAVE_TRY_ASSIGN(const auto folder, socket_folder());
   RAVE_TRY_ASSIGN(const Descriptor file, connect_to(folder / (run + ".sock")));
-  RAVE_TRY(send_line(file.get(), write_request(request)));
+  if (!send_all(file.get(), write_request(request))) {
+    return fail(ErrorCode::kIo, "the run does not accept connections: {}", std::strerror(errno));
+  }
   RAVE_TRY_ASSIGN(const std::string line, receive_line(file.get()));
   return parse_answer(line);
 }

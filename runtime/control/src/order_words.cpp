@@ -3,12 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 #include <utility>
 
 #include "rave/assemble/parameter_key.hpp"
+#include "rave/base/number.hpp"
 #include "rave/robot/order.hpp"
 #include "rave/sim/orders.hpp"
 
@@ -17,10 +18,16 @@ namespace {
 
 using InputKind = sim::WorldInput::Kind;
 
-constexpr std::pair<RunRequest::Kind, InputKind> kKinds[] = {
-    {RunRequest::Kind::kDrive, InputKind::kDrive}, {RunRequest::Kind::kGoal, InputKind::kGoal},
-    {RunRequest::Kind::kPath, InputKind::kPath},   {RunRequest::Kind::kCancel, InputKind::kCancel},
-    {RunRequest::Kind::kText, InputKind::kText},   {RunRequest::Kind::kPlace, InputKind::kPlace}};
+using Kinds = std::pair<RunRequest::Kind, InputKind>;
+constexpr Kinds kKinds[] = {{RunRequest::Kind::kStop, InputKind::kStop},
+                            {RunRequest::Kind::kRelease, InputKind::kRelease},
+                            {RunRequest::Kind::kArm, InputKind::kArm},
+                            {RunRequest::Kind::kDrive, InputKind::kDrive},
+                            {RunRequest::Kind::kGoal, InputKind::kGoal},
+                            {RunRequest::Kind::kPath, InputKind::kPath},
+                            {RunRequest::Kind::kCancel, InputKind::kCancel},
+                            {RunRequest::Kind::kText, InputKind::kText},
+                            {RunRequest::Kind::kPlace, InputKind::kPlace}};
 
 /// Reads the words of a line one after the other.
 class Words {
@@ -37,13 +44,11 @@ class Words {
   std::optional<double> number() {
     const std::string_view before = left_;
     const std::string_view word = next();
-    double value = 0;
-    // Independent of the locale, and it reads back exactly what order_words() wrote.
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error == std::errc() && end == word.data() + word.size() && !word.empty()) return value;
+    // Reads back exactly what order_words() wrote.
+    const auto value = number_of<double>(word);
     // The word stays for the caller: it is the name of the next detail.
-    left_ = before;
-    return std::nullopt;
+    if (!value) left_ = before;
+    return value;
   }
 
  private:
@@ -80,6 +85,16 @@ bool read_word(Words& words, RunRequest& request) {
 
 }  // namespace
 
+InputKind input_kind(RunRequest::Kind kind) noexcept {
+  const auto* const found = std::ranges::find(kKinds, kind, &Kinds::first);
+  return found != std::end(kKinds) ? found->second : InputKind::kStop;
+}
+
+RunRequest::Kind kind_of_input(InputKind kind) noexcept {
+  const auto* const found = std::ranges::find(kKinds, kind, &Kinds::second);
+  return found != std::end(kKinds) ? found->first : RunRequest::Kind::kStop;
+}
+
 Status check_path_size(std::size_t points) {
   if (points >= 2 && points <= kMostOrderPoints) return {};
   return fail(ErrorCode::kInvalidArgument, "{}", sim::path_size_text(points));
@@ -87,9 +102,7 @@ Status check_path_size(std::size_t points) {
 
 Result<sim::WorldInput> order_input(const sim::EngineSpec& spec, const RunRequest& request) {
   sim::WorldInput input;
-  for (const auto& [kind, its] : kKinds) {
-    if (kind == request.kind) input.kind = its;
-  }
+  input.kind = input_kind(request.kind);
   input.author = {true, request.by};
   if (!request.robot.empty()) {
     RAVE_TRY_ASSIGN(input.robot, find_robot(spec, request.robot));
@@ -107,9 +120,7 @@ Result<sim::WorldInput> order_input(const sim::EngineSpec& spec, const RunReques
 
 RunRequest order_request(const sim::EngineSpec& spec, const sim::WorldInput& input) {
   RunRequest request;
-  for (const auto& [kind, its] : kKinds) {
-    if (its == input.kind) request.kind = kind;
-  }
+  request.kind = kind_of_input(input.kind);
   if (input.robot.valid()) request.robot = spec.robots[input.robot.value()].name;
   request.by = input.author.name;
   request.value = input.order.text;

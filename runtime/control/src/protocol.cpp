@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "answer_json.hpp"
 #include "line_json.hpp"
 #include "rave/base/names.hpp"
 #include "rave/base/word_table.hpp"
 #include "rave/control/order_words.hpp"
 #include "rave/robot/order.hpp"
 #include "request_fields.hpp"
-#include "status_json.hpp"
 
 namespace rave::control {
 namespace {
@@ -132,18 +132,14 @@ std::string write_request(const Request& request) {
 Result<Answer> parse_answer(std::string_view line) {
   const Json json = parse_line_object(line);
   Answer answer;
-  if (json.is_discarded() || !read_bool(json, "good", answer.good) ||
-      !read_text(json, "text", answer.text) ||
-      (json.contains("status") && !read_status(json.at("status"), answer.status))) {
+  if (!read_answer(json, answer)) {
     return fail(ErrorCode::kParse, "the answer of the run is malformed");
   }
   return answer;
 }
 
 std::string write_answer(const Answer& answer) {
-  Json json = {{"good", answer.good}, {"text", answer.text}};
-  if (!answer.status.scenario.empty()) json["status"] = status_json(answer.status);
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return answer_json(answer).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace rave::control

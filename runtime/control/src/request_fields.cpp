@@ -2,6 +2,7 @@
 #include "request_fields.hpp"
 
 #include <cmath>
+#include <concepts>
 #include <string>
 #include <utility>
 
@@ -18,54 +19,38 @@ using Kind = RunRequest::Kind;
 constexpr std::size_t kMaxWordBytes = 4096;
 constexpr std::uint64_t kMaxSteps = 1'000'000'000;
 
-/// Moves a text out of an object; false if the member exists but is not a valid text.
-bool take_text(Json& json, const char* key, std::string& text) {
-  if (!json.contains(key)) return true;
-  const Json& value = json.at(key);
-  if (!value.is_string()) return false;
-  text = value.get<std::string>();
-  json.erase(key);
-  return text.size() <= kMaxWordBytes && text.find('\0') == std::string::npos;
-}
-
-bool take_count(Json& json, std::uint64_t& count) {
-  if (!json.contains("count")) return true;
-  const Json& value = json.at("count");
-  if (!value.is_number_unsigned()) return false;
-  count = value.get<std::uint64_t>();
-  json.erase("count");
-  return count >= 1 && count <= kMaxSteps;
-}
-
-bool take_flag(Json& json, const char* key, bool& value) {
-  if (!json.contains(key)) return true;
-  if (!json.at(key).is_boolean()) return false;
-  value = json.at(key).get<bool>();
+/// Moves a member out of an object; false if it exists but has another type.
+template <class T>
+bool take(Json& json, const char* key, T& value) {
+  const auto member = json.find(key);
+  if (member == json.end()) return true;
+  const bool fits = std::same_as<T, std::string>     ? member->is_string()
+                    : std::same_as<T, bool>          ? member->is_boolean()
+                    : std::same_as<T, std::uint64_t> ? member->is_number_unsigned()
+                                                     : member->is_number();
+  if (!fits) return false;
+  value = member->template get<T>();
   json.erase(key);
   return true;
 }
 
-bool take_page(Json& json, std::uint64_t& page) {
-  if (!json.contains("page")) return true;
-  if (!json.at("page").is_number_unsigned()) return false;
-  page = json.at("page").get<std::uint64_t>();
-  json.erase("page");
-  return page > 0;
+bool take_text(Json& json, const char* key, std::string& text) {
+  return take(json, key, text) && text.size() <= kMaxWordBytes &&
+         text.find('\0') == std::string::npos;
 }
 
 /// The author of a request; only requests that change something may name one.
 bool take_author(Json& json, RunRequest& request) {
+  const bool has_page = json.contains("page");
   return take_text(json, "by", request.by) && request.by.size() <= kMostOrderAuthor &&
-         take_flag(json, "overrides", request.overrides) && take_page(json, request.page);
+         take(json, "overrides", request.overrides) && take(json, "page", request.page) &&
+         (request.page > 0 || !has_page);
 }
 
 /// Reads a finite number; with `needed` it must exist.
 bool take_number(Json& json, const char* key, bool needed, double& value) {
   if (!json.contains(key)) return !needed;
-  if (!json.at(key).is_number()) return false;
-  value = json.at(key).get<double>();
-  json.erase(key);
-  return std::isfinite(value);
+  return take(json, key, value) && std::isfinite(value);
 }
 
 bool take_yaw(Json& json, RunRequest& request) {
@@ -129,7 +114,9 @@ bool take_request_fields(Json& json, Request& request) {
   RunRequest& run = request.run;
   if (request.what == Request::What::kRun && run.kind >= Kind::kDrive) return take_order(json, run);
   if (!request.only_reads() && !take_author(json, run)) return false;
-  if (request.what == Request::What::kStep) return take_count(json, request.count);
+  if (request.what == Request::What::kStep) {
+    return take(json, "count", request.count) && request.count >= 1 && request.count <= kMaxSteps;
+  }
   if (request.what != Request::What::kRun) return true;
   switch (run.kind) {
     case Kind::kStop:

@@ -7,8 +7,6 @@
 #include "rave/assemble/parameter_key.hpp"
 #include "rave/assemble/twins.hpp"
 #include "rave/base/names.hpp"
-#include "rave/config/diagnostics.hpp"
-#include "rave/config/yaml.hpp"
 #include "rave/control/obstacle_edits.hpp"
 #include "rave/control/order_words.hpp"
 #include "rave/control/world_request.hpp"
@@ -47,25 +45,11 @@ Result<std::string> arm(sim::Engine& engine, RobotId robot, const sim::Author& a
 }
 
 Result<std::string> set(sim::Engine& engine, RobotId robot, const RunRequest& request) {
-  if (!robot.valid())
-    return fail(ErrorCode::kInvalidArgument, "expected the robot whose parameter changes");
-  config::Diagnostics diagnostics;
-  const auto value = config::parse_yaml(request.value, "value", diagnostics);
-  if (!value || !diagnostics.ok() || (!value->is_scalar() && !value->is_sequence())) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` is not a value of a parameter", request.value);
-  }
-  const sim::EngineSpec& spec = engine.spec();
-  const sim::RobotSpec& its = spec.robots[robot.value()];
-  auto change = parse_change(spec.types[its.type], request.key, *value);
-  if (!change) {
-    // The place of an error within a word of the command line does not help the user, so it is
-    // omitted.
-    return fail(change.error().code, "{}", change.error().message);
-  }
-  const std::string before = engine.parameter(robot, change->part, change->index, change->name);
-  RAVE_TRY(engine.set_parameters(robot, std::span(&*change, 1), {true, request.by}));
-  return fmt::format("{}: {}: {} -> {}", its.name, request.key, before,
-                     engine.parameter(robot, change->part, change->index, change->name));
+  RAVE_TRY_ASSIGN(const auto change, requested_parameter(engine.spec(), robot, request));
+  const std::string before = engine.parameter(robot, change.part, change.index, change.name);
+  RAVE_TRY(engine.set_parameters(robot, std::span(&change, 1), {true, request.by}));
+  return fmt::format("{}: {}: {} -> {}", request.robot, request.key, before,
+                     engine.parameter(robot, change.part, change.index, change.name));
 }
 
 Result<std::string> edit(sim::Engine& engine, const RunRequest& request) {
@@ -107,6 +91,12 @@ Result<std::string> hand_over(sim::Engine& engine, RobotId robot, const RunReque
 
 }  // namespace
 
+Result<RobotId> find_robot_here(const sim::Engine& engine, std::string_view name) {
+  RAVE_TRY_ASSIGN(const RobotId robot, find_robot(engine.spec(), name));
+  if (engine.is_local(robot)) return robot;
+  return fail(ErrorCode::kNotFound, "robot `{}` runs in another process of this run", name);
+}
+
 Status check_order_now(const sim::Engine& engine, const sim::WorldInput& input) {
   RAVE_TRY(engine.check_order(input));
   return check_pose(engine, input);
@@ -115,11 +105,7 @@ Status check_order_now(const sim::Engine& engine, const sim::WorldInput& input) 
 Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request) {
   RobotId robot;
   if (!request.robot.empty()) {
-    RAVE_TRY_ASSIGN(robot, find_robot(engine.spec(), request.robot));
-    if (!engine.is_local(robot)) {
-      return fail(ErrorCode::kNotFound, "robot `{}` runs in another process of this run",
-                  request.robot);
-    }
+    RAVE_TRY_ASSIGN(robot, find_robot_here(engine, request.robot));
   }
   const sim::Author author{true, request.by};
   switch (request.kind) {

@@ -71,13 +71,7 @@ bool Server::Impl::send(const Connection& connection, std::string_view text) con
   // A peer that does not read must not delay the others for long.
   const timeval patience{1, 0};
   ::setsockopt(connection.file.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
-  while (!text.empty()) {
-    const ssize_t sent = ::send(connection.file.get(), text.data(), text.size(), MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(sent));
-  }
-  return true;
+  return send_all(connection.file.get(), text);
 }
 
 bool Server::Impl::read_some(Connection& connection) {

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 
 #include "rave/base/result.hpp"
 #include "rave/process/descriptor.hpp"
@@ -37,6 +38,17 @@ using process::Descriptor;
                 path.string(), std::strerror(errno));
   }
   return file;
+}
+
+/// Sends a whole text; false, with errno, if the peer does not take it.
+[[nodiscard]] inline bool send_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t sent = ::send(file, text.data(), text.size(), MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent <= 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(sent));
+  }
+  return true;
 }
 
 }  // namespace rave::control

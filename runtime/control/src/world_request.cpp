@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "rave/assemble/obstacles.hpp"
 #include "rave/assemble/parameter_key.hpp"
 #include "rave/config/diagnostics.hpp"
 #include "rave/config/yaml.hpp"
@@ -17,38 +16,6 @@ using InputKind = sim::WorldInput::Kind;
 using ObstacleKind = sim::ObstacleChange::Kind;
 constexpr std::string_view kBodyKey = "body.scale";
 
-Result<sim::ParameterChange> body_change(const sim::EngineSpec& spec, RobotId robot,
-                                         const RunRequest& request) {
-  if (!robot.valid())
-    return fail(ErrorCode::kInvalidArgument, "expected the robot whose parameter changes");
-  if (request.key != kBodyKey) {
-    return fail(ErrorCode::kState,
-                "the parameters of `{}` are set at its host: send the request to that process, "
-                "which `rave ps` lists; here only `{}` can be set",
-                request.robot, kBodyKey);
-  }
-  config::Diagnostics diagnostics;
-  const auto value = config::parse_yaml(request.value, "value", diagnostics);
-  if (!value || !diagnostics.ok()) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` is not a value of a parameter", request.value);
-  }
-  auto change = parse_change(spec.types[spec.robots[robot.value()].type], request.key, *value);
-  // The place of an error within a word of the command line does not help the user, so it is
-  // omitted.
-  if (!change) return fail(change.error().code, "{}", change.error().message);
-  return change;
-}
-
-InputKind kind_of(RunRequest::Kind kind) noexcept {
-  if (kind == RunRequest::Kind::kStop) return InputKind::kStop;
-  return kind == RunRequest::Kind::kArm ? InputKind::kArm : InputKind::kRelease;
-}
-
-RunRequest::Kind kind_of(InputKind kind) noexcept {
-  if (kind == InputKind::kStop) return RunRequest::Kind::kStop;
-  return kind == InputKind::kArm ? RunRequest::Kind::kArm : RunRequest::Kind::kRelease;
-}
-
 /// Whether the scenario changes the body of a robot in this step.
 bool is_scheduled(const sim::EngineSpec& spec, std::uint64_t step, RobotId robot) {
   return std::any_of(spec.changes.begin(), spec.changes.end(), [&](const auto& scheduled) {
@@ -61,6 +28,22 @@ bool is_scheduled(const sim::EngineSpec& spec, std::uint64_t step, RobotId robot
 
 }  // namespace
 
+Result<sim::ParameterChange> requested_parameter(const sim::EngineSpec& spec, RobotId robot,
+                                                 const RunRequest& request) {
+  if (!robot.valid())
+    return fail(ErrorCode::kInvalidArgument, "expected the robot whose parameter changes");
+  config::Diagnostics diagnostics;
+  const auto value = config::parse_yaml(request.value, "value", diagnostics);
+  if (!value || !diagnostics.ok() || (!value->is_scalar() && !value->is_sequence())) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` is not a value of a parameter", request.value);
+  }
+  auto change = parse_change(spec.types[spec.robots[robot.value()].type], request.key, *value);
+  // The place of an error within a word of the command line does not help the user, so it is
+  // omitted.
+  if (!change) return fail(change.error().code, "{}", change.error().message);
+  return change;
+}
+
 Result<sim::WorldInput> input_of(const sim::EngineSpec& spec, const RunRequest& request) {
   sim::WorldInput input;
   input.author.name = request.by;
@@ -71,11 +54,17 @@ Result<sim::WorldInput> input_of(const sim::EngineSpec& spec, const RunRequest& 
     case RunRequest::Kind::kStop:
     case RunRequest::Kind::kRelease:
     case RunRequest::Kind::kArm:
-      input.kind = kind_of(request.kind);
+      input.kind = input_kind(request.kind);
       return input;
     case RunRequest::Kind::kSet: {
       input.kind = InputKind::kChange;
-      RAVE_TRY_ASSIGN(auto change, body_change(spec, input.robot, request));
+      if (input.robot.valid() && request.key != kBodyKey) {
+        return fail(ErrorCode::kState,
+                    "the parameters of `{}` are set at its host: send the request to that process, "
+                    "which `rave ps` lists; here only `{}` can be set",
+                    request.robot, kBodyKey);
+      }
+      RAVE_TRY_ASSIGN(auto change, requested_parameter(spec, input.robot, request));
       input.changes = {std::move(change)};
       return input;
     }
@@ -132,7 +121,8 @@ std::vector<RunRequest> requests_in(const sim::EngineSpec& spec, const sim::Worl
     if (sim::is_order(input.kind)) {
       requests.push_back(order_request(spec, input));
     } else {
-      requests.push_back({kind_of(input.kind), name_of(input.robot), "", "", input.author.name});
+      requests.push_back(
+          {kind_of_input(input.kind), name_of(input.robot), "", "", input.author.name});
     }
   }
   return requests;
@@ -142,7 +132,5 @@ std::string_view word_of(sim::ObstacleChange::Kind kind) noexcept {
   if (kind == ObstacleKind::kAdd) return "added";
   return kind == ObstacleKind::kMove ? "moved" : "removed";
 }
-
-std::string obstacle_list(const world::WorldModel& world) { return list_obstacles(world); }
 
 }  // namespace rave::runtime

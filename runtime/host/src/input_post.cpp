@@ -34,11 +34,6 @@ Status check_author(const std::string& by) {
               by.size(), kMostOrderAuthor);
 }
 
-InputKind hold_kind(Kind kind) {
-  if (kind == Kind::kStop) return InputKind::kStop;
-  return kind == Kind::kArm ? InputKind::kArm : InputKind::kRelease;
-}
-
 }  // namespace
 
 std::string InputPost::name_of(RobotId robot) const {
@@ -54,16 +49,11 @@ std::string InputPost::names_of(const std::vector<RobotId>& robots) const {
 }
 
 Result<std::vector<RobotId>> InputPost::meant(const RunRequest& request) const {
-  std::vector<RobotId> robots;
   if (!request.robot.empty()) {
-    RAVE_TRY_ASSIGN(const RobotId robot, find_robot(engine_.spec(), request.robot));
-    if (!engine_.is_local(robot)) {
-      return fail(ErrorCode::kNotFound, "robot `{}` runs in another process of this run",
-                  request.robot);
-    }
-    robots.push_back(robot);
-    return robots;
+    RAVE_TRY_ASSIGN(const RobotId robot, find_robot_here(engine_, request.robot));
+    return std::vector{robot};
   }
+  std::vector<RobotId> robots;
   for (std::uint32_t r = 0; r < engine_.spec().robots.size(); ++r) {
     if (engine_.is_local(RobotId(r))) robots.emplace_back(r);
   }
@@ -135,7 +125,7 @@ Result<std::string> InputPost::give_hold(const RunRequest& request) {
   std::vector<sim::WorldInput> inputs;
   for (const RobotId robot : its) {
     sim::WorldInput& input = inputs.emplace_back();
-    input.kind = hold_kind(request.kind);
+    input.kind = input_kind(request.kind);
     input.author = {true, request.by};
     input.robot = robot;
   }

@@ -11,13 +11,6 @@
 namespace rave::runtime {
 namespace {
 
-/// Whether a robot of this name runs in this process.
-Status check_here(const sim::Engine& engine, const std::string& name) {
-  RAVE_TRY_ASSIGN(const RobotId robot, find_robot(engine.spec(), name));
-  if (engine.is_local(robot)) return {};
-  return fail(ErrorCode::kNotFound, "robot `{}` runs in another process of this run", name);
-}
-
 bool is_driven(const sim::Engine& engine, const std::string& name) {
   const auto robot = find_robot(engine.spec(), name);
   return robot && engine.order_of(*robot) == "drive";
@@ -131,7 +124,7 @@ Result<std::string> ObserverList::serve_order(sim::Engine& engine, const RunRequ
                 "hosts in lock-step cannot hand a robot over; run it in one process or in real "
                 "time");
   }
-  if (!request.robot.empty()) RAVE_TRY(check_here(engine, request.robot));
+  if (!request.robot.empty()) RAVE_TRY(find_robot_here(engine, request.robot));
   had_orders_ = true;
   auto answer = desk_.serve(
       request,

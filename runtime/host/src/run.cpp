@@ -84,12 +84,7 @@ std::vector<sim::Event> unfinished_hand_overs(const sim::Engine& engine) {
 
 Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalogue& catalogue,
                        const RunOptions& options) {
-  std::error_code error;
-  std::filesystem::create_directories(options.output, error);
-  if (error) {
-    return fail(ErrorCode::kIo, "cannot create the folder `{}`: {}", options.output.string(),
-                error.message());
-  }
+  RAVE_TRY(create_folder(options.output));
   const std::string expanded = config::write_expanded(scenario);
   RAVE_TRY(write_file_atomically(options.output / "scenario.yaml", expanded));
 

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <memory>
 
+#include "rave/base/word_table.hpp"
+
 namespace rave::isolation {
 namespace {
 
@@ -43,24 +45,15 @@ std::string program_class(const std::string& frame) {
 }  // namespace
 
 std::string signal_name(int signal) {
-  switch (signal) {
-    case SIGSEGV:
-      return "segmentation fault";
-    case SIGBUS:
-      return "bus error";
-    case SIGFPE:
-      return "arithmetic fault";
-    case SIGILL:
-      return "illegal instruction";
-    case SIGABRT:
-      return "abort";
-    case SIGKILL:
-      return "signal 9 (kill)";
-    case SIGTERM:
-      return "signal 15 (terminate)";
-    default:
-      return fmt::format("signal {}", signal);
-  }
+  constexpr WordTable<int, 7> kNames = {{{"segmentation fault", SIGSEGV},
+                                         {"bus error", SIGBUS},
+                                         {"arithmetic fault", SIGFPE},
+                                         {"illegal instruction", SIGILL},
+                                         {"abort", SIGABRT},
+                                         {"signal 9 (kill)", SIGKILL},
+                                         {"signal 15 (terminate)", SIGTERM}}};
+  const std::string_view name = kNames.of(signal);
+  return name.empty() ? fmt::format("signal {}", signal) : std::string(name);
 }
 
 std::string short_function(std::string_view name, std::string_view frame) {

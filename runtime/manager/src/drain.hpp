@@ -37,7 +37,7 @@ void drain(const Slots& slots, LogSink* log, Owes&& owes_host_results, Turn&& tu
     const bool any_owes = std::ranges::any_of(slots, owes);
     const auto waited = Steady::now() - began;
     if (waited >= (any_owes ? limits.owing : limits.usual)) break;
-    if (waited >= limits.usual && !std::exchange(told, true) && log != nullptr) {
+    if (waited >= limits.usual && !std::exchange(told, true)) {
       std::vector<std::string_view> names;
       for (const auto& slot : slots) {
         if (owes(slot)) names.emplace_back(slot.name);

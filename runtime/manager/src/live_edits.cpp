@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "manager_habits.hpp"
+#include "rave/assemble/obstacles.hpp"
 #include "rave/base/names.hpp"
 #include "rave/control/world_request.hpp"
 #include "rave/math/transform.hpp"
@@ -118,7 +119,7 @@ void LiveEdits::drop_orphans() {
   obstacles_.erase(it, obstacles_.end());
   // Without the missing one the numbers would not fit. A wrong body under a number is worse than a
   // missing one.
-  if (orphans == 0 || options_.log == nullptr) return;
+  if (orphans == 0) return;
   options_.log->error(kSource,
                       "{} obstacles from hosts are left out: obstacle number {}, which was added "
                       "before them, is missing",
@@ -130,7 +131,7 @@ Status LiveEdits::take_over(SimTime now) {
   obstacles_ = hosts_.handed_obstacles();
   hosts_.end_handing();
   revision_ = newest_of(obstacles_);
-  if (revision_ < hosts_.shown_revision() && options_.log != nullptr) {
+  if (revision_ < hosts_.shown_revision()) {
     options_.log->error(kSource, "hosts have obstacles up to change {}, but sent only {}",
                         hosts_.shown_revision(), revision_);
   }
@@ -142,10 +143,8 @@ Status LiveEdits::take_over(SimTime now) {
     // The run continues: hosts keep their obstacles, and this manager has only those of the start.
     obstacles_.clear();
     takes_over_ = false;
-    if (options_.log != nullptr) {
-      options_.log->error(kSource, "the obstacles from hosts are inconsistent: {}",
-                          put.error().message);
-    }
+    options_.log->error(kSource, "the obstacles from hosts are inconsistent: {}",
+                        put.error().message);
     return {};
   }
   // The limits of the run hold across managers.
@@ -194,15 +193,14 @@ void LiveEdits::make_scheduled(SimTime now) {
     if (due_ns > std::max<std::int64_t>(0, now.ns)) return;
     ++next_scheduled_;
     const auto made = make(scheduled.change, now);
-    if (!made) {
-      const auto step =
-          static_cast<std::uint64_t>(std::max<std::int64_t>(0, now.ns) / spec.step.ns);
-      refused_.push_back(
-          {step, RobotId(), sim::EventKind::kChangeRefused, BodyId(), made.error().text()});
+    if (made) {
+      options_.log->info("scenario", "{:.2f} s: {}", now.seconds(), *made);
+      continue;
     }
-    if (options_.log == nullptr) continue;
-    if (made) options_.log->info("scenario", "{:.2f} s: {}", now.seconds(), *made);
-    if (!made) options_.log->error("scenario", "{:.2f} s: {}", now.seconds(), made.error().message);
+    const auto step = static_cast<std::uint64_t>(std::max<std::int64_t>(0, now.ns) / spec.step.ns);
+    refused_.push_back(
+        {step, RobotId(), sim::EventKind::kChangeRefused, BodyId(), made.error().text()});
+    options_.log->error("scenario", "{:.2f} s: {}", now.seconds(), made.error().message);
   }
 }
 
@@ -260,7 +258,7 @@ void LiveEdits::note(const sim::ObstacleChange& made) {
   sight.revision = ++revision_;
   sight.scheduled = next_scheduled_;
   const Status told = publish(sight);
-  if (!told && options_.log != nullptr) {
+  if (!told) {
     options_.log->error(kSource, "obstacle `{}` was not sent: {}", made.name, told.error().message);
   }
 }
@@ -282,14 +280,12 @@ Result<std::string> LiveEdits::edit(const runtime::RunRequest& request, SimTime 
 
 void LiveEdits::serve(runtime::RunControl::Asked asked, SimTime now) {
   if (asked.request().kind == RequestKind::kList) {
-    asked.answer(runtime::obstacle_list(authority_->world()));
+    asked.answer(runtime::list_obstacles(authority_->world()));
     return;
   }
   auto made = edit(asked.request(), now);
   if (!made) {
-    if (options_.log != nullptr) {
-      options_.log->warn("by hand", "refused: {}", made.error().message);
-    }
+    options_.log->warn("by hand", "refused: {}", made.error().message);
     asked.answer(fail(made.error().code, "{}", made.error().message));
     return;
   }
@@ -334,7 +330,7 @@ void LiveEdits::answer_waiting(SimTime now) {
     }
     ++edits_.made;
     const std::string text = fmt::format("{}; {}", one.text, reach);
-    if (options_.log != nullptr) options_.log->info("by hand", "{:.2f} s: {}", now.seconds(), text);
+    options_.log->info("by hand", "{:.2f} s: {}", now.seconds(), text);
     one.asked.answer(text);
     return true;
   });

@@ -81,10 +81,8 @@ void LiveHosts::lose(std::uint64_t writer, bool goes) {
     news_ = true;
     if (!goes) continue;
     ++slot.losses;
-    if (options_.log != nullptr) {
-      options_.log->error(kSource, "host `{}` is gone; the others continue{}{}", slot.name,
-                          slot.command.empty() ? "" : "; start it again with: ", slot.command);
-    }
+    options_.log->error(kSource, "host `{}` is gone; the others continue{}{}", slot.name,
+                        slot.command.empty() ? "" : "; start it again with: ", slot.command);
   }
 }
 
@@ -109,11 +107,8 @@ bool LiveHosts::claim_slot(const bus::ClockPing& ping) {
     note_service(slot.served_by, ping.writer);
     news_ = true;
     all_asked_ = false;
-    if (options_.log != nullptr) {
-      options_.log->info(kSource, "host `{}` is {}, with {} real and {} simulated robots",
-                         slot.name, slot.heard ? "back" : "here", slot.real,
-                         slot.robots - slot.real);
-    }
+    options_.log->info(kSource, "host `{}` is {}, with {} real and {} simulated robots", slot.name,
+                       slot.heard ? "back" : "here", slot.real, slot.robots - slot.real);
     slot.heard = true;
   }
   slot.offset_ns = ping.offset_ns;

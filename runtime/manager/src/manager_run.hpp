@@ -33,7 +33,6 @@ class ManagerRun {
   }
   template <class... Args>
   void log(LogLevel level, fmt::format_string<Args...> format, Args&&... args) {
-    if (common_.log == nullptr) return;
     common_.log->write(level, kSource, fmt::format(format, std::forward<Args>(args)...));
   }
 

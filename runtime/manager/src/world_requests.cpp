@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "manager_habits.hpp"
+#include "rave/assemble/obstacles.hpp"
 #include "rave/assemble/parameter_key.hpp"
 #include "rave/base/names.hpp"
 #include "rave/control/order_words.hpp"
@@ -118,7 +119,7 @@ void WorldRequests::listen(sim::WorldAuthority& authority) {
 void WorldRequests::take(runtime::RunControl::Asked asked, sim::WorldAuthority& authority) {
   if (asked.request().kind == RunRequest::Kind::kList) {
     // The list is answered at once: it changes nothing and needs no step.
-    return asked.answer(runtime::obstacle_list(authority.world()));
+    return asked.answer(runtime::list_obstacles(authority.world()));
   }
   if (asked.request().kind == RunRequest::Kind::kChat) {
     control_->keep_said(asked.request());
@@ -166,8 +167,8 @@ void WorldRequests::put_off(std::string_view why) {
 }
 
 void WorldRequests::answer(Pending& pending, Result<std::string> text) {
-  if (log_ != nullptr && text) log_->info("by hand", "{}", *text);
-  if (log_ != nullptr && !text) log_->warn("by hand", "refused: {}", text.error().message);
+  if (text) log_->info("by hand", "{}", *text);
+  if (!text) log_->warn("by hand", "refused: {}", text.error().message);
   pending.asked.answer(std::move(text));
 }
 

@@ -20,7 +20,7 @@ namespace rave::manager {
 /// forward what they accept. Belongs to one thread.
 class WorldRequests {
  public:
-  /// Nothing is owned; `control` and `log` may be null.
+  /// Nothing is owned; `control` may be null.
   WorldRequests(runtime::RunControl* control, LogSink* log,
                 const std::vector<config::PlannedHost>& hosts)
       : control_(control), log_(log), hosts_(hosts) {}

@@ -4,6 +4,7 @@
 #include "rave/bus/sequence.hpp"
 #include "rave/math/transform.hpp"
 #include "rave/protocol/obstacle_messages.hpp"
+#include "step_parts.hpp"
 
 namespace rave::real_time {
 
@@ -48,11 +49,7 @@ bus::Packet packet_of(const sim::SentPacket& sent, std::span<const std::byte> by
   packet.line_of_sight = sent.line_of_sight != 0;
   // Cyclone DDS does not write to samples that it sends.
   // The payload is lent, not copied: `bytes` must live until the packet has been written.
-  packet.payload._buffer =
-      const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(bytes.data()));
-  packet.payload._length = static_cast<std::uint32_t>(bytes.size());
-  packet.payload._maximum = packet.payload._length;
-  packet.payload._release = false;
+  lock_step::lend_bytes(packet.payload, bytes);
   return packet;
 }
 

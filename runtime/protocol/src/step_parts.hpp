@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "rave/bus/sequence.hpp"
@@ -19,7 +20,7 @@ void lend(Sequence& sequence, const std::vector<T>& values) {
 }
 
 template <class Sequence>
-void lend_bytes(Sequence& sequence, const std::vector<std::byte>& bytes) {
+void lend_bytes(Sequence& sequence, std::span<const std::byte> bytes) {
   sequence._buffer = reinterpret_cast<std::uint8_t*>(const_cast<std::byte*>(bytes.data()));
   sequence._length = static_cast<std::uint32_t>(bytes.size());
   sequence._maximum = sequence._length;

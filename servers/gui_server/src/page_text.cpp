@@ -107,7 +107,7 @@ std::string leases_text(std::span<const DriveState> states, const Author& me, bo
                        {"last", state.hand_over->last}};
     }
     for (const auto& [key, value] : state.values) robot["values"][key] = Json::parse(value);
-    if (state.shadow) robot["shadow"] = runtime::shadow_json<Json>(*state.shadow);
+    if (state.shadow) robot["shadow"] = runtime::shadow_json(*state.shadow);
   }
   return json_text(message);
 }

@@ -25,4 +25,7 @@ namespace rave {
 [[nodiscard]] Status write_private_file(const std::filesystem::path& path,
                                         std::string_view content);
 
+/// Creates a folder and those above it, where they are missing. Error: kIo.
+[[nodiscard]] Status create_folder(const std::filesystem::path& folder);
+
 }  // namespace rave

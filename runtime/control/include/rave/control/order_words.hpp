@@ -22,6 +22,11 @@ namespace rave::runtime {
   return kind >= RunRequest::Kind::kDrive && kind <= RunRequest::Kind::kPlace;
 }
 
+/// The kind of input that a stop, a release, an arming or an order becomes, and the inverse; kStop
+/// for all others.
+[[nodiscard]] sim::WorldInput::Kind input_kind(RunRequest::Kind kind) noexcept;
+[[nodiscard]] RunRequest::Kind kind_of_input(sim::WorldInput::Kind kind) noexcept;
+
 /// Converts a request to an input of the run, with its author. Errors: kNotFound (no such robot),
 /// kInvalidArgument (it names none).
 [[nodiscard]] Result<sim::WorldInput> order_input(const sim::EngineSpec& spec,

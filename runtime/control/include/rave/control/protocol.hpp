@@ -53,6 +53,7 @@ struct Answer {
   runtime::RunStatus status;  ///< With a scenario if the request was kStatus.
 };
 
+/// Parses a line. Its texts have no control characters but line ends. Error: kParse.
 [[nodiscard]] Result<Answer> parse_answer(std::string_view line);
 [[nodiscard]] std::string write_answer(const Answer& answer);
 

@@ -6,6 +6,9 @@
 
 namespace rave::runtime {
 
+/// The robot of this name in this process. Error: kNotFound.
+[[nodiscard]] Result<RobotId> find_robot_here(const sim::Engine& engine, std::string_view name);
+
 /// Executes a request between two steps. Returns a description of what was done.
 [[nodiscard]] Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request);
 

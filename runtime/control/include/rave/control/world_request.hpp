@@ -14,6 +14,12 @@
 // the recordings of the hosts.
 namespace rave::runtime {
 
+/// The change that a request of kind kSet asks of a robot. Errors: kInvalidArgument and kNotFound,
+/// without a place.
+[[nodiscard]] Result<sim::ParameterChange> requested_parameter(const sim::EngineSpec& spec,
+                                                               RobotId robot,
+                                                               const RunRequest& request);
+
 /// A request as an input of the world, by hand. Errors: kNotFound and kInvalidArgument as in one
 /// process; kState: a parameter of a program or driver, which only the host of the robot knows.
 /// kList is not an input.
@@ -26,8 +32,5 @@ namespace rave::runtime {
 
 /// The word for a change of an obstacle: `added`, `moved` or `removed`.
 [[nodiscard]] std::string_view word_of(sim::ObstacleChange::Kind kind) noexcept;
-
-/// The id, name, layer and pose of each existing obstacle, one per line.
-[[nodiscard]] std::string obstacle_list(const world::WorldModel& world);
 
 }  // namespace rave::runtime

@@ -28,7 +28,7 @@ struct RunOptions {
   bool resume = false;
   /// By host, the command that restarts it after a loss; empty: it is restarted automatically.
   std::vector<std::string> commands;
-  LogSink* log = nullptr;  ///< Not owned; may be null.
+  LogSink* log = nullptr;  ///< Not owned; must not be null.
   /// Called about ten times a second; true ends the run. May be empty.
   std::function<bool()> stopping;
   /// Requests to the run; not owned, may be null.

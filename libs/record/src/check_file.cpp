@@ -51,8 +51,7 @@ class FileCheck {
       return damage(read.error().message);
     }
     ByteReader reader(bytes);
-    const bool right = reader.get<std::uint8_t>() == opcode::kAttachment &&
-                       reader.get<std::uint64_t>() == bytes.size() - kRecordHead;
+    const bool right = begins_record(reader, opcode::kAttachment);
     constexpr std::size_t kCrc = sizeof(std::uint32_t);
     if (!right || bytes.size() < kRecordHead + kCrc) {
       return damage_at(what, info.offset, "is incomplete");
@@ -70,11 +69,11 @@ class FileCheck {
       return damage(read.error().message);
     }
     ByteReader reader(bytes);
-    const bool right = reader.get<std::uint8_t>() == opcode::kMetadata &&
-                       reader.get<std::uint64_t>() == bytes.size() - kRecordHead;
-    const bool named = reader.string() == info.name;
-    static_cast<void>(reader.map());
-    if (!right || !named || !reader.ok()) {
+    const bool right = begins_record(reader, opcode::kMetadata);
+    std::string name;
+    StringMap entries;
+    reader(name, entries);
+    if (!right || name != info.name || !reader.ok()) {
       damage_at(fmt::format("metadata `{}`", info.name), info.offset, "is incomplete");
     }
   }
@@ -109,8 +108,7 @@ class FileCheck {
     }
     const Status read = source_.read(file_.data_end, kRecordHead + 4, bytes);
     ByteReader reader(bytes);
-    if (!read || reader.get<std::uint8_t>() != opcode::kDataEnd ||
-        reader.get<std::uint64_t>() != sizeof(std::uint32_t)) {
+    if (!read || !begins_record(reader, opcode::kDataEnd)) {
       return damage(fmt::format("`{}`: the data do not end at offset {} as stated", source_.name(),
                                 file_.data_end));
     }

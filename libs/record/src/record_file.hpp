@@ -31,9 +31,8 @@ struct RecordFile {
   std::uint64_t data_end = 0;    ///< Start of the data end record; 0: unknown.
 };
 
-/// Adds a schema or channel record. A second one with the same id is ignored.
-void note_schema(RecordFile& file, SchemaInfo schema);
-void note_channel(RecordFile& file, ChannelInfo channel);
+/// Adds a schema or channel record; a second one with the same id is ignored. False: incomplete.
+[[nodiscard]] bool note_definition(RecordFile& file, std::uint8_t code, ByteSpan content);
 
 /// Reads the lists from the summary section. After a failure they are undefined.
 [[nodiscard]] Status read_summary(RecordFile& file);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads all of a file and compares every checksum that is there.
-#include "check_file.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "crc32.hpp"
+#include "record_file.hpp"
 
 namespace rave::record {
 namespace {
@@ -84,14 +83,10 @@ class FileCheck {
       return damage(loaded.error().message);
     }
     if (!summed) unsummed(fmt::format("chunk at offset {}", info.offset));
-    bool ok = true;
-    const bool complete = for_each_record(records_, [&](auto code, ByteSpan content, std::size_t) {
-      MessageView message;
-      ok = code != opcode::kMessage || get_message(content, message);
-      messages_ += code == opcode::kMessage && ok ? 1 : 0;
-      return ok;
-    });
-    if (!ok || !complete) damage_at("chunk", info.offset, "has an incomplete record");
+    const auto count = [this](const MessageView&, std::size_t, std::size_t) { ++messages_; };
+    if (!for_each_message(records_, count)) {
+      damage_at("chunk", info.offset, "has an incomplete record");
+    }
   }
 
   /// The checksum of all data also covers records without their own.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "check_file.hpp"
 #include "crc32.hpp"
 #include "message_cursor.hpp"
 #include "record_file.hpp"
@@ -145,13 +144,14 @@ Result<StringMap> McapReader::read_metadata(const MetadataInfo& metadata) const 
   return entries;
 }
 
-CheckedFile McapReader::check() const { return check_file(*file_); }
-
-Status McapReader::verify() const {
-  const CheckedFile checked = check();
-  if (!checked.cuts.empty()) return fail(ErrorCode::kParse, "{}", checked.cuts.front());
-  if (!checked.damages.empty()) return fail(ErrorCode::kParse, "{}", checked.damages.front());
+StringMap McapReader::metadata_named(std::string_view name) const {
+  for (const MetadataInfo& metadata : file_->metadata) {
+    if (metadata.name != name) continue;
+    if (auto entries = read_metadata(metadata)) return *std::move(entries);
+  }
   return {};
 }
+
+CheckedFile McapReader::check() const { return check_file(*file_); }
 
 }  // namespace rave::record

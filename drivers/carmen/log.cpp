@@ -23,9 +23,6 @@ using recording::StreamReport;
 using recording::StreamWindow;
 using recording::Stretch;
 
-constexpr std::string_view kStretchFile = "stretch.txt";
-constexpr std::size_t kLargestStretchFile = std::size_t{1} << 20;
-
 /// First and last absolute stamp of a log.
 std::pair<std::int64_t, std::int64_t> stamp_range(const ParsedLog& log) {
   std::int64_t first = std::numeric_limits<std::int64_t>::max();
@@ -124,15 +121,6 @@ Status check_options(const LoadOptions& options) {
               options.range_max_m);
 }
 
-Result<std::optional<Stretch>> read_stretch(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / kStretchFile;
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return std::optional<Stretch>();
-  RAVE_TRY_ASSIGN(const std::string text, read_file(path, kLargestStretchFile));
-  RAVE_TRY_ASSIGN(Stretch stretch, recording::parse_stretch(text, path.string()));
-  return std::optional<Stretch>(std::move(stretch));
-}
-
 }  // namespace
 
 recording::PoseTrack Log::track() const {
@@ -177,29 +165,14 @@ Result<Log> load_text(const recording::UnpackedText& text, const std::string& fi
 
 Result<Log> load(const std::filesystem::path& path, const LoadOptions& options) {
   RAVE_TRY_ASSIGN(const std::string bytes, read_file(path, recording::kMostLogBytes));
-  RAVE_TRY_ASSIGN(const auto stretch, read_stretch(path.parent_path()));
+  RAVE_TRY_ASSIGN(const auto stretch, recording::read_stretch(path.parent_path()));
   RAVE_TRY_ASSIGN(const recording::UnpackedText text, recording::unpack_text(bytes, path.string()));
   RAVE_TRY_ASSIGN(Log log, load_text(text, path.string(), stretch, options));
-  StreamReport file;
-  file.file = path.filename().string();
-  file.sha256 = recording::sha256_hex(bytes);
-  if (stretch) {
-    const auto listed = stretch->sha256.find(file.file);
-    if (listed != stretch->sha256.end()) file.unchanged = listed->second == file.sha256;
-    const bool cut = log.scan_report.repaired(recording::RepairKind::kCutLine) > 0;
-    // Checked last, so that a syntax error is reported with its line instead.
-    if (file.unchanged == false && !cut) {
-      return fail_at(
-          {path.string(), 0, 0}, ErrorCode::kParse,
-          "the file differs from the one that {} lists (SHA-256 {}, listed {}); restore it",
-          kStretchFile, file.sha256, listed->second);
-    }
-  }
-  for (StreamReport* report : {&log.scan_report, &log.odometry_report}) {
-    report->file = file.file;
-    report->sha256 = file.sha256;
-    report->unchanged = file.unchanged;
-  }
+  // Last, so that a syntax error is reported with its line instead.
+  RAVE_TRY_ASSIGN(const recording::LogIdentity file,
+                  recording::identify(path, bytes, log.scan_report.repairs, stretch));
+  static_cast<recording::LogIdentity&>(log.scan_report) = file;
+  static_cast<recording::LogIdentity&>(log.odometry_report) = file;
   return log;
 }
 

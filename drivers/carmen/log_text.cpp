@@ -74,7 +74,7 @@ class LogParser final : recording::LineParser {
       log_.ranges_m.push_back(static_cast<float>(range_m));
     }
     RAVE_TRY_ASSIGN(row.X_WL, pose(2 + beams));
-    RAVE_TRY_ASSIGN(row.X_WO, pose(5 + beams));
+    RAVE_TRY(pose(5 + beams));  // of odometry; equal in a corrected log
     log_.beams = beams;
     log_.scans.push_back(row);
     behind_scan_ = true;

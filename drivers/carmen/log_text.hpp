@@ -21,7 +21,6 @@ struct ScanRow {
   std::int64_t stamp_ns = 0;              ///< `ipc_timestamp`, absolute.
   std::optional<std::int64_t> logged_ns;  ///< `logger_timestamp`; empty: not a time.
   Pose2 X_WL;                             ///< Pose of the laser as logged; heading not wrapped.
-  Pose2 X_WO;             ///< Pose of the robot in the odometry frame; equal in a corrected log.
   std::size_t first = 0;  ///< Index into ParsedLog::ranges_m, which has `beams` of them.
 };
 

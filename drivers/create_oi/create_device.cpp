@@ -84,21 +84,14 @@ Status CreateDevice::open() {
   }
   const std::string trouble = state_.trouble.empty() ? "nothing came" : state_.trouble;
   lock.unlock();
-  stop_thread();
+  close();
   return fail(ErrorCode::kTimeout,
               "no robot with the Open Interface answered at `{}` within {} s: "
               "{}",
               options_.address.text(), options_.timing.start_timeout_s, trouble);
 }
 
-void CreateDevice::close() { stop_thread(); }
-
-void CreateDevice::stop_thread() {
-  if (!thread_.joinable()) return;
-  thread_.request_stop();
-  wake_.ring();
-  thread_.join();
-}
+void CreateDevice::close() { wake_.end(thread_); }
 
 std::string CreateDevice::report() const {
   if (!configured_) return "{}";

@@ -73,7 +73,6 @@ class CreateDevice final : public HardwareDevice {
   void lost(const Error& why);
   void found();
   void forget_order();
-  void stop_thread();
   void log(LogLevel level, const std::string& text) const;
   [[nodiscard]] std::string name() const {
     return "the robot at `" + options_.address.text() + "`";

@@ -46,12 +46,12 @@ class Builder {
       if (events_) return;
       // For a state sensor, the last sample before the start applies from the first step on.
       at = {};
-      timeline_.samples.clear();
+      timeline_.groups.clear();
       timeline_.records.clear();
     }
-    auto& samples = timeline_.samples;
+    auto& groups = timeline_.groups;
     // The stamps of a sensor must not decrease.
-    if (!samples.empty() && at < samples.back().stamp) {
+    if (!groups.empty() && at < groups.back().stamp) {
       ++timeline_.left_out;
       return;
     }
@@ -62,14 +62,9 @@ class Builder {
     }
     const auto count = static_cast<std::uint32_t>(records.size() / size_);
     // A reading cannot be delivered before its stamp.
-    samples.push_back({at, std::max(at, delivered - start_), offset, count});
+    groups.push_back({at, std::max(at, delivered - start_), offset, count});
   }
-  [[nodiscard]] Timeline finish() && {
-    for (const Sample& sample : timeline_.samples) {
-      timeline_.largest = std::max(timeline_.largest, sample.count);
-    }
-    return std::move(timeline_);
-  }
+  [[nodiscard]] Timeline finish() && { return std::move(timeline_); }
 
  private:
   std::size_t size_;
@@ -92,9 +87,9 @@ Result<Timeline> reported_poses(const record::McapReader& reader, RobotId robot,
 
 Status check_sensor(const record::RecordedSensor& sensor, ReadingKind kind,
                     const Timeline& timeline) {
-  if (kind == ReadingKind::kRanges && timeline.largest > sensor.bearings_rad.size()) {
+  if (kind == ReadingKind::kRanges && timeline.largest_group() > sensor.bearings_rad.size()) {
     return fail(ErrorCode::kParse, "sensor `{}` has readings of {} rays, but bearings of {}",
-                sensor.name, timeline.largest, sensor.bearings_rad.size());
+                sensor.name, timeline.largest_group(), sensor.bearings_rad.size());
   }
   return {};
 }
@@ -169,16 +164,16 @@ std::string report_json(const Source& source, const Timeline& timeline) {
   json["robot"] = source.robot;
   json["sensor"] = source.sensor;
   json["start_s"] = source.start_s;
-  json["samples"] = timeline.samples.size();
+  json["samples"] = timeline.groups.size();
   json["left_out"] = timeline.left_out;
   json["dropped"] = {{"count", timeline.left_out},
-                     {"of", timeline.samples.size() + timeline.left_out},
+                     {"of", timeline.groups.size() + timeline.left_out},
                      {"because", timeline.left_out > 0 ? "stamps that step back" : ""}};
   json["first_stamp_s"] = nullptr;
   json["last_stamp_s"] = nullptr;
-  if (!timeline.samples.empty()) {
-    json["first_stamp_s"] = seconds(timeline.samples.front().stamp);
-    json["last_stamp_s"] = seconds(timeline.samples.back().stamp);
+  if (!timeline.groups.empty()) {
+    json["first_stamp_s"] = seconds(timeline.groups.front().stamp);
+    json["last_stamp_s"] = seconds(timeline.groups.back().stamp);
   }
   // File names may not be UTF-8, which JSON requires.
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);

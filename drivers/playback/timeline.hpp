@@ -4,13 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "rave/base/result.hpp"
-#include "rave/base/time.hpp"
 #include "rave/record/run_info.hpp"
 #include "rave/record/run_messages.hpp"
 #include "rave/robot/hardware_sensor.hpp"
+#include "recording/timeline.hpp"
 
 namespace rave::playback {
 
@@ -28,19 +27,8 @@ struct Source {
 };
 [[nodiscard]] Source source_of(const Params& params, ReadingKind kind);
 
-/// One recorded reading to be played. Times are those of the new run.
-struct Sample {
-  SimTime stamp;
-  SimTime delivered;       ///< When the recorded run received it; not before `stamp`.
-  std::size_t offset = 0;  ///< Offset in bytes into Timeline::records.
-  std::uint32_t count = 0;
-};
-
-/// All samples of a player, ordered by stamp.
-struct Timeline {
-  std::vector<Sample> samples;
-  std::vector<std::byte> records;
-  std::uint32_t largest = 0;    ///< Largest number of records in a sample.
+/// All samples of a player, ordered by stamp. Times are those of the new run.
+struct Timeline : recording::Timeline<std::byte> {
   std::uint64_t left_out = 0;   ///< Readings omitted because their stamps decreased.
   record::RecordedSensor info;  ///< Geometry of a range sensor.
 };

@@ -9,37 +9,20 @@ namespace rave::ros2_driver {
 Status Ros2Command::prepare(const Params& params, HardwareDeclaration& /*declaration*/) {
   allow_silence();
   const std::string_view topic = params.text("topic");
-  return params.text("message") == "twist_stamped" ? make_reader(topic, stamped_)
-                                                   : make_reader(topic, plain_);
+  return params.text("message") == "twist_stamped" ? make_reader(topic, beside_)
+                                                   : make_reader(topic, main_);
 }
 
 // Only vx and wz: a robot on wheels has no other velocity, and other parts are usually left at 0.
-void Ros2Command::take(const ros2::Twist& twist, std::int64_t stamp_ns) {
+void Ros2Command::take(const ros2::Twist& twist) {
   const VelocityReading reading{twist.linear.x, twist.angular.z};
-  publish(stamp_ns, &reading, 1);
+  // A command counts from its arrival, because the sender's clock is unknown.
+  publish(0, &reading, 1);
 }
 
 void Ros2Command::drain() {
-  if (plain_) plain_->take([this](const ros2::Twist& message) { take(message, 0); });
-  // A command counts from its arrival, because the sender's clock is unknown.
-  if (stamped_) stamped_->take([this](const ros2::TwistStamped& m) { take(m.twist, 0); });
-}
-
-void Ros2Command::look_after(TopicState& state) {
-  if (plain_) look_at(*plain_, state);
-  if (stamped_) look_at(*stamped_, state);
-}
-
-std::string Ros2Command::explain_silence() const {
-  return plain_ ? plain_->explain_silence() : stamped_->explain_silence();
-}
-
-std::vector<dds_entity_t> Ros2Command::readers() const {
-  return {plain_ ? plain_->handle() : stamped_->handle()};
-}
-
-const std::string& Ros2Command::topic() const {
-  return plain_ ? plain_->topic() : stamped_->topic();
+  if (main_) main_->take([this](const ros2::Twist& message) { take(message); });
+  if (beside_) beside_->take([this](const ros2::TwistStamped& message) { take(message.twist); });
 }
 
 Status Ros2Goal::prepare(const Params& params, HardwareDeclaration& /*declaration*/) {

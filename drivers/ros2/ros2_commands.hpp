@@ -8,22 +8,14 @@
 namespace rave::ros2_driver {
 
 /// Velocity commands, as Twist or TwistStamped.
-class Ros2Command final : public TopicSensor {
+class Ros2Command final : public TwoTopicSensor<ros2::Twist, ros2::TwistStamped> {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kVelocity;
 
  private:
   Status prepare(const Params& params, HardwareDeclaration& declaration) override;
   void drain() override;
-  void look_after(TopicState& state) override;
-  [[nodiscard]] std::string explain_silence() const override;
-  [[nodiscard]] std::vector<dds_entity_t> readers() const override;
-  [[nodiscard]] const std::string& topic() const override;
-  void take(const ros2::Twist& twist, std::int64_t stamp_ns);
-
-  // Exactly one of the two is set.
-  std::optional<ros2::Reader<ros2::Twist>> plain_;
-  std::optional<ros2::Reader<ros2::TwistStamped>> stamped_;
+  void take(const ros2::Twist& twist);
 };
 
 /// Goal poses, in the frame of the message.

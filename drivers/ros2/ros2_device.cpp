@@ -28,9 +28,7 @@ Status Ros2Device::open() {
   return start_thread(thread_, "the robot", [this](const std::stop_token& stop) { run(stop); });
 }
 
-void Ros2Device::close() { stop_thread(); }
-
-void Ros2Device::stop_thread() {
+void Ros2Device::close() {
   if (!thread_.joinable()) return;
   thread_.request_stop();
   // The thread sleeps in its waiter; the bell ends the wait.

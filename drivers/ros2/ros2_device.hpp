@@ -89,7 +89,6 @@ class Ros2Device final : public HardwareDevice {
   [[nodiscard]] Status no_message(std::string_view topic, std::string_view why,
                                   std::string_view refused) const;
   void run(const std::stop_token& stop);
-  void stop_thread();
 
   DeviceOptions options_;
   HostServices host_;

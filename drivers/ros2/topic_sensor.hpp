@@ -131,19 +131,23 @@ class OneTopicSensor : public TopicSensor {
   std::optional<ros2::Reader<Message>> reader_;
 };
 
-/// A sensor that reads one topic, and optionally a second one. prepare() creates `main_` and, if
-/// needed, `beside_`.
+/// A sensor that reads two topics, or one of them. prepare() creates `main_`, `beside_`, or both.
 template <class Message, class Beside>
 class TwoTopicSensor : public TopicSensor {
  protected:
   void look_after(TopicState& state) final {
-    look_at(*main_, state);
+    if (main_) look_at(*main_, state);
     if (beside_) look_at(*beside_, state);
   }
-  [[nodiscard]] std::string explain_silence() const override { return main_->explain_silence(); }
-  [[nodiscard]] const std::string& topic() const final { return main_->topic(); }
+  [[nodiscard]] std::string explain_silence() const override {
+    return main_ ? main_->explain_silence() : beside_->explain_silence();
+  }
+  [[nodiscard]] const std::string& topic() const final {
+    return main_ ? main_->topic() : beside_->topic();
+  }
   [[nodiscard]] std::vector<dds_entity_t> readers() const final {
-    std::vector<dds_entity_t> all{main_->handle()};
+    std::vector<dds_entity_t> all;
+    if (main_) all.push_back(main_->handle());
     if (beside_) all.push_back(beside_->handle());
     return all;
   }

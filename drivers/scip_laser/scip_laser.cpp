@@ -132,12 +132,7 @@ Status ScipLaser::open(SampleSink& sink) {
                       [this, &sink](const std::stop_token& stop) { run(sink, stop); });
 }
 
-void ScipLaser::close() {
-  if (!thread_.joinable()) return;
-  thread_.request_stop();
-  wake_.ring();
-  thread_.join();
-}
+void ScipLaser::close() { wake_.end(thread_); }
 
 std::string ScipLaser::report() const {
   if (!configured_) return "{}";

@@ -142,12 +142,7 @@ Status SerialTransmitter::send(std::span<const std::byte> packet) {
   return {};
 }
 
-void SerialTransmitter::close() {
-  if (!thread_.joinable()) return;
-  thread_.request_stop();
-  wake_.ring();
-  thread_.join();
-}
+void SerialTransmitter::close() { wake_.end(thread_); }
 
 void SerialTransmitter::run(line::ByteLine line, const std::stop_token& stop) {
   std::optional<line::ByteLine> open_line(std::move(line));

@@ -99,12 +99,7 @@ Status UdpPose::open(SampleSink& sink) {
                       [this, &sink](const std::stop_token& stop) { run(sink, stop); });
 }
 
-void UdpPose::close() {
-  if (!thread_.joinable()) return;
-  thread_.request_stop();
-  wake_.ring();
-  thread_.join();
-}
+void UdpPose::close() { wake_.end(thread_); }
 
 void UdpPose::run(SampleSink& sink, const std::stop_token& stop) {
   PoseStream stream(body_, max_delay_s_);

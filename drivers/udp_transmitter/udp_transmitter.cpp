@@ -93,12 +93,7 @@ class UdpTransmitter final : public Transmitter {
     return worst;
   }
 
-  void close() override {
-    if (!thread_.joinable()) return;
-    thread_.request_stop();
-    wake_.ring();
-    thread_.join();
-  }
+  void close() override { wake_.end(thread_); }
 
   [[nodiscard]] std::string report() const override {
     if (!socket_) return "{}";

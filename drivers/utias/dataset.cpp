@@ -118,7 +118,7 @@ Result<RobotLog> make_robot(int number, RobotFiles files, const StreamWindow& wi
     auto sightings =
         make_sightings(std::move(files.sightings), number, window,
                        from_seconds(options.clock_offset_s).ns, options.code_meaning, subjects);
-    robot.sightings = SightingLog(std::move(sightings.samples));
+    robot.sightings = std::move(sightings.samples);
     robot.sighting_report = std::move(sightings.report);
   }
   return robot;

@@ -7,9 +7,8 @@
 
 #include "rave/base/result.hpp"
 #include "utias/load_options.hpp"
-#include "utias/odometry_track.hpp"
 #include "utias/recording_names.hpp"
-#include "utias/sightings.hpp"
+#include "utias/samples.hpp"
 #include "utias/stream_report.hpp"
 #include "utias/subjects.hpp"
 
@@ -20,10 +19,10 @@ struct RobotLog {
   int subject = 0;
   /// With margin; after the end of the recording the last pose holds.
   PoseTrack poses;
-  /// Commanded velocities in order of time, with margin; each holds until the next (command_at).
+  /// Commanded velocities in order of time, with margin; each holds until the next.
   std::vector<OdometrySample> odometry;
-  /// Within the window.
-  SightingLog sightings;
+  /// Within the window, in order of time; those of one image have one stamp.
+  std::vector<Sighting> sightings;
   StreamReport pose_report;
   StreamReport odometry_report;
   StreamReport sighting_report;

@@ -11,9 +11,6 @@
 namespace rave::utias {
 namespace {
 
-constexpr std::string_view kStretchFile = "stretch.txt";
-constexpr std::size_t kLargestStretchFile = std::size_t{1} << 20;
-
 bool is_file(const std::filesystem::path& path) noexcept {
   std::error_code ignored;
   return std::filesystem::is_regular_file(path, ignored);
@@ -31,13 +28,6 @@ int robot_number(std::string_view name) noexcept {
   return named && number > 0 ? number : 0;
 }
 
-bool accepted_as_cut(const ParsedLog& log) noexcept {
-  for (const Repair& repair : log.repairs) {
-    if (repair.kind == RepairKind::kCutLine) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 Result<Folder> Folder::open(const std::filesystem::path& path) {
@@ -48,11 +38,7 @@ Result<Folder> Folder::open(const std::filesystem::path& path) {
   Folder folder;
   folder.path_ = path;
   RAVE_TRY(folder.find_robots());
-  const std::filesystem::path stretch_path = path / kStretchFile;
-  if (is_file(stretch_path)) {
-    RAVE_TRY_ASSIGN(const std::string text, read_file(stretch_path, kLargestStretchFile));
-    RAVE_TRY_ASSIGN(folder.stretch_, parse_stretch(text, stretch_path.string()));
-  }
+  RAVE_TRY_ASSIGN(folder.stretch_, recording::read_stretch(path));
   return folder;
 }
 
@@ -76,30 +62,19 @@ Result<LogFile> Folder::read(std::string_view stem, std::span<const Column> colu
                              bool accept_cut) const {
   const std::string plain = std::string(stem) + ".dat";
   const std::string packed = plain + ".gz";
-  LogFile file;
   // The packed file is preferred if both exist.
-  file.name = is_file(path_ / packed) ? packed : plain;
-  const std::filesystem::path path = path_ / file.name;
-  file.path = path.string();
+  const std::filesystem::path path = path_ / (is_file(path_ / packed) ? packed : plain);
   if (!is_file(path)) {
     return fail(ErrorCode::kNotFound, "`{}` has neither `{}` nor `{}`", path_.string(), packed,
                 plain);
   }
+  LogFile file;
+  file.path = path.string();
   RAVE_TRY_ASSIGN(const std::string bytes, read_file(path, recording::kMostLogBytes));
-  file.sha256 = sha256_hex(bytes);
   RAVE_TRY_ASSIGN(const UnpackedText text, unpack_text(bytes, file.path));
   RAVE_TRY_ASSIGN(file.log, parse_log(text, file.path, columns, accept_cut));
-  if (!stretch_) return file;
-  const auto expected = stretch_->sha256.find(file.name);
-  if (expected == stretch_->sha256.end()) return file;
-  file.unchanged = expected->second == file.sha256;
-  // Checked last, so that a syntax error is reported with its line instead.
-  if (!*file.unchanged && !accepted_as_cut(file.log)) {
-    return fail_at({file.path, 0, 0}, ErrorCode::kParse,
-                   "the file differs from the one that {} lists (SHA-256 {}, listed {}); restore "
-                   "it",
-                   kStretchFile, file.sha256, expected->second);
-  }
+  // Last, so that a syntax error is reported with its line instead.
+  RAVE_TRY_ASSIGN(file.identity, recording::identify(path, bytes, file.log.repairs, stretch_));
   return file;
 }
 

@@ -18,9 +18,7 @@ namespace rave::utias {
 /// One parsed log file; stamps are still absolute.
 struct LogFile {
   std::string path;  ///< As shown in messages.
-  std::string name;  ///< Without folder.
-  std::string sha256;
-  std::optional<bool> unchanged;
+  recording::LogIdentity identity;
   ParsedLog log;
 };
 

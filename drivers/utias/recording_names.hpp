@@ -10,7 +10,6 @@
 // Names of the common recording library in this namespace.
 namespace rave::utias {
 
-using recording::describe_timing;
 using recording::Gap;
 using recording::GapKind;
 using recording::kLatestStamp_ns;
@@ -24,7 +23,5 @@ using recording::sha256_hex;
 using recording::Stretch;
 using recording::unpack_text;
 using recording::UnpackedText;
-using recording::WorldVelocity;
-using recording::wrap_angle;
 
 }  // namespace rave::utias

@@ -12,8 +12,6 @@ namespace rave::utias {
 
 enum class StreamKind : std::uint8_t { kPoses, kOdometry, kSightings };
 
-[[nodiscard]] std::string_view to_string(StreamKind kind) noexcept;
-
 struct UnknownCode {
   int code = 0;
   std::int64_t count = 0;

@@ -42,14 +42,30 @@ constexpr std::int64_t kSightingGap_ns = 5'000'000'000;
 
 StreamReport begin_report(LogFile& file, int robot, StreamKind kind, std::int64_t gap_limit_ns) {
   StreamReport report;
+  static_cast<recording::LogIdentity&>(report) = std::move(file.identity);
   report.robot = robot;
   report.kind = kind;
-  report.file = std::move(file.name);
-  report.sha256 = std::move(file.sha256);
-  report.unchanged = file.unchanged;
   report.repairs = std::move(file.log.repairs);
   report.gap_limit_ns = gap_limit_ns;
   return report;
+}
+
+/// The stream of a state that holds until the next row: one row per stamp, in order, described for
+/// the report as the log has them, and cut to the window last. `convert(row, t_ns, report)` gives a
+/// sample.
+template <class Sample, class Convert>
+Stream<Sample> make_states(LogFile file, StreamReport report, const StreamWindow& window,
+                           Convert convert) {
+  Stream<Sample> stream{{}, std::move(report)};
+  sort_rows(file.log.rows, stream.report);
+  drop_duplicates(file.log.rows, window, stream.report);
+  stream.samples.reserve(file.log.rows.size());
+  for (const LogRow& row : file.log.rows) {
+    stream.samples.push_back(convert(row, row.stamp_ns - window.origin_ns, stream.report));
+  }
+  describe(stream.report, stream.samples, window);
+  trim(stream.samples, window);
+  return stream;
 }
 
 void count_unknown(StreamReport& report, const std::vector<Sighting>& sightings) {
@@ -75,43 +91,29 @@ std::span<const Column> sighting_columns() noexcept { return kSightingColumns; }
 std::span<const Column> barcode_columns() noexcept { return kBarcodeColumns; }
 std::span<const Column> landmark_columns() noexcept { return kLandmarkColumns; }
 
-Stream<std::vector<PoseSample>> make_poses(LogFile file, int robot, const StreamWindow& window) {
-  Stream<std::vector<PoseSample>> stream;
-  stream.report = begin_report(file, robot, StreamKind::kPoses, kPoseGap_ns);
-  // The same steps for poses and odometry: rows in order, one per stamp, described for the report
-  // as the log has them, and cut to the window last.
-  sort_rows(file.log.rows, stream.report);
-  drop_duplicates(file.log.rows, window, stream.report);
-  stream.samples.reserve(file.log.rows.size());
-  for (const LogRow& row : file.log.rows) {
-    PoseSample sample{row.stamp_ns - window.origin_ns, {row.reals[0], row.reals[1], row.reals[2]}};
-    wrap_heading(sample.pose, row.line, stream.report);
-    stream.samples.push_back(sample);
-  }
-  describe(stream.report, stream.samples, window);
-  trim(stream.samples, window);
-  return stream;
+Stream<PoseSample> make_poses(LogFile file, int robot, const StreamWindow& window) {
+  StreamReport report = begin_report(file, robot, StreamKind::kPoses, kPoseGap_ns);
+  return make_states<PoseSample>(
+      std::move(file), std::move(report), window,
+      [](const LogRow& row, std::int64_t t_ns, StreamReport& told) {
+        PoseSample sample{t_ns, {row.reals[0], row.reals[1], row.reals[2]}};
+        wrap_heading(sample.pose, row.line, told);
+        return sample;
+      });
 }
 
-Stream<std::vector<OdometrySample>> make_odometry(LogFile file, int robot,
-                                                  const StreamWindow& window) {
-  Stream<std::vector<OdometrySample>> stream;
-  stream.report = begin_report(file, robot, StreamKind::kOdometry, kOdometryGap_ns);
-  sort_rows(file.log.rows, stream.report);
-  drop_duplicates(file.log.rows, window, stream.report);
-  stream.samples.reserve(file.log.rows.size());
-  for (const LogRow& row : file.log.rows) {
-    stream.samples.push_back({row.stamp_ns - window.origin_ns, row.reals[0], row.reals[1]});
-  }
-  describe(stream.report, stream.samples, window);
-  trim(stream.samples, window);
-  return stream;
+Stream<OdometrySample> make_odometry(LogFile file, int robot, const StreamWindow& window) {
+  StreamReport report = begin_report(file, robot, StreamKind::kOdometry, kOdometryGap_ns);
+  return make_states<OdometrySample>(std::move(file), std::move(report), window,
+                                     [](const LogRow& row, std::int64_t t_ns, StreamReport&) {
+                                       return OdometrySample{t_ns, row.reals[0], row.reals[1]};
+                                     });
 }
 
-Stream<std::vector<Sighting>> make_sightings(LogFile file, int robot, const StreamWindow& window,
-                                             std::int64_t clock_offset_ns, CodeMeaning meaning,
-                                             const Subjects& subjects) {
-  Stream<std::vector<Sighting>> stream;
+Stream<Sighting> make_sightings(LogFile file, int robot, const StreamWindow& window,
+                                std::int64_t clock_offset_ns, CodeMeaning meaning,
+                                const Subjects& subjects) {
+  Stream<Sighting> stream;
   stream.report = begin_report(file, robot, StreamKind::kSightings, kSightingGap_ns);
   sort_rows(file.log.rows, stream.report);
   for (const LogRow& row : file.log.rows) {

@@ -8,9 +8,8 @@
 
 #include "recording/samples.hpp"
 #include "utias/folder.hpp"
-#include "utias/odometry_track.hpp"
 #include "utias/recording_names.hpp"
-#include "utias/sightings.hpp"
+#include "utias/samples.hpp"
 #include "utias/stream_report.hpp"
 #include "utias/subjects.hpp"
 
@@ -25,23 +24,20 @@ namespace rave::utias {
 
 using recording::StreamWindow;
 
-template <class Samples>
+template <class Sample>
 struct Stream {
-  Samples samples;
+  std::vector<Sample> samples;
   StreamReport report;
 };
 
 /// Sorts, removes duplicates, wraps headings, cuts to the window with its margin, and reports it.
-[[nodiscard]] Stream<std::vector<PoseSample>> make_poses(LogFile file, int robot,
-                                                         const StreamWindow& window);
-[[nodiscard]] Stream<std::vector<OdometrySample>> make_odometry(LogFile file, int robot,
-                                                                const StreamWindow& window);
+[[nodiscard]] Stream<PoseSample> make_poses(LogFile file, int robot, const StreamWindow& window);
+[[nodiscard]] Stream<OdometrySample> make_odometry(LogFile file, int robot,
+                                                   const StreamWindow& window);
 /// Likewise for sightings: equal stamps are kept, the offset is added to the stamps, and there is
 /// no margin.
-[[nodiscard]] Stream<std::vector<Sighting>> make_sightings(LogFile file, int robot,
-                                                           const StreamWindow& window,
-                                                           std::int64_t clock_offset_ns,
-                                                           CodeMeaning meaning,
-                                                           const Subjects& subjects);
+[[nodiscard]] Stream<Sighting> make_sightings(LogFile file, int robot, const StreamWindow& window,
+                                              std::int64_t clock_offset_ns, CodeMeaning meaning,
+                                              const Subjects& subjects);
 
 }  // namespace rave::utias

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "utias/sightings.hpp"
+#include "utias/samples.hpp"
 
 namespace rave::utias {
 namespace {

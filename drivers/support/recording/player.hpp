@@ -67,13 +67,13 @@ class Player final : public HardwareSensor {
     for (const auto& group : played_.timeline.groups) {
       if (stop.stop_requested()) return;
       if (played_.live) {
-        if (!sink.wait_until(group.stamp)) return;
+        if (!sink.wait_until(group.delivered)) return;
       } else {
         // Completes only the time before the next stamp: publish() may wait for room while the host
         // waits for completeness.
         sink.complete_up_to({group.stamp.ns - 1});
       }
-      const auto* records = &played_.timeline.records[group.first];
+      const auto* records = played_.timeline.records.data() + group.first;
       if (!sink.publish(group.stamp, records, group.count)) return;
     }
     sink.complete_up_to({std::numeric_limits<std::int64_t>::max()});

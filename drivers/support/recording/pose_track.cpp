@@ -68,19 +68,6 @@ std::size_t PoseTrack::after(std::int64_t t_ns) const noexcept {
   return static_cast<std::size_t>(found - samples_.begin());
 }
 
-std::optional<Pose2> PoseTrack::interpolate(std::int64_t t_ns) const noexcept {
-  const std::size_t next = after(t_ns);
-  if (next == 0) return std::nullopt;
-  const PoseSample& a = samples_[next - 1];
-  // After the last sample the pose is held.
-  if (next == samples_.size() || a.t_ns == t_ns) return a.pose;
-  const PoseSample& b = samples_[next];
-  const double part = static_cast<double>(t_ns - a.t_ns) / static_cast<double>(b.t_ns - a.t_ns);
-  const double turn = wrap_angle(b.pose.yaw - a.pose.yaw);
-  return Pose2{a.pose.x + part * (b.pose.x - a.pose.x), a.pose.y + part * (b.pose.y - a.pose.y),
-               wrap_angle(a.pose.yaw + part * turn)};
-}
-
 std::optional<WorldVelocity> PoseTrack::velocity(std::int64_t t_ns,
                                                  std::int64_t half_window_ns) const noexcept {
   const std::size_t end = after(t_ns + half_window_ns);

@@ -34,11 +34,6 @@ class PoseTrack {
 
   [[nodiscard]] std::span<const PoseSample> samples() const noexcept { return samples_; }
 
-  /// The pose at a time: linear interpolation between the neighbouring samples, heading by the
-  /// shorter turn. After the last sample it is the last pose, because the body is still there.
-  /// Empty before the first sample.
-  [[nodiscard]] std::optional<Pose2> interpolate(std::int64_t t_ns) const noexcept;
-
   /// The velocity at a time: the slope of a least-squares line through the samples within
   /// `half_window_ns`. Differences of neighbouring samples would be too noisy: stamps jitter, and
   /// one in six is less than 5 ms after the previous one. Empty unless there are three samples that

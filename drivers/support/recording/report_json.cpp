@@ -4,10 +4,21 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "rave/base/word_table.hpp"
+
 namespace rave::recording {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr WordTable<RepairKind, 5> kRepairs = {{{"duplicate_stamp", RepairKind::kDuplicateStamp},
+                                                {"step_back", RepairKind::kStepBack},
+                                                {"heading_wrapped", RepairKind::kHeadingWrapped},
+                                                {"cut_line", RepairKind::kCutLine},
+                                                {"junk_stamp", RepairKind::kJunkStamp}}};
+constexpr WordTable<GapKind, 3> kGaps = {{{"inside", GapKind::kInside},
+                                          {"late_start", GapKind::kLateStart},
+                                          {"early_end", GapKind::kEarlyEnd}}};
 
 /// Division instead of multiplication by 1e-9, so that whole milliseconds print exactly.
 double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
@@ -19,7 +30,7 @@ Json gaps_of(const StreamReport& report) {
   for (const Gap& gap : report.gaps) {
     list.push_back({{"start_s", seconds(gap.start_ns)},
                     {"length_s", seconds(gap.length_ns)},
-                    {"kind", to_string(gap.kind)}});
+                    {"kind", kGaps.of(gap.kind)}});
   }
   return list;
 }
@@ -27,7 +38,7 @@ Json gaps_of(const StreamReport& report) {
 Json repairs_of(const StreamReport& report) {
   Json list = Json::array();
   for (const Repair& repair : report.repairs) {
-    list.push_back({{"what", to_string(repair.kind)},
+    list.push_back({{"what", kRepairs.of(repair.kind)},
                     {"count", repair.count},
                     {"first_line", repair.first_line}});
   }
@@ -40,7 +51,7 @@ Json dropped_of(const StreamReport& report) {
   for (const Repair& repair : report.repairs) {
     const bool drops = repair.kind == RepairKind::kDuplicateStamp ||
                        (repair.kind == RepairKind::kJunkStamp && report.rows == 0);
-    if (drops) because += (because.empty() ? "" : ", ") + std::string(to_string(repair.kind));
+    if (drops) because += (because.empty() ? "" : ", ") + std::string(kRepairs.of(repair.kind));
   }
   const std::int64_t count = report.dropped();
   return {{"count", count}, {"of", report.rows + count}, {"because", because}};

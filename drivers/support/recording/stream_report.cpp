@@ -5,34 +5,6 @@
 
 namespace rave::recording {
 
-std::string_view to_string(RepairKind kind) noexcept {
-  switch (kind) {
-    case RepairKind::kDuplicateStamp:
-      return "duplicate_stamp";
-    case RepairKind::kStepBack:
-      return "step_back";
-    case RepairKind::kHeadingWrapped:
-      return "heading_wrapped";
-    case RepairKind::kCutLine:
-      return "cut_line";
-    case RepairKind::kJunkStamp:
-      return "junk_stamp";
-  }
-  return "unknown";
-}
-
-std::string_view to_string(GapKind kind) noexcept {
-  switch (kind) {
-    case GapKind::kInside:
-      return "inside";
-    case GapKind::kLateStart:
-      return "late_start";
-    case GapKind::kEarlyEnd:
-      return "early_end";
-  }
-  return "unknown";
-}
-
 void add_repair(std::vector<Repair>& repairs, RepairKind kind, std::int64_t count, int line) {
   for (Repair& known : repairs) {
     if (known.kind != kind) continue;
@@ -43,10 +15,8 @@ void add_repair(std::vector<Repair>& repairs, RepairKind kind, std::int64_t coun
 }
 
 std::int64_t StreamReport::repaired(RepairKind repair) const noexcept {
-  for (const Repair& known : repairs) {
-    if (known.kind == repair) return known.count;
-  }
-  return 0;
+  const auto known = std::ranges::find(repairs, repair, &Repair::kind);
+  return known == repairs.end() ? 0 : known->count;
 }
 
 std::int64_t StreamReport::dropped() const noexcept {

@@ -27,9 +27,6 @@ enum class GapKind : std::uint8_t {
   kEarlyEnd,   ///< From the last row to the end of the window: the last value is held.
 };
 
-[[nodiscard]] std::string_view to_string(RepairKind kind) noexcept;
-[[nodiscard]] std::string_view to_string(GapKind kind) noexcept;
-
 struct Repair {
   RepairKind kind = RepairKind::kDuplicateStamp;
   std::int64_t count = 0;
@@ -47,15 +44,18 @@ struct Gap {
   std::int64_t length_ns = 0;
 };
 
-/// The content of one stream of a recording within the requested window. Times are from the origin
-/// of the recording. Repairs are counted in the whole file, everything else in the window.
-struct StreamReport {
+/// What identifies the file of a log.
+struct LogIdentity {
   /// File name without folder, and SHA-256 of the file in hexadecimal.
   std::string file;
   std::string sha256;
   /// Whether the digest equals the one in `stretch.txt`; empty if that does not list the file.
   std::optional<bool> unchanged;
+};
 
+/// The content of one stream of a recording within the requested window. Times are from the origin
+/// of the recording. Repairs are counted in the whole file, everything else in the window.
+struct StreamReport : LogIdentity {
   std::int64_t rows = 0;
   /// Number of distinct stamps (sightings may share one).
   std::int64_t stamps = 0;

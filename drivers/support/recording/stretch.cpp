@@ -4,10 +4,15 @@
 #include <algorithm>
 #include <optional>
 
+#include "rave/base/file.hpp"
 #include "recording/stamp.hpp"
+#include "recording/unpack.hpp"
 
 namespace rave::recording {
 namespace {
+
+constexpr std::string_view kStretchFile = "stretch.txt";
+constexpr std::size_t kLargestStretchFile = std::size_t{1} << 20;
 
 struct Draft {
   std::optional<std::int64_t> origin_ns;
@@ -79,6 +84,29 @@ Result<Stretch> parse_stretch(std::string_view text, const std::string& file) {
     return fail_at({file, 0, 0}, ErrorCode::kParse, "`start_s` must be less than `end_s`");
   }
   return Stretch{*draft.origin_ns, *draft.start_ns, *draft.end_ns, std::move(draft.sha256)};
+}
+
+Result<std::optional<Stretch>> read_stretch(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / kStretchFile;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
+  RAVE_TRY_ASSIGN(const std::string text, read_file(path, kLargestStretchFile));
+  return parse_stretch(text, path.string());
+}
+
+Result<LogIdentity> identify(const std::filesystem::path& path, std::string_view bytes,
+                             const std::vector<Repair>& repairs,
+                             const std::optional<Stretch>& stretch) {
+  LogIdentity log{path.filename().string(), sha256_hex(bytes), std::nullopt};
+  if (!stretch) return log;
+  const auto listed = stretch->sha256.find(log.file);
+  if (listed == stretch->sha256.end()) return log;
+  log.unchanged = listed->second == log.sha256;
+  const auto cut = std::ranges::find(repairs, RepairKind::kCutLine, &Repair::kind);
+  if (*log.unchanged || cut != repairs.end()) return log;
+  return fail_at({path.string(), 0, 0}, ErrorCode::kParse,
+                 "the file differs from the one that {} lists (SHA-256 {}, listed {}); restore it",
+                 kStretchFile, log.sha256, listed->second);
 }
 
 }  // namespace rave::recording

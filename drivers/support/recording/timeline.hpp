@@ -16,14 +16,16 @@ template <class Record>
 struct Timeline {
   struct Group {
     SimTime stamp;
-    std::size_t first = 0;
+    SimTime delivered;      ///< When a live run receives it; not before `stamp`.
+    std::size_t first = 0;  ///< Index into `records`.
+    /// Number of records; with std::byte as Record, the number of readings in its bytes.
     std::uint32_t count = 0;
   };
   std::vector<Record> records;
   std::vector<Group> groups;
 
   /// Begins the group of a stamp, which must be later than that of the last group.
-  void begin(SimTime stamp) { groups.push_back({stamp, records.size(), 0}); }
+  void begin(SimTime stamp) { groups.push_back({stamp, stamp, records.size(), 0}); }
   /// Adds a record to the last group.
   void add(const Record& record) {
     records.push_back(record);

@@ -3,12 +3,17 @@
 
 #include <nlohmann/json.hpp>
 
+#include "rave/base/word_table.hpp"
 #include "recording/report_json.hpp"
 
 namespace rave::utias {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr WordTable<StreamKind, 3> kStreams = {{{"poses", StreamKind::kPoses},
+                                                {"odometry", StreamKind::kOdometry},
+                                                {"sightings", StreamKind::kSightings}}};
 
 Json unknown_codes_of(const StreamReport& report) {
   Json list = Json::array();
@@ -23,7 +28,7 @@ Json unknown_codes_of(const StreamReport& report) {
 std::string report_json(const Playback& playback) {
   const StreamReport& report = playback.report();
   Json json;
-  json["stream"] = to_string(report.kind);
+  json["stream"] = kStreams.of(report.kind);
   json["folder"] = playback.folder;
   recording::add_file(json, report);
   json["robot"] = report.robot;

@@ -39,16 +39,13 @@ struct Camera {
 
   static recording::Timeline<Record> timeline(const Params& params, const Playback& playback) {
     recording::Timeline<Record> timeline;
-    const SightingLog& log = playback.robot().sightings;
-    for (std::size_t i = 0; i < log.group_count(); ++i) {
-      const SimTime stamp = playback.run_time(log.group(i).front().t_ns);
-      timeline.begin(stamp);
-      for (const Sighting& seen : log.group(i)) {
-        timeline.add({.stamp_ns = stamp.ns,
-                      .code = code_read(seen.code, code_meaning(params), playback.data.subjects),
-                      .range_m = static_cast<float>(seen.range_m),
-                      .bearing_rad = static_cast<float>(seen.bearing_rad)});
-      }
+    for (const Sighting& seen : playback.robot().sightings) {
+      const SimTime stamp = playback.run_time(seen.t_ns);
+      if (timeline.groups.empty() || timeline.groups.back().stamp != stamp) timeline.begin(stamp);
+      timeline.add({.stamp_ns = stamp.ns,
+                    .code = code_read(seen.code, code_meaning(params), playback.data.subjects),
+                    .range_m = static_cast<float>(seen.range_m),
+                    .bearing_rad = static_cast<float>(seen.bearing_rad)});
     }
     return timeline;
   }

@@ -17,7 +17,7 @@ TEST_F(DatasetTest, CountsAllTimesFromOneOrigin) {
   EXPECT_EQ(data->end_ns, 200'000'000);
   EXPECT_EQ(data->robot(2)->poses.samples().front().t_ns, 15'000'000);
   EXPECT_EQ(data->robot(1)->odometry.front().t_ns, 50'000'000);
-  EXPECT_EQ(data->robot(1)->sightings.all().front().t_ns, 100'000'000);
+  EXPECT_EQ(data->robot(1)->sightings.front().t_ns, 100'000'000);
   EXPECT_EQ(data->robot(3), nullptr);
   options_.robots = {2};
   EXPECT_EQ(load(folder_, options_)->origin_ns, 1'000'000'000'000) << "robot 1 still sets it";
@@ -25,20 +25,20 @@ TEST_F(DatasetTest, CountsAllTimesFromOneOrigin) {
 
 TEST_F(DatasetTest, ReadsCodesAsBarcodesUnlessToldToBeWrong) {
   auto data = load(folder_, options_);
-  const auto group = data->robot(2)->sightings.group(0);
+  const auto group = data->robot(2)->sightings;
   ASSERT_EQ(group.size(), 2U);
   EXPECT_EQ(group[0].subject, 6);
   EXPECT_EQ(group[1].subject, 1);
   options_.code_meaning = CodeMeaning::kSubject;
   data = load(folder_, options_);
-  EXPECT_EQ(data->robot(2)->sightings.group(0)[1].subject, kUnknownSubject);
+  EXPECT_EQ(data->robot(2)->sightings[1].subject, kUnknownSubject);
   EXPECT_EQ(data->robot(2)->sighting_report.unknown_codes.size(), 2U);
 }
 
 TEST_F(DatasetTest, ShiftsOnlyTheClockOfSightings) {
   options_.clock_offset_s = -0.05;
   const auto data = load(folder_, options_);
-  EXPECT_EQ(data->robot(1)->sightings.all().front().t_ns, 50'000'000);
+  EXPECT_EQ(data->robot(1)->sightings.front().t_ns, 50'000'000);
   EXPECT_EQ(data->robot(1)->odometry.front().t_ns, 50'000'000);
   EXPECT_EQ(data->origin_ns, 1'000'000'000'000);
 }

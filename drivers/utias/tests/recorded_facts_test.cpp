@@ -12,8 +12,8 @@ namespace {
 
 /// Distance of the centres of two robots, metres; infinite while one has no pose.
 double distance_m(const Dataset& data, int a, int b, std::int64_t t_ns) {
-  const auto pose_a = data.robot(a)->poses.interpolate(t_ns);
-  const auto pose_b = data.robot(b)->poses.interpolate(t_ns);
+  const auto pose_a = pose_at(data.robot(a)->poses, t_ns);
+  const auto pose_b = pose_at(data.robot(b)->poses, t_ns);
   if (!pose_a || !pose_b) return std::numeric_limits<double>::infinity();
   return std::sqrt(squared_norm(pose_a->position() - pose_b->position()));
 }
@@ -56,7 +56,7 @@ TEST(RecordedFacts, PosesComeAtTheirRateAndWithTwoGaps) {
     EXPECT_TRUE(report.repairs.empty()) << robot.subject;
     EXPECT_EQ(report.unchanged, true) << robot.subject;
     if (!report.gaps.empty()) gaps[robot.subject] = report.gaps;
-    EXPECT_TRUE(robot.poses.interpolate(data.start_ns)) << robot.subject;
+    EXPECT_TRUE(pose_at(robot.poses, data.start_ns)) << robot.subject;
   }
   ASSERT_EQ(gaps.size(), 2U);
   ASSERT_EQ(gaps[1].size(), 1U);
@@ -76,7 +76,8 @@ TEST(RecordedFacts, OdometryComesInBursts) {
     const StreamReport& report = robot.odometry_report;
     EXPECT_GT(report.mean_rate_hz, 55) << robot.subject;
     EXPECT_LT(report.mean_rate_hz, 75) << robot.subject;
-    EXPECT_TRUE(command_at(robot.odometry, data.start_ns)) << robot.subject;
+    EXPECT_TRUE(held_at(std::span<const OdometrySample>(robot.odometry), data.start_ns))
+        << robot.subject;
     largest_ns = std::max(largest_ns, report.largest_gap_ns);
     doubles += report.repaired(RepairKind::kDuplicateStamp);
   }
@@ -93,18 +94,16 @@ TEST(RecordedFacts, SightingsOfTheFirstStretch) {
   std::size_t largest_group = 0;
   std::map<int, std::int64_t> unknown;
   for (const RobotLog& robot : data.robots) {
-    for (const Sighting& sighting : robot.sightings.all()) {
+    for (const Sighting& sighting : robot.sightings) {
       known += sighting.subject != kUnknownSubject ? 1 : 0;
       of_robots += sighting.subject >= 1 && sighting.subject <= 5 ? 1 : 0;
     }
-    for (std::size_t i = 0; i < robot.sightings.group_count(); ++i) {
-      largest_group = std::max(largest_group, robot.sightings.group(i).size());
-    }
+    for (const auto& image : images_of(robot))
+      largest_group = std::max(largest_group, image.size());
     for (const UnknownCode& code : robot.sighting_report.unknown_codes) {
       unknown[code.code] += code.count;
     }
-    EXPECT_EQ(robot.sighting_report.stamps,
-              static_cast<std::int64_t>(robot.sightings.group_count()));
+    EXPECT_EQ(robot.sighting_report.stamps, static_cast<std::int64_t>(images_of(robot).size()));
   }
   EXPECT_EQ(known, 2547);
   EXPECT_EQ(unknown, (std::map<int, std::int64_t>{{50, 3}}))
@@ -125,10 +124,10 @@ TEST(RecordedFacts, RobotOneIsLostInTheSecondStretch) {
   EXPECT_EQ(robot.sighting_report.rows, 0) << "it sees nothing any more";
   // Its body is still there, still in its place, and still seen.
   const auto last = robot.poses.samples().back();
-  EXPECT_EQ(robot.poses.interpolate(data.end_ns), last.pose);
+  EXPECT_EQ(pose_at(robot.poses, data.end_ns), last.pose);
   bool seen = false;
   for (const RobotLog& other : data.robots) {
-    for (const Sighting& sighting : other.sightings.all()) {
+    for (const Sighting& sighting : other.sightings) {
       seen = seen || (sighting.subject == 1 && sighting.t_ns > last.t_ns + kSecond_ns);
     }
     if (other.subject != 1) {
@@ -188,7 +187,7 @@ TEST(RecordedFacts, ANarrowerWindowIsAllowedAndAWiderOneIsNot) {
   for (const RobotLog& robot : data.robots) {
     EXPECT_LT(robot.poses.samples().front().t_ns, 149 * kSecond_ns + 20 * kMillisecond_ns);
     EXPECT_LE(robot.poses.samples().back().t_ns, 161 * kSecond_ns);
-    for (const Sighting& sighting : robot.sightings.all()) {
+    for (const Sighting& sighting : robot.sightings) {
       EXPECT_GE(sighting.t_ns, data.start_ns);
       EXPECT_LE(sighting.t_ns, data.end_ns);
     }

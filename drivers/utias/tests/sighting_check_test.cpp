@@ -21,7 +21,7 @@ std::optional<Vec2> position_of(const Dataset& data, int subject, std::int64_t t
     if (landmark.subject == subject) return landmark.p_WL;
   }
   const RobotLog* robot = data.robot(subject);
-  const auto pose = robot == nullptr ? std::nullopt : robot->poses.interpolate(t_ns);
+  const auto pose = robot == nullptr ? std::nullopt : pose_at(robot->poses, t_ns);
   if (!pose) return std::nullopt;
   return pose->position();
 }
@@ -38,10 +38,10 @@ bool agrees(const Sighting& sighting, const Pose2& observer, Vec2 target) {
 Tally check(const Dataset& data) {
   Tally tally;
   for (const RobotLog& robot : data.robots) {
-    for (const Sighting& sighting : robot.sightings.all()) {
+    for (const Sighting& sighting : robot.sightings) {
       if (sighting.subject == kUnknownSubject) continue;
       ++tally.known;
-      const auto observer = robot.poses.interpolate(sighting.t_ns);
+      const auto observer = pose_at(robot.poses, sighting.t_ns);
       const auto target = position_of(data, sighting.subject, sighting.t_ns);
       if (observer && target && agrees(sighting, *observer, *target)) ++tally.within;
     }

@@ -9,7 +9,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace rave::record {
@@ -28,24 +30,13 @@ class ByteWriter {
  public:
   explicit ByteWriter(Bytes& out) noexcept : out_(out) {}
 
-  template <class T>
-    requires std::is_integral_v<T>
-  void put(T value) {
-    raw(std::as_bytes(std::span(&value, 1)));
+  /// Appends integers, texts and pairs of them, which are a map.
+  template <class... T>
+  void operator()(const T&... values) {
+    (put(values), ...);
   }
+
   void raw(ByteSpan bytes) { out_.insert(out_.end(), bytes.begin(), bytes.end()); }
-  void string(std::string_view text) {
-    put(static_cast<std::uint32_t>(text.size()));
-    raw(as_bytes(text));
-  }
-  void map(const std::map<std::string, std::string>& entries) {
-    const std::size_t at = begin_size32();
-    for (const auto& [key, value] : entries) {
-      string(key);
-      string(value);
-    }
-    end_size32(at);
-  }
   [[nodiscard]] std::size_t begin_size32() {
     put(std::uint32_t{0});
     return out_.size();
@@ -66,6 +57,24 @@ class ByteWriter {
   [[nodiscard]] std::size_t size() const noexcept { return out_.size(); }
 
  private:
+  template <class T>
+    requires std::is_integral_v<T>
+  void put(T value) {
+    raw(std::as_bytes(std::span(&value, 1)));
+  }
+  void put(std::string_view text) {
+    put(static_cast<std::uint32_t>(text.size()));
+    raw(as_bytes(text));
+  }
+  /// A map has its size in bytes, not in elements.
+  template <class Pairs>
+    requires requires(Pairs pairs) { pairs.begin()->second; }
+  void put(const Pairs& pairs) {
+    const std::size_t at = begin_size32();
+    for (const auto& [key, value] : pairs) (*this)(key, value);
+    end_size32(at);
+  }
+
   Bytes& out_;
 };
 
@@ -92,25 +101,52 @@ class ByteReader {
     position_ += size;
     return found;
   }
-  [[nodiscard]] std::string string() {
-    const ByteSpan text = raw(get<std::uint32_t>());
-    return {reinterpret_cast<const char*>(text.data()), text.size()};
+  /// Reads what the same call of a ByteWriter has written.
+  template <class... T>
+  void operator()(T&... values) {
+    (take(values), ...);
   }
-  [[nodiscard]] std::map<std::string, std::string> map() {
-    ByteReader entries(raw(get<std::uint32_t>()));
-    std::map<std::string, std::string> found;
-    while (entries.ok() && entries.rest() > 0) {
-      std::string key = entries.string();
-      found[std::move(key)] = entries.string();
-    }
-    ok_ = ok_ && entries.ok();
-    return found;
+  /// Reads and ignores values of these types.
+  template <class... T>
+  void skip() {
+    std::tuple<T...> ignored;
+    std::apply(*this, ignored);
   }
   [[nodiscard]] bool ok() const noexcept { return ok_; }
   [[nodiscard]] std::size_t rest() const noexcept { return bytes_.size() - position_; }
   [[nodiscard]] std::size_t position() const noexcept { return position_; }
 
  private:
+  template <class T>
+    requires std::is_integral_v<T>
+  void take(T& value) noexcept {
+    value = get<T>();
+  }
+  void take(std::string& value) {
+    const ByteSpan text = raw(get<std::uint32_t>());
+    value.assign(reinterpret_cast<const char*>(text.data()), text.size());
+  }
+  template <class Key, class Value>
+  void take(std::map<Key, Value>& pairs) {
+    take_pairs<Key, Value>(
+        [&](Key& key, Value& value) { pairs[std::move(key)] = std::move(value); });
+  }
+  template <class Key, class Value>
+  void take(std::vector<std::pair<Key, Value>>& pairs) {
+    take_pairs<Key, Value>([&](Key& key, Value& value) { pairs.emplace_back(key, value); });
+  }
+  template <class Key, class Value, class Add>
+  void take_pairs(Add add) {
+    ByteReader pairs(raw(get<std::uint32_t>()));
+    while (pairs.ok() && pairs.rest() > 0) {
+      Key key{};
+      Value value{};
+      pairs(key, value);
+      add(key, value);
+    }
+    ok_ = ok_ && pairs.ok();
+  }
+
   ByteSpan bytes_;
   std::size_t position_ = 0;
   bool ok_ = true;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads all of a file and compares every checksum that is there.
-#include "check_file.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "crc32.hpp"
+#include "record_file.hpp"
 
 namespace rave::record {
 namespace {
@@ -51,8 +50,7 @@ class FileCheck {
       return damage(read.error().message);
     }
     ByteReader reader(bytes);
-    const bool right = reader.get<std::uint8_t>() == opcode::kAttachment &&
-                       reader.get<std::uint64_t>() == bytes.size() - kRecordHead;
+    const bool right = begins_record(reader, opcode::kAttachment);
     constexpr std::size_t kCrc = sizeof(std::uint32_t);
     if (!right || bytes.size() < kRecordHead + kCrc) {
       return damage_at(what, info.offset, "is incomplete");
@@ -70,11 +68,11 @@ class FileCheck {
       return damage(read.error().message);
     }
     ByteReader reader(bytes);
-    const bool right = reader.get<std::uint8_t>() == opcode::kMetadata &&
-                       reader.get<std::uint64_t>() == bytes.size() - kRecordHead;
-    const bool named = reader.string() == info.name;
-    static_cast<void>(reader.map());
-    if (!right || !named || !reader.ok()) {
+    const bool right = begins_record(reader, opcode::kMetadata);
+    std::string name;
+    StringMap entries;
+    reader(name, entries);
+    if (!right || name != info.name || !reader.ok()) {
       damage_at(fmt::format("metadata `{}`", info.name), info.offset, "is incomplete");
     }
   }
@@ -85,14 +83,10 @@ class FileCheck {
       return damage(loaded.error().message);
     }
     if (!summed) unsummed(fmt::format("chunk at offset {}", info.offset));
-    bool ok = true;
-    const bool complete = for_each_record(records_, [&](auto code, ByteSpan content, std::size_t) {
-      MessageView message;
-      ok = code != opcode::kMessage || get_message(content, message);
-      messages_ += code == opcode::kMessage && ok ? 1 : 0;
-      return ok;
-    });
-    if (!ok || !complete) damage_at("chunk", info.offset, "has an incomplete record");
+    const auto count = [this](const MessageView&, std::size_t, std::size_t) { ++messages_; };
+    if (!for_each_message(records_, count)) {
+      damage_at("chunk", info.offset, "has an incomplete record");
+    }
   }
 
   /// The checksum of all data also covers records without their own.
@@ -109,8 +103,7 @@ class FileCheck {
     }
     const Status read = source_.read(file_.data_end, kRecordHead + 4, bytes);
     ByteReader reader(bytes);
-    if (!read || reader.get<std::uint8_t>() != opcode::kDataEnd ||
-        reader.get<std::uint64_t>() != sizeof(std::uint32_t)) {
+    if (!read || !begins_record(reader, opcode::kDataEnd)) {
       return damage(fmt::format("`{}`: the data do not end at offset {} as stated", source_.name(),
                                 file_.data_end));
     }

@@ -49,12 +49,9 @@ Result<ChunkInfo> read_back(int fd, const ChunkPlace& place, const std::string& 
   ByteReader head(buffer);
   const auto code = head.get<std::uint8_t>();
   info.length = kRecordHead + head.get<std::uint64_t>();
-  info.start_ns = head.get<std::uint64_t>();
-  info.end_ns = head.get<std::uint64_t>();
-  info.uncompressed_size = head.get<std::uint64_t>();
-  static_cast<void>(head.get<std::uint32_t>());
-  info.compression = head.string();
-  info.compressed_size = head.get<std::uint64_t>();
+  std::uint32_t crc = 0;
+  head(info.start_ns, info.end_ns, info.uncompressed_size, crc, info.compression,
+       info.compressed_size);
   if (!head.ok() || code != opcode::kChunk) return changed();
   RAVE_TRY(read_at(fd, place.offset + info.length, place.index_length, path, buffer));
   ByteReader indexes(buffer);

@@ -16,22 +16,22 @@ tl::unexpected<Error> malformed(const char* topic) {
               topic);
 }
 
-tl::unexpected<Error> other_version(const char* topic, std::uint32_t version) {
+/// Reads the common beginning of messages with arrays of a version.
+template <class Item>
+[[nodiscard]] Status take_head(CdrReader& reader, const char* topic, StepOf<Item>& step) {
+  step.time = get_time(reader);
+  step.step = reader.get<std::uint64_t>();
+  const auto version = reader.get<std::uint32_t>();
+  // What follows has the layout of the version, so nothing of another one can be read.
+  if (!reader.ok() || version == kLayoutVersion) return {};
   return fail(ErrorCode::kParse,
               "a message of `{}` has layout {}; this RAVE reads layout {}, so another version of "
               "RAVE wrote the recording",
               topic, version, kLayoutVersion);
 }
 
-/// Reads the common beginning of messages with packed arrays, and the first array.
-template <class Packed, class Item>
-[[nodiscard]] std::vector<Packed> get_step(CdrReader& reader, StepOf<Item>& step,
-                                           std::uint32_t& version) {
-  step.time = get_time(reader);
-  step.step = reader.get<std::uint64_t>();
-  version = reader.get<std::uint32_t>();
-  // What follows has the layout of the version, so nothing of another one can be read.
-  if (version != kLayoutVersion) return {};
+template <class Packed>
+[[nodiscard]] std::vector<Packed> get_array(CdrReader& reader) {
   return reader.get_packed<Packed>(reader.get<std::uint32_t>());
 }
 
@@ -71,22 +71,27 @@ template <class Packed, class Item, class Make>
 [[nodiscard]] Result<StepOf<Item>> decode_step(Message message, const char* topic, Make make) {
   CdrReader reader(message);
   StepOf<Item> step;
-  std::uint32_t version = 0;
-  const auto packed = get_step<Packed>(reader, step, version);
-  if (reader.ok() && version != kLayoutVersion) return other_version(topic, version);
+  RAVE_TRY(take_head(reader, topic, step));
+  const auto packed = get_array<Packed>(reader);
   const Message records = reader.get_bytes();
   if (!reader.ok() || !add_items(packed, records, make, step.items)) return malformed(topic);
   return step;
 }
 
+/// Reads what encode() has written.
+template <class... T>
+[[nodiscard]] Status decode(Message message, const char* topic, SimTime& time, T&... values) {
+  CdrReader reader(message);
+  time = get_time(reader);
+  CdrTake<RunMembers>{reader}(values...);
+  return reader.ok() ? Status() : malformed(topic);
+}
+
 /// Reads a message of one item.
 template <class Item>
 [[nodiscard]] Result<StepOf<Item>> decode_one(Message message, const char* topic) {
-  CdrReader reader(message);
   StepOf<Item> step;
-  step.time = get_time(reader);
-  CdrTake<RunMembers>{reader}(step.step, step.items.emplace_back());
-  if (!reader.ok()) return malformed(topic);
+  RAVE_TRY(decode(message, topic, step.time, step.step, step.items.emplace_back()));
   return step;
 }
 
@@ -129,12 +134,11 @@ Result<StepOf<RadioPacket>> decode_radio(Message message) {
 Result<StepOf<RobotPose>> decode_poses(Message message) {
   CdrReader reader(message);
   StepOf<RobotPose> step;
-  std::uint32_t version = 0;
-  const auto packed = get_step<PackedPose>(reader, step, version);
-  if (reader.ok() && version != kLayoutVersion) return other_version(topic::kPoses, version);
+  RAVE_TRY(take_head(reader, topic::kPoses, step));
+  const auto packed = get_array<PackedPose>(reader);
   // Aligns the second array to 8.
   static_cast<void>(reader.get<std::uint32_t>());
-  const auto truths = reader.get_packed<PackedTruePose>(reader.get<std::uint32_t>());
+  const auto truths = get_array<PackedTruePose>(reader);
   if (!reader.ok()) return malformed(topic::kPoses);
   // True poses are few: only of robots whose reported pose differs. They are in the order of the
   // robots.
@@ -160,14 +164,9 @@ Result<StepOf<RobotPose>> decode_poses(Message message) {
 Result<StepOf<PoseVariance>> decode_variances(Message message) {
   CdrReader reader(message);
   StepOf<PoseVariance> step;
-  std::uint32_t version = 0;
-  const auto packed = get_step<PackedVariance>(reader, step, version);
-  if (reader.ok() && version != kLayoutVersion) return other_version(topic::kVariances, version);
+  RAVE_TRY(take_head(reader, topic::kVariances, step));
+  CdrTake<RunMembers>{reader}(step.items);
   if (!reader.ok()) return malformed(topic::kVariances);
-  step.items.reserve(packed.size());
-  for (const PackedVariance& robot : packed) {
-    step.items.push_back({RobotId(robot.robot), robot.xy_m2, robot.yaw_rad2});
-  }
   return step;
 }
 
@@ -180,31 +179,23 @@ Result<StepOf<ShadowRecord>> decode_shadow(Message message) {
 }
 
 Result<RunInput> decode_input(Message message) {
-  CdrReader reader(message);
-  static_cast<void>(get_time(reader));
+  SimTime time;
   RunInput input;
-  CdrTake<RunMembers>{reader}(input);
-  if (!reader.ok()) return malformed(topic::kInputs);
+  RAVE_TRY(decode(message, topic::kInputs, time, input));
   return input;
 }
 
 Result<std::pair<SimTime, RunChat>> decode_chat(Message message) {
-  CdrReader reader(message);
   std::pair<SimTime, RunChat> said;
-  said.first = get_time(reader);
-  CdrTake<RunMembers>{reader}(said.second);
-  if (!reader.ok()) return malformed(topic::kChat);
+  RAVE_TRY(decode(message, topic::kChat, said.first, said.second));
   return said;
 }
 
 Result<ConsoleLine> decode_console(Message message) {
-  CdrReader reader(message);
   ConsoleLine line;
-  line.time = get_time(reader);
-  const auto level = reader.get<std::uint8_t>();
-  line.source = reader.get_string();
-  line.text = reader.get_string();
-  if (!reader.ok() || level < 10 || level > 50) return malformed(topic::kConsole);
+  std::uint8_t level = 0;
+  RAVE_TRY(decode(message, topic::kConsole, line.time, level, line.source, line.text));
+  if (level < 10 || level > 50) return malformed(topic::kConsole);
   line.level = level >= 40   ? LogLevel::kError
                : level >= 30 ? LogLevel::kWarning
                : level >= 20 ? LogLevel::kInfo
@@ -213,24 +204,17 @@ Result<ConsoleLine> decode_console(Message message) {
 }
 
 Result<StepHash> decode_hash(Message message) {
-  CdrReader reader(message);
   StepHash hash;
-  hash.time = get_time(reader);
-  hash.step = reader.get<std::uint64_t>();
-  hash.hash = reader.get<std::uint64_t>();
-  if (!reader.ok()) return malformed(topic::kHash);
+  RAVE_TRY(decode(message, topic::kHash, hash.time, hash.step, hash.hash));
   return hash;
 }
 
 Result<RunEnd> decode_end(Message message) {
-  CdrReader reader(message);
   RunEnd end;
-  end.time = get_time(reader);
-  end.steps = reader.get<std::uint64_t>();
-  const bool has_hash = reader.get<std::uint8_t>() != 0;
-  const auto hash = reader.get<std::uint64_t>();
+  bool has_hash = false;
+  std::uint64_t hash = 0;
+  RAVE_TRY(decode(message, topic::kEnd, end.time, end.steps, has_hash, hash));
   if (has_hash) end.hash = hash;
-  if (!reader.ok()) return malformed(topic::kEnd);
   return end;
 }
 

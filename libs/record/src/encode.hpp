@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "rave/record/cdr.hpp"
-#include "rave/record/run_messages.hpp"
+#include "cdr_time.hpp"
+#include "run_members.hpp"
 
-// The inverse of decode.cpp. Each function begins a new message in the writer.
 namespace rave::record {
 
-void encode_run(CdrWriter& writer, const RunInfo& info);
-void encode_end(CdrWriter& writer, const RunEnd& end);
-void encode_event(CdrWriter& writer, SimTime time, std::uint64_t step, const RunEvent& event);
-void encode_variances(CdrWriter& writer, SimTime time, std::uint64_t step,
-                      std::span<const PoseVariance> robots);
-void encode_shadow(CdrWriter& writer, SimTime time, std::uint64_t step, const ShadowRecord& shadow);
-void encode_input(CdrWriter& writer, SimTime time, const RunInput& input);
-void encode_chat(CdrWriter& writer, SimTime time, const RunChat& chat);
-void encode_hash(CdrWriter& writer, const StepHash& hash);
-void encode_console(CdrWriter& writer, const ConsoleLine& line);
-/// Time, step, version and the count of the array that follows.
-void encode_step_head(CdrWriter& writer, SimTime time, std::uint64_t step, std::size_t count);
+/// Begins a new message in the writer: a time, then these values in the layouts of RunMembers. The
+/// inverse of decode.cpp.
+template <class... T>
+void encode(CdrWriter& writer, SimTime time, const T&... values) {
+  writer.clear();
+  put_time(writer, time);
+  CdrPut<RunMembers>{writer}(values...);
+}
+
+/// Time, step, version and the count of the array that follows. A change of a layout with such an
+/// array needs another kLayoutVersion, which also aligns the array to 8 bytes.
+inline void encode_step_head(CdrWriter& writer, SimTime time, std::uint64_t step,
+                             std::size_t count) {
+  encode(writer, time, step, kLayoutVersion, static_cast<std::uint32_t>(count));
+}
 
 }  // namespace rave::record

@@ -39,8 +39,7 @@ Result<std::unique_ptr<McapFile>> McapFile::create(const std::filesystem::path& 
   ByteWriter writer(file->out_);
   writer.raw(as_bytes(kMagic));
   const std::size_t record = writer.begin_record(opcode::kHeader);
-  writer.string(profile);
-  writer.string(library);
+  writer(profile, library);
   writer.end_record(record);
   RAVE_TRY(file->append(file->out_));
   return file;
@@ -87,12 +86,8 @@ void McapFile::put_chunk_record(const Chunk& chunk, std::optional<int> zstd_leve
   info.compressed_size = data.size();
   ByteWriter writer(out_);
   const std::size_t record = writer.begin_record(opcode::kChunk);
-  writer.put(info.start_ns);
-  writer.put(info.end_ns);
-  writer.put(info.uncompressed_size);
-  writer.put(crc32(chunk.records));
-  writer.string(info.compression);
-  writer.put(info.compressed_size);
+  writer(info.start_ns, info.end_ns, info.uncompressed_size, crc32(chunk.records), info.compression,
+         info.compressed_size);
   writer.raw(data);
   writer.end_record(record);
   info.length = out_.size();
@@ -111,12 +106,9 @@ void McapFile::put_message_indexes(const Chunk& chunk, ChunkInfo& info) {
     });
     info.channels.emplace_back(first->channel, info.offset + out_.size());
     const std::size_t record = writer.begin_record(opcode::kMessageIndex);
-    writer.put(first->channel);
+    writer(first->channel);
     const std::size_t array = writer.begin_size32();
-    for (auto entry = first; entry != last; ++entry) {
-      writer.put(entry->log_time_ns);
-      writer.put(entry->offset);
-    }
+    for (auto entry = first; entry != last; ++entry) writer(entry->log_time_ns, entry->offset);
     writer.end_size32(array);
     writer.end_record(record);
     first = last;
@@ -160,14 +152,11 @@ Status McapFile::write_attachment(const AttachmentInfo& info, ByteSpan data) {
   out_.clear();
   ByteWriter writer(out_);
   const std::size_t record = writer.begin_record(opcode::kAttachment);
-  writer.put(info.log_time_ns);
-  writer.put(info.create_time_ns);
-  writer.string(info.name);
-  writer.string(info.media_type);
-  writer.put(static_cast<std::uint64_t>(data.size()));
+  writer(info.log_time_ns, info.create_time_ns, info.name, info.media_type,
+         std::uint64_t{data.size()});
   writer.raw(data);
   // Over all fields of the record before it.
-  writer.put(crc32(ByteSpan(out_).subspan(record)));
+  writer(crc32(ByteSpan(out_).subspan(record)));
   writer.end_record(record);
   AttachmentInfo placed = info;
   placed.offset = offset_;
@@ -182,8 +171,7 @@ Status McapFile::write_metadata(std::string_view name, const StringMap& entries)
   out_.clear();
   ByteWriter writer(out_);
   const std::size_t record = writer.begin_record(opcode::kMetadata);
-  writer.string(name);
-  writer.map(entries);
+  writer(name, entries);
   writer.end_record(record);
   const MetadataInfo placed{offset_, out_.size(), std::string(name)};
   RAVE_TRY(append(out_));
@@ -201,43 +189,40 @@ Status McapFile::put_summary(const std::vector<SchemaInfo>& schemas,
   // Records of one kind are one group, and the offsets of the groups let readers load only those
   // that they need.
   std::vector<Group> groups;
-  const auto group = [&](std::uint8_t code, const auto& items, auto put) {
+  const auto group = [&]<class Info>(std::span<const Info> items) {
     const std::size_t start = out_.size();
-    for (const auto& item : items) put(out_, item);
-    if (out_.size() > start) groups.push_back({code, offset_ + start, out_.size() - start});
+    for (const Info& item : items) put_record(out_, item);
+    if (items.empty()) return;
+    groups.push_back({RecordLayout<Info>::kCode, offset_ + start, out_.size() - start});
   };
+  statistics_.schema_count = static_cast<std::uint16_t>(schemas.size());
+  statistics_.channel_count = static_cast<std::uint32_t>(channels.size());
   statistics_.chunk_count = static_cast<std::uint32_t>(chunks_.size());
   statistics_.attachment_count = static_cast<std::uint32_t>(attachments_.size());
   statistics_.metadata_count = static_cast<std::uint32_t>(metadata_.size());
-  group(opcode::kSchema, schemas, put_schema);
-  group(opcode::kChannel, channels, put_channel);
-  group(opcode::kStatistics, std::span(&statistics_, 1), [&](Bytes& out, const Statistics& s) {
-    put_statistics(out, s, schemas.size(), channels.size());
-  });
+  group(std::span(schemas));
+  group(std::span(channels));
+  group(std::span<const Statistics>(&statistics_, 1));
   const std::size_t indexes = out_.size();
   for (const ChunkPlace& place : chunks_) {
     RAVE_TRY_ASSIGN(const ChunkInfo info, read_back(fd_, place, path_.string(), compressed_));
-    put_chunk_index(out_, info);
+    put_record(out_, info);
   }
   if (out_.size() > indexes) {
     groups.push_back({opcode::kChunkIndex, offset_ + indexes, out_.size() - indexes});
   }
-  group(opcode::kAttachmentIndex, attachments_, put_attachment_index);
-  group(opcode::kMetadataIndex, metadata_, put_metadata_index);
+  group(std::span(std::as_const(attachments_)));
+  group(std::span(std::as_const(metadata_)));
   const std::uint64_t offsets_start = offset_ + out_.size();
   ByteWriter writer(out_);
   for (const Group& item : groups) {
     const std::size_t record = writer.begin_record(opcode::kSummaryOffset);
-    writer.put(item.code);
-    writer.put(item.start);
-    writer.put(item.length);
+    writer(item.code, item.start, item.length);
     writer.end_record(record);
   }
   const std::size_t record = writer.begin_record(opcode::kFooter);
-  writer.put(offset_);
-  writer.put(offsets_start);
-  // The place of the checksum, which covers the summary and the footer up to this place.
-  writer.put(std::uint32_t{0});
+  // The last is the place of the checksum, which covers the summary and the footer up to there.
+  writer(offset_, offsets_start, std::uint32_t{0});
   writer.end_record(record);
   const ByteSpan summed = ByteSpan(out_).first(out_.size() - sizeof(std::uint32_t));
   const std::uint32_t crc = crc32(summed);
@@ -251,7 +236,7 @@ Status McapFile::finish(const std::vector<SchemaInfo>& schemas,
   out_.clear();
   ByteWriter writer(out_);
   const std::size_t record = writer.begin_record(opcode::kDataEnd);
-  writer.put(data_crc_);
+  writer(data_crc_);
   writer.end_record(record);
   RAVE_TRY(append(out_));
   out_.clear();

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string_view>
+#include <tuple>
 
 #include "bytes.hpp"
 #include "rave/record/mcap_types.hpp"
@@ -33,22 +34,84 @@ inline constexpr std::uint8_t kSummaryOffset = 0x0E;
 inline constexpr std::uint8_t kDataEnd = 0x0F;
 }  // namespace opcode
 
-void put_schema(Bytes& out, const SchemaInfo& schema);
-void put_channel(Bytes& out, const ChannelInfo& channel);
-void put_chunk_index(Bytes& out, const ChunkInfo& chunk);
-void put_attachment_index(Bytes& out, const AttachmentInfo& attachment);
-void put_metadata_index(Bytes& out, const MetadataInfo& metadata);
-void put_statistics(Bytes& out, const Statistics& statistics, std::size_t schemas,
-                    std::size_t channels);
+/// The opcode of a struct in the summary, and its fields in the order of the specification.
+template <class Info>
+struct RecordLayout;
 
-// Each decodes the content of one record (without opcode and length) and returns whether it was
-// complete.
-[[nodiscard]] bool get_schema(ByteSpan content, SchemaInfo& schema);
-[[nodiscard]] bool get_channel(ByteSpan content, ChannelInfo& channel);
-[[nodiscard]] bool get_chunk_index(ByteSpan content, ChunkInfo& chunk);
-[[nodiscard]] bool get_attachment_index(ByteSpan content, AttachmentInfo& attachment);
-[[nodiscard]] bool get_metadata_index(ByteSpan content, MetadataInfo& metadata);
-[[nodiscard]] bool get_statistics(ByteSpan content, Statistics& statistics);
-[[nodiscard]] bool get_message(ByteSpan content, MessageView& message);
+template <>
+struct RecordLayout<SchemaInfo> {
+  static constexpr std::uint8_t kCode = opcode::kSchema;
+  static auto fields(auto& v) { return std::tie(v.id, v.name, v.encoding, v.data); }
+};
+
+template <>
+struct RecordLayout<ChannelInfo> {
+  static constexpr std::uint8_t kCode = opcode::kChannel;
+  static auto fields(auto& v) {
+    return std::tie(v.id, v.schema_id, v.topic, v.message_encoding, v.metadata);
+  }
+};
+
+template <>
+struct RecordLayout<ChunkInfo> {
+  static constexpr std::uint8_t kCode = opcode::kChunkIndex;
+  static auto fields(auto& v) {
+    return std::tie(v.start_ns, v.end_ns, v.offset, v.length, v.channels, v.message_index_length,
+                    v.compression, v.compressed_size, v.uncompressed_size);
+  }
+};
+
+template <>
+struct RecordLayout<AttachmentInfo> {
+  static constexpr std::uint8_t kCode = opcode::kAttachmentIndex;
+  static auto fields(auto& v) {
+    return std::tie(v.offset, v.length, v.log_time_ns, v.create_time_ns, v.data_size, v.name,
+                    v.media_type);
+  }
+};
+
+template <>
+struct RecordLayout<MetadataInfo> {
+  static constexpr std::uint8_t kCode = opcode::kMetadataIndex;
+  static auto fields(auto& v) { return std::tie(v.offset, v.length, v.name); }
+};
+
+template <>
+struct RecordLayout<Statistics> {
+  static constexpr std::uint8_t kCode = opcode::kStatistics;
+  static auto fields(auto& v) {
+    return std::tie(v.message_count, v.schema_count, v.channel_count, v.attachment_count,
+                    v.metadata_count, v.chunk_count, v.start_ns, v.end_ns,
+                    v.channel_message_counts);
+  }
+};
+
+template <class Info>
+void put_record(Bytes& out, const Info& info) {
+  ByteWriter writer(out);
+  const std::size_t record = writer.begin_record(RecordLayout<Info>::kCode);
+  std::apply(writer, RecordLayout<Info>::fields(info));
+  writer.end_record(record);
+}
+
+/// Decodes the content of one record (without opcode and length); returns whether it was complete.
+template <class Info>
+[[nodiscard]] bool get_record(ByteSpan content, Info& info) {
+  ByteReader reader(content);
+  std::apply(reader, RecordLayout<Info>::fields(info));
+  return reader.ok();
+}
+
+[[nodiscard]] inline bool get_message(ByteSpan content, MessageView& message) {
+  ByteReader reader(content);
+  reader(message.channel, message.sequence, message.log_time_ns, message.publish_time_ns);
+  message.bytes = reader.raw(reader.rest());
+  return reader.ok();
+}
+
+/// Reads opcode and length of a record; false unless it has this opcode and fills the bytes.
+[[nodiscard]] inline bool begins_record(ByteReader& reader, std::uint8_t code) {
+  return reader.get<std::uint8_t>() == code && reader.get<std::uint64_t>() == reader.rest();
+}
 
 }  // namespace rave::record

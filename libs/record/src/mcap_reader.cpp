@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "check_file.hpp"
 #include "crc32.hpp"
 #include "message_cursor.hpp"
 #include "record_file.hpp"
@@ -35,8 +34,7 @@ namespace {
   const std::uint64_t at = bytes.size();
   RAVE_TRY(source.read(at, size, bytes));
   ByteReader header(bytes);
-  file.profile = header.string();
-  file.library = header.string();
+  header(file.profile, file.library);
   if (!header.ok()) {
     return fail(ErrorCode::kParse, "`{}`: there is no complete header at offset {}", source.name(),
                 kMagic.size());
@@ -113,12 +111,8 @@ Result<std::string> McapReader::read_attachment(const AttachmentInfo& attachment
   Bytes bytes;
   RAVE_TRY(source.read(attachment.offset, attachment.length, bytes));
   ByteReader reader(bytes);
-  const bool right = reader.get<std::uint8_t>() == opcode::kAttachment &&
-                     reader.get<std::uint64_t>() == bytes.size() - kRecordHead;
-  static_cast<void>(reader.get<std::uint64_t>());
-  static_cast<void>(reader.get<std::uint64_t>());
-  static_cast<void>(reader.string());
-  static_cast<void>(reader.string());
+  const bool right = begins_record(reader, opcode::kAttachment);
+  reader.skip<std::uint64_t, std::uint64_t, std::string, std::string>();  // as in its index
   const ByteSpan data = reader.raw(reader.get<std::uint64_t>());
   const std::size_t end = reader.position();
   const auto crc = reader.get<std::uint32_t>();
@@ -139,10 +133,10 @@ Result<StringMap> McapReader::read_metadata(const MetadataInfo& metadata) const 
   Bytes bytes;
   RAVE_TRY(source.read(metadata.offset, metadata.length, bytes));
   ByteReader reader(bytes);
-  const bool right = reader.get<std::uint8_t>() == opcode::kMetadata &&
-                     reader.get<std::uint64_t>() == bytes.size() - kRecordHead;
-  static_cast<void>(reader.string());
-  StringMap entries = reader.map();
+  const bool right = begins_record(reader, opcode::kMetadata);
+  std::string name;
+  StringMap entries;
+  reader(name, entries);
   if (!right || !reader.ok()) {
     return fail(ErrorCode::kParse, "`{}`: there is no complete metadata at offset {}",
                 source.name(), metadata.offset);
@@ -150,13 +144,14 @@ Result<StringMap> McapReader::read_metadata(const MetadataInfo& metadata) const 
   return entries;
 }
 
-CheckedFile McapReader::check() const { return check_file(*file_); }
-
-Status McapReader::verify() const {
-  const CheckedFile checked = check();
-  if (!checked.cuts.empty()) return fail(ErrorCode::kParse, "{}", checked.cuts.front());
-  if (!checked.damages.empty()) return fail(ErrorCode::kParse, "{}", checked.damages.front());
+StringMap McapReader::metadata_named(std::string_view name) const {
+  for (const MetadataInfo& metadata : file_->metadata) {
+    if (metadata.name != name) continue;
+    if (auto entries = read_metadata(metadata)) return *std::move(entries);
+  }
   return {};
 }
+
+CheckedFile McapReader::check() const { return check_file(*file_); }
 
 }  // namespace rave::record

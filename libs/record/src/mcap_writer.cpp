@@ -64,7 +64,7 @@ Result<std::uint16_t> McapWriter::add_schema(std::string_view name, std::string_
   SchemaInfo schema{static_cast<std::uint16_t>(impl_->schemas.size() + 1), std::string(name),
                     std::string(encoding), std::string(data)};
   // Into the chunk as well as into the summary: a file without its end can still be understood.
-  impl_->queue.append([&](Chunk& chunk) { put_schema(chunk.records, schema); });
+  impl_->queue.append([&](Chunk& chunk) { put_record(chunk.records, schema); });
   impl_->schemas.push_back(std::move(schema));
   return impl_->schemas.back().id;
 }
@@ -83,7 +83,7 @@ Result<std::uint16_t> McapWriter::add_channel(std::string_view topic,
   }
   ChannelInfo channel{static_cast<std::uint16_t>(impl_->channels.size() + 1), schema_id,
                       std::string(topic), std::string(message_encoding), metadata};
-  impl_->queue.append([&](Chunk& chunk) { put_channel(chunk.records, channel); });
+  impl_->queue.append([&](Chunk& chunk) { put_record(chunk.records, channel); });
   impl_->channels.push_back(std::move(channel));
   return impl_->channels.back().id;
 }

@@ -11,7 +11,6 @@
 #include <set>
 #include <tuple>
 
-#include "merge_facts.hpp"
 #include "merge_part.hpp"
 #include "once.hpp"
 #include "rave/base/hash.hpp"
@@ -122,7 +121,7 @@ Status Merger::learn_hosts() {
   poses_.resize(count);
   StringMap all;
   for (const auto& part : parts_) {
-    const StringMap known = metadata_of(part->reader, kHostsMetadata);
+    const StringMap known = part->reader.metadata_named(kHostsMetadata);
     // Each process records which host has which robots, so one readable part is enough.
     all.insert(known.begin(), known.end());
   }
@@ -152,7 +151,7 @@ std::vector<std::string> Merger::notes() const {
 Status Merger::describe(RunRecorder& recorder) {
   StringMap hybrids;
   for (const auto& part : parts_) {
-    const StringMap own = metadata_of(part->reader, kHybridMetadata);
+    const StringMap own = part->reader.metadata_named(kHybridMetadata);
     hybrids.insert(own.begin(), own.end());
   }
   if (!hybrids.empty()) RAVE_TRY(recorder.describe(kHybridMetadata, hybrids));

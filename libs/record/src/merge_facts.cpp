@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a record says of the parts that it was merged from.
-#include "merge_facts.hpp"
-
 #include <algorithm>
 
 #include "rave/record/merge.hpp"
 
 namespace rave::record {
 
-StringMap metadata_of(const McapReader& reader, std::string_view name) {
-  for (const MetadataInfo& metadata : reader.metadata()) {
-    if (metadata.name != name) continue;
-    if (auto entries = reader.read_metadata(metadata)) return *std::move(entries);
-  }
-  return {};
-}
-
 std::string host_of(const McapReader& reader) {
-  const StringMap whose = metadata_of(reader, kHostMetadata);
+  const StringMap whose = reader.metadata_named(kHostMetadata);
   const auto name = whose.find("name");
   return name == whose.end() ? std::string() : name->second;
 }
@@ -31,7 +21,7 @@ bool is_merged(const McapReader& reader) {
 StringMap merged_files(const McapReader& reader) {
   constexpr std::string_view kFile = "file ";
   StringMap files;
-  for (const auto& [key, value] : metadata_of(reader, kPartsMetadata)) {
+  for (const auto& [key, value] : reader.metadata_named(kPartsMetadata)) {
     if (key.starts_with(kFile)) files[key.substr(kFile.size())] = value;
   }
   return files;
@@ -39,7 +29,7 @@ StringMap merged_files(const McapReader& reader) {
 
 std::vector<std::string> missing_parts(const McapReader& reader) {
   std::vector<std::string> missing;
-  for (const auto& [key, value] : metadata_of(reader, kPartsMetadata)) {
+  for (const auto& [key, value] : reader.metadata_named(kPartsMetadata)) {
     if (key.starts_with("note ")) missing.push_back(value);
   }
   return missing;

@@ -9,17 +9,6 @@
 #include "rave/record/run_record.hpp"
 
 namespace rave::record {
-namespace {
-
-const std::vector<std::string_view>& merged_topics() {
-  static const std::vector<std::string_view> kTopics = {
-      topic::kPoses,   topic::kPercepts, topic::kCommands, topic::kActuators,
-      topic::kRadio,   topic::kEvents,   topic::kInputs,   topic::kHash,
-      topic::kConsole, topic::kChat,     topic::kVariances};
-  return kTopics;
-}
-
-}  // namespace
 
 void MergePart::advance() {
   auto next = cursor.next();
@@ -34,7 +23,9 @@ Result<std::unique_ptr<MergePart>> open_part(const std::filesystem::path& path) 
     return tl::unexpected(std::move(info).error().with_context(path.string()));
   }
   auto end = read_run_end(reader);
-  MomentCursor cursor(reader, merged_topics());
+  MomentCursor cursor(reader, {topic::kPoses, topic::kPercepts, topic::kCommands, topic::kActuators,
+                               topic::kRadio, topic::kEvents, topic::kInputs, topic::kHash,
+                               topic::kConsole, topic::kChat, topic::kVariances});
   std::string host = host_of(reader);
   auto part = std::make_unique<MergePart>(MergePart{path, std::move(host), std::move(reader),
                                                     *std::move(info), end, std::move(cursor)});

@@ -41,18 +41,13 @@ Status MessageCursor::Impl::open_chunk(std::size_t index) {
   const ChunkInfo& info = file_->chunks[index];
   auto chunk = std::make_unique<OpenChunk>();
   RAVE_TRY(load_chunk(*file_, info, chunk->records));
-  bool ok = true;
-  const bool complete = for_each_record(chunk->records, [&](auto code, ByteSpan content,
-                                                            std::size_t at) {
-    if (code != opcode::kMessage) return true;
-    MessageView message;
-    ok = get_message(content, message);
+  const auto add = [&](const MessageView& message, std::size_t at, std::size_t size) {
     const bool inside =
-        ok && message.log_time_ns >= filter_.from_ns && message.log_time_ns <= filter_.to_ns &&
+        message.log_time_ns >= filter_.from_ns && message.log_time_ns <= filter_.to_ns &&
         (filter_.channels.empty() || std::ranges::binary_search(filter_.channels, message.channel));
-    if (inside) chunk->places.push_back({message.log_time_ns, at, content.size()});
-    return ok;
-  });
+    if (inside) chunk->places.push_back({message.log_time_ns, at, size});
+  };
+  const bool complete = for_each_message(chunk->records, add);
   // Sorted here, since a chunk keeps messages in the order in which they were written. Stable, so
   // that those of one time keep that order.
   if (!chunk->places.empty()) {
@@ -60,7 +55,7 @@ Status MessageCursor::Impl::open_chunk(std::size_t index) {
     heads_.push({chunk->places.front().log_time_ns, index});
     open_[index] = std::move(chunk);
   }
-  if (ok && complete) return {};
+  if (complete) return {};
   return fail(ErrorCode::kParse, "`{}`: the chunk at offset {} has an incomplete record",
               file_->source->name(), info.offset);
 }

@@ -32,15 +32,6 @@ inline constexpr std::uint32_t kHasTrue = 2;
 /// The true pose has the same bits as the reported one and is not repeated.
 inline constexpr std::uint32_t kTrueIsReported = 4;
 
-/// rave_msgs/msg/PoseVariance
-struct PackedVariance {
-  std::uint32_t robot;
-  std::uint32_t reserved;
-  double xy_m2;
-  double yaw_rad2;
-};
-static_assert(sizeof(PackedVariance) == 24);
-
 /// rave_msgs/msg/Percept. In a row of robots (`robots` above 1) all have this header and equal
 /// parts of the bytes.
 struct PackedPercept {

@@ -5,24 +5,30 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <concepts>
 
 #include "crc32.hpp"
 
 namespace rave::record {
 
-void note_schema(RecordFile& file, SchemaInfo schema) {
-  const auto at = std::lower_bound(file.schemas.begin(), file.schemas.end(), schema.id,
-                                   [](const auto& known, auto id) { return known.id < id; });
-  // The first description of an id counts; later chunks repeat it.
-  if (schema.id == 0 || (at != file.schemas.end() && at->id == schema.id)) return;
-  file.schemas.insert(at, std::move(schema));
+namespace {
+
+/// Adds a description to a list by id. The first one of an id counts; later chunks repeat it.
+template <class Info>
+[[nodiscard]] bool note(ByteSpan content, std::vector<Info>& known) {
+  Info info;
+  if (!get_record(content, info)) return false;
+  // A channel with schema 0 has none.
+  if (std::same_as<Info, SchemaInfo> && info.id == 0) return true;
+  const auto at = std::ranges::lower_bound(known, info.id, {}, &Info::id);
+  if (at == known.end() || at->id != info.id) known.insert(at, std::move(info));
+  return true;
 }
 
-void note_channel(RecordFile& file, ChannelInfo channel) {
-  const auto at = std::lower_bound(file.channels.begin(), file.channels.end(), channel.id,
-                                   [](const auto& known, auto id) { return known.id < id; });
-  if (at != file.channels.end() && at->id == channel.id) return;
-  file.channels.insert(at, std::move(channel));
+}  // namespace
+
+bool note_definition(RecordFile& file, std::uint8_t code, ByteSpan content) {
+  return code == opcode::kSchema ? note(content, file.schemas) : note(content, file.channels);
 }
 
 bool for_each_record(ByteSpan records,
@@ -43,40 +49,22 @@ namespace {
 
 [[nodiscard]] bool get_summary_record(RecordFile& file, std::uint8_t code, ByteSpan content,
                                       bool& counted) {
-  bool ok = true;
-  const auto add = [&ok](auto& list, auto get, ByteSpan bytes) {
-    ok = get(bytes, list.emplace_back());
-  };
   switch (code) {
-    case opcode::kSchema: {
-      SchemaInfo schema;
-      ok = get_schema(content, schema);
-      note_schema(file, std::move(schema));
-      break;
-    }
-    case opcode::kChannel: {
-      ChannelInfo channel;
-      ok = get_channel(content, channel);
-      note_channel(file, std::move(channel));
-      break;
-    }
+    case opcode::kSchema:
+    case opcode::kChannel:
+      return note_definition(file, code, content);
     case opcode::kChunkIndex:
-      add(file.chunks, get_chunk_index, content);
-      break;
+      return get_record(content, file.chunks.emplace_back());
     case opcode::kAttachmentIndex:
-      add(file.attachments, get_attachment_index, content);
-      break;
+      return get_record(content, file.attachments.emplace_back());
     case opcode::kMetadataIndex:
-      add(file.metadata, get_metadata_index, content);
-      break;
+      return get_record(content, file.metadata.emplace_back());
     case opcode::kStatistics:
-      ok = get_statistics(content, file.statistics);
       counted = true;
-      break;
+      return get_record(content, file.statistics);
     default:
-      break;
+      return true;
   }
-  return ok;
 }
 
 [[nodiscard]] Status unpack(const RecordFile& file, const ChunkInfo& chunk, ByteSpan packed,
@@ -129,7 +117,7 @@ Status read_summary(RecordFile& file) {
   const bool is_footer =
       footer.get<std::uint8_t>() == opcode::kFooter && footer.get<std::uint64_t>() == kFooterSize;
   const auto start = footer.get<std::uint64_t>();
-  static_cast<void>(footer.get<std::uint64_t>());
+  footer.skip<std::uint64_t>();
   const auto crc = footer.get<std::uint32_t>();
   const ByteSpan magic = footer.raw(kMagic.size());
   if (!is_footer || !std::ranges::equal(magic, as_bytes(kMagic))) return cut();
@@ -177,15 +165,14 @@ Status load_chunk(const RecordFile& file, const ChunkInfo& chunk, Bytes& records
   Bytes bytes;
   RAVE_TRY(file.source->read(chunk.offset, chunk.length, bytes));
   ByteReader reader(bytes);
-  const auto code = reader.get<std::uint8_t>();
-  const auto length = reader.get<std::uint64_t>();
-  static_cast<void>(reader.get<std::uint64_t>());
-  static_cast<void>(reader.get<std::uint64_t>());
-  const auto size = reader.get<std::uint64_t>();
-  const auto crc = reader.get<std::uint32_t>();
-  const std::string compression = reader.string();
+  const bool right = begins_record(reader, opcode::kChunk);
+  reader.skip<std::uint64_t, std::uint64_t>();  // its times
+  std::uint64_t size = 0;
+  std::uint32_t crc = 0;
+  std::string compression;
+  reader(size, crc, compression);
   const ByteSpan packed = reader.raw(reader.get<std::uint64_t>());
-  if (!reader.ok() || code != opcode::kChunk || length != bytes.size() - kRecordHead) {
+  if (!right || !reader.ok()) {
     return fail(ErrorCode::kParse, "`{}`: there is no complete chunk at offset {}",
                 file.source->name(), chunk.offset);
   }

@@ -31,9 +31,8 @@ struct RecordFile {
   std::uint64_t data_end = 0;    ///< Start of the data end record; 0: unknown.
 };
 
-/// Adds a schema or channel record. A second one with the same id is ignored.
-void note_schema(RecordFile& file, SchemaInfo schema);
-void note_channel(RecordFile& file, ChannelInfo channel);
+/// Adds a schema or channel record; a second one with the same id is ignored. False: incomplete.
+[[nodiscard]] bool note_definition(RecordFile& file, std::uint8_t code, ByteSpan content);
 
 /// Reads the lists from the summary section. After a failure they are undefined.
 [[nodiscard]] Status read_summary(RecordFile& file);
@@ -47,9 +46,28 @@ void scan_data(RecordFile& file);
 [[nodiscard]] Status load_chunk(const RecordFile& file, const ChunkInfo& chunk, Bytes& records,
                                 bool* summed = nullptr);
 
+/// Verifies every checksum of a file and counts its messages. Memory: the largest chunk.
+[[nodiscard]] CheckedFile check_file(const RecordFile& file);
+
 /// Calls `take(opcode, content, offset of the content)` for each record in `records` until it
 /// returns false. False: the last record is incomplete.
 [[nodiscard]] bool for_each_record(
     ByteSpan records, const std::function<bool(std::uint8_t, ByteSpan, std::size_t)>& take);
+
+/// Calls `take(message, offset of its content, size of it)` for each message in `records`. False:
+/// a message or the last record is incomplete, and the rest was not read.
+template <class Take>
+[[nodiscard]] bool for_each_message(ByteSpan records, Take take) {
+  bool ok = true;
+  const bool complete =
+      for_each_record(records, [&](std::uint8_t code, ByteSpan content, std::size_t at) {
+        if (code != opcode::kMessage) return true;
+        MessageView message;
+        ok = get_message(content, message);
+        if (ok) take(message, at, content.size());
+        return ok;
+      });
+  return ok && complete;
+}
 
 }  // namespace rave::record

@@ -96,10 +96,7 @@ Result<RecordSummary> describe_record(const fs::path& path, RecordLook look) {
   summary.messages = statistics.message_count;
   summary.chunks = statistics.chunk_count;
   summary.attachments = reader.attachments();
-  for (const MetadataInfo& metadata : reader.metadata()) {
-    if (metadata.name != kHybridMetadata) continue;
-    if (auto entries = reader.read_metadata(metadata)) summary.hybrids = *std::move(entries);
-  }
+  summary.hybrids = reader.metadata_named(kHybridMetadata);
   summary.parts = merged_files(reader);
   summary.missing = missing_parts(reader);
   const double duration_s = summary.end_s - summary.start_s;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "packed.hpp"
 #include "rave/math/pose.hpp"
 #include "rave/record/cdr_archive.hpp"
 #include "rave/record/run_messages.hpp"
@@ -17,6 +18,7 @@ struct RunMembers {
   Archive& archive;
 
   void of(Pose2& v) { archive(v.x, v.y, v.yaw); }
+  void of(PoseVariance& v) { archive(v.robot, v.xy_m2, v.yaw_rad2); }
   void of(RunEvent& v) { archive(v.robot, v.kind, v.text, v.values); }
   void of(ShadowRecord& v) { archive(v.robot, v.X_WR, v.X_WS, v.m, v.rad, v.readings); }
   void of(RunInput& v) {

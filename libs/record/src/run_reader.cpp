@@ -45,10 +45,7 @@ Result<RunInfo> read_run_info(const McapReader& reader) {
     // A recording without its scenario can still be looked at, only not replayed.
     if (auto text = reader.read_attachment(*yaml)) run->expanded_scenario = *std::move(text);
   }
-  const auto inputs = std::ranges::find(reader.metadata(), "rave.inputs", &MetadataInfo::name);
-  if (inputs != reader.metadata().end()) {
-    if (auto entries = reader.read_metadata(*inputs)) run->inputs = *std::move(entries);
-  }
+  run->inputs = reader.metadata_named("rave.inputs");
   return *std::move(run);
 }
 

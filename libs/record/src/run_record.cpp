@@ -68,6 +68,22 @@ class RunRecorder::Impl {
 
   [[nodiscard]] Status begin(const RunInfo& info, const ViewOptions& views);
   [[nodiscard]] Status write_console();
+  /// Writes one message with the time of the step.
+  template <class... T>
+  Status write(Stream& stream, const T&... values) {
+    encode(cdr_, time_, values...);
+    return stream.write(file_, time_, cdr_.bytes());
+  }
+  /// Makes a stream that most runs do not need with its first message.
+  template <class... T>
+  Status write(std::optional<Stream>& stream, const char* topic, const RosSchema& schema,
+               const T&... values) {
+    if (!stream) {
+      RAVE_TRY_ASSIGN(const auto id, add_schema(file_, schema));
+      RAVE_TRY_ASSIGN(stream, add_stream(file_, topic, id));
+    }
+    return write(*stream, values...);
+  }
   [[nodiscard]] Status write_pose_view() {
     if (seen_.empty()) return {};
     Status status = views_.poses(file_, time_, seen_);
@@ -129,7 +145,8 @@ Status RunRecorder::Impl::begin(const RunInfo& info, const ViewOptions& views) {
   for (const auto& [name, version] : info.versions) about["version " + name] = version;
   RAVE_TRY(file_.add_metadata("rave.run", about));
   if (!info.inputs.empty()) RAVE_TRY(file_.add_metadata("rave.inputs", info.inputs));
-  encode_run(cdr_, info);
+  cdr_.clear();
+  CdrPut<RunMembers>{cdr_}(info);
   return run_.write(file_, SimTime{}, cdr_.bytes());
 }
 
@@ -142,10 +159,13 @@ Status RunRecorder::Impl::write_console() {
     lines.swap(console_lines_);
   }
   Status status;
-  for (ConsoleLine& line : lines) {
-    line.time = time_;
-    encode_console(cdr_, line);
-    if (auto written = console_.write(file_, time_, cdr_.bytes()); !written) status = written;
+  for (const ConsoleLine& line : lines) {
+    // Levels of rcl_interfaces/msg/Log: 10 debug, 20 info, 30 warning, 40 error; file, function and
+    // line are unknown.
+    const auto level = static_cast<std::uint8_t>(10 + 10 * static_cast<int>(line.level));
+    const std::string none;
+    auto written = write(console_, level, line.source, line.text, none, none, std::uint32_t{0});
+    if (!written) status = written;
   }
   return status;
 }
@@ -233,8 +253,7 @@ void RunRecorder::actuator(const ActuatorRecord& command) {
 }
 
 Status RunRecorder::hash(std::uint64_t value) {
-  encode_hash(impl_->cdr_, {impl_->time_, impl_->step_, value});
-  return impl_->hash_.write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
+  return impl_->write(impl_->hash_, impl_->step_, value);
 }
 
 void RunRecorder::radio(const RadioPacket& packet) {
@@ -245,41 +264,22 @@ void RunRecorder::radio(const RadioPacket& packet) {
 }
 
 Status RunRecorder::event(const RunEvent& event) {
-  encode_event(impl_->cdr_, impl_->time_, impl_->step_, event);
-  return impl_->events_.write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
+  return impl_->write(impl_->events_, impl_->step_, event);
 }
 
-Status RunRecorder::input(const RunInput& input) {
-  encode_input(impl_->cdr_, impl_->time_, input);
-  return impl_->inputs_.write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
-}
+Status RunRecorder::input(const RunInput& input) { return impl_->write(impl_->inputs_, input); }
 
 Status RunRecorder::chat(const RunChat& chat) {
-  // Streams that most runs do not need are made with their first message.
-  if (!impl_->chat_) {
-    RAVE_TRY_ASSIGN(const auto schema, add_schema(impl_->file_, kChatSchema));
-    RAVE_TRY_ASSIGN(impl_->chat_, add_stream(impl_->file_, topic::kChat, schema));
-  }
-  encode_chat(impl_->cdr_, impl_->time_, chat);
-  return impl_->chat_->write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
+  return impl_->write(impl_->chat_, topic::kChat, kChatSchema, chat);
 }
 
 Status RunRecorder::shadow(const ShadowRecord& shadow) {
-  if (!impl_->shadows_) {
-    RAVE_TRY_ASSIGN(const auto schema, add_schema(impl_->file_, kShadowSchema));
-    RAVE_TRY_ASSIGN(impl_->shadows_, add_stream(impl_->file_, topic::kShadows, schema));
-  }
-  encode_shadow(impl_->cdr_, impl_->time_, impl_->step_, shadow);
-  return impl_->shadows_->write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
+  return impl_->write(impl_->shadows_, topic::kShadows, kShadowSchema, impl_->step_, shadow);
 }
 
 Status RunRecorder::variances(std::span<const PoseVariance> robots) {
-  if (!impl_->variances_) {
-    RAVE_TRY_ASSIGN(const auto schema, add_schema(impl_->file_, kVariancesSchema));
-    RAVE_TRY_ASSIGN(impl_->variances_, add_stream(impl_->file_, topic::kVariances, schema));
-  }
-  encode_variances(impl_->cdr_, impl_->time_, impl_->step_, robots);
-  return impl_->variances_->write(impl_->file_, impl_->time_, impl_->cdr_.bytes());
+  return impl_->write(impl_->variances_, topic::kVariances, kVariancesSchema, impl_->step_,
+                      kLayoutVersion, std::vector(robots.begin(), robots.end()));
 }
 
 void RunRecorder::pose(const RobotPose& robot) {
@@ -322,8 +322,9 @@ Status RunRecorder::end(std::optional<std::uint64_t> hash) {
   Status written = end_step();
   // The end is a message and metadata: the message for readers in order, the metadata for tools
   // that read the summary only.
-  encode_end(impl.cdr_, {impl.time_, impl.steps_, hash});
-  if (written) written = impl.end_.write(impl.file_, impl.time_, impl.cdr_.bytes());
+  if (written) {
+    written = impl.write(impl.end_, impl.steps_, hash.has_value(), hash.value_or(0));
+  }
   StringMap about = {{"steps", std::to_string(impl.steps_)}};
   if (hash) about["hash"] = fmt::format("{:016x}", *hash);
   if (written) written = impl.file_.add_metadata("rave.end", about);

@@ -62,23 +62,10 @@ class DataScan {
         if (code == opcode::kAttachment) return take_attachment(at, size);
         if (!file_.source->read(at + kRecordHead, size, content_)) return false;
         return code == opcode::kMetadata ? take_metadata(at, size)
-                                         : take_definition(code, content_);
+                                         : note_definition(file_, code, content_);
       default:
         return true;
     }
-  }
-
-  [[nodiscard]] bool take_definition(std::uint8_t code, ByteSpan content) {
-    if (code == opcode::kSchema) {
-      SchemaInfo schema;
-      if (!get_schema(content, schema)) return false;
-      note_schema(file_, std::move(schema));
-      return true;
-    }
-    ChannelInfo channel;
-    if (!get_channel(content, channel)) return false;
-    note_channel(file_, std::move(channel));
-    return true;
   }
 
   // What the summary would have said.
@@ -106,9 +93,12 @@ class DataScan {
     bool first = true;
     bool ok = true;
     const bool complete = for_each_record(records_, [&](auto code, ByteSpan content, std::size_t) {
-      if (code == opcode::kSchema || code == opcode::kChannel) ok = take_definition(code, content);
+      if (code == opcode::kSchema || code == opcode::kChannel) {
+        ok = note_definition(file_, code, content);
+        return ok;
+      }
       MessageView message;
-      if (code != opcode::kMessage || !ok) return ok;
+      if (code != opcode::kMessage) return true;
       ok = get_message(content, message);
       if (!ok) return false;
       count(message);
@@ -160,11 +150,7 @@ class DataScan {
     AttachmentInfo info;
     info.offset = at;
     info.length = kRecordHead + size;
-    info.log_time_ns = reader.get<std::uint64_t>();
-    info.create_time_ns = reader.get<std::uint64_t>();
-    info.name = reader.string();
-    info.media_type = reader.string();
-    info.data_size = reader.get<std::uint64_t>();
+    reader(info.log_time_ns, info.create_time_ns, info.name, info.media_type, info.data_size);
     static_cast<void>(reader.raw(info.data_size));
     if (!reader.ok()) return false;
     file_.attachments.push_back(std::move(info));
@@ -174,7 +160,8 @@ class DataScan {
 
   [[nodiscard]] bool take_metadata(std::uint64_t at, std::uint64_t size) {
     ByteReader reader(content_);
-    file_.metadata.push_back({at, kRecordHead + size, reader.string()});
+    MetadataInfo& info = file_.metadata.emplace_back(at, kRecordHead + size, "");
+    reader(info.name);
     ++file_.statistics.metadata_count;
     return reader.ok();
   }
@@ -196,6 +183,8 @@ void scan_data(RecordFile& file) {
   file.metadata.clear();
   file.statistics = {};
   DataScan(file).run();
+  file.statistics.schema_count = static_cast<std::uint16_t>(file.schemas.size());
+  file.statistics.channel_count = static_cast<std::uint32_t>(file.channels.size());
 }
 
 }  // namespace rave::record

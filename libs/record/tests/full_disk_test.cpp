@@ -76,7 +76,7 @@ TEST(FullDisk, OfALongPieceThatDoesNotFitNothingIsLeft) {
   const auto reader = McapReader::open(file.path());
   ASSERT_TRUE(reader) << reader.error().text();
   EXPECT_TRUE(reader->whole());
-  EXPECT_TRUE(reader->verify());
+  EXPECT_TRUE(reader->check().whole());
   EXPECT_EQ(reader->statistics().message_count, 20U);
 }
 

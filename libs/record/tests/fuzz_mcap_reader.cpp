@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   for (const auto& metadata : reader->metadata())
     static_cast<void>(reader->read_metadata(metadata));
-  static_cast<void>(reader->verify());
+  static_cast<void>(reader->check());
   if (const auto run = read_run_info(*reader)) {
     for (const RecordedSensor& sensor : run->sensors) {
       static_cast<void>(read_samples(*reader, sensor.robot, sensor.sensor, PerceptPart::kResult));

@@ -102,7 +102,7 @@ TEST(Mcap, ReadsBackWhatWasWritten) {
   EXPECT_EQ(reader->read_attachment(reader->attachments()[0]).value(), "name: x\n");
   ASSERT_EQ(reader->metadata().size(), 1U);
   EXPECT_EQ(reader->read_metadata(reader->metadata()[0])->at("seed"), "7");
-  EXPECT_TRUE(reader->verify());
+  EXPECT_TRUE(reader->check().whole());
 }
 
 TEST(Mcap, TheIndexSaysWhatTheChunksHold) {
@@ -224,8 +224,8 @@ TEST(Mcap, AChangedByteIsNoticedWhereverItIs) {
     changed[at] = static_cast<char>(changed[at] ^ 0x20);
     const auto reader = McapReader::open_memory(bytes_of(changed), "changed");
     if (!reader) continue;
-    const Status verified = reader->verify();
-    EXPECT_FALSE(verified) << "byte " << at;
+    const CheckedFile checked = reader->check();
+    EXPECT_FALSE(checked.cuts.empty() && checked.damages.empty()) << "byte " << at;
   }
 }
 
@@ -314,7 +314,7 @@ TEST(Mcap, WhatCannotBeCompressedInTimeIsWrittenAsItIs) {
     ASSERT_TRUE(writer->close());
     const auto reader = McapReader::open(file.path());
     ASSERT_TRUE(reader) << reader.error().text();
-    EXPECT_TRUE(reader->verify());
+    EXPECT_TRUE(reader->check().whole());
     EXPECT_EQ(all_messages(*reader), (std::vector<std::string>{"/x#0@0:" + content}));
     EXPECT_EQ(std::filesystem::file_size(file.path()) > 5000, backlog_bytes == 1);
   }
@@ -349,7 +349,7 @@ TEST(Mcap, ADiskThatIsFullIsToldOnceAndLeavesAReadableFile) {
   const auto reader = McapReader::open(file.path());
   ASSERT_TRUE(reader) << reader.error().text();
   EXPECT_TRUE(reader->whole());
-  EXPECT_TRUE(reader->verify());
+  EXPECT_TRUE(reader->check().whole());
   EXPECT_EQ(all_messages(*reader).size(), 20U);
 }
 
@@ -374,7 +374,7 @@ TEST(Mcap, ReadsFilesWithoutChunksAndWithoutSummary) {
   EXPECT_TRUE(reader->whole());
   EXPECT_TRUE(reader->damages().empty());
   EXPECT_EQ(all_messages(*reader), (std::vector<std::string>{"/a#2@8:[]", "/a#1@9:{}"}));
-  EXPECT_TRUE(reader->verify());
+  EXPECT_TRUE(reader->check().damages.empty());
 }
 
 }  // namespace

@@ -61,41 +61,36 @@ void add_lines(const Picture& picture, std::vector<LegendEntry>& entries) {
 }
 
 template <class Has>
-const PictureTrack* first_track(const Picture& picture, Has has) {
-  const auto found =
-      std::find_if(picture.tracks.begin(), picture.tracks.end(),
-                   [&](const PictureTrack& track) { return !track.points.empty() && has(track); });
-  return found == picture.tracks.end() ? nullptr : &*found;
+bool any_track(const Picture& picture, Has has) {
+  return std::ranges::any_of(picture.tracks, [&](const PictureTrack& track) {
+    return !track.points.empty() && has(track);
+  });
 }
 
 void add_track_marks(const Picture& picture, std::vector<LegendEntry>& entries) {
-  const PictureTrack neutral{.label = "",
-                             .kind = Kind::kRecordedRobot,
-                             .colour = "#55585e",
-                             .points = {},
-                             .gaps = {},
-                             .odometry_only = false,
-                             .pose_lost_t_s = {}};
+  PictureTrack neutral;
+  neutral.kind = Kind::kRecordedRobot;
+  neutral.colour = "#55585e";
   PictureTrack dashed = neutral;
   dashed.odometry_only = true;
   const Rgb grey = rgb_of(neutral.colour);
-  if (first_track(picture, [](const PictureTrack& track) { return track.odometry_only; })) {
+  if (any_track(picture, [](const PictureTrack& track) { return track.odometry_only; })) {
     entries.push_back(line_entry(dashed, false, "odometry alone"));
   }
-  if (first_track(picture, [](const PictureTrack& track) { return !track.gaps.empty(); })) {
+  if (any_track(picture, [](const PictureTrack& track) { return !track.gaps.empty(); })) {
     entries.push_back({[neutral, grey](Pen& pen, const PageBox& box) {
                          stroke_track(pen, neutral, {left_of(box), middle_of(box)}, true);
                          draw_gap_mark(pen, right_of(box) - Vec2{4, 0}, grey);
                        },
                        "gap in the poses (ring: short)"});
   }
-  if (first_track(picture, [](const PictureTrack& t) { return t.pose_lost_t_s.has_value(); })) {
+  if (any_track(picture, [](const PictureTrack& t) { return t.pose_lost_t_s.has_value(); })) {
     entries.push_back(
         {[grey](Pen& pen, const PageBox& box) { draw_lost_mark(pen, middle_of(box), grey); },
          "pose lost from here on"});
   }
-  const PictureTrack* strong =
-      first_track(picture, [](const PictureTrack& track) { return look_of(track).is_strong; });
+  const bool strong =
+      any_track(picture, [](const PictureTrack& track) { return look_of(track).is_strong; });
   entries.push_back({[neutral, grey](Pen& pen, const PageBox& box) {
                        stroke_track(pen, neutral, {left_of(box), right_of(box)}, false);
                        for (const double along : {0.2, 0.55, 0.9}) {

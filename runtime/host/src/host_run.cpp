@@ -8,7 +8,7 @@
 #include "rave/base/file.hpp"
 #include "rave/control/world_request.hpp"
 #include "rave/protocol/host_port.hpp"
-#include "rave/results/radio_report.hpp"
+#include "rave/results/result_parts.hpp"
 #include "world_account.hpp"
 
 namespace rave::runtime {

@@ -10,7 +10,7 @@
 #include "rave/protocol/agreement.hpp"
 #include "rave/results/event_log.hpp"
 #include "rave/results/facts_file.hpp"
-#include "rave/results/shadow_report.hpp"
+#include "rave/results/result_parts.hpp"
 
 namespace rave::runtime {
 namespace {

@@ -6,8 +6,7 @@
 #include "host_session.hpp"
 #include "live_twins.hpp"
 #include "rave/protocol/host_link.hpp"
-#include "rave/results/lateness_report.hpp"
-#include "rave/results/radio_report.hpp"
+#include "rave/results/result_parts.hpp"
 
 namespace rave::runtime {
 namespace {
@@ -195,10 +194,7 @@ void LiveExchange::describe(nlohmann::ordered_json& json, const HostOutcome& out
   json["lateness"] = lateness_json(facts.lateness);
   json["worlds"] = link_.worlds();
   json["world_losses"] = link_.losses();
-  if (has_radio(run_.engine.spec())) {
-    json["radio"] = radio_json(facts.radio);
-    json["radio"]["transmitters"] = transmitters_json(run_.engine.spec(), facts.transmitters);
-  }
+  add_radio(run_.engine.spec(), facts, json);
   json["lost_packets"] = link_.lost_packets();
   json["unsent_packets"] = link_.unsent_packets();
   json["withheld_packets"] = link_.withheld_packets();

@@ -23,30 +23,12 @@ void each_hybrid(const sim::EngineSpec& spec, Take take, bool all = false) {
 
 }  // namespace
 
-PartKeeper::PartKeeper(const sim::EngineSpec& spec) {
-  each_hybrid(spec, [this](std::uint32_t robot, std::uint32_t s, const sim::SensorSpec& sensor) {
-    hybrids_.push_back({RobotId(robot), s, sensor.kind, 0});
-  });
-}
-
 void PartKeeper::follow(const sim::EngineSpec& spec) {
-  PartKeeper now(spec);
-  for (Hybrid& hybrid : now.hybrids_) {
-    for (const Hybrid& before : hybrids_) {
-      const bool same = before.robot == hybrid.robot && before.sensor == hybrid.sensor;
-      if (same) hybrid.seen = before.seen;
-    }
-  }
-  // Remember what was kept of a sensor that is not hybrid at present.
-  for (const Hybrid& before : hybrids_) {
-    const bool gone =
-        std::none_of(now.hybrids_.begin(), now.hybrids_.end(), [&](const Hybrid& hybrid) {
-          return before.robot == hybrid.robot && before.sensor == hybrid.sensor;
-        });
-    if (gone) now.hybrids_.push_back(before);
-  }
-  // Remembered, so that after a hand-over and back no sample is recorded twice.
-  hybrids_ = std::move(now.hybrids_);
+  // What was seen of a sensor is remembered, so that after a hand-over and back no sample is
+  // recorded twice.
+  each_hybrid(spec, [this](std::uint32_t robot, std::uint32_t s, const sim::SensorSpec& sensor) {
+    hybrids_[{RobotId(robot), s}].kind = sensor.kind;
+  });
 }
 
 record::StringMap PartKeeper::describe(const sim::EngineSpec& spec, bool all) {
@@ -63,8 +45,11 @@ record::StringMap PartKeeper::describe(const sim::EngineSpec& spec, bool all) {
 }
 
 void PartKeeper::keep(const sim::Engine& engine, record::RunRecorder& recorder) {
-  for (Hybrid& hybrid : hybrids_) {
-    const sim::SensorParts parts = engine.sensor_parts(hybrid.robot, hybrid.sensor);
+  for (auto& [place, hybrid] : hybrids_) {
+    const RobotId robot = place.first;
+    const DeviceId sensor(place.second);
+    const ReadingKind kind = hybrid.kind;
+    const sim::SensorParts parts = engine.sensor_parts(robot, place.second);
     if (parts.imagined == nullptr) continue;  // The sensor has other drivers at present.
     // Both parts are produced together, so the later one shows that both exist. Drivers that were
     // opened for a hand-over have produced none yet.
@@ -72,10 +57,10 @@ void PartKeeper::keep(const sim::Engine& engine, record::RunRecorder& recorder) 
     hybrid.seen = parts.imagined->sequence;
     const auto put = [&](record::PerceptPart part, const SampleHeader& header,
                          const void* records) {
-      const std::size_t bytes = std::size_t{header.count} * record_size(hybrid.kind);
-      recorder.percept({hybrid.robot,
-                        DeviceId(hybrid.sensor),
-                        static_cast<std::uint8_t>(hybrid.kind),
+      const std::size_t bytes = std::size_t{header.count} * record_size(kind);
+      recorder.percept({robot,
+                        sensor,
+                        static_cast<std::uint8_t>(kind),
                         part,
                         {header.stamp_ns, header.sequence, header.count, 1, header.dropped},
                         {static_cast<const std::byte*>(records), bytes}});

@@ -89,107 +89,85 @@ std::string reading_text(const record::Percept& percept) {
   return text + (percept.records.size() > 8 * word ? " ..." : "");
 }
 
-std::vector<Item> poses_of(const record::StepOf<record::RobotPose>& step) {
-  std::vector<Item> items;
-  for (const record::RobotPose& pose : step.items) {
-    Item item{pose.robot.value(), "pose", {}, {}};
-    append(item.bits, pose.true_pose.has_value());
-    append(item.bits, pose.true_pose.value_or(Pose2{}));
-    append(item.bits, pose.reported_pose.has_value());
-    append(item.bits, pose.reported_pose.value_or(Pose2{}));
-    append(item.bits, pose.velocity_W);
-    item.text = fmt::format("true {}, reported {}, velocity ({}, {}, {})",
-                            pose_text(pose.true_pose), pose_text(pose.reported_pose),
-                            pose.velocity_W.vx, pose.velocity_W.vy, pose.velocity_W.wz);
-    items.push_back(std::move(item));
-  }
-  return items;
-}
-
-std::vector<Item> percepts_of(const record::StepOf<record::Percept>& step,
-                              const record::RunInfo& run) {
-  constexpr std::array kParts = {"", " (real part)", " (virtual part)"};
-  std::vector<Item> items;
-  for (const record::Percept& percept : step.items) {
-    Item item{percept.robot.value(), sensor_name(run, percept.robot, percept.sensor), {}, {}};
-    item.channel += kParts[std::min<std::size_t>(static_cast<std::size_t>(percept.part), 2)];
-    append(item.bits, percept.header);
-    item.bits.insert(item.bits.end(), percept.records.begin(), percept.records.end());
-    item.text = reading_text(percept);
-    items.push_back(std::move(item));
-  }
-  return items;
-}
-
 Bytes bytes_of(ByteSpan span) { return {span.begin(), span.end()}; }
 
-std::vector<Item> commands_of(const record::StepOf<record::CommandRecord>& step) {
-  std::vector<Item> items;
-  for (const record::CommandRecord& c : step.items) {
-    items.push_back({c.robot.value(), fmt::format("command to controller {}", c.controller.value()),
-                     bytes_of(c.command), command_text(c.command)});
-  }
-  return items;
+Item pose_item(const record::RobotPose& pose) {
+  Item item{pose.robot.value(), "pose", {}, {}};
+  append(item.bits, pose.true_pose.has_value());
+  append(item.bits, pose.true_pose.value_or(Pose2{}));
+  append(item.bits, pose.reported_pose.has_value());
+  append(item.bits, pose.reported_pose.value_or(Pose2{}));
+  append(item.bits, pose.velocity_W);
+  item.text = fmt::format("true {}, reported {}, velocity ({}, {}, {})", pose_text(pose.true_pose),
+                          pose_text(pose.reported_pose), pose.velocity_W.vx, pose.velocity_W.vy,
+                          pose.velocity_W.wz);
+  return item;
 }
 
-std::vector<Item> actuators_of(const record::StepOf<record::ActuatorRecord>& step) {
-  std::vector<Item> items;
-  for (const record::ActuatorRecord& c : step.items) {
-    items.push_back({c.robot.value(), fmt::format("command to actuator {}", c.actuator.value()),
-                     bytes_of(c.command), command_text(c.command)});
-  }
-  return items;
+Item percept_item(const record::Percept& percept, const record::RunInfo& run) {
+  constexpr std::array kParts = {"", " (real part)", " (virtual part)"};
+  Item item{percept.robot.value(), sensor_name(run, percept.robot, percept.sensor), {}, {}};
+  item.channel += kParts[std::min<std::size_t>(static_cast<std::size_t>(percept.part), 2)];
+  append(item.bits, percept.header);
+  item.bits.insert(item.bits.end(), percept.records.begin(), percept.records.end());
+  item.text = reading_text(percept);
+  return item;
 }
 
-std::vector<Item> packets_of(const record::StepOf<record::RadioPacket>& step) {
-  std::vector<Item> items;
-  for (const record::RadioPacket& p : step.items) {
-    Item item{p.from.value(), fmt::format("radio to robot {}", p.to.value()), bytes_of(p.payload),
-              fmt::format("{} bytes, {}", p.payload.size(), p.delivered ? "delivered" : "lost")};
-    append(item.bits, p.sent_ns);
-    append(item.bits, p.received_ns);
-    append(item.bits, p.transmitter);
-    append(item.bits, p.delivered);
-    items.push_back(std::move(item));
-  }
-  return items;
+Item command_item(const record::CommandRecord& c) {
+  return {c.robot.value(), fmt::format("command to controller {}", c.controller.value()),
+          bytes_of(c.command), command_text(c.command)};
 }
 
-std::vector<Item> events_of(const record::StepOf<record::RunEvent>& step) {
-  std::vector<Item> items;
-  for (const record::RunEvent& e : step.items) {
-    std::string text = e.kind + " " + e.text;
-    Bytes bits = bytes_of(std::as_bytes(std::span(text)));
-    for (const double value : e.values) append(bits, value);
-    items.push_back({e.robot.value(), "event", std::move(bits), std::move(text)});
-  }
-  return items;
+Item actuator_item(const record::ActuatorRecord& c) {
+  return {c.robot.value(), fmt::format("command to actuator {}", c.actuator.value()),
+          bytes_of(c.command), command_text(c.command)};
 }
 
-std::vector<Item> hash_of(const record::StepHash& hash) {
-  Item item{RobotId::kNone, "run hash", {}, fmt::format("{:016x}", hash.hash)};
-  append(item.bits, hash.hash);
-  return {std::move(item)};
+Item packet_item(const record::RadioPacket& p) {
+  Item item{p.from.value(), fmt::format("radio to robot {}", p.to.value()), bytes_of(p.payload),
+            fmt::format("{} bytes, {}", p.payload.size(), p.delivered ? "delivered" : "lost")};
+  append(item.bits, p.sent_ns);
+  append(item.bits, p.received_ns);
+  append(item.bits, p.transmitter);
+  append(item.bits, p.delivered);
+  return item;
+}
+
+Item event_item(const record::RunEvent& e) {
+  std::string text = e.kind + " " + e.text;
+  Bytes bits = bytes_of(std::as_bytes(std::span(text)));
+  for (const double value : e.values) append(bits, value);
+  return {e.robot.value(), "event", std::move(bits), std::move(text)};
+}
+
+/// Empty if the step could not be decoded.
+template <class T, class Make>
+std::vector<Item> items_of(const Result<record::StepOf<T>>& step, Make make) {
+  std::vector<Item> items;
+  if (!step) return items;
+  for (const T& item : step->items) items.push_back(make(item));
+  return items;
 }
 
 /// The items of one message; empty if it cannot be decoded.
 std::vector<Item> items_of(std::string_view topic, ByteSpan message, const record::RunInfo& run) {
-  if (topic == record::topic::kPoses) {
-    if (const auto step = record::decode_poses(message)) return poses_of(*step);
-  } else if (topic == record::topic::kPercepts) {
-    if (const auto step = record::decode_percepts(message)) return percepts_of(*step, run);
-  } else if (topic == record::topic::kCommands) {
-    if (const auto step = record::decode_commands(message)) return commands_of(*step);
-  } else if (topic == record::topic::kActuators) {
-    if (const auto step = record::decode_actuators(message)) return actuators_of(*step);
-  } else if (topic == record::topic::kRadio) {
-    if (const auto step = record::decode_radio(message)) return packets_of(*step);
-  } else if (topic == record::topic::kEvents) {
-    if (const auto step = record::decode_event(message)) return events_of(*step);
-  } else if (const auto step = record::decode_hash(message)) {
-    return hash_of(*step);
+  namespace topics = record::topic;
+  if (topic == topics::kPoses) return items_of(record::decode_poses(message), pose_item);
+  if (topic == topics::kPercepts) {
+    return items_of(record::decode_percepts(message),
+                    [&](const record::Percept& percept) { return percept_item(percept, run); });
   }
-  return {};
+  if (topic == topics::kCommands) return items_of(record::decode_commands(message), command_item);
+  if (topic == topics::kActuators) {
+    return items_of(record::decode_actuators(message), actuator_item);
+  }
+  if (topic == topics::kRadio) return items_of(record::decode_radio(message), packet_item);
+  if (topic == topics::kEvents) return items_of(record::decode_event(message), event_item);
+  const auto hash = record::decode_hash(message);
+  if (!hash) return {};
+  return {{RobotId::kNone, "run hash", bytes_of(std::as_bytes(std::span(&hash->hash, 1))),
+           fmt::format("{:016x}", hash->hash)}};
 }
 
 /// The items of all messages of one topic and step.
@@ -268,13 +246,12 @@ std::optional<RunDifference> difference_of(std::string_view topic,
   return RunDifference{0, 0, "", std::string(topic), "the messages differ in form"};
 }
 
-/// A difference in the step at `time_ns`.
-RunDifference difference_at(std::uint64_t time_ns, const record::RunInfo& run,
-                            std::string_view channel, std::string text) {
+/// The same difference, in the step at `time_ns`.
+RunDifference at_time(std::uint64_t time_ns, const record::RunInfo& run, RunDifference difference) {
   const std::int64_t step_ns = std::max<std::int64_t>(1, from_seconds(run.step_s).ns);
-  return {run.step_s > 0 ? time_ns / static_cast<std::uint64_t>(step_ns) : 0,
-          SimTime{static_cast<std::int64_t>(time_ns)}.seconds(), "", std::string(channel),
-          std::move(text)};
+  difference.step = run.step_s > 0 ? time_ns / static_cast<std::uint64_t>(step_ns) : 0;
+  difference.time_s = SimTime{static_cast<std::int64_t>(time_ns)}.seconds();
+  return difference;
 }
 
 }  // namespace
@@ -300,17 +277,15 @@ Result<RecordMatch> match_records(const record::McapReader& recorded,
     // difference.
     if (!more_b || (!more_a && form.cut)) return match;
     if (!more_a) {
-      match.difference = difference_at(b.time_ns(), run, "record",
-                                       "the recorded messages end here; the repeated run has more");
+      match.difference = at_time(
+          b.time_ns(), run,
+          {0, 0, "", "record", "the recorded messages end here; the repeated run has more"});
       return match;
     }
     const bool broken_off = form.cut && a.at_last();
     for (const std::string_view topic : topics) {
-      const auto first = a.messages().find(topic);
-      const auto second = b.messages().find(topic);
-      static const std::vector<Bytes> kNoMessages;
-      const auto& recorded_messages = first == a.messages().end() ? kNoMessages : first->second;
-      const auto& new_messages = second == b.messages().end() ? kNoMessages : second->second;
+      const auto& recorded_messages = a.messages(topic);
+      const auto& new_messages = b.messages(topic);
       // The last step of an interrupted recording may be incomplete.
       if (broken_off && recorded_messages.size() < new_messages.size()) continue;
       match.messages += recorded_messages.size();
@@ -318,17 +293,12 @@ Result<RecordMatch> match_records(const record::McapReader& recorded,
       if (a.time_ns() == b.time_ns() && recorded_messages == new_messages) continue;
       const auto of_run = without_leases(topic, recorded_messages);
       if (a.time_ns() == b.time_ns() && of_run == new_messages) continue;
-      match.difference = difference_of(topic, of_run, new_messages, run, form.merged);
-      if (!match.difference && a.time_ns() == b.time_ns()) continue;
+      const auto difference = difference_of(topic, of_run, new_messages, run, form.merged);
+      if (!difference && a.time_ns() == b.time_ns()) continue;
       // The earlier of the two times is the step that only one of the runs has.
-      const std::uint64_t time_ns = std::min(a.time_ns(), b.time_ns());
-      RunDifference there = difference_at(time_ns, run, topic, "not at the same time");
-      if (match.difference) {
-        there.robot = std::move(match.difference->robot);
-        there.channel = std::move(match.difference->channel);
-        there.text = std::move(match.difference->text);
-      }
-      match.difference = std::move(there);
+      match.difference = at_time(
+          std::min(a.time_ns(), b.time_ns()), run,
+          difference.value_or(RunDifference{0, 0, "", std::string(topic), "not at the same time"}));
       return match;
     }
   }

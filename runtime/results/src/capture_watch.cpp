@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "rave/results/goal_checks.hpp"
 #include "rave/world/touching.hpp"
 
 namespace rave::runtime {
@@ -13,21 +14,13 @@ namespace {
 /// Larger than the rounding error of the distance of two poses.
 constexpr double kRounding_m = 1e-6;
 
-std::vector<RobotId> ids_of(const config::ExpandedScenario& scenario, const std::string& name) {
-  std::vector<RobotId> ids;
-  for (const std::size_t r : config::robots_named(scenario, name)) {
-    ids.emplace_back(static_cast<std::uint32_t>(r));
-  }
-  return ids;
-}
-
 }  // namespace
 
 CaptureWatch::CaptureWatch(const config::CaptureCheckFile& check,
                            const config::ExpandedScenario& scenario)
     : check_(check),
-      predators_(ids_of(scenario, check.predator.value)),
-      prey_(ids_of(scenario, check.prey.value)),
+      predators_(named_robots(scenario, check.predator.value)),
+      prey_(named_robots(scenario, check.prey.value)),
       closest_m_(std::numeric_limits<double>::infinity()),
       closest_before_m_(closest_m_) {}
 

@@ -7,17 +7,6 @@
 namespace rave::runtime {
 namespace {
 
-/// The robots that the name of a robot or of an entry means.
-std::vector<RobotId> robots_named(const config::ExpandedScenario& scenario,
-                                  const std::string& name) {
-  std::vector<RobotId> found;
-  for (std::uint32_t r = 0; r < scenario.robots.size(); ++r) {
-    const config::ExpandedRobot& robot = scenario.robots[r];
-    if (robot.name == name || *scenario.group_of(robot).name == name) found.emplace_back(r);
-  }
-  return found;
-}
-
 std::string listed(const std::vector<config::Located<std::string>>& names) {
   std::string text;
   for (const auto& name : names) text += (text.empty() ? "" : ", ") + *name;
@@ -33,7 +22,7 @@ std::vector<RobotId> robots_of(const config::ExpandedScenario& scenario,
                                const config::TouchesCheckFile& file) {
   std::vector<RobotId> robots;
   for (const auto& name : file.robots) {
-    for (const RobotId robot : robots_named(scenario, *name)) {
+    for (const RobotId robot : named_robots(scenario, *name)) {
       if (!contains(robots, robot)) robots.push_back(robot);
     }
   }
@@ -41,6 +30,14 @@ std::vector<RobotId> robots_of(const config::ExpandedScenario& scenario,
 }
 
 }  // namespace
+
+std::vector<RobotId> named_robots(const config::ExpandedScenario& scenario, std::string_view name) {
+  std::vector<RobotId> ids;
+  for (const std::size_t r : config::robots_named(scenario, name)) {
+    ids.emplace_back(static_cast<std::uint32_t>(r));
+  }
+  return ids;
+}
 
 GoalChecks::GoalChecks(const config::ExpandedScenario& scenario, const sim::EngineSpec& spec) {
   for (const config::TouchesCheckFile& file : scenario.scenario.checks.touches) {
@@ -54,7 +51,7 @@ GoalChecks::GoalChecks(const config::ExpandedScenario& scenario, const sim::Engi
     touches_.push_back(std::move(touches));
   }
   for (const config::ArrivalCheckFile& file : scenario.scenario.checks.arrivals) {
-    for (const RobotId robot : robots_named(scenario, *file.robot)) {
+    for (const RobotId robot : named_robots(scenario, *file.robot)) {
       arrivals_.push_back({file, robot, {}});
     }
   }
@@ -155,16 +152,19 @@ CheckResult arrival_result(const config::ArrivalCheckFile& file, const std::stri
   return result;
 }
 
+void not_evaluated(std::string_view reason, CheckResult& result) {
+  result.holds = false;
+  result.made = false;
+  result.text = fmt::format("not evaluated: {}", reason);
+}
+
 /// Marks a result as not evaluated if nothing is known of a robot that it needs.
 void note_lost(const std::vector<RobotId>& robots, const sim::EngineSpec& spec,
                const std::vector<std::uint8_t>& lost, CheckResult& result) {
   for (const RobotId robot : robots) {
     if (robot.value() >= lost.size() || lost[robot.value()] == 0) continue;
-    result.holds = false;
-    result.made = false;
-    result.text = fmt::format("not evaluated: nothing is known about `{}` here",
-                              spec.robots[robot.value()].name);
-    return;
+    const std::string& name = spec.robots[robot.value()].name;
+    return not_evaluated(fmt::format("nothing is known about `{}` here", name), result);
   }
 }
 
@@ -173,12 +173,11 @@ void note_lost(const std::vector<RobotId>& robots, const sim::EngineSpec& spec,
 void note_missing(const config::TouchesCheckFile& file, const std::vector<RobotId>& robots,
                   const std::vector<std::uint32_t>& silent, const sim::EngineSpec& spec,
                   const RunFacts& facts, CheckResult& result) {
-  const auto not_made = [&](RobotId robot, std::string reason) {
-    result.holds = false;
-    result.made = false;
-    result.text = fmt::format("not evaluated: {} of `{}` {}",
-                              file.sensor ? fmt::format("`{}`", **file.sensor) : "the place",
-                              spec.robots[robot.value()].name, reason);
+  const auto not_made = [&](RobotId robot, std::string_view reason) {
+    not_evaluated(
+        fmt::format("{} of `{}` {}", file.sensor ? fmt::format("`{}`", **file.sensor) : "the place",
+                    spec.robots[robot.value()].name, reason),
+        result);
   };
   for (const RobotId robot : robots) {
     if (file.sensor) {
@@ -193,11 +192,9 @@ void note_missing(const config::TouchesCheckFile& file, const std::vector<RobotI
 /// Marks a result as not evaluated if contacts are known only since a manager took over.
 void note_unknown(const RunFacts& facts, CheckResult& result) {
   if (facts.world_from == 0) return;
-  result.holds = false;
-  result.made = false;
-  result.text =
-      fmt::format("not evaluated: contacts before step {} are known only to the previous manager",
-                  facts.world_from);
+  not_evaluated(fmt::format("contacts before step {} are known only to the previous manager",
+                            facts.world_from),
+                result);
 }
 
 }  // namespace
@@ -229,7 +226,7 @@ std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
   }
   std::size_t next = 0;
   for (const config::ArrivalCheckFile& file : checks.arrivals) {
-    for (const RobotId robot : robots_named(scenario, *file.robot)) {
+    for (const RobotId robot : named_robots(scenario, *file.robot)) {
       const bool there = next < facts.goals.arrivals.size();
       results.push_back(arrival_result(file, spec.robots[robot.value()].name,
                                        there ? facts.goals.arrivals[next] : ArrivalFacts()));

@@ -96,6 +96,10 @@ double RunResults::done_s() const noexcept {
   return static_cast<double>(facts.steps) * spec.step.seconds();
 }
 
+double RunResults::time_s(const sim::Event& event) const noexcept {
+  return static_cast<double>(event.step) * spec.step.seconds();
+}
+
 std::size_t RunResults::real_robots() const {
   return static_cast<std::size_t>(std::count_if(
       spec.robots.begin(), spec.robots.end(),
@@ -130,9 +134,9 @@ RunOutcome judge(const RunResults& results) {
     // A program or driver that failed means that the robot did not do what the scenario asks, even
     // if all checks hold.
     if (!is_loss(event.kind)) continue;
-    outcome.problems.push_back(
-        fmt::format("robot `{}` at {:.2f} s: {}", spec.robots[event.robot.value()].name,
-                    static_cast<double>(event.step) * spec.step.seconds(), event.text));
+    outcome.problems.push_back(fmt::format("robot `{}` at {:.2f} s: {}",
+                                           spec.robots[event.robot.value()].name,
+                                           results.time_s(event), event.text));
   }
   for (const RobotFacts& robot : facts.robots) {
     if (robot.known || facts.steps == 0) continue;
@@ -141,17 +145,16 @@ RunOutcome judge(const RunResults& results) {
   }
   for (const sim::Event& event : facts.events) {
     if (event.kind != sim::EventKind::kChangeRefused) continue;
-    outcome.problems.push_back(fmt::format("the change at {:.2f} s was refused: {}",
-                                           static_cast<double>(event.step) * spec.step.seconds(),
-                                           event.text));
+    outcome.problems.push_back(
+        fmt::format("the change at {:.2f} s was refused: {}", results.time_s(event), event.text));
   }
   for (const sim::Event& event : facts.events) {
     // A refusal of a request by hand was reported to the person who made it.
     const bool scheduled = !sim::says_by_hand(event.text);
     if (event.kind != sim::EventKind::kHandOverRefused || !scheduled) continue;
-    outcome.problems.push_back(fmt::format(
-        "robot `{}` at {:.2f} s was not handed over: {}", spec.robots[event.robot.value()].name,
-        static_cast<double>(event.step) * spec.step.seconds(), event.text));
+    outcome.problems.push_back(fmt::format("robot `{}` at {:.2f} s was not handed over: {}",
+                                           spec.robots[event.robot.value()].name,
+                                           results.time_s(event), event.text));
   }
   // Fixed here: what follows are remarks and checks, which do not make a run incomplete.
   outcome.whole = outcome.problems.empty();

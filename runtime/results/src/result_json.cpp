@@ -6,10 +6,8 @@
 
 #include "rave/observe/event_words.hpp"
 #include "rave/results/capture_watch.hpp"
-#include "rave/results/lateness_report.hpp"
 #include "rave/results/outcome.hpp"
-#include "rave/results/radio_report.hpp"
-#include "rave/results/shadow_report.hpp"
+#include "rave/results/result_parts.hpp"
 #include "rave/results/sighting_check.hpp"
 
 namespace rave::runtime {
@@ -134,32 +132,10 @@ Json hosts_json(const RunResults& results) {
 
 Json events_json(const RunResults& results) {
   Json json = Json::object();
-  // A fixed list, so that each run has all keys, with 0 for what did not happen.
-  for (const auto kind : {sim::EventKind::kContact,
-                          sim::EventKind::kPinned,
-                          sim::EventKind::kPoseStale,
-                          sim::EventKind::kPoseBack,
-                          sim::EventKind::kProgramFailed,
-                          sim::EventKind::kDriverFailed,
-                          sim::EventKind::kDriverBack,
-                          sim::EventKind::kGuardSlowed,
-                          sim::EventKind::kGuardStopped,
-                          sim::EventKind::kStopped,
-                          sim::EventKind::kReleased,
-                          sim::EventKind::kArmed,
-                          sim::EventKind::kChanged,
-                          sim::EventKind::kChangeRefused,
-                          sim::EventKind::kObstacleAdded,
-                          sim::EventKind::kObstacleMoved,
-                          sim::EventKind::kObstacleRemoved,
-                          sim::EventKind::kCaptured,
-                          sim::EventKind::kHandedOver,
-                          sim::EventKind::kHandOverRefused,
-                          sim::EventKind::kShadowReset,
-                          sim::EventKind::kOrdered,
-                          sim::EventKind::kSaid,
-                          sim::EventKind::kPlaced,
-                          sim::EventKind::kLease}) {
+  // Each run has all keys, with 0 for what did not happen.
+  for (std::uint32_t number = 0; number < sim::kEventKindEnd; ++number) {
+    const auto kind = static_cast<sim::EventKind>(number);
+    if (to_string(kind) == "unknown") continue;
     std::string name(to_string(kind));
     // Keys of JSON without spaces are easier to use in queries.
     std::replace(name.begin(), name.end(), ' ', '_');
@@ -204,7 +180,7 @@ Json changes_json(const RunResults& results) {
         !is_of_obstacle(event.kind)) {
       continue;
     }
-    json.push_back({{"time_s", static_cast<double>(event.step) * spec.step.seconds()},
+    json.push_back({{"time_s", results.time_s(event)},
                     {"robot", event.robot.valid() ? Json(subject_of(spec, event)) : Json()},
                     {"made", event.kind != sim::EventKind::kChangeRefused},
                     {"what", event.text}});
@@ -222,7 +198,7 @@ void add_hand_overs(const RunResults& results, Json& json) {
   for (const sim::Event& event : results.facts.events) {
     const bool made = event.kind == sim::EventKind::kHandedOver;
     if (!made && event.kind != sim::EventKind::kHandOverRefused) continue;
-    json["hand_overs"].push_back({{"time_s", static_cast<double>(event.step) * spec.step.seconds()},
+    json["hand_overs"].push_back({{"time_s", results.time_s(event)},
                                   {"robot", subject_of(spec, event)},
                                   {"made", made},
                                   {"what", event.text}});
@@ -274,10 +250,7 @@ std::string result_json(const RunResults& results, const RunOutcome& outcome) {
   json["hits"] = results.facts.hits;
   json["closest"] = encounters_json(results);
   json["events"] = events_json(results);
-  if (has_radio(results.spec)) {
-    json["radio"] = radio_json(results.facts.radio);
-    json["radio"]["transmitters"] = transmitters_json(results.spec, results.facts.transmitters);
-  }
+  add_radio(results.spec, results.facts, json);
   json["guard"] = guard_counts(results);
   json["changes"] = changes_json(results);
   json["inputs_by_hand"] = results.facts.inputs_by_hand;

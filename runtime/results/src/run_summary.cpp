@@ -5,7 +5,7 @@
 #include "rave/base/names.hpp"
 #include "rave/base/table.hpp"
 #include "rave/results/outcome.hpp"
-#include "rave/results/radio_report.hpp"
+#include "rave/results/result_parts.hpp"
 #include "rave/results/sighting_check.hpp"
 
 namespace rave::runtime {

@@ -56,7 +56,6 @@ struct SharedResults::Impl {
   void note_step(const sim::WorldAuthority& authority);
   void note_take_over(const sim::WorldAuthority& authority, std::uint64_t from);
   Status add(const SharedHost& host, std::string bytes, std::vector<std::string>& added);
-  [[nodiscard]] HostShare share_of(const SharedHost& host) const;
   void fill_in_before(std::uint64_t steps);
   void take(const SharedHost& host, const std::vector<std::size_t>& robots, RunResults& results);
 
@@ -124,24 +123,12 @@ Status SharedResults::Impl::add(const SharedHost& host, std::string bytes,
   return {};
 }
 
-HostShare SharedResults::Impl::share_of(const SharedHost& host) const {
-  HostShare share;
-  share.name = host.name;
-  for (const auto& folder : host.folders) {
-    share.folders.push_back(folder.lexically_proximate(options.folder).generic_string());
-  }
-  share.offset_s = host.offset_s;
-  share.bound_s = host.bound_s;
-  share.heard = host.heard;
-  share.losses = host.losses;
-  return share;
-}
-
 void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::size_t>& robots,
                                RunResults& results) {
-  HostShare share = share_of(host);
+  HostShare share{host, {}, false};
   std::vector<std::string> added;
   for (const auto& folder : host.folders) {
+    share.folders.push_back(folder.lexically_proximate(options.folder).generic_string());
     auto text = read_file(folder / kFactsFile);
     if (!text && text.error().code == ErrorCode::kNotFound) continue;
     const Status status =

@@ -9,11 +9,6 @@
 
 namespace rave::runtime {
 
-/// The last commands to the actuators of the robot, in their order.
-struct ShadowWorld::Orders {
-  std::vector<Command> commands;
-};
-
 // The twin runs in a lock-step of two "hosts" within one thread: one has the twin, the other one
 // reports all robots of the run at their poses there. Robots of the run are of a type that is only
 // placed, so the twin is stopped by them and never moves them.
@@ -53,14 +48,16 @@ const ControllerOps* pass_ops(CommandKind kind) {
   return &kOps.front();
 }
 
-/// A program that executes the given orders; `Orders` differs for actuators and for poses.
-template <class Orders>
+/// The last commands to the actuators of the robot, in their order.
+using Orders = std::vector<Command>;
+
+/// A program that executes the given orders.
 class Obedient final : public sim::ProgramProcess {
  public:
   explicit Obedient(std::shared_ptr<const Orders> orders) : orders_(std::move(orders)) {}
   Status begin(const DecideItem& /*item*/) override { return {}; }
   Status end(const DecideItem& item) override {
-    std::copy(orders_->commands.begin(), orders_->commands.end(), item.commands);
+    std::ranges::copy(*orders_, item.commands);
     return {};
   }
 
@@ -77,7 +74,6 @@ CommandKind kind_for(const sim::RobotType& type, std::uint32_t actuator) {
 }
 
 /// Removes everything that decides from the twin: its commands are decided already.
-template <class Orders>
 void obey(std::shared_ptr<const Orders> orders, sim::RobotType& type) {
   std::vector<sim::ControllerSpec> controllers;
   for (std::uint32_t a = 0; a < type.actuators.size(); ++a) {
@@ -97,7 +93,7 @@ void obey(std::shared_ptr<const Orders> orders, sim::RobotType& type) {
   sim::ProgramSpec program;
   program.driver = "orders";
   program.isolate = [orders](const ProgramSetup&) -> Result<std::unique_ptr<sim::ProgramProcess>> {
-    return std::make_unique<Obedient<Orders>>(orders);
+    return std::make_unique<Obedient>(orders);
   };
   type.program = std::move(program);
 }
@@ -158,10 +154,9 @@ Result<std::unique_ptr<ShadowWorld>> ShadowWorld::create(const sim::Engine& engi
   std::unique_ptr<ShadowWorld> shadow(new ShadowWorld(robot, log));
   shadow->orders_ = std::make_shared<Orders>();
   for (std::uint32_t a = 0; a < simulated.actuators.size(); ++a) {
-    shadow->orders_->commands.push_back(standing(kind_for(simulated, a)));
+    shadow->orders_->push_back(standing(kind_for(simulated, a)));
   }
-  const std::shared_ptr<const Orders> orders = shadow->orders_;
-  obey(orders, simulated);
+  obey(shadow->orders_, simulated);
   std::vector<std::uint32_t> host_of(run.robots.size(), kOthers);
   host_of[robot.value()] = kOwn;
   RAVE_TRY_ASSIGN(shadow->authority_,
@@ -284,10 +279,10 @@ void ShadowWorld::put(const Pose2& X_WR) {
 
 void ShadowWorld::listen(const sim::Engine& engine, bool driven) {
   const sim::RobotType& type = engine_->spec().types[0];
-  for (std::uint32_t a = 0; a < orders_->commands.size(); ++a) {
+  for (std::uint32_t a = 0; a < orders_->size(); ++a) {
     const CommandKind kind = type.controllers[a].accepts;
     const Command told = driven ? engine.actuator_command(robot_, a) : Command{};
-    orders_->commands[a] = told.kind == kind ? told : standing(kind);
+    (*orders_)[a] = told.kind == kind ? told : standing(kind);
   }
 }
 

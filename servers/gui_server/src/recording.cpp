@@ -69,7 +69,6 @@ class Recording final : public Source {
   Status read_events(const record::RunInfo& run);
   Status read_chat();
   void note_flag(const record::RunEvent& event, double t_s);
-  [[nodiscard]] record::StringMap hybrids() const;
 
   record::McapReader reader_;
   RunAbout about_;
@@ -83,14 +82,6 @@ class Recording final : public Source {
   std::optional<MapBook> maps_;
   double longest_period_s_ = 0;
 };
-
-record::StringMap Recording::hybrids() const {
-  for (const record::MetadataInfo& metadata : reader_.metadata()) {
-    if (metadata.name != record::kHybridMetadata) continue;
-    if (auto entries = reader_.read_metadata(metadata)) return *std::move(entries);
-  }
-  return {};
-}
 
 Status Recording::read(const std::filesystem::path& file) {
   RAVE_TRY_ASSIGN(const record::RunInfo run, record::read_run_info(reader_));
@@ -128,7 +119,7 @@ Status Recording::read(const std::filesystem::path& file) {
   }
   RAVE_TRY_ASSIGN(bodies_, bodies_of(scenario));
   RAVE_TRY(history_.read(reader_, scenario, bodies_));
-  robots_ = robots_of(scenario, run, hybrids());
+  robots_ = robots_of(scenario, run, reader_.metadata_named(record::kHybridMetadata));
   // Without robots: their local maps are not in a recording.
   maps_.emplace("[]", bodies_);
   RAVE_TRY(read_chat());

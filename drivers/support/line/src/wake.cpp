@@ -35,6 +35,13 @@ void Wake::clear() noexcept {
   [[maybe_unused]] const auto got = ::read(fd_, &count, sizeof count);
 }
 
+void Wake::end(std::jthread& thread) noexcept {
+  if (!thread.joinable()) return;
+  thread.request_stop();
+  ring();
+  thread.join();
+}
+
 bool Wake::wait(std::chrono::milliseconds limit) const noexcept {
   const HostTime end = host_now() + limit;
   while (true) {

@@ -17,24 +17,6 @@ PoseTrack three() {
                     {600 * kMs, {2, 2, -kPi + 0.2}}});
 }
 
-TEST(PoseTrack, InterpolatesByTheShorterTurn) {
-  const PoseTrack track = three();
-  const auto pose = track.interpolate(150 * kMs);
-  ASSERT_TRUE(pose);
-  EXPECT_DOUBLE_EQ(pose->x, 0.5);
-  EXPECT_DOUBLE_EQ(pose->y, 1.0);
-  EXPECT_NEAR(pose->yaw, kPi, 1e-12);
-  EXPECT_NEAR(track.interpolate(175 * kMs)->yaw, -kPi + 0.05, 1e-12);
-  EXPECT_EQ(*track.interpolate(200 * kMs), (Pose2{1, 2, -kPi + 0.1}));
-}
-
-TEST(PoseTrack, HoldsTheLastPoseAndHasNoneBeforeTheFirst) {
-  const PoseTrack track = three();
-  EXPECT_EQ(track.interpolate(9'000 * kMs), (Pose2{2, 2, -kPi + 0.2}));
-  EXPECT_FALSE(track.interpolate(99 * kMs));
-  EXPECT_FALSE(PoseTrack().interpolate(0));
-}
-
 TEST(PoseTrack, FitsTheVelocityThroughJitter) {
   std::vector<PoseSample> samples;
   for (int i = 0; i < 100; ++i) {

@@ -71,9 +71,10 @@ TEST(Delivery, SightingsOfOneImageComeTogether) {
     const double number = robot.subject;
     const auto played =
         play_all<rave::Sighting>("utias_camera", {{"folder", "100-220"}, {"robot", number}});
-    ASSERT_EQ(played.size(), robot.sightings.group_count());
+    const auto images = images_of(robot);
+    ASSERT_EQ(played.size(), images.size());
     for (std::size_t i = 0; i < played.size(); ++i) {
-      const auto group = robot.sightings.group(i);
+      const auto& group = images[i];
       ASSERT_EQ(played[i].records.size(), group.size());
       EXPECT_EQ(played[i].stamp_ns, group.front().t_ns - data.start_ns);
       for (std::size_t k = 0; k < group.size(); ++k) {
@@ -111,14 +112,14 @@ TEST(Delivery, AWindowBeginsWithWhatHoldsAtItsStart) {
   const auto commands = play_all<VelocityReading>("utias_odometry", window);
   ASSERT_FALSE(commands.empty());
   EXPECT_EQ(commands[0].stamp_ns, 0);
-  const auto held = command_at(data.robot(3)->odometry, 150 * kSecond_ns);
+  const auto held =
+      held_at(std::span<const OdometrySample>(data.robot(3)->odometry), 150 * kSecond_ns);
   ASSERT_TRUE(held);
   EXPECT_EQ(commands[0].records[0].v_mps, held->v_mps);
   EXPECT_EQ(commands[0].records[0].w_radps, held->w_radps);
-  const SightingLog& log = data.robot(3)->sightings;
   std::size_t groups = 0;
-  for (std::size_t i = 0; i < log.group_count(); ++i) {
-    const std::int64_t t_ns = log.group(i).front().t_ns;
+  for (const auto& image : images_of(*data.robot(3))) {
+    const std::int64_t t_ns = image.front().t_ns;
     groups += t_ns >= 150 * kSecond_ns && t_ns <= 152'500 * kMillisecond_ns ? 1U : 0U;
   }
   EXPECT_GT(groups, 0U);

@@ -103,11 +103,10 @@ class McapReader {
   /// The content of an attachment; its checksum is verified.
   [[nodiscard]] Result<std::string> read_attachment(const AttachmentInfo& attachment) const;
   [[nodiscard]] Result<StringMap> read_metadata(const MetadataInfo& metadata) const;
+  /// The entries of the first readable metadata of this name; empty if there is none.
+  [[nodiscard]] StringMap metadata_named(std::string_view name) const;
   /// Reads the whole file and verifies every checksum and record. Continues after damage.
   [[nodiscard]] CheckedFile check() const;
-  /// Like check(), with the first truncation or damage as error. Parts without a checksum are
-  /// accepted.
-  [[nodiscard]] Status verify() const;
 
  private:
   explicit McapReader(std::shared_ptr<const RecordFile> file) noexcept;

@@ -69,6 +69,8 @@ struct Statistics {
   std::uint64_t message_count = 0;
   std::uint64_t start_ns = 0;
   std::uint64_t end_ns = 0;
+  std::uint16_t schema_count = 0;
+  std::uint32_t channel_count = 0;
   std::uint32_t chunk_count = 0;
   std::uint32_t attachment_count = 0;
   std::uint32_t metadata_count = 0;

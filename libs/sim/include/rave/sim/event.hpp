@@ -37,6 +37,8 @@ enum class EventKind : std::uint32_t {
   kPlaced = 36,           ///< A simulated robot was placed elsewhere.
   kLease = 37,  ///< The holder of a command lease changed; made by the host, not part of the hash.
 };
+/// All kinds are below this number; to_string() of one that does not exist is "unknown".
+inline constexpr std::uint32_t kEventKindEnd = static_cast<std::uint32_t>(EventKind::kLease) + 1;
 [[nodiscard]] std::string_view to_string(EventKind kind) noexcept;
 
 /// Whether events of this kind concern an obstacle instead of a robot.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
+#include <map>
+#include <utility>
 
 #include "rave/record/run_record.hpp"
 #include "rave/sim/engine.hpp"
@@ -13,7 +14,7 @@ namespace rave::runtime {
 /// for runs without hybrid sensors.
 class PartKeeper {
  public:
-  explicit PartKeeper(const sim::EngineSpec& spec);
+  explicit PartKeeper(const sim::EngineSpec& spec) { follow(spec); }
 
   /// The hybrid sensors, `robot/sensor` to a description of the parts (metadata `rave.hybrid`).
   /// `all`: include robots that run elsewhere.
@@ -26,12 +27,11 @@ class PartKeeper {
 
  private:
   struct Hybrid {
-    RobotId robot;
-    std::uint32_t sensor = 0;
     ReadingKind kind = ReadingKind::kNone;
     std::uint32_t seen = 0;  ///< Sequence of the last recorded reading.
   };
-  std::vector<Hybrid> hybrids_;
+  /// By robot and sensor; also those that are not hybrid at present.
+  std::map<std::pair<RobotId, std::uint32_t>, Hybrid> hybrids_;
 };
 
 }  // namespace rave::runtime

@@ -20,6 +20,10 @@ struct CheckResult {
   bool made = true;
 };
 
+/// The ids of config::robots_named().
+[[nodiscard]] std::vector<RobotId> named_robots(const config::ExpandedScenario& scenario,
+                                                std::string_view name);
+
 /// The checks of touches and arrivals of a scenario.
 class GoalChecks final : public RunObserver {
  public:

@@ -14,15 +14,10 @@
 namespace rave::runtime {
 
 /// The origin of the facts of one host.
-struct HostShare {
-  std::string name;
+struct HostShare : HostState {
   /// One per start of the host; empty: it runs on another machine.
   std::vector<std::string> folders;
-  bool found = false;              ///< Its facts were found.
-  std::optional<double> offset_s;  ///< Clock offset, in runs in real time.
-  std::optional<double> bound_s;   ///< Bound of the error of offset_s.
-  std::optional<bool> heard;       ///< Whether it was ever present, in runs in real time.
-  std::optional<std::uint64_t> losses;
+  bool found = false;  ///< Its facts were found.
 };
 
 /// All inputs of the results of a run after its end.
@@ -46,6 +41,7 @@ struct RunResults {
   [[nodiscard]] bool any_lost() const noexcept;
   /// Simulated time of the run.
   [[nodiscard]] double done_s() const noexcept;
+  [[nodiscard]] double time_s(const sim::Event& event) const noexcept;
   [[nodiscard]] std::size_t real_robots() const;
   [[nodiscard]] std::size_t count(sim::EventKind kind) const;
 };

@@ -21,19 +21,22 @@ namespace rave::runtime {
 
 struct RunRequest;
 
-/// What is known of one host after a run with several.
-struct SharedHost {
+/// A host at the end of a run with several; all but the name in real time only.
+struct HostState {
   std::string name;
+  std::optional<double> offset_s;  ///< Offset of its clock relative to the manager's.
+  std::optional<double> bound_s;   ///< Bound of the error of offset_s.
+  std::optional<bool> heard;       ///< It was present at some time.
+  std::optional<std::uint64_t> losses;
+};
+
+/// What is known of one host after a run with several.
+struct SharedHost : HostState {
   /// Its result folders, one per start; empty: it runs on another machine.
   std::vector<std::filesystem::path> folders;
   /// The facts that its processes have sent: the same bytes as in its folders.
   std::vector<std::vector<std::byte>> results;
   bool awaited = false;  ///< The run has waited for its facts.
-  // In real time:
-  std::optional<double> offset_s;  ///< Offset of its clock relative to the manager's.
-  std::optional<double> bound_s;
-  std::optional<bool> heard;  ///< It was present at some time.
-  std::optional<std::uint64_t> losses;
 };
 
 /// Obstacle changes by hand in real time, and their delay until all hosts had them.

@@ -39,8 +39,6 @@ class ShadowWorld {
   [[nodiscard]] sim::Engine& engine() noexcept { return *engine_; }
 
  private:
-  struct Orders;
-
   ShadowWorld(RobotId robot, LogSink* log) : robot_(robot), log_(log) {}
   Status begin_at(std::uint64_t step);
   void mirror_obstacles(const sim::Engine& engine, std::span<const sim::Event> events);
@@ -50,7 +48,9 @@ class ShadowWorld {
 
   RobotId robot_;
   LogSink* log_;
-  std::shared_ptr<Orders> orders_;  ///< Shared with the program of the twin, which reads them.
+  /// The last commands to the robot's actuators; shared with the program of the twin, which reads
+  /// them.
+  std::shared_ptr<std::vector<Command>> orders_;
   std::unique_ptr<sim::Engine> engine_;
   std::unique_ptr<sim::WorldAuthority> authority_;
   sim::HostReport own_;

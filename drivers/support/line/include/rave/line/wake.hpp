@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <thread>
 
 #include "rave/base/result.hpp"
 
@@ -20,6 +21,8 @@ class Wake {
   [[nodiscard]] Status open();
   void ring() noexcept;
   void clear() noexcept;
+  /// Ends a thread that waits for this bell: asks it to stop, rings and joins it, if it runs.
+  void end(std::jthread& thread) noexcept;
   /// Waits for the bell; false: it did not ring within `limit`.
   [[nodiscard]] bool wait(std::chrono::milliseconds limit) const noexcept;
   /// Descriptor for poll(); readable after ring() until clear().

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rave/results/radio_report.hpp"
+#include "rave/results/result_parts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace rave::runtime {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-}  // namespace
 
 Json transmitters_json(const sim::EngineSpec& spec,
                        const std::vector<InstrumentFacts>& transmitters) {
@@ -27,12 +26,6 @@ Json transmitters_json(const sim::EngineSpec& spec,
   return all;
 }
 
-bool has_radio(const sim::EngineSpec& spec) {
-  return std::any_of(spec.robots.begin(), spec.robots.end(), [&](const sim::RobotSpec& robot) {
-    return !spec.types[robot.type].communicators.empty();
-  });
-}
-
 Json radio_json(const sim::RadioCounts& c) {
   Json json = {{"offered", c.offered},
                {"sent", c.sent},
@@ -47,6 +40,40 @@ Json radio_json(const sim::RadioCounts& c) {
                           {"garbled", c.garbled},
                           {"overrun", c.overrun}};
   return json;
+}
+
+}  // namespace
+
+Json lateness_json(const LatenessFacts& facts) {
+  // A run without pace has no deadlines, which is not the same as none missed.
+  if (facts.deadlines == 0) return nullptr;
+  return {{"deadlines", facts.deadlines},
+          {"missed", facts.missed},
+          {"missed_pct", std::round(facts.missed_pct() * 1e3) / 1e3},
+          {"worst_s", static_cast<double>(facts.worst_ns) * 1e-9},
+          {"robots_stopped", facts.stops},
+          {"blame", facts.blame}};
+}
+
+Json shadows_json(const std::vector<ShadowFacts>& shadows) {
+  Json all = Json::array();
+  for (const ShadowFacts& shadow : shadows) {
+    Json report = Json::parse(shadow.report, nullptr, false);
+    if (report.is_object()) all.push_back(std::move(report));
+  }
+  return all;
+}
+
+bool has_radio(const sim::EngineSpec& spec) {
+  return std::any_of(spec.robots.begin(), spec.robots.end(), [&](const sim::RobotSpec& robot) {
+    return !spec.types[robot.type].communicators.empty();
+  });
+}
+
+void add_radio(const sim::EngineSpec& spec, const RunFacts& facts, Json& json) {
+  if (!has_radio(spec)) return;
+  json["radio"] = radio_json(facts.radio);
+  json["radio"]["transmitters"] = transmitters_json(spec, facts.transmitters);
 }
 
 std::string radio_line(const sim::RadioCounts& c) {

@@ -63,21 +63,32 @@ function(rave_unity target)
   if(NOT RAVE_UNITY OR count LESS 2)
     return()
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
   # A class that its own source keeps to itself looks to g++ as if a header declared it.
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
-# rave_library(NAME [DEPS ...] [PRIVATE_DEPS ...] [SOURCES ...] [SEPARATE])
+# rave_cold(target): code that runs once, or when a person asks for something. -O1 takes a sixth less
+# time to compile than -O2.
+function(rave_cold target)
+  if(NOT RAVE_SANITIZE)
+    target_compile_options(${target} PRIVATE -O1)
+  endif()
+endfunction()
+
+# rave_library(NAME [DEPS ...] [PRIVATE_DEPS ...] [SOURCES ...] [SEPARATE] [COLD])
 # The static library rave_NAME (alias rave::NAME) of the calling folder: public headers in
 # include/rave/NAME, sources in src/, unit tests in tests/. SEPARATE for what plug-ins link: they get
 # the objects that they use and no more, so that a robot program does not need the packages of the
-# rest.
+# rest. COLD: see rave_cold().
 function(rave_library name)
-  cmake_parse_arguments(ARG "SEPARATE" "" "DEPS;PRIVATE_DEPS;SOURCES" ${ARGN})
+  cmake_parse_arguments(ARG "SEPARATE;COLD" "" "DEPS;PRIVATE_DEPS;SOURCES" ${ARGN})
   if(ARG_SOURCES)
     add_library(rave_${name} STATIC ${ARG_SOURCES})
+    if(ARG_COLD)
+      rave_cold(rave_${name})
+    endif()
     if(NOT ARG_SEPARATE OR RAVE_UNITY STREQUAL "ALL")
       rave_unity(rave_${name})
     endif()

@@ -16,8 +16,6 @@
 namespace rave::cli {
 namespace {
 
-using What = EditCommand::What;
-
 /// The numbers in a word, between marks; none if it is anything else.
 std::vector<double> numbers_in(std::string_view word, char mark) {
   std::vector<double> numbers;
@@ -95,11 +93,11 @@ Result<config::ObstacleFile> obstacle_of(const EditCommand& options) {
 
 Result<control::Request> request_of(const EditCommand& options) {
   using Kind = runtime::RunRequest::Kind;
-  if (options.what == What::kList) return control::request_of({Kind::kList, ""});
+  if (options.what == EditCommand::What::kList) return control::request_of({Kind::kList, ""});
   config::ObstacleEdit edit;
-  if (options.what == What::kRemove) {
+  if (options.what == EditCommand::What::kRemove) {
     edit.remove_obstacle = options.name;
-  } else if (options.what == What::kMove) {
+  } else if (options.what == EditCommand::What::kMove) {
     edit.move_obstacle.emplace().name = options.name;
     RAVE_TRY(take_place(options, *edit.move_obstacle));
   } else {
@@ -119,7 +117,7 @@ Result<int> edit_world(const EditCommand& options) {
   RAVE_TRY_ASSIGN(const auto answer, run.ask(request));
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - asked;
   if (!answer.good) return refused(run, answer.text);
-  const std::string done = options.what == What::kList
+  const std::string done = options.what == EditCommand::What::kList
                                ? ""
                                : fmt::format(" ({:.1f} ms after the request)", took.count());
   put(stdout, fmt::format("{}: {}{}\n", run.name(), answer.text, done));

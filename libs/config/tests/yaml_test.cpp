@@ -6,7 +6,7 @@
 namespace rave::config {
 namespace {
 
-RawNode parse(std::string_view text) {
+RawNode tree_of(std::string_view text) {
   Diagnostics diagnostics;
   auto node = parse_yaml(text, "t.yaml", diagnostics);
   EXPECT_TRUE(diagnostics.ok()) << (diagnostics.ok() ? "" : diagnostics.joined().text());
@@ -14,7 +14,7 @@ RawNode parse(std::string_view text) {
 }
 
 TEST(Yaml, PlacesAreThoseOfTheFile) {
-  const RawNode node = parse("a: 1\nb:\n  - x\n  - {c: 2}\n");
+  const RawNode node = tree_of("a: 1\nb:\n  - x\n  - {c: 2}\n");
   EXPECT_EQ(node.find("a")->where().text(), "t.yaml:1:4");
   EXPECT_EQ(node.key_where(1).text(), "t.yaml:2:1");
   EXPECT_EQ(node.find("b")->child(0).where().text(), "t.yaml:3:5");
@@ -22,13 +22,13 @@ TEST(Yaml, PlacesAreThoseOfTheFile) {
 }
 
 TEST(Yaml, AnEmptyValueStandsAtItsKey) {
-  const RawNode node = parse("a:\n\n\nb: 1\n");
+  const RawNode node = tree_of("a:\n\n\nb: 1\n");
   EXPECT_TRUE(node.find("a")->is_null());
   EXPECT_EQ(node.find("a")->where().text(), "t.yaml:1:1");
 }
 
 TEST(Yaml, AliasesAreExpanded) {
-  const RawNode node = parse("a: &x {n: [1, 2]}\nb: *x\n");
+  const RawNode node = tree_of("a: &x {n: [1, 2]}\nb: *x\n");
   EXPECT_EQ(*node.find("a"), *node.find("b"));
   EXPECT_EQ(node.find("b")->find("n")->size(), 2U);
 }
@@ -36,22 +36,22 @@ TEST(Yaml, AliasesAreExpanded) {
 TEST(Yaml, TheWordsOfYaml11AreText) {
   for (const char* word :
        {"yes", "no", "on", "off", "y", "True", "010", "0x1F", "1_000", "12:30"}) {
-    const RawNode node = parse(std::string("a: ") + word);
+    const RawNode node = tree_of(std::string("a: ") + word);
     EXPECT_EQ(node.find("a")->as_text(), word);
   }
 }
 
 TEST(Yaml, EscapesGiveTextThatReadsBack) {
-  const RawNode node = parse("a: \"\\_é\\_\\N1\\L\\P\\xFF\\u00e9\\U0001F916\"\n");
+  const RawNode node = tree_of("a: \"\\_é\\_\\N1\\L\\P\\xFF\\u00e9\\U0001F916\"\n");
   EXPECT_EQ(node.find("a")->as_text(),
             "\u00A0\u00E9\u00A0\xC2\x85"
             "1\u2028\u2029\u00FF\u00E9\U0001F916");
-  EXPECT_EQ(parse(to_yaml(node)), node) << to_yaml(node);
+  EXPECT_EQ(tree_of(to_yaml(node)), node) << to_yaml(node);
 }
 
 TEST(Yaml, AQuoteIsClosedWhateverStandsInIt) {
   // What the parser puts behind a file to find that out.
-  const RawNode node = parse("a: \"#end-of-file-2f6c1d\"\n");
+  const RawNode node = tree_of("a: \"#end-of-file-2f6c1d\"\n");
   EXPECT_EQ(node.find("a")->as_text(), "#end-of-file-2f6c1d");
 }
 
@@ -64,15 +64,15 @@ TEST(Yaml, WrittenTextIsQuotedWhereItMustBe) {
   EXPECT_EQ(to_yaml(node),
             "k0: plain\nk1: \"a b\"\nk2: \"yes\"\nk3: \"3\"\nk4: \"\"\nk5: \"null\"\n"
             "k6: \"a: b\"\nk7: \"#x\"\nk8: \"x\\ny\"\nk9: \"ü\"\nk10: \"-\"\n");
-  EXPECT_EQ(parse(to_yaml(node)), node);
+  EXPECT_EQ(tree_of(to_yaml(node)), node);
 }
 
 TEST(Yaml, NestedBlocksReadBack) {
-  const RawNode node = parse(
+  const RawNode node = tree_of(
       "a:\n  - b: {c: 1, d: [1, {e: 2}]}\n    f: []\n  -\n    - {g: 3}\n    - [x, \"4\"]\n  - ~\n");
   const std::string text = to_yaml(node);
-  EXPECT_EQ(parse(text), node) << text;
-  EXPECT_EQ(to_yaml(parse(text)), text);
+  EXPECT_EQ(tree_of(text), node) << text;
+  EXPECT_EQ(to_yaml(tree_of(text)), text);
 }
 
 TEST(Yaml, CommentsStandBehindTheLineOrAboveIt) {
@@ -83,7 +83,7 @@ TEST(Yaml, CommentsStandBehindTheLineOrAboveIt) {
 }
 
 TEST(Yaml, JsonIsOrderedAndIndented) {
-  const RawNode node = parse("z: 1.50\na: [true, .inf, \"3\", 18446744073709551615]\nm: {}\n");
+  const RawNode node = tree_of("z: 1.50\na: [true, .inf, \"3\", 18446744073709551615]\nm: {}\n");
   EXPECT_EQ(to_json(node),
             "{\n  \"z\": 1.5,\n  \"a\": [\n    true,\n    null,\n    \"3\",\n"
             "    18446744073709551615\n  ],\n  \"m\": {}\n}\n");

@@ -15,7 +15,7 @@ namespace rave::report {
 namespace {
 
 constexpr std::size_t kBarWidth = 16;
-constexpr std::string_view kBetween = "  ";
+constexpr std::string_view kGap = "  ";
 
 /// Eighths of a column, so that slow progress is visible.
 std::string bar_of(double fraction) {
@@ -49,7 +49,7 @@ std::string joined(const std::vector<Part>& parts, int lowest_priority) {
   std::string line;
   for (const Part& part : parts) {
     if (part.priority > lowest_priority || part.text.empty()) continue;
-    if (!line.empty()) line += kBetween;
+    if (!line.empty()) line += kGap;
     line += part.text;
   }
   return line;
@@ -78,9 +78,9 @@ std::string format_progress(const Progress& progress, std::size_t width) {
   const std::size_t used = columns_of(line);
   // Fewer columns would show little more than the ellipsis.
   constexpr std::size_t kLeastText = 6;
-  if (priority == 3 && !text.empty() && used + kBetween.size() + kLeastText <= width) {
-    line += kBetween;
-    line += clip_to_columns(text, width - used - kBetween.size());
+  if (priority == 3 && !text.empty() && used + kGap.size() + kLeastText <= width) {
+    line += kGap;
+    line += clip_to_columns(text, width - used - kGap.size());
   }
   // Padded, so that a shorter line covers the one before.
   return line + std::string(width - columns_of(line), ' ');

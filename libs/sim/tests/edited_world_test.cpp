@@ -166,12 +166,12 @@ TEST(EditedWorld, RangesAreThoseOfAWorldMadeAnew) {
       ListedFans fans(*scene.live, fan, lists, places, listed_scratch, block);
       for (std::uint32_t r = 0; r < kEditedRobots; ++r) {
         const BodyId own = anew.body_of(RobotId(r));
-        Readings kept, live, fresh;
-        fans.read(r, kept.ranges_m, kept.bodies);
+        Readings listed, live, fresh;
+        fans.read(r, listed.ranges_m, listed.bodies);
         cast_fan(*scene.live, fan, places[r], 0.2, own, scratch, live.ranges_m, live.bodies);
         cast_fan(anew, fan, places[r], 0.2, own, scratch, fresh.ranges_m, fresh.bodies);
         ASSERT_EQ(live, fresh) << "world " << number << ", change " << k << ", robot " << r;
-        ASSERT_EQ(kept, fresh) << "world " << number << ", change " << k << ", robot " << r;
+        ASSERT_EQ(listed, fresh) << "world " << number << ", change " << k << ", robot " << r;
       }
     }
   }

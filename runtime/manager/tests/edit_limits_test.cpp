@@ -8,7 +8,7 @@
 namespace rave::manager {
 namespace {
 
-using Kind = sim::ObstacleChange::Kind;
+using Change = sim::ObstacleChange::Kind;
 using std::chrono::milliseconds;
 
 /// An obstacle of so many pieces.
@@ -48,7 +48,7 @@ TEST(EditLimits, InAllNotMoreThanOneMessageHolds) {
   EXPECT_NE(refused.error().message.find("were added or changed for hosts that join late"),
             std::string::npos);
   sim::ObstacleChange gone;
-  gone.kind = Kind::kRemove;
+  gone.kind = Change::kRemove;
   gone.name = "crate";
   gone.id = BodyId(3);
   EXPECT_TRUE(limits.take(gone, now)) << "there is room for one that goes";
@@ -58,7 +58,7 @@ TEST(EditLimits, AnObstacleThatMovesAThousandTimesCountsOnce) {
   EditLimits limits;
   limits.made(crate(7));
   sim::ObstacleChange move = crate(7);
-  move.kind = Kind::kMove;
+  move.kind = Change::kMove;
   for (int i = 0; i < 100'000; ++i) limits.made(move);
   EXPECT_TRUE(limits.take(crate(8), EditLimits::Clock::now()));
 }

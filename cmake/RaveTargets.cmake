@@ -23,6 +23,8 @@ target_compile_options(rave_build_flags INTERFACE
   $<$<BOOL:${RAVE_WERROR}>:-Werror>
   # A plug-in with a symbol of that kind is never unloaded.
   $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>
+  # g++ collects garbage only above a gigabyte (in KB): a seventh less time, a third more memory.
+  "$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-heapsize=1048576>"
   -ffile-prefix-map=${CMAKE_SOURCE_DIR}/=
   # ccache with a base folder (see tools/lib/build.sh) hands the compiler relative paths.
   -ffile-prefix-map=${rave_source_from_build}=)

@@ -9,8 +9,10 @@ here="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
 root="$(mktemp -d)"
 trap 'rm -rf "$root"' EXIT
 build="$root/build/release"
-mkdir -p "$root/web" "$build/web" "$root/bin"
+mkdir -p "$root/web/protocol" "$root/schemas" "$build/web" "$root/bin" "$root/tools"
 cp "$here/web/build.sh" "$root/web/"
+cp "$here/tools/gui_types.py" "$root/tools/"
+cp -r "$here/schemas/gui" "$root/schemas/"
 echo "{}" >"$root/web/package-lock.json"
 cat >"$root/bin/npm" <<'SH'
 #!/bin/sh

@@ -12,7 +12,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PAGE = "docs/reference/result.md"
-SOURCES = ("result_json.cpp", "radio_report.cpp", "lateness_report.cpp", "shadows.cpp",
+SOURCES = ("result_json.cpp", "result_parts.cpp", "shadows.cpp",
            "host_run.cpp", "live_host_run.cpp")
 KEY = re.compile(r'\bjson(?:\["[a-z_]+"\])*\["([a-z_0-9]+)"\]|\bentry\["([a-z_0-9]+)"\]|'
                  r'\{\s*"([a-z_0-9]+)",\s')

@@ -7,8 +7,7 @@ namespace rave {
 namespace {
 
 TEST(Markup, TextStaysText) {
-  EXPECT_EQ(escaped_markup("a < b & \"c\" > 'd'"),
-            "a &lt; b &amp; &quot;c&quot; &gt; &#39;d&#39;");
+  EXPECT_EQ(escaped_markup("a < b & \"c\" > 'd'"), "a &lt; b &amp; &quot;c&quot; &gt; &#39;d&#39;");
   EXPECT_EQ(escaped_markup("ä·"), "ä·");
   EXPECT_EQ(escaped_markup(""), "");
 }

@@ -7,6 +7,7 @@
 // Clocks of this machine, for code that is not on the stepped path. Any thread.
 namespace rave {
 
+/// Nanoseconds of a second.
 inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 /// The time of day: nanoseconds since 1970, UTC. It may be set forwards and back.

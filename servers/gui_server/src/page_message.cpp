@@ -5,6 +5,7 @@
 
 #include "command_message.hpp"
 #include "members.hpp"
+#include "rave/base/number.hpp"
 #include "rave/direct_line/order_members.hpp"
 #include "rave/direct_line/ticket.hpp"
 
@@ -216,9 +217,23 @@ Result<PageMessage> message_of(std::string_view type, Members& members) {
   return fail(ErrorCode::kParse, "unknown type of message");
 }
 
+/// An acknowledgement as pages write it. Nearly all messages are such; other forms of the same JSON
+/// are read as all else is.
+std::optional<AckMessage> plain_ack(std::string_view text) {
+  constexpr std::string_view kBegin = R"({"type":"ack","sequence":)";
+  if (!text.starts_with(kBegin) || !text.ends_with('}')) return std::nullopt;
+  text.remove_prefix(kBegin.size());
+  text.remove_suffix(1);
+  const auto sequence = number_of<std::uint32_t>(text);
+  // JSON has no number with a zero before it.
+  if (!sequence || (text.front() == '0' && text.size() > 1)) return std::nullopt;
+  return AckMessage{*sequence};
+}
+
 }  // namespace
 
 Result<PageMessage> parse_page_message(std::string_view text) {
+  if (const auto ack = plain_ack(text)) return *ack;
   // Without exceptions: a text that is not JSON, or a number that overflows, gives a discarded
   // value, which is not an object.
   const PageJson json = PageJson::parse(text, nullptr, false);

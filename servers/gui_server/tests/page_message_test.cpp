@@ -23,6 +23,16 @@ TEST(PageMessage, LooksAreReadAndSortedOnce) {
   EXPECT_TRUE(look.variances.empty());
 }
 
+TEST(PageMessage, AcknowledgementsAreReadAlikeInEveryForm) {
+  for (const char* const text :
+       {R"({"type":"ack","sequence":4294967295})", R"({"sequence":4294967295,"type":"ack"})",
+        R"( {"type": "ack", "sequence": 4294967295} )"}) {
+    const auto message = parse_page_message(text);
+    ASSERT_TRUE(message) << message.error().text();
+    EXPECT_EQ(std::get<AckMessage>(*message).sequence, 4294967295U) << text;
+  }
+}
+
 TEST(PageMessage, RightsAreSetOfARoleOrAUser) {
   const auto role = parse_page_message(
       R"({"type":"set_right","role":"observer","class":"readings","reach":["green"]})");
@@ -184,6 +194,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{R"({"type":"ack","sequence":1.5})", "whole number"},
         Refused{R"({"type":"ack","sequence":4294967296})", "whole number"},
         Refused{R"({"type":"ack","sequence":1,"more":2})", "unknown members"},
+        Refused{R"({"type":"ack","sequence":01})", "expected a JSON object"},
+        Refused{R"({"type":"ack","sequence":})", "expected a JSON object"},
         Refused{R"({"type":"transport","do":"fly"})", "expected play"},
         Refused{R"({"type":"transport","do":"seek"})", "`value` is missing"},
         Refused{R"({"type":"transport","do":"seek","value":"1"})", "finite number"},

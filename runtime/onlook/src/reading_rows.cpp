@@ -72,7 +72,10 @@ void add_record(ReadingKind kind, std::span<const std::byte> records, std::size_
 }  // namespace
 
 std::vector<std::string> fields_of(ReadingKind kind) {
-  const auto& fields = kFields.at(static_cast<std::size_t>(kind));
+  const auto index = static_cast<std::size_t>(kind);
+  // A recording of a later version may have kinds that are unknown here.
+  if (index >= kFields.size()) return {};
+  const auto& fields = kFields[index];
   return {fields.begin(), fields.begin() + field_count(kind)};
 }
 

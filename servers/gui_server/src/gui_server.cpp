@@ -24,8 +24,8 @@ namespace {
 
 /// How often pages of a recording are served.
 constexpr auto kTick = std::chrono::milliseconds(16);
-/// The same of a run whose bell does not ring meanwhile. It rings 30 times a second.
-constexpr auto kSilence = std::chrono::milliseconds(40);
+/// After so long, some beats of kTick, also those of a run whose bell has not rung.
+constexpr auto kSilence = std::chrono::milliseconds(32);
 constexpr auto kCheck = std::chrono::milliseconds(500);
 constexpr int kPortsToTry = 20;
 constexpr std::uint16_t kNotSignedIn = 4401;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live_feed.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "rave/onlook/command_row.hpp"
@@ -20,8 +21,10 @@ constexpr int kLateFactor = 10;
 constexpr std::size_t kMostEvents = 100;
 
 LiveFeed::Clock::duration interval_of(double max_hz) {
-  return std::chrono::duration_cast<LiveFeed::Clock::duration>(
-      std::chrono::duration<double>(1 / max_hz));
+  if (max_hz <= 0) return kUnwatchedInterval;
+  const std::chrono::duration<double> asked(1 / max_hz);
+  // Pages that look at no poses may need the readings of a picture.
+  return std::min(std::chrono::duration_cast<LiveFeed::Clock::duration>(asked), kUnwatchedInterval);
 }
 
 void put_reading(LivePicture& picture, const LookedAt& looked, std::uint8_t part, ReadingKind kind,
@@ -62,9 +65,8 @@ void LiveFeed::after_step(const runtime::StepView& step) {
   take_news(step);
   if (!maps_.empty()) maps_.after_step(step.engine);
   const auto now = Clock::now();
-  const double max_hz = box_->max_hz.load(std::memory_order_relaxed);
   const int slower = step.late ? kLateFactor : 1;
-  const auto interval = slower * (max_hz > 0 ? interval_of(max_hz) : kUnwatchedInterval);
+  const auto interval = slower * interval_of(box_->max_hz.load(std::memory_order_relaxed));
   const auto since = now - drawn_;
   if (since < interval) return;
   // Steps seldom end when a picture is due: what one comes late, the next comes earlier.

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "rave/base/file.hpp"
+#include "rave/onlook/reading_rows.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -121,6 +122,14 @@ TEST(Frames, AreThoseThatThePageIsTestedWith) {
   const auto kept = read_file(RAVE_FRAMES);
   ASSERT_TRUE(kept) << kept.error().text();
   EXPECT_EQ(*kept, text);
+}
+
+/// As in a recording of a later version.
+TEST(Frames, AReadingOfAnUnknownKindHasNoFields) {
+  const auto unknown = static_cast<ReadingKind>(200);
+  EXPECT_EQ(onlook::field_count(unknown), 0U);
+  EXPECT_TRUE(onlook::fields_of(unknown).empty());
+  EXPECT_FALSE(onlook::fields_of(ReadingKind::kRanges).empty());
 }
 
 TEST(Frames, TakeFourteenBytesARobot) {

@@ -5,6 +5,7 @@
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 
+#include <algorithm>
 #include <array>
 
 #include "rave/base/control_characters.hpp"
@@ -19,7 +20,8 @@ constexpr std::size_t kPlainWidth = 120;
 spdlog::level::level_enum level_of(LogLevel level) noexcept {
   constexpr std::array kLevels = {spdlog::level::debug, spdlog::level::info, spdlog::level::warn,
                                   spdlog::level::err};
-  return kLevels[static_cast<std::size_t>(level)];
+  // The level of a message is what a plug-in says.
+  return kLevels[std::min(static_cast<std::size_t>(level), kLevels.size() - 1)];
 }
 
 /// No message may move the cursor or begin a line of its own.

@@ -35,6 +35,8 @@ try {
     servers.push(run);
     await page.goto(run.link);
     await until(page, `${newest} != null && [...${newest}.flags].every((flags) => flags & 1)`, 60000);
+    // Rights that were changed are kept by the name of the run.
+    assert.equal(await page.evaluate(`${app}.model.hello.run.name`), 'flock');
     const before = await page.evaluate(`${newest}.time_s`);
     await until(page, `${newest}.time_s > ${before} + 1`);
     await until(page, `${app}.model.hosts.filter((host) => host.state === 'here').length === 4`);

@@ -61,5 +61,4 @@ void EventLog::write(LogLevel level, std::string_view source, std::string_view t
   log_->write(level, source, line);
 }
 
-// A budget that refills by a line per second: other processes must not be able to fill the log.
 }  // namespace rave::bus

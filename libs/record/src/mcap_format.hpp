@@ -111,7 +111,10 @@ template <class Info>
 
 /// Reads opcode and length of a record; false unless it has this opcode and fills the bytes.
 [[nodiscard]] inline bool begins_record(ByteReader& reader, std::uint8_t code) {
-  return reader.get<std::uint8_t>() == code && reader.get<std::uint64_t>() == reader.rest();
+  const bool is_it = reader.get<std::uint8_t>() == code;
+  // Read before the rest is asked for.
+  const auto length = reader.get<std::uint64_t>();
+  return is_it && length == reader.rest();
 }
 
 }  // namespace rave::record

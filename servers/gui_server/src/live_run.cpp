@@ -18,6 +18,7 @@ struct LiveRun::Impl {
   Status begin(const runtime::RunView& run) {
     RAVE_TRY_ASSIGN(auto start,
                     LiveSource::Start::of(scenario, run.info, run.hybrids, run.engine.spec()));
+    start.about.started = run.info.started;
     start.about.lock_step = !run.live;
     // The server is in the process of the host: there is no shorter way.
     start.about.relay = true;

@@ -101,8 +101,7 @@ Result<LiveSource::Start> LiveSource::Start::of(const config::ExpandedScenario& 
                                                 const sim::EngineSpec& spec) {
   Start start;
   start.about.live = true;
-  start.about.name = run.scenario;
-  start.about.started = run.started;
+  start.about.name = scenario.scenario.name.value;
   start.about.step_s = run.step_s;
   start.about.seed = run.seed;
   start.about.duration_s = scenario.scenario.duration_s;

@@ -36,6 +36,7 @@ class EventLog {
 
  private:
   LogSink* log_;
+  /// Refills by a line a second: other processes must not be able to fill the log.
   Budget budget_{1, double{kAtOnce}};
   std::uint64_t left_out_ = 0;
   std::map<std::uint64_t, std::string> told_;  ///< By writer: the last event logged.

@@ -6,10 +6,11 @@ export function nowOf(model: RunModel): number {
   return model.poses.newest?.time_s ?? model.time?.now_s ?? 0;
 }
 
-/** The timeline reaches from the begin to the planned or known end. */
+/** The timeline reaches from the begin to the planned or known end. A live run can show its present only, but its events are since its begin. */
 export function spanOf(model: RunModel): [number, number] {
   const {time} = model;
   if (time === null) return [0, 1];
   const known = Math.max(time.end_s, model.live ? nowOf(model) : 0);
-  return [time.begin_s, Math.max(time.duration_s, known, time.begin_s + 1e-3)];
+  const begin = model.live ? 0 : time.begin_s;
+  return [begin, Math.max(time.duration_s, known, begin + 1e-3)];
 }

@@ -105,7 +105,7 @@ export class FakeRun {
   }
 
   time() {
-    return {type: 'time', now_s: this.now_s, step: Math.round(this.now_s * 100), begin_s: 0, duration_s: this.duration_s,
+    return {type: 'time', now_s: this.now_s, step: Math.round(this.now_s * 100), begin_s: this.source === 'live' ? this.now_s : 0, duration_s: this.duration_s,
       end_s: this.source === 'live' ? this.now_s : this.duration_s, state: this.state, reason: this.reason,
       pace: this.pace, speed: this.state === 'running' ? this.pace : 0};
   }

@@ -41,7 +41,9 @@ export class LeaseBar extends LiveElement {
 
   override render(): TemplateResult | typeof nothing {
     const {model} = this.context;
-    if (!model.live || model.robots[this.robot] === undefined) return nothing;
+    const robot = model.robots[this.robot];
+    // A recorded robot takes no orders, so nobody can hold its lease.
+    if (!model.live || robot === undefined || robot.recorded) return nothing;
     const drive = model.drives.get(this.robot);
     const mine = drive?.yours === true;
     const other = drive !== undefined && drive.lease !== '' && !mine;

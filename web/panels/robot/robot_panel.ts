@@ -75,7 +75,7 @@ export class RobotPanel extends LiveElement {
     const {model} = this.context;
     if (!model.live) return nothing;
     const why = model.whyNotTaken(slot, 'goal');
-    return html`<h4>Takes</h4><div class="takes">${takes.length === 0 ? html`<span class="faint">${why}</span>` : kTakes.map((what) => html`
+    return html`<h4>Takes</h4><div class="takes">${takes.length === 0 || model.robots[slot]?.recorded ? html`<span class="faint">${why}</span>` : kTakes.map((what) => html`
       <span class="chip ${takes.includes(what) ? 'yes' : ''}">${icon(takes.includes(what) ? 'check' : 'x', 12)} ${what}</span>`)}</div>`;
   }
 

@@ -42,7 +42,7 @@ export class LeaseBar extends LiveElement {
   override render(): TemplateResult | typeof nothing {
     const {model} = this.context;
     const robot = model.robots[this.robot];
-    // A recorded robot takes no orders, so nobody can hold its lease.
+    // A recorded robot takes no orders, so there is no lease to hold.
     if (!model.live || robot === undefined || robot.recorded) return nothing;
     const drive = model.drives.get(this.robot);
     const mine = drive?.yours === true;

@@ -25,6 +25,9 @@ class SocketLink : public Socket {
  public:
   /// Closes it at once, without a handshake.
   virtual void cut() = 0;
+  /// Called at regular times: pings a client that sent nothing since the last call, and cuts it off
+  /// if it has not answered by the next one.
+  virtual void check_heard() = 0;
 };
 
 /// The state common to the connections of a server. Thread: that of the server.

@@ -18,35 +18,23 @@ constexpr std::string_view kMapped = "::ffff:";
 
 }  // namespace
 
-// A token bucket: refilled at a constant rate up to the burst, computed when it is asked.
-double RateLimit::tokens_of(const Bucket& bucket, Clock::time_point now) const {
-  const double gone_s = std::chrono::duration<double>(now - bucket.at).count();
-  return std::min(burst_, bucket.tokens + per_s_ * std::max(gone_s, 0.0));
-}
-
 bool RateLimit::take(std::string_view name, Clock::time_point now) {
   auto found = buckets_.find(name);
   if (found == buckets_.end()) {
     make_room(now);
-    found = buckets_.emplace(std::string(name), Bucket{burst_, now}).first;
+    found = buckets_.emplace(std::string(name), TokenBucket(per_s_, burst_)).first;
   }
-  Bucket& bucket = found->second;
-  bucket.tokens = tokens_of(bucket, now);
-  bucket.at = now;
-  if (bucket.tokens < 1) return false;
-  bucket.tokens -= 1;
-  return true;
+  return found->second.take(now);
 }
 
 bool RateLimit::has(std::string_view name, Clock::time_point now) const {
   const auto found = buckets_.find(name);
-  return found == buckets_.end() || tokens_of(found->second, now) >= 1;
+  return found == buckets_.end() || found->second.tokens(now) >= 1;
 }
 
 void RateLimit::make_room(Clock::time_point now) {
   if (buckets_.size() < kMostNames) return;
-  std::erase_if(buckets_,
-                [&](const auto& entry) { return tokens_of(entry.second, now) >= burst_; });
+  std::erase_if(buckets_, [&](const auto& entry) { return entry.second.tokens(now) >= burst_; });
   // This many names at once are an attack; forgetting one of them does not help it.
   if (buckets_.size() >= kMostNames) buckets_.erase(buckets_.begin());
 }

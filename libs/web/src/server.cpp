@@ -111,6 +111,12 @@ Status ServerImpl::listen() {
   }
   core_.port = acceptor_.local_endpoint().port();
   accept();
+  // A socket is silent after one whole period, and cut off after the next.
+  every(std::chrono::milliseconds(options.idle) / 3, [this] {
+    for (SocketLink* const socket : std::vector(core_.sockets.begin(), core_.sockets.end())) {
+      socket->check_heard();
+    }
+  });
   return {};
 }
 

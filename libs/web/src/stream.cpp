@@ -7,6 +7,7 @@
 #include <boost/asio/ssl/context.hpp>
 #include <boost/beast/ssl/ssl_stream.hpp>
 #include <optional>
+#include <utility>
 
 namespace rave::web {
 
@@ -34,6 +35,7 @@ struct Stream::Impl {
   std::optional<TcpSocket> plain;
   std::optional<Tls> tls;
   Timer timer;
+  bool heard = false;
 };
 
 Stream::Stream(TcpSocket socket, asio::ssl::context* tls)
@@ -64,6 +66,8 @@ void Stream::expires_never() {
   impl_->timer.cancel(ignored);
 }
 
+bool Stream::take_heard() noexcept { return std::exchange(impl_->heard, false); }
+
 void Stream::finish(std::function<void()> done) {
   const auto end = [impl = impl_, done = std::move(done)] {
     Error ignored;
@@ -90,6 +94,7 @@ void Stream::set_send_buffer(int bytes) {
 
 void Stream::read_some(const Buffers<asio::mutable_buffer>& buffers, std::unique_ptr<Done> done) {
   auto kept = [impl = impl_, done = std::move(done)](Error error, std::size_t size) {
+    impl->heard = impl->heard || size > 0;
     done->call(error, size);
   };
   if (impl_->tls) {

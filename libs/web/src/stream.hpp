@@ -69,6 +69,8 @@ class Stream {
   /// Closes the connection after `time`, unless this or expires_never() is called again.
   void expires_after(std::chrono::steady_clock::duration time);
   void expires_never();
+  /// Whether bytes came in since the last call.
+  [[nodiscard]] bool take_heard() noexcept;
   /// Ends the outgoing direction, within two seconds.
   void finish(std::function<void()> done);
   void close() noexcept;

@@ -8,6 +8,7 @@
 #include <boost/beast/websocket.hpp>
 #include <deque>
 #include <optional>
+#include <utility>
 
 namespace rave::web {
 namespace {
@@ -38,6 +39,7 @@ class WebSocket final : public SocketLink, public std::enable_shared_from_this<W
   void close(std::uint16_t code, std::string_view reason) override;
   [[nodiscard]] std::size_t waiting_bytes() const noexcept override { return waiting_; }
   void cut() override { stream_.next_layer().close(); }
+  void check_heard() override;
 
  private:
   struct Out {
@@ -57,21 +59,24 @@ class WebSocket final : public SocketLink, public std::enable_shared_from_this<W
   std::shared_ptr<ConnectionSlot> slot_;  ///< Passed on by the connection.
   Request request_;
   std::string subprotocol_;
-  RateLimit rate_;
+  TokenBucket rate_;
   beast::flat_buffer buffer_;
   std::deque<Out> out_;
   std::size_t waiting_ = 0;
   std::uint64_t id_ = 0;
   std::optional<websocket::close_reason> closing_;
   bool writing_ = false;
+  bool silent_ = false;   ///< At the last check.
+  bool pinging_ = false;  ///< A ping is on its way to the kernel.
   bool ended_ = false;
 };
 
 void WebSocket::accept(const http::request<http::string_body>& upgrade) {
   const ServerOptions& options = core_.options();
-  // Beast has its own timeout for sockets, with pings; the one of requests would end them.
   stream_.next_layer().expires_never();
-  stream_.set_option(websocket::stream_base::timeout{options.idle, options.idle, true});
+  // Beast would set its idle timer anew with each message; one timer of the server checks all.
+  stream_.set_option(
+      websocket::stream_base::timeout{options.idle, websocket::stream_base::none(), false});
   stream_.read_message_max(options.message_bytes);
   // Messages are complete in memory; pieces would only cost headers.
   stream_.auto_fragment(false);
@@ -98,6 +103,16 @@ void WebSocket::opened() {
     core_.handler().opened(id_, *this, request_);
   }
   read();
+}
+
+void WebSocket::check_heard() {
+  const bool was_silent = std::exchange(silent_, !stream_.next_layer().take_heard());
+  if (!silent_ || ended_) return;
+  if (was_silent) return cut();
+  if (pinging_ || closing_) return;
+  // Beast allows one ping at a time.
+  pinging_ = true;
+  stream_.async_ping({}, [self = shared_from_this()](Error) { self->pinging_ = false; });
 }
 
 void WebSocket::queue(Out out) {
@@ -151,7 +166,7 @@ void WebSocket::take(std::string_view message) {
     if (!text) close(1003, "text messages only");
     return;
   }
-  if (!rate_.take("", RateLimit::Clock::now())) {
+  if (!rate_.take(TokenBucket::Clock::now())) {
     ++core_.counts.sockets_closed_for_rate;
     core_.handler().flooded(id_);
     return close(kTooMany, "too many messages");

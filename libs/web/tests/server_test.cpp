@@ -62,6 +62,7 @@ class WebServer : public testing::Test {
   static ServerOptions options() {
     ServerOptions options;
     options.request_bytes = 4096;
+    options.idle = std::chrono::seconds(1);
     return options;
   }
   [[nodiscard]] int connected() const {
@@ -91,13 +92,16 @@ class WebServer : public testing::Test {
     return ask(fmt::format("GET {} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\n{}\r\n",
                            target, server_->port(), more));
   }
+  [[nodiscard]] std::string upgrading(const std::string& more, const char* path = "/ws") const {
+    return fmt::format(
+        "GET {} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: Upgrade\r\n"
+        "Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n{}\r\n",
+        path, server_->port(), more);
+  }
   [[nodiscard]] std::string upgrade(const std::string& more, std::string_view end,
                                     const char* path = "/ws") const {
-    return ask(fmt::format("GET {} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: Upgrade\r\n"
-                           "Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
-                           "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n{}\r\n",
-                           path, server_->port(), more),
-               end);
+    return ask(upgrading(more, path), end);
   }
 
   Echo handler_;
@@ -191,6 +195,40 @@ TEST_F(WebServer, AsksItsHandlerOfOtherPathsForSockets) {
                       "Origin: http://friend.example\r\nContent-Length: 0\r\n\r\n",
                       server_->port()));
   EXPECT_TRUE(post.starts_with("HTTP/1.1 403")) << post;
+}
+
+/// Pings of a server are without payload: 0x89 0x00 (RFC 6455, 5.5.2).
+constexpr std::string_view kPing("\x89\0", 2);
+
+TEST_F(WebServer, PingsASilentSocketAndThenCutsItOff) {
+  // Reads until the other end closes.
+  const std::string answer = upgrade("Cookie: key=good\r\n", {});
+  EXPECT_NE(answer.find("welcome"), std::string::npos) << answer;
+  EXPECT_TRUE(answer.ends_with(kPing));
+  for (int i = 0; i < 1000 && handler_.open > 0; ++i) ::usleep(1000);
+  EXPECT_EQ(handler_.open, 0);
+}
+
+TEST_F(WebServer, KeepsASocketThatAnswersPings) {
+  const int fd = connected();
+  const std::string request = upgrading("Cookie: key=good\r\n");
+  ASSERT_EQ(::send(fd, request.data(), request.size(), MSG_NOSIGNAL), std::ssize(request));
+  // Without its answers it would have been cut off after the first.
+  int pings = 0;
+  std::string came;
+  while (pings < 3) {
+    char buffer[4096];
+    const ssize_t got = ::recv(fd, buffer, sizeof buffer, 0);
+    ASSERT_GT(got, 0) << "after " << pings << " pings";
+    came.append(buffer, static_cast<std::size_t>(got));
+    if (!came.ends_with(kPing)) continue;
+    ++pings;
+    came.clear();
+    // A pong of a client has a mask.
+    ASSERT_EQ(::send(fd, "\x8a\x80\0\0\0\0", 6, MSG_NOSIGNAL), 6);
+  }
+  EXPECT_EQ(handler_.open, 1);
+  ::close(fd);
 }
 
 TEST_F(WebServer, EndsWithConnectionsThatSayNothing) {

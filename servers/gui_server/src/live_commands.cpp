@@ -124,10 +124,13 @@ void LiveSource::answer_asked() {
 void LiveSource::learn_status(Playhead::Clock::time_point now) {
   if (now - status_at_ < kStatusInterval) return;
   status_at_ = now;
-  for (const runtime::RunStatus::Robot& robot : port_->robots()) {
-    const auto slot = slots_.find(robot.name);
-    if (slot != slots_.end()) learn_leases(robot, slot->second);
+  std::vector<runtime::RunStatus::Robot> robots = port_->robots();
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (i < known_robots_.size() && robots[i] == known_robots_[i]) continue;
+    const auto slot = slots_.find(robots[i].name);
+    if (slot != slots_.end()) learn_leases(robots[i], slot->second);
   }
+  known_robots_ = std::move(robots);
 }
 
 void LiveSource::learn_leases(const runtime::RunStatus::Robot& robot, std::uint32_t slot) {

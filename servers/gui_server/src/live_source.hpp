@@ -137,7 +137,8 @@ class LiveSource : public Source {
   std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t, double>> next_readings_;
   std::map<std::string, std::uint32_t, std::less<>> slots_;
   Playhead::Clock::time_point status_at_{};
-  std::vector<DriveState> leases_;  ///< By robot.
+  std::vector<runtime::RunStatus::Robot> known_robots_;  ///< As of the last status.
+  std::vector<DriveState> leases_;                       ///< By robot.
   std::vector<std::uint64_t> leases_changed_;
   std::uint64_t leases_revision_ = 1;
   std::deque<PosesAt> past_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page_text.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -20,6 +22,9 @@ constexpr WordTable<LogEvent::Level, 3> kLevelWords = {{{"info", LogEvent::Level
 Json person_json(const Person& person) {
   return {{"name", person.name}, {"role", to_string(person.role)}};
 }
+
+/// JSON has no word for what is not finite.
+std::string number(double value) { return std::isfinite(value) ? fmt::to_string(value) : "null"; }
 
 }  // namespace
 
@@ -76,18 +81,14 @@ std::string events_text(std::span<const LogEvent> events, std::size_t first) {
   return json_text(message);
 }
 
+// Each page gets one each second, so no tree of JSON is built for it.
 std::string time_text(const PlayState& state, const RunAbout& about) {
-  const Json time = {{"type", "time"},
-                     {"now_s", state.now_s},
-                     {"step", std::llround(state.now_s / about.step_s)},
-                     {"begin_s", state.begin_s},
-                     {"end_s", state.end_s},
-                     {"duration_s", state.duration_s},
-                     {"state", kStateWords.of(state.kind)},
-                     {"reason", state.reason},
-                     {"pace", state.pace},
-                     {"speed", state.speed}};
-  return json_text(time);
+  return fmt::format(
+      R"({{"type":"time","now_s":{},"step":{},"begin_s":{},"end_s":{},"duration_s":{},)"
+      R"("state":"{}","reason":{},"pace":{},"speed":{}}})",
+      number(state.now_s), std::llround(state.now_s / about.step_s), number(state.begin_s),
+      number(state.end_s), number(state.duration_s), kStateWords.of(state.kind),
+      json_text(Json(state.reason)), number(state.pace), number(state.speed));
 }
 
 std::string leases_text(std::span<const DriveState> states, const Author& me, bool all) {

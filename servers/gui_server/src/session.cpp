@@ -139,7 +139,7 @@ void Session::take(const LookProbesMessage& look) {
     if (!source_) {
       answer.error = "No run is in progress.";
       // Each probe is read and made once here to find its errors, which takes time of the server.
-    } else if (!probe_limit_.take("", web::RateLimit::Clock::now())) {
+    } else if (!probe_limit_.take(Clock::now())) {
       answer.error = "Too many changes at once. Try again in a second.";
     } else if (auto made = source_->probe(look.probes[place]); !made) {
       answer.error = made.error().message;

@@ -148,7 +148,7 @@ class Session {
   std::vector<VarianceAt> told_variances_;
   MapStream map_stream_;
   std::vector<ProbeShown> probes_;
-  web::RateLimit probe_limit_{kProbesPerSecond, kProbesAtOnce};
+  web::TokenBucket probe_limit_{kProbesPerSecond, kProbesAtOnce};
   std::uint64_t told_map_names_ = 0;
   std::uint64_t told_events_ = 0;
   std::uint64_t told_bodies_ = 0;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <map>
 #include <string>
 #include <string_view>
+
+#include "rave/web/token_bucket.hpp"
 
 namespace rave::web {
 
@@ -13,7 +14,7 @@ namespace rave::web {
 /// bounded. One thread.
 class RateLimit {
  public:
-  using Clock = std::chrono::steady_clock;
+  using Clock = TokenBucket::Clock;
   RateLimit(double per_s, double burst) : per_s_(per_s), burst_(burst) {}
 
   /// Takes a token of `name`. False: there is none.
@@ -23,16 +24,11 @@ class RateLimit {
   [[nodiscard]] std::size_t size() const noexcept { return buckets_.size(); }
 
  private:
-  struct Bucket {
-    double tokens = 0;
-    Clock::time_point at{};
-  };
-  [[nodiscard]] double tokens_of(const Bucket& bucket, Clock::time_point now) const;
   void make_room(Clock::time_point now);
 
   double per_s_;
   double burst_;
-  std::map<std::string, Bucket, std::less<>> buckets_;
+  std::map<std::string, TokenBucket, std::less<>> buckets_;
 };
 
 /// The part of an address that identifies a subscriber: the whole IPv4 address, or the first 64

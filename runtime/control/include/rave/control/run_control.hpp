@@ -127,6 +127,7 @@ struct RunStatus {
     std::string order = {};
     /// Parameters with other values than in the scenario: key and value as `rave set` takes them.
     std::vector<std::pair<std::string, std::string>> changed = {};
+    friend bool operator==(const Robot&, const Robot&) = default;
   };
   std::string scenario;
   /// Of a run of several processes: its id, the same in all of them; else empty.

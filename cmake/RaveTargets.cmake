@@ -146,7 +146,18 @@ function(rave_executable name)
   target_link_libraries(${name} PRIVATE rave_build_flags ${ARG_DEPS})
 endfunction()
 
-# rave_test(NAME SOURCES ... [DEPS ...] [LABELS ...] [TIMEOUT seconds] [NEEDS target...] [OPTIMIZE])
+# A test takes one core, unless its processes mostly wait for time to pass (WAITS). ./test tells ctest
+# how many cores there are and starts one test more than that.
+function(rave_cores_of_test result waits)
+  if(waits)
+    set(${result} "" PARENT_SCOPE)
+  else()
+    set(${result} "cores:1" PARENT_SCOPE)
+  endif()
+endfunction()
+
+# rave_test(NAME SOURCES ... [DEPS ...] [LABELS ...] [TIMEOUT seconds] [NEEDS target...] [OPTIMIZE]
+#           [WAITS])
 # A GoogleTest program, run by ctest as NAME. NEEDS names targets it starts or loads. The code of
 # tests is not optimised, which saves a third of the time it takes to compile; OPTIMIZE for those
 # that reckon much themselves. The target rave_tests_LABEL builds all tests of a label.
@@ -154,7 +165,7 @@ function(rave_test name)
   if(NOT RAVE_TESTS)
     return()
   endif()
-  cmake_parse_arguments(ARG "OPTIMIZE" "TIMEOUT" "DEPS;SOURCES;LABELS;NEEDS;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(ARG "OPTIMIZE;WAITS" "TIMEOUT" "DEPS;SOURCES;LABELS;NEEDS;ENVIRONMENT" ${ARGN})
   add_executable(test_${name} ${ARG_SOURCES})
   rave_unity(test_${name})
   if(NOT ARG_OPTIMIZE)
@@ -179,22 +190,25 @@ function(rave_test name)
     endif()
     add_dependencies(rave_tests_${label} test_${name})
   endforeach()
+  rave_cores_of_test(cores "${ARG_WAITS}")
   add_test(NAME ${name} COMMAND test_${name} WORKING_DIRECTORY "${CMAKE_BINARY_DIR}")
   set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}"
-    ENVIRONMENT "${ARG_ENVIRONMENT}")
+    ENVIRONMENT "${ARG_ENVIRONMENT}" RESOURCE_GROUPS "${cores}")
 endfunction()
 
-# rave_check(NAME COMMAND ... [LABELS ...]): any other command as a test.
+# rave_check(NAME COMMAND ... [LABELS ...] [WAITS]): any other command as a test.
 function(rave_check name)
   if(NOT RAVE_TESTS)
     return()
   endif()
-  cmake_parse_arguments(ARG "" "TIMEOUT" "COMMAND;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "WAITS" "TIMEOUT" "COMMAND;LABELS" ${ARGN})
+  rave_cores_of_test(cores "${ARG_WAITS}")
   add_test(NAME ${name} COMMAND ${ARG_COMMAND} WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}")
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}"
+    RESOURCE_GROUPS "${cores}")
 endfunction()
 
 # rave_fuzzer(NAME SOURCES ... DEPS ... CORPUS folder)
@@ -219,7 +233,7 @@ function(rave_fuzzer name)
     target_sources(fuzz_${name} PRIVATE "${CMAKE_SOURCE_DIR}/tests/fuzz/replay_main.cpp")
     add_test(NAME fuzz_${name}
       COMMAND fuzz_${name} "${CMAKE_CURRENT_SOURCE_DIR}/${ARG_CORPUS}")
-    set_tests_properties(fuzz_${name} PROPERTIES TIMEOUT 300 LABELS fuzz)
+    set_tests_properties(fuzz_${name} PROPERTIES TIMEOUT 300 LABELS fuzz RESOURCE_GROUPS "cores:1")
   endif()
 endfunction()
 

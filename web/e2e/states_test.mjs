@@ -136,6 +136,28 @@ try {
     }
   });
 
+  await check('the closed sheet of a phone has a plot of the selected robot, its nearest value and its speed', async () => {
+    const phone = await (await browser.newContext({viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true})).newPage();
+    await phone.goto(server.origin);
+    await until(phone, `${app}?.model?.poses?.newest !== null`);
+    await phone.evaluate(`${app}.selection.set([2])`);
+    const glance = phone.locator('rave-glance');
+    await glance.getByText('1.00 m').waitFor();
+    await glance.getByText('0.20 m/s').waitFor();
+    const looks = `[...${app}.link.interests].filter(([owner]) => owner.localName === 'rave-glance').map(([, sensors]) => sensors.join()).join(' ')`;
+    assert.equal(await phone.evaluate(looks), '2,0');
+    const painted = await glance.locator('canvas').evaluate((canvas) => {
+      const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      return data.filter((value, i) => i % 4 === 3 && value > 0).length / (data.length / 4);
+    });
+    assert.ok(painted > 0.2, `${painted}`);
+    await phone.screenshot({path: join(folder, 'phone.png')});
+    await phone.locator('rave-sheet .more').tap();
+    await phone.locator('rave-sheet rave-sensors').waitFor();
+    assert.equal(await phone.evaluate(looks), '');
+    await phone.close();
+  });
+
   await check('pause, step and pace reach the server', async () => {
     await page.keyboard.press('k');
     await page.getByText('Paused', {exact: true}).waitFor();

@@ -219,8 +219,9 @@ export class SensorsPanel extends LookingPanel {
     const hue = palette.hue(slot);
     const halves = sensor.origin === 'hybrid' ? model.readings.of(slot, index, 1) : null;
     this.onCanvas('.polar', (ctx, width, height) => {
-      drawPolar(ctx, width, height, sensor, reading, hue, palette, (ray) =>
-        reading === null ? null : this.met(slot, sensor, reading, ray), halves, this.field === 1 ? this.beamOf(sensor) : null, reading === null ? 1 : strengthOf(this.placed.time_s - reading.stamp_s, sensor.period_s));
+      drawPolar(ctx, width, height, sensor, reading, hue, palette, (ray) => (reading === null ? null : this.met(slot, sensor, reading, ray)), {
+        real: halves, beam: this.field === 1 ? this.beamOf(sensor) : null, strength: reading === null ? 1 : strengthOf(this.placed.time_s - reading.stamp_s, sensor.period_s),
+      });
     });
     this.onCanvas('.sightings', (ctx, width, height) => {
       const twin = twinOf(robot, index);

@@ -136,6 +136,19 @@ try {
     }
   });
 
+  await check('beside the tools of a commander the legend keeps its words, and so do the tools', async () => {
+    for (const width of [1600, 1280, 900]) {
+      const wide = await (await browser.newContext({viewport: {width, height: 900}})).newPage();
+      await wide.goto(server.origin);
+      await until(wide, `${app}?.model?.poses?.newest !== null`);
+      const legend = wide.locator('rave-world .legend');
+      for (const word of ['real', 'simulated', 'virtual', 'tube', 'wall']) await legend.getByText(word, {exact: true}).waitFor();
+      assert.ok(await legend.evaluate((all) => all.scrollWidth <= all.clientWidth && all.getBoundingClientRect().right <= all.getRootNode().host.getBoundingClientRect().right));
+      if (width === 1600) await wide.locator('rave-world .tool').getByText('Obstacle').waitFor();
+      await wide.close();
+    }
+  });
+
   await check('the closed sheet of a phone has a plot of the selected robot, its nearest value and its speed', async () => {
     const phone = await (await browser.newContext({viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true})).newPage();
     await phone.goto(server.origin);

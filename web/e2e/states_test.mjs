@@ -331,6 +331,29 @@ try {
     await until(page, `${app}.model.rights !== null`);
   });
 
+  await check('who else watches is in the top bar, and leads super-users to the list of people', async () => {
+    const people = ['Ben K', 'carla', 'Dana Q', 'Emil', 'Fatima'].map((name) => ({name, role: 'observer'}));
+    server.say({type: 'people', people: [{name: 'Ada N', role: 'super_user'}, ...people]});
+    const faces = page.getByRole('button', {name: '6 people watch: you; Ben K, Observer; carla, Observer; Dana Q, Observer; Emil, Observer; Fatima, Observer. Open the list'});
+    await faces.waitFor();
+    assert.deepEqual(await faces.locator('.face').allInnerTexts(), ['BK', 'CA', 'DQ', '+2']);
+    for (const layout of ['Watch', 'Conduct']) {
+      await page.getByRole('radio', {name: layout}).click();
+      await faces.focus();
+      await page.keyboard.press('Enter');
+      await page.getByRole('tab', {name: /^People/, selected: true}).waitFor();
+      await page.getByRole('tab', {name: 'Audit log'}).click();
+    }
+    await page.screenshot({path: join(folder, 'faces.png')});
+    server.turnInto({may: ['readings', 'log'], role: 'observer'});
+    server.say({type: 'people', people: [{name: 'Ada N', role: 'observer'}, ...people]});
+    await page.getByRole('img', {name: /^6 people watch: you; Ben K/}).waitFor();
+    assert.equal(await page.locator('rave-top-bar button.people').count(), 0);
+    // Who may not talk is told a new view of the run, and no names.
+    server.say(server.run.hello());
+    await page.locator('rave-top-bar .people').waitFor({state: 'detached'});
+  });
+
   await check('every message is as the schema describes it', async () => {
     const file = join(folder, 'messages.json');
     writeFileSync(file, JSON.stringify(said));

@@ -250,7 +250,7 @@ export class RobotsPanel extends LiveElement {
       .name { flex: 1; min-width: 0; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
       .value { color: var(--text-2); white-space: nowrap; }
       .state { color: var(--warn); white-space: nowrap; }
-      .driver { display: grid; place-items: center; width: 20px; height: 20px; border-radius: 50%; background: var(--bg-4); color: var(--text-1); font-size: 10px; font-weight: 600; flex: none; }
+      .driver { display: grid; place-items: center; width: 20px; height: 20px; border-radius: 50%; background: var(--person-fill); color: var(--on-fill); font-size: 10px; font-weight: 600; flex: none; }
       .driver.you { background: var(--intent-fill); color: #fff; }
       .mark { width: 14px; color: var(--text-3); }
       .mark svg { color: inherit; }

@@ -79,6 +79,24 @@ try {
     run.stopped.clear();
   });
 
+  await check('a plot over time says where it has no readings, and keeps those that it had', async () => {
+    const fresh = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
+    await fresh.goto(server.origin);
+    const plot = (name) => fresh.locator('rave-sensors').getByRole('img', {name}).waitFor();
+    await plot(/^nearest of laser in the last 15 seconds; no readings \d+ to \d s ago$/);
+    await until(fresh, `${app}.model.readings.course(0, 0).length > 5`);
+    // Nothing looks at the sensor while the panel is hidden and the world shows no scans.
+    await fresh.evaluate(`${app}.context.kept.write('world', {scans: 'off', hits: false}); ${app}.context.kept.changed.emit(); ${app}.context.show('map')`);
+    await until(fresh, `${app}.link.lastLook.includes('"readings":[]')`);
+    const before = await fresh.evaluate(`${app}.model.readings.course(0, 0).length`);
+    await until(fresh, `${app}.model.poses.newest.time_s - ${app}.model.readings.course(0, 0).at(-1).time_s > 2`);
+    await fresh.evaluate(`${app}.context.show('sensors')`);
+    await until(fresh, `${app}.model.readings.course(0, 0).length > ${before}`);
+    await plot(/; no readings \d+ to \d+ s ago, \d+ to \d s ago$/);
+    await fresh.screenshot({path: join(folder, 'gaps.png')});
+    await fresh.close();
+  });
+
   await check('a stop of somebody else says who and when, and is one row of the log', async () => {
     for (let slot = 0; slot < 16; ++slot) run.stopped.add(slot);
     await page.evaluate(() => {

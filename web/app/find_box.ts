@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {logOf} from '../model/run_begin';
 import type {PanelContext, PanelKind} from '../panel_api';
 import {clockText} from './clock';
 import {icon, type IconName} from './icons';
@@ -56,7 +57,7 @@ export class FindBox extends LitElement {
       all.unshift({icon: 'rotateCcw', text: `Go to ${clockText(t)}`, note: 'moment', act: () => this.context.seek(t)});
     }
     if (words.length > 0) {
-      for (const event of model.events) {
+      for (const event of logOf(model)) {
         if (fits(`${event.kind} ${event.text}`)) all.push({icon: 'info', text: event.text, note: clockText(event.t), act: () => this.context.seek(event.t)});
         if (all.length > 4 * kMost) break;
       }

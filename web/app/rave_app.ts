@@ -10,6 +10,7 @@ import {Palette} from '../panel_api/palette';
 import {Selection} from '../panel_api/selection';
 import {Windows} from '../panel_api/windows';
 import type {JoystickPanel} from '../panels/joystick/joystick_panel';
+import type {SuperUserPanel} from '../panels/people/super_user_panel';
 import {kWorldKeys} from '../panels/world/world_keys';
 import type {WorldPanel} from '../panels/world/world_panel';
 import {renderAway} from './away_strip';
@@ -216,6 +217,12 @@ export class RaveApp extends LitElement {
     } else this.dock?.show(id);
   }
 
+  /** The list of people, which is a part of the panel of super-users. */
+  private showPeople(): void {
+    this.showPanel('rights');
+    void this.updateComplete.then(() => this.panel<SuperUserPanel>('rave-super-user')?.choose('people'));
+  }
+
   private get world(): WorldPanel | null {
     return this.panel<WorldPanel>('rave-world');
   }
@@ -316,7 +323,7 @@ export class RaveApp extends LitElement {
     const old = link.state === 'lost';
     return html`
       <rave-top-bar .context=${this.context} .layout=${this.phone.matches || innerWidth < 1280 ? '' : (this.dock?.name ?? 'Watch')}
-        @layout=${(event: CustomEvent<LayoutName>) => { this.dock?.choose(event.detail); this.requestUpdate(); }} @resetlayout=${() => { this.dock?.reset(); this.requestUpdate(); }} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()} @foxglove=${() => this.open('showingFoxglove')} @trust=${() => this.open('showingTrust')}></rave-top-bar>
+        @layout=${(event: CustomEvent<LayoutName>) => { this.dock?.choose(event.detail); this.requestUpdate(); }} @resetlayout=${() => { this.dock?.reset(); this.requestUpdate(); }} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()} @foxglove=${() => this.open('showingFoxglove')} @people=${() => this.showPeople()} @trust=${() => this.open('showingTrust')}></rave-top-bar>
       ${old ? renderLost(model, link) : renderWaits(model)}
       ${renderSeenBy(model, () => link.send({type: 'see_as'}))}
       ${this.refusal === '' ? nothing : html`<div class="strip refused" role="alert">${icon('circleX', 16)}<span>${this.refusal}</span>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
+import {logOf} from '../model/run_begin';
 import type {Power} from '../protocol/messages';
 import {bigClock} from './clock';
 import {icon} from './icons';
@@ -76,7 +77,7 @@ export class RunBar extends LiveElement {
   /** [ and ]: the event before or after now. */
   toEvent(direction: number): void {
     const now = nowOf(this.context.model);
-    const times = this.context.model.events.map((event) => event.t).sort((a, b) => a - b);
+    const times = logOf(this.context.model).map((event) => event.t).sort((a, b) => a - b);
     const next = direction > 0 ? times.find((t) => t > now + 0.01) : times.reverse().find((t) => t < now - 0.01);
     if (next !== undefined) this.context.seek(next);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
 import {stateOf} from '../panels/robots/robot_state';
+import '../panels/sensors/glance';
 import {icon} from './icons';
 import {LiveElement} from './live_element';
 import {controls, glyphs} from './styles';
@@ -46,6 +47,7 @@ export class Sheet extends LiveElement {
     const speed = Math.abs(frame?.speed[slot] ?? 0).toFixed(2);
     const state = stateOf(robot, frame?.flags[slot] ?? 0);
     const about = [robot.kind + (robot.recorded ? ', recorded' : ''), robot.program].filter(Boolean).join(' · ');
+    const glance = this.height === 'peek';
     return html`<section class=${this.height} aria-label="Selected robot">
       <div class="grip" @pointerdown=${(event: PointerEvent) => {
         this.pressedY = event.clientY;
@@ -54,10 +56,10 @@ export class Sheet extends LiveElement {
         <i></i>
         <div class="head"><span class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></span>
           <span class="who"><b style="color:${hue.ink}">${robot.name}</b><small>${state === '' ? about : state}</small></span>
-          <span class="speed"><b>${speed}</b> m/s</span></div></div>
-      <button class="more" aria-expanded=${this.height !== 'peek'} @click=${() => this.go(this.height === 'peek' ? 1 : -1)}>
-        ${icon('activity', 18)} ${this.height === 'peek' ? 'Sensors' : 'Less'}</button>
-      ${this.height === 'peek' ? nothing : html`<rave-sensors ?compact=${this.height === 'half'} embedded .context=${this.context}></rave-sensors>`}
+          ${glance ? nothing : html`<span class="speed"><b>${speed}</b> m/s</span>`}</div></div>
+      <button class="more" aria-expanded=${!glance} @click=${() => this.go(glance ? 1 : -1)}>
+        ${icon('activity', 18)} ${glance ? 'Sensors' : 'Less'}</button>
+      ${glance ? html`<rave-glance .context=${this.context}></rave-glance>` : html`<rave-sensors ?compact=${this.height === 'half'} embedded .context=${this.context}></rave-sensors>`}
     </section>`;
   }
 

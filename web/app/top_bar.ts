@@ -12,6 +12,8 @@ import {controls} from './styles';
 import {initials, roleText, sizeText, startedText} from './words';
 
 const kFaces = 3;
+/** Those that the tooltip names. */
+const kNamed = 20;
 const kSlow_hz = 10;
 /** A picture that is older than this is not what is now. */
 const kOld_ms = 300;
@@ -87,10 +89,14 @@ export class TopBar extends LiveElement {
   private renderPeople(): TemplateResult | typeof nothing {
     const {others} = this.context.model;
     if (others.length === 0) return nothing;
-    const title = others.map((person) => `${person.name}, ${roleText(person.role)}`).join('\n');
-    return html`<span class="people" title=${title} role="img" aria-label="${others.length + 1} people watch, including you">
-      ${others.slice(0, kFaces).map((person) => face(person, false))}
-      ${others.length > kFaces ? html`<i class="face">+${others.length - kFaces}</i>` : nothing}</span>`;
+    const names = others.slice(0, kNamed).map((person) => `${person.name}, ${roleText(person.role)}`);
+    if (others.length > kNamed) names.push(`and ${others.length - kNamed} more`);
+    const label = `${others.length + 1} people watch: you; ${names.join('; ')}`;
+    const faces = html`${others.slice(0, kFaces).map((person) => face(person, false))}
+      ${others.length > kFaces ? html`<i class="face rest" aria-hidden="true">+${others.length - kFaces}</i>` : nothing}`;
+    if (!this.context.model.may('rights')) return html`<span class="people" title=${names.join('\n')} role="img" aria-label=${label}>${faces}</span>`;
+    return html`<button class="people" title=${[...names, 'Click: all people'].join('\n')} aria-label=${`${label}. Open the list`}
+      @click=${() => this.dispatchEvent(new CustomEvent('people'))}>${faces}</button>`;
   }
 
   static override styles = [
@@ -114,12 +120,14 @@ export class TopBar extends LiveElement {
       .rate.slow { background: linear-gradient(var(--warn-soft) 0 0), var(--bg-1); color: var(--warn); }
       .rate.slow em { color: inherit; }
       .person { display: flex; align-items: center; gap: 8px; font-size: var(--fs-12); white-space: nowrap; }
-      .people { display: flex; }
+      .people { display: flex; align-items: center; height: var(--h-control); padding-left: 4px; border-radius: var(--r-full); }
+      button.people:hover { background: var(--bg-3); }
       .pen { display: none; }
       @media (max-width: 599px) and (max-height: 700px) { .pen { display: flex; align-items: center; } rave-clock { margin-right: 8px; font-weight: var(--fw-strong); font-variant-numeric: tabular-nums; } .find, .person { display: none !important; } }
-      .face { display: grid; place-items: center; width: 24px; height: 24px; border-radius: 50%; background: var(--bg-4); color: var(--text-1); font-style: normal; font-size: 10px; font-weight: 600; }
+      .face { display: grid; place-items: center; width: 24px; height: 24px; border-radius: 50%; background: var(--person-fill); color: var(--on-fill); font-style: normal; font-size: 10px; font-weight: 600; }
       .face.you { background: var(--intent-fill); color: #fff; }
-      .people .face { margin-left: -4px; box-shadow: 0 0 0 2px var(--bg-0); }
+      .people .face { margin-left: -3px; box-shadow: 0 0 0 1.5px var(--bg-0); }
+      .people .rest { background: var(--bg-1); color: var(--text-2); }
       @media (max-width: 1100px) { .about, .rate em, .wide { display: none; } }
       @media (max-width: 800px) { .people, .rule { display: none; } .person span { display: none; } }
       @media (max-width: 900px) { .find { flex-basis: 190px; } .find kbd { display: none; } }

@@ -91,7 +91,7 @@ export class FakeRun {
       people: [{name: 'carla', role: 'observer', teams: 'north'}, {name: 'ben', role: 'commander', teams: '*'}]};
     this.accounts = fakeAccounts();
     this.audit = fakeAudit();
-    this.events = [{t: 0, until: 0, count: 1, kind: 'begin', level: 'info', text: `Run begins: ${count} robots`, slots: []}];
+    this.events = [];
     this.travelled = this.robots.map(() => 0);
   }
 

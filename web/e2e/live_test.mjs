@@ -55,6 +55,11 @@ try {
     await until(page, `Math.abs(${app}.model.time.speed - 1) < 0.2`);
   });
 
+  await check('the log begins with the begin of the run', async () => {
+    assert.match((await page.locator('rave-log .row').last().innerText()).replace(/\s+/g, ' '), /^00\.00 Run begins: 5 real and 11 simulated robots, seed \d+$/);
+    assert.equal(await page.locator('rave-log .row', {hasText: 'Run begins'}).count(), 1);
+  });
+
   await check('the person at the page is nobody else in the lists of people', async () => {
     await page.evaluate(`${app}.context.show('chat')`);
     await page.locator('rave-chat').getByRole('radio', {name: 'Super-users'}).waitFor();

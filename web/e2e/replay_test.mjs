@@ -147,11 +147,21 @@ try {
   });
 
   await check('a click in the log goes to the moment of the event', async () => {
-    await page.locator('rave-log .row').last().click();
+    await page.locator('rave-log .row').filter({hasNotText: 'Run begins'}).last().click();
     const t = await page.evaluate(`${app}.model.events[0].t`);
     await until(page, `Math.abs(${app}.model.poses.newest?.time_s - ${t}) < 0.02`);
     await page.getByPlaceholder('source, text').fill('no such thing');
     await until(page, `document.querySelector('rave-log').renderRoot.querySelectorAll('.row').length === 0`);
+    await page.getByPlaceholder('source, text').fill('');
+  });
+
+  await check('the log begins with the begin of the run, and a click goes there', async () => {
+    const first = page.locator('rave-log .row').last();
+    assert.match((await first.innerText()).replace(/\s+/g, ' '), /^00\.00 Run begins: 5 real and 11 simulated robots, seed \d+$/);
+    await first.click();
+    await until(page, `${app}.model.poses.newest?.time_s < 0.02`);
+    await page.getByPlaceholder('source, text').fill('run begins');
+    await until(page, `document.querySelector('rave-log').renderRoot.querySelectorAll('.row').length === 1`);
     await page.getByPlaceholder('source, text').fill('');
   });
 

@@ -79,6 +79,24 @@ try {
     run.stopped.clear();
   });
 
+  await check('a plot over time says where it has no readings, and keeps those that it had', async () => {
+    const fresh = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
+    await fresh.goto(server.origin);
+    const plot = (name) => fresh.locator('rave-sensors').getByRole('img', {name}).waitFor();
+    await plot(/^nearest of laser in the last 15 seconds; no readings \d+ to \d s ago$/);
+    await until(fresh, `${app}.model.readings.course(0, 0).length > 5`);
+    // Nothing looks at the sensor while the panel is hidden and the world shows no scans.
+    await fresh.evaluate(`${app}.context.kept.write('world', {scans: 'off', hits: false}); ${app}.context.kept.changed.emit(); ${app}.context.show('map')`);
+    await until(fresh, `${app}.link.lastLook.includes('"readings":[]')`);
+    const before = await fresh.evaluate(`${app}.model.readings.course(0, 0).length`);
+    await until(fresh, `${app}.model.poses.newest.time_s - ${app}.model.readings.course(0, 0).at(-1).time_s > 2`);
+    await fresh.evaluate(`${app}.context.show('sensors')`);
+    await until(fresh, `${app}.model.readings.course(0, 0).length > ${before}`);
+    await plot(/; no readings \d+ to \d+ s ago, \d+ to \d s ago$/);
+    await fresh.screenshot({path: join(folder, 'gaps.png')});
+    await fresh.close();
+  });
+
   await check('a stop of somebody else says who and when, and is one row of the log', async () => {
     for (let slot = 0; slot < 16; ++slot) run.stopped.add(slot);
     await page.evaluate(() => {
@@ -134,6 +152,41 @@ try {
       await narrow.getByRole('radio', {name: '4×'}).waitFor({state: 'detached'});
       await narrow.close();
     }
+  });
+
+  await check('beside the tools of a commander the legend keeps its words, and so do the tools', async () => {
+    for (const width of [1600, 1280, 900]) {
+      const wide = await (await browser.newContext({viewport: {width, height: 900}})).newPage();
+      await wide.goto(server.origin);
+      await until(wide, `${app}?.model?.poses?.newest !== null`);
+      const legend = wide.locator('rave-world .legend');
+      for (const word of ['real', 'simulated', 'virtual', 'tube', 'wall']) await legend.getByText(word, {exact: true}).waitFor();
+      assert.ok(await legend.evaluate((all) => all.scrollWidth <= all.clientWidth && all.getBoundingClientRect().right <= all.getRootNode().host.getBoundingClientRect().right));
+      if (width === 1600) await wide.locator('rave-world .tool').getByText('Obstacle').waitFor();
+      await wide.close();
+    }
+  });
+
+  await check('the closed sheet of a phone has a plot of the selected robot, its nearest value and its speed', async () => {
+    const phone = await (await browser.newContext({viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true})).newPage();
+    await phone.goto(server.origin);
+    await until(phone, `${app}?.model?.poses?.newest !== null`);
+    await phone.evaluate(`${app}.selection.set([2])`);
+    const glance = phone.locator('rave-glance');
+    await glance.getByText('1.00 m').waitFor();
+    await glance.getByText('0.20 m/s').waitFor();
+    const looks = `[...${app}.link.interests].filter(([owner]) => owner.localName === 'rave-glance').map(([, sensors]) => sensors.join()).join(' ')`;
+    assert.equal(await phone.evaluate(looks), '2,0');
+    const painted = await glance.locator('canvas').evaluate((canvas) => {
+      const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      return data.filter((value, i) => i % 4 === 3 && value > 0).length / (data.length / 4);
+    });
+    assert.ok(painted > 0.2, `${painted}`);
+    await phone.screenshot({path: join(folder, 'phone.png')});
+    await phone.locator('rave-sheet .more').tap();
+    await phone.locator('rave-sheet rave-sensors').waitFor();
+    assert.equal(await phone.evaluate(looks), '');
+    await phone.close();
   });
 
   await check('pause, step and pace reach the server', async () => {
@@ -294,6 +347,29 @@ try {
     assert.equal(await page.evaluate(`${app}.model.rights`), null);
     await page.getByRole('button', {name: 'Back'}).click();
     await until(page, `${app}.model.rights !== null`);
+  });
+
+  await check('who else watches is in the top bar, and leads super-users to the list of people', async () => {
+    const people = ['Ben K', 'carla', 'Dana Q', 'Emil', 'Fatima'].map((name) => ({name, role: 'observer'}));
+    server.say({type: 'people', people: [{name: 'Ada N', role: 'super_user'}, ...people]});
+    const faces = page.getByRole('button', {name: '6 people watch: you; Ben K, Observer; carla, Observer; Dana Q, Observer; Emil, Observer; Fatima, Observer. Open the list'});
+    await faces.waitFor();
+    assert.deepEqual(await faces.locator('.face').allInnerTexts(), ['BK', 'CA', 'DQ', '+2']);
+    for (const layout of ['Watch', 'Conduct']) {
+      await page.getByRole('radio', {name: layout}).click();
+      await faces.focus();
+      await page.keyboard.press('Enter');
+      await page.getByRole('tab', {name: /^People/, selected: true}).waitFor();
+      await page.getByRole('tab', {name: 'Audit log'}).click();
+    }
+    await page.screenshot({path: join(folder, 'faces.png')});
+    server.turnInto({may: ['readings', 'log'], role: 'observer'});
+    server.say({type: 'people', people: [{name: 'Ada N', role: 'observer'}, ...people]});
+    await page.getByRole('img', {name: /^6 people watch: you; Ben K/}).waitFor();
+    assert.equal(await page.locator('rave-top-bar button.people').count(), 0);
+    // Who may not talk is told a new view of the run, and no names.
+    server.say(server.run.hello());
+    await page.locator('rave-top-bar .people').waitFor({state: 'detached'});
   });
 
   await check('every message is as the schema describes it', async () => {

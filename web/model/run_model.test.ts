@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {describe, expect, it} from 'vitest';
-import type {Body, Hello, Time} from '../protocol/messages';
+import type {Body, Hello, People, Time} from '../protocol/messages';
 import {RunModel} from './run_model';
 
 function hello(source: 'live' | 'replay', may: Hello['may']): Hello {
@@ -40,6 +40,15 @@ describe('a live run', () => {
     expect(model.time).toBeNull();
     expect(model.events).toEqual([]);
   });
+});
+
+it('forgets who is here when the rights change, as the server names them to those only who may talk', () => {
+  const model = new RunModel();
+  model.takeMessage(hello('live', ['chat']));
+  model.takeMessage({type: 'people', people: [{name: 'a', role: 'commander'}, {name: 'b', role: 'observer'}]});
+  expect(model.others.map(({name}) => name)).toEqual(['b']);
+  model.takeMessage(hello('live', []));
+  expect(model.others).toEqual([]);
 });
 
 describe('bodies', () => {
@@ -82,12 +91,15 @@ it('does not list the person at this page among the others, by whatever name the
   const model = new RunModel();
   const ben = {name: 'ben', role: 'observer'} as const;
   model.takeMessage({...hello('live', []), user: {name: 'you', role: 'super_user'}});
-  model.takeMessage({type: 'people', people: [ben, {name: 'the operator', role: 'super_user'}]});
+  const here: People = {type: 'people', people: [ben, {name: 'the operator', role: 'super_user'}]};
+  model.takeMessage(here);
   expect(model.knownAs).toBe('the operator');
   expect(model.others).toEqual([ben]);
   // Who looks as another person is still who they are.
   model.takeMessage({...hello('live', []), user: ben, seen_by: {name: 'you', role: 'super_user'}});
+  model.takeMessage(here);
   expect(model.others).toEqual([ben]);
   model.takeMessage({...hello('live', []), user: ben});
+  model.takeMessage(here);
   expect(model.others.map(({name}) => name)).toEqual(['the operator']);
 });

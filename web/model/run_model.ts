@@ -291,6 +291,8 @@ export class RunModel {
     this.time = null;
     this.events = [];
     this.hosts = [];
+    // Who may not talk any more is not told anew who is here.
+    this.people = [];
     this.rights = null;
     this.accounts = null;
     this.audit = null;

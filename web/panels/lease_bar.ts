@@ -86,9 +86,9 @@ export class LeaseBar extends LiveElement {
       :host { display: block; }
       .bar { display: flex; align-items: center; flex-wrap: wrap; gap: 8px; padding: 8px 10px; border: 1px solid var(--line-2); border-radius: var(--r-3); background: var(--bg-2); font-size: var(--fs-12); }
       .bar.mine { background: var(--intent-soft); border-color: var(--intent-line); }
-      .face { display: grid; place-items: center; width: 26px; height: 26px; border-radius: 50%; background: var(--bg-4); color: var(--text-1); font: 600 10px var(--font-ui); flex: none; }
+      .face { display: grid; place-items: center; width: 26px; height: 26px; border-radius: 50%; background: var(--person-fill); color: var(--on-fill); font: 600 10px var(--font-ui); flex: none; }
       .face.you { background: var(--intent-fill); color: #fff; }
-      .face.none { color: var(--text-3); }
+      .face.none { background: var(--bg-4); color: var(--text-3); }
       .who { flex: 1 1 96px; min-width: 90px; line-height: 1.3; }
       .who b { display: block; font-weight: var(--fw-strong); }
       .who small { color: var(--text-2); font-size: var(--fs-11); }

@@ -148,7 +148,7 @@ export class ChatPanel extends LiveElement {
       article div { min-width: 0; flex: 1; }
       article p { margin: 1px 0 0; overflow-wrap: anywhere; white-space: pre-wrap; font-size: var(--fs-13); }
       .who { width: 24px; flex: none; display: grid; place-items: start center; padding-top: 2px; }
-      .face { display: grid; place-items: center; width: 24px; height: 24px; border-radius: 50%; background: var(--bg-4); color: var(--text-1); font: 600 10px var(--font-ui); }
+      .face { display: grid; place-items: center; width: 24px; height: 24px; border-radius: 50%; background: var(--person-fill); color: var(--on-fill); font: 600 10px var(--font-ui); }
       .face.you { background: var(--intent-fill); color: #fff; }
       time { margin-left: 7px; color: var(--text-3); font-size: var(--fs-11); }
       .tag { margin-left: 6px; padding: 0 5px; border-radius: var(--r-2); background: var(--bg-3); color: var(--text-2); font-size: var(--fs-11); }

@@ -3,6 +3,7 @@ import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon, type IconName} from '../../app/icons';
 import {LiveElement} from '../../app/live_element';
 import {controls} from '../../app/styles';
+import {logOf} from '../../model/run_begin';
 import type {Event} from '../../protocol/messages';
 import {clockText} from '../../app/clock';
 import {renderWithheld, withheldStyles} from '../withheld';
@@ -19,7 +20,7 @@ export class LogPanel extends LiveElement {
   protected override listen(): (() => void)[] {
     const {model, palette} = this.context;
     return [
-      ...this.renderAfter(model.eventsChanged, model.rosterChanged, palette.changed),
+      ...this.renderAfter(model.eventsChanged, model.rosterChanged, model.timeChanged, palette.changed),
       model.pictureChanged.on(() => {
         // The line moves with the replay, but a second is fine enough for reading.
         const second = Math.floor(2 * (model.poses.newest?.time_s ?? 0));
@@ -32,7 +33,7 @@ export class LogPanel extends LiveElement {
 
   override render(): TemplateResult {
     const {model} = this.context;
-    const all = foldSame(model.events, model.robots.map((robot) => robot.name));
+    const all = foldSame(logOf(model), model.robots.map((robot) => robot.name));
     const alerts = all.filter((event) => event.level !== 'info').length;
     const shown = all.filter((event) => this.accepts(event)).reverse();
     const now_s = model.poses.newest?.time_s ?? Infinity;
@@ -144,6 +145,7 @@ export class LogPanel extends LiveElement {
 function iconOf(event: Event): IconName {
   if (event.level === 'alert') return 'circleX';
   if (event.level === 'warn') return 'triangleAlert';
+  if (event.kind === 'begin') return 'play';
   if (event.kind.includes('contact')) return 'zap';
   if (event.kind.includes('captur')) return 'target';
   return 'info';

@@ -7,7 +7,7 @@ export const peopleStyles = css`
   .bar { display: flex; flex-wrap: wrap; align-items: center; gap: 8px; padding: 8px 14px; flex: none; }
   .bar .field { flex: 1 1 160px; }
   .scroll { flex: 1; min-height: 0; overflow: auto; padding-bottom: 8px; }
-  .face { display: grid; place-items: center; width: 24px; height: 24px; border-radius: 50%; flex: none; background: var(--bg-4); color: var(--text-1); font: 600 10px var(--font-ui); }
+  .face { display: grid; place-items: center; width: 24px; height: 24px; border-radius: 50%; flex: none; background: var(--person-fill); color: var(--on-fill); font: 600 10px var(--font-ui); }
   .face.you { background: var(--intent-fill); color: #fff; }
   small { display: block; color: var(--text-2); font-size: var(--fs-11); font-weight: 400; }
   .main { display: inline-flex; align-items: center; gap: 6px; height: 28px; padding: 0 12px; border-radius: var(--r-3); background: var(--intent-fill); color: #fff; font-weight: var(--fw-medium); }

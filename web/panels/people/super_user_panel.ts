@@ -56,7 +56,7 @@ export class SuperUserPanel extends LiveElement {
     return part === 'audit' ? html`<rave-audit .context=${context}></rave-audit>` : html`<rave-rights .context=${context}></rave-rights>`;
   }
 
-  private choose(part: Part): void {
+  choose(part: Part): void {
     this.chosen = part;
     this.requestUpdate();
   }

@@ -10,6 +10,7 @@ import {RobotFlag} from '../../protocol/frames';
 import {renderNote, withheldStyles} from '../withheld';
 import {parseFilter, type Filter} from './filter';
 import {stateOf, stoppable} from './robot_state';
+import {sparkline} from './sparkline';
 
 /** Beyond this number of robots a team is a histogram, and its rows come on demand. */
 const kMany = 200;
@@ -162,7 +163,7 @@ export class RobotsPanel extends LiveElement {
         @pointerenter=${() => selection.hover(slot)} @pointerleave=${() => selection.hover(null)}>
       <i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i>
       <span class="name" style=${marked ? `color:${hue.ink};font-weight:600` : ''}>${robot.name}</span>
-      ${this.renderSparkline(slot, marked ? hue.ink : palette.token('text-3'))}
+      ${sparkline(model.poses, slot, marked ? hue.ink : palette.token('text-3'), 48)}
       ${state === '' ? html`<span class="value">${speedText(this.speed(slot))}</span>` : html`<span class="state">${state}</span>`}
       ${this.renderDriver(slot)}
       <span class="mark" title=${robot.recorded ? 'Recorded: it obeys no orders' : ''}>${robot.recorded ? icon('lock', 13) : (this.flags(slot) & RobotFlag.touching) !== 0 ? icon('zap', 13) : nothing}</span>
@@ -189,20 +190,6 @@ export class RobotsPanel extends LiveElement {
       const rows = [...this.renderRoot.querySelectorAll<HTMLElement>('.row')];
       rows[rows.indexOf(event.target as HTMLElement) + (event.key === 'ArrowDown' ? 1 : -1)]?.focus();
     }
-  }
-
-  private renderSparkline(slot: number, colour: string): TemplateResult {
-    const {past, newest} = this.context.model.poses;
-    if (newest === null || past.length < 2) return html`<svg width="48" height="16"></svg>`;
-    const top = 0.4;
-    const points = past
-      // Frames of before a change of the run may have fewer robots.
-      .filter((frame) => frame.speed.length > slot)
-      .map((frame) => {
-        const x = 48 * (1 - (newest.time_s - frame.time_s) / kHistory_s);
-        return `${x.toFixed(1)},${(14 - 12 * Math.min(Math.abs(frame.speed[slot]) / top, 1)).toFixed(1)}`;
-      });
-    return html`<svg width="48" height="16" aria-hidden="true">${svg`<polyline points=${points.join(' ')} stroke=${colour} />`}</svg>`;
   }
 
   private renderDetail(): TemplateResult | typeof nothing {
@@ -263,11 +250,10 @@ export class RobotsPanel extends LiveElement {
       .name { flex: 1; min-width: 0; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
       .value { color: var(--text-2); white-space: nowrap; }
       .state { color: var(--warn); white-space: nowrap; }
-      .driver { display: grid; place-items: center; width: 20px; height: 20px; border-radius: 50%; background: var(--bg-4); color: var(--text-1); font-size: 10px; font-weight: 600; flex: none; }
+      .driver { display: grid; place-items: center; width: 20px; height: 20px; border-radius: 50%; background: var(--person-fill); color: var(--on-fill); font-size: 10px; font-weight: 600; flex: none; }
       .driver.you { background: var(--intent-fill); color: #fff; }
       .mark { width: 14px; color: var(--text-3); }
       .mark svg { color: inherit; }
-      polyline { fill: none; stroke-width: 1; }
       .none { margin: 12px; color: var(--text-3); font-size: var(--fs-12); }
       .detail { border-top: 1px solid var(--line-1); padding: 10px 14px 12px; font-size: var(--fs-12); max-height: 45%; overflow: auto; }
       h3 { display: flex; align-items: center; gap: 8px; margin: 0 0 8px; font-size: var(--fs-13); }

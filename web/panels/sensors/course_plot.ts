@@ -5,6 +5,7 @@ import type {Palette} from '../../panel_api';
 import {kFont} from '../world/labels';
 import {roundStep, tickText} from '../world/ticks';
 import type {CourseField} from './course_fields';
+import {gapsOf, type Gap} from './course_gaps';
 
 /** One line of a plot over time. */
 export interface CourseLine {
@@ -18,6 +19,18 @@ export interface CourseLine {
 const kFont_px = 10;
 /** A text of an axis needs so much. */
 const kTicks_px = 22;
+const kNoReadings = 'no readings';
+/** Between two lines of a hatch. */
+const kHatch_px = 7;
+
+/** The moment that a plot ends at. */
+export interface CourseMoment {
+  now_s: number;
+  /** When the run, or its recording, began. */
+  begin_s: number;
+  /** Of the sensor; 0 where it is not known. */
+  period_s: number;
+}
 
 /** One field of a sensor over the last seconds, with the value under the pointer. uPlot is loaded with the first one. */
 export class CoursePlot {
@@ -27,14 +40,18 @@ export class CoursePlot {
   private look = '';
   /** Under the pointer: a value of each line and how long ago; null: the pointer is elsewhere. */
   pointed: {values: (number | null)[]; ago_s: number} | null = null;
+  /** Where the first line has no readings. */
+  gaps: readonly Gap[] = [];
 
   /** `changed` is called when the pointer is at another value, and once the plot can be drawn. */
   constructor(private readonly changed: () => void) {}
 
   /** Draws in `host`, which it fills. */
-  draw(host: HTMLElement, lines: readonly CourseLine[], field: CourseField, now_s: number, palette: Palette): void {
+  draw(host: HTMLElement, lines: readonly CourseLine[], field: CourseField, moment: CourseMoment, palette: Palette): void {
     const {clientWidth: width, clientHeight: height} = host;
     if (width === 0 || height === 0 || !this.ready()) return;
+    const {now_s, begin_s, period_s} = moment;
+    this.gaps = gapsOf(shownOf(lines[0], now_s).map((point) => point.time_s - now_s), Math.max(-kCourse_s, begin_s - now_s), period_s);
     const look = [palette.theme, field.label, field.unit, ...lines.map(({colour, dashed}) => `${colour} ${dashed ?? false}`)].join();
     if (this.plot === null || look !== this.look || this.plot.root.parentElement !== host) this.make(host, width, height, lines, field, palette);
     this.look = look;
@@ -63,10 +80,14 @@ export class CoursePlot {
 
   /** Times are counted from now, so that the axis stands still. */
   private table(lines: readonly CourseLine[], field: CourseField, now_s: number): uPlot.AlignedData {
-    const tables = lines.map(({points}): uPlot.AlignedData => {
-      const shown = points.filter(({time_s}) => time_s >= now_s - kCourse_s && time_s <= now_s + 1e-3);
+    const tables = lines.map((line): uPlot.AlignedData => {
+      const values = shownOf(line, now_s).map((point): [number, number | null] => [point.time_s - now_s, finite(field.of(point))]);
       // null is a gap.
-      return [shown.map(({time_s}) => time_s - now_s), shown.map((point) => finite(field.of(point)))];
+      for (const [from, to] of this.gaps) {
+        const next = values.findIndex(([t]) => t >= to - 1e-6);
+        if (next > 0) values.splice(next, 0, [(from + to) / 2, null]);
+      }
+      return [values.map(([t]) => t), values.map(([, value]) => value)];
     });
     if (tables.every(([times]) => times.length === 0)) return [[], ...lines.map(() => [])] as unknown as uPlot.AlignedData;
     return tables.length === 1 ? tables[0] : (this.library as typeof uPlot).join(tables, tables.map(() => [2, 2]));
@@ -90,8 +111,46 @@ export class CoursePlot {
       series: [{}, ...lines.map(({colour, dashed, dots}): uPlot.Series => ({
         stroke: colour, width: 1.5, points: {show: dots === true ? true : alone, size: 4, width: 0, fill: colour}, spanGaps: false, ...(dashed === true ? {dash: [4, 3]} : {}),
       }))],
-      hooks: {setCursor: [(plot) => this.point(plot)]},
+      hooks: {setCursor: [(plot) => this.point(plot)], drawAxes: [(plot) => this.hatch(plot, palette)]},
     }, this.table(lines, field, 0), host);
+  }
+
+  /** Where there are no readings. */
+  private hatch(plot: uPlot, palette: Palette): void {
+    const {ctx, bbox} = plot;
+    const scale = devicePixelRatio;
+    ctx.save();
+    ctx.font = `400 ${kFont_px * scale}px ${kFont}`;
+    for (const [from, to] of this.gaps) {
+      const [left, right] = [from, to].map((t) => plot.valToPos(t, 'x', true));
+      ctx.save();
+      ctx.beginPath();
+      ctx.rect(left, bbox.top, right - left, bbox.height);
+      ctx.clip();
+      ctx.strokeStyle = palette.token('line-2');
+      ctx.lineWidth = scale;
+      ctx.beginPath();
+      for (let x = left - bbox.height; x < right; x += kHatch_px * scale) {
+        ctx.moveTo(x, bbox.top + bbox.height);
+        ctx.lineTo(x + bbox.height, bbox.top);
+      }
+      ctx.stroke();
+      this.labelHatch(ctx, (left + right) / 2, bbox.top + bbox.height / 2, right - left, palette);
+      ctx.restore();
+    }
+    ctx.restore();
+  }
+
+  private labelHatch(ctx: CanvasRenderingContext2D, x: number, y: number, room: number, palette: Palette): void {
+    const scale = devicePixelRatio;
+    const width = ctx.measureText(kNoReadings).width + 12 * scale;
+    if (width > room) return;
+    ctx.fillStyle = palette.token('bg-1');
+    ctx.fillRect(x - width / 2, y - 8 * scale, width, 16 * scale);
+    ctx.fillStyle = palette.token('text-3');
+    ctx.textAlign = 'center';
+    ctx.textBaseline = 'middle';
+    ctx.fillText(kNoReadings, x, y);
   }
 
   private point(plot: uPlot): void {
@@ -100,6 +159,11 @@ export class CoursePlot {
     this.pointed = idx === null || idx === undefined ? null : {values: plot.data.slice(1).map((line) => line[idx] ?? null), ago_s: -plot.data[0][idx]};
     if (before !== null || this.pointed !== null) this.changed();
   }
+}
+
+/** The readings of a line that the plot shows. */
+function shownOf({points}: CourseLine, now_s: number): CoursePoint[] {
+  return points.filter(({time_s}) => time_s >= now_s - kCourse_s && time_s <= now_s + 1e-3);
 }
 
 /** A line of a single value would not be seen. */

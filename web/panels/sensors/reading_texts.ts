@@ -7,6 +7,7 @@ import type {Reading} from '../../protocol/frames';
 import type {Sensor} from '../../protocol/messages';
 import {bearingsOf, mountOf} from '../world/scan_layer';
 import {pointSurface, type Met, type Surface} from '../world/surface';
+import {nearestRay} from './nearest';
 
 const kTableRows = 200;
 
@@ -22,11 +23,8 @@ export function metBy(surface: Surface | null, placed: Placed, slot: number, sen
 /** The nearest range as a sentence. */
 export function nearestText(sensor: Sensor, reading: Reading | null, met: (ray: number) => Met | null, palette: Palette): TemplateResult | string {
   if (reading === null) return 'No reading yet.';
-  let ray = -1;
-  for (let i = 0; i < reading.rows; ++i) {
-    if (reading.values[i] < (ray < 0 ? (sensor.range?.[1] ?? Infinity) : reading.values[ray])) ray = i;
-  }
-  if (ray < 0) return `Nothing within ${sensor.range?.[1] ?? 0} m.`;
+  const ray = nearestRay(sensor, reading);
+  if (ray === null) return `Nothing within ${sensor.range?.[1] ?? 0} m.`;
   const degrees = Math.round((bearingsOf(sensor, reading.rows)[ray] * 180) / Math.PI);
   const side = degrees === 0 ? 'ahead' : `${Math.abs(degrees)}° ${degrees > 0 ? 'left' : 'right'}`;
   const what = met(ray);
@@ -63,11 +61,12 @@ export function aboutText(sensor: Sensor, reading: Reading | null, now_s: number
     parts.push(`${degrees}°`);
   }
   if (sensor.period_s > 0) parts.push(`${Number((1 / sensor.period_s).toPrecision(3))} Hz`);
-  if (reading !== null) {
-    const age_s = Math.max(0, now_s - reading.stamp_s);
-    parts.push(age_s < 1 ? `age ${Math.round(age_s * 1000)} ms` : `age ${age_s.toFixed(1)} s`);
-  }
+  if (reading !== null) parts.push(ageText(Math.max(0, now_s - reading.stamp_s)));
   return parts.join(' · ');
+}
+
+export function ageText(age_s: number): string {
+  return age_s < 1 ? `age ${Math.round(age_s * 1000)} ms` : `age ${age_s.toFixed(1)} s`;
 }
 
 function splitField(name: string): [string, string] {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
+import {spanOf} from '../../app/moment';
 import {controls, glyphs} from '../../app/styles';
 import type {Interest} from '../../model/link';
 import type {Signal} from '../../model/signal';
@@ -13,6 +14,7 @@ import {renderNote, renderWithheld, withheldStyles} from '../withheld';
 import {shortName} from '../world/name_layer';
 import {Surface, type Met} from '../world/surface';
 import {beamText, courseFieldsOf, type CourseField} from './course_fields';
+import {gapsText} from './course_gaps';
 import {CoursePlot, type CourseLine} from './course_plot';
 import {courseStyles} from './course_styles';
 import {drawPolar} from './polar_plot';
@@ -148,7 +150,7 @@ export class SensorsPanel extends LookingPanel {
     const fields = courseFieldsOf(sensor, this.beamOf(sensor));
     const field = fields[Math.min(this.field, fields.length - 1)];
     if (field === undefined) return nothing;
-    const {pointed} = this.course;
+    const {pointed, gaps} = this.course;
     const choose = (i: number) => { this.field = i; this.requestUpdate(); };
     return html`
       <div class="fields">
@@ -157,7 +159,8 @@ export class SensorsPanel extends LookingPanel {
         ${field.label === 'beam' ? this.renderBeam(sensor) : nothing}
         <em>${pointed === null ? '15 s' : `${pointed.values.map((value) => (value === null ? 'nothing' : `${Number(value.toFixed(3))} ${field.unit}`.trim())).join(' · ')}, ${pointed.ago_s.toFixed(1)} s ago`}</em>
       </div>
-      <div class="course" role="img" aria-label="${field.label} of ${sensor.name} in the last 15 seconds"></div>`;
+      <div class="course" role="img" aria-label="${field.label} of ${sensor.name} in the last 15 seconds${gaps.length === 0 ? '' : `; no readings ${gapsText(gaps)}`}"
+        title=${gaps.length > 0 && this.context.model.live ? 'A sensor is read while a panel shows it' : nothing}></div>`;
   }
 
   private renderBeam(sensor: Sensor): TemplateResult {
@@ -219,8 +222,9 @@ export class SensorsPanel extends LookingPanel {
     const hue = palette.hue(slot);
     const halves = sensor.origin === 'hybrid' ? model.readings.of(slot, index, 1) : null;
     this.onCanvas('.polar', (ctx, width, height) => {
-      drawPolar(ctx, width, height, sensor, reading, hue, palette, (ray) =>
-        reading === null ? null : this.met(slot, sensor, reading, ray), halves, this.field === 1 ? this.beamOf(sensor) : null, reading === null ? 1 : strengthOf(this.placed.time_s - reading.stamp_s, sensor.period_s));
+      drawPolar(ctx, width, height, sensor, reading, hue, palette, (ray) => (reading === null ? null : this.met(slot, sensor, reading, ray)), {
+        real: halves, beam: this.field === 1 ? this.beamOf(sensor) : null, strength: reading === null ? 1 : strengthOf(this.placed.time_s - reading.stamp_s, sensor.period_s),
+      });
     });
     this.onCanvas('.sightings', (ctx, width, height) => {
       const twin = twinOf(robot, index);
@@ -238,7 +242,7 @@ export class SensorsPanel extends LookingPanel {
     const lines: CourseLine[] = [{points: model.readings.course(slot, index), colour: ink, dots: sensor.kind === 'sightings'}];
     const twin = twinOf(model.robots[slot], index);
     if (twin !== null) lines.push({points: model.readings.course(slot, twin), colour: palette.token('virtual-ink'), dashed: true});
-    this.course.draw(host, lines, field, this.placed.time_s, palette);
+    this.course.draw(host, lines, field, {now_s: this.placed.time_s, begin_s: spanOf(model)[0], period_s: sensor.period_s}, palette);
   }
 
   static override styles = [

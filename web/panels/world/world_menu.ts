@@ -9,12 +9,13 @@ import {notYoursText} from '../../model/withheld';
 import {renderNote, withheldStyles} from '../withheld';
 import {rampColour} from './ramp';
 
-const kKinds: readonly [Kind, string][] = [
-  ['real', 'real'],
-  ['simulated', 'simulated'],
-  ['virtual', 'virtual'],
-  ['landmark', 'tubes'],
-  ['wall', 'walls'],
+/** With the word for one, and that for several. */
+const kKinds: readonly [Kind, string, string][] = [
+  ['real', 'real', 'real'],
+  ['simulated', 'simulated', 'simulated'],
+  ['virtual', 'virtual', 'virtual'],
+  ['landmark', 'tube', 'tubes'],
+  ['wall', 'wall', 'walls'],
 ];
 const kRampSteps = 8;
 /** How strong a map lies over the world at first. */
@@ -41,13 +42,14 @@ export function renderLegend(context: PanelContext, layers: Layers, set: (layers
   const {model} = context;
   const counts = countKinds(context);
   return html`<div class="legend" role="group" aria-label="Kinds; press to hide, with Alt to show alone">
-    ${kKinds.map(([kind, word]) => {
+    ${kKinds.map(([kind, one, several]) => {
       const count = counts.get(kind);
+      const word = count === 1 ? one : several;
       if (count === undefined) {
         if (kind !== 'virtual' || !model.hidden.includes('virtual')) return nothing;
         return html`<button class="kind lacking" title=${model.whyNot('obstacles')} @click=${explain}>${icon('lock', 13)} <i>virtual obstacles</i></button>`;
       }
-      return html`<button class="kind" aria-pressed=${!layers.hidden.includes(kind)} title="Hide or show ${word}" aria-label="${count} ${word}"
+      return html`<button class="kind" aria-pressed=${!layers.hidden.includes(kind)} title="Hide or show ${several}" aria-label="${count} ${word}"
         @click=${(event: MouseEvent) => set(withKind(layers, kind, event.altKey))}>
         <span class="glyph ${kind}"></span><b>${count}</b> <i>${word}</i></button>`;
     })}</div>`;

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css} from 'lit';
 
+/** The legend lies over the world, so that neither it nor the tools lose their words. */
+const overWorld = css`
+  position: absolute; left: 34px; top: 62px; z-index: 3; max-width: calc(100% - 44px); padding: 0 4px; gap: 0;
+  background: var(--bg-2); border: 1px solid var(--line-1); border-radius: var(--r-full);
+`;
+
 /** The bar, the canvas and the note of the World View, on wide and small screens. */
 export const worldPanelStyles = css`
   :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); position: relative; }
@@ -12,15 +18,22 @@ export const worldPanelStyles = css`
   :host { container-type: inline-size; }
   @container (max-width: 960px) { .colour-by { display: none; } }
   .mode { display: none; font-weight: var(--fw-medium); font-size: var(--fs-12); }
-  /* Beside tools the legend loses its words first; then it lies over the world, so that the tools keep theirs. */
-  @container (max-width: 1150px) { .order-tools ~ .legend .kind i { display: none; } .order-tools ~ .legend .kind { padding: 0 5px; } }
-  @container (min-width: 521px) and (max-width: 920px) {
-    .order-tools ~ .legend { position: absolute; left: 34px; top: 62px; z-index: 3; padding: 0 6px; gap: 0; background: var(--bg-2); border: 1px solid var(--line-1); border-radius: var(--r-full); }
+  @container (min-width: 521px) and (max-width: 1150px) {
+    .order-tools ~ .legend { ${overWorld} }
     .order-tools + .rule { display: none; }
     .bar:has(.order-tools) ~ .stage .note { top: 62px; }
   }
+  @container (min-width: 521px) and (max-width: 1420px) {
+    .order-tools ~ .legend:has(~ .colour-by) { ${overWorld} }
+    .order-tools + .rule:has(~ .colour-by) { display: none; }
+    .bar:has(.order-tools ~ .colour-by) ~ .stage .note { top: 62px; }
+  }
+  @container (min-width: 521px) and (max-width: 680px) {
+    .legend { ${overWorld} }
+    .rule:not(:has(+ .order-tools)) { display: none; }
+    .bar ~ .stage .note { top: 62px; }
+  }
   @container (max-width: 700px) { .tool span { display: none; } }
-  @container (max-width: 640px) { .kind i { display: none; } .kind { padding: 0 5px; } }
   .stage { position: relative; flex: 1; min-height: 0; }
   .canvas { position: absolute; inset: 0; background: var(--floor); }
   /* The canvases lie over an outline of their own place. */
@@ -33,6 +46,7 @@ export const worldPanelStyles = css`
   .note { position: absolute; left: 14px; top: 26px; display: flex; gap: 7px; align-items: center; height: 30px; padding: 0 12px; background: var(--bg-2); border: 1px solid var(--line-1); border-radius: var(--r-3); font-size: var(--fs-12); color: var(--text-2); }
   .note svg { color: var(--intent); }
   @container (max-width: 520px) {
+    .kind i { display: none; } .kind { padding: 0 5px; }
     .bar { display: contents; }
     .segments, .rule, .space, .order-tools, .tools .ruler, .tools .maximize, .tools .camera { display: none; }
     .legend { position: absolute; left: 10px; top: 10px; z-index: 3; padding: 0 6px; background: var(--bg-2); border: 1px solid var(--line-1); border-radius: var(--r-full); gap: 0; }

@@ -44,7 +44,10 @@ class Echo final : public Handler {
   }
   void received(std::uint64_t, std::string_view) override { ++messages; }
   bool received_binary(std::uint64_t, std::string_view) override { return false; }
-  void closed(std::uint64_t) override { --open; }
+  void closed(std::uint64_t) override {
+    --open;
+    open.notify_all();
+  }
 
   std::filesystem::path file;  ///< Set before it is asked for.
   std::atomic<int> served = 0;
@@ -205,7 +208,7 @@ TEST_F(WebServer, PingsASilentSocketAndThenCutsItOff) {
   const std::string answer = upgrade("Cookie: key=good\r\n", {});
   EXPECT_NE(answer.find("welcome"), std::string::npos) << answer;
   EXPECT_TRUE(answer.ends_with(kPing));
-  for (int i = 0; i < 1000 && handler_.open > 0; ++i) ::usleep(1000);
+  handler_.open.wait(1);
   EXPECT_EQ(handler_.open, 0);
 }
 

@@ -20,9 +20,9 @@
 #include "page_message.hpp"
 #include "page_text.hpp"
 #include "past_stream.hpp"
+#include "rave/base/token_bucket.hpp"
 #include "rave/gui_server/person.hpp"
 #include "rave/gui_server/source.hpp"
-#include "rave/web/rate_limit.hpp"
 #include "rave/web/server.hpp"
 #include "shared_texts.hpp"
 
@@ -148,7 +148,7 @@ class Session {
   std::vector<VarianceAt> told_variances_;
   MapStream map_stream_;
   std::vector<ProbeShown> probes_;
-  web::TokenBucket probe_limit_{kProbesPerSecond, kProbesAtOnce};
+  TokenBucket probe_limit_{kProbesPerSecond, kProbesAtOnce};
   std::uint64_t told_map_names_ = 0;
   std::uint64_t told_events_ = 0;
   std::uint64_t told_bodies_ = 0;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "rave/base/log.hpp"
-#include "rave/bus/budget.hpp"
+#include "rave/base/token_bucket.hpp"
 #include "rave/bus/topics.hpp"
 
 namespace rave::bus {
@@ -83,7 +83,7 @@ class CommandBook {
 
   BeginCommand begin_;
   LogSink* log_;
-  Budget budget_{kPerSecond, kPerSecond};
+  TokenBucket budget_{kPerSecond, kPerSecond};
   std::optional<Clock::time_point> warned_{};  ///< When the log last told of too many commands.
   std::map<Key, Known> known_;
   std::vector<Open> open_;  ///< In the order of arrival.

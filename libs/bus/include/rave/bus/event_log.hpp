@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "rave/base/log.hpp"
-#include "rave/bus/budget.hpp"
+#include "rave/base/token_bucket.hpp"
 #include "rave/bus/event.hpp"
 
 namespace rave::bus {
@@ -37,7 +37,7 @@ class EventLog {
  private:
   LogSink* log_;
   /// Refills by a line a second: other processes must not be able to fill the log.
-  Budget budget_{1, double{kAtOnce}};
+  TokenBucket budget_{1, double{kAtOnce}};
   std::uint64_t left_out_ = 0;
   std::map<std::uint64_t, std::string> told_;  ///< By writer: the last event logged.
 };

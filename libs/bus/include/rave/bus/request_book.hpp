@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "rave/base/log.hpp"
-#include "rave/bus/budget.hpp"
+#include "rave/base/token_bucket.hpp"
 
 namespace rave::bus {
 
@@ -74,7 +74,7 @@ class RequestBook {
 
  private:
   struct Asker {
-    Budget budget{kPerSecond, kAtOnce};
+    TokenBucket budget{kPerSecond, kAtOnce};
     std::uint64_t last = 0;  ///< The highest number that was accepted or refused.
     std::size_t open = 0;
     Clock::time_point heard{};
@@ -97,7 +97,7 @@ class RequestBook {
 
   BeginRequest begin_;
   LogSink* log_;
-  Budget all_{kAllPerSecond, kAllAtOnce};
+  TokenBucket all_{kAllPerSecond, kAllAtOnce};
   std::map<std::uint64_t, Asker> askers_;  ///< By writer.
   std::vector<Open> open_;                 ///< In the order of arrival.
   std::vector<Reply> replies_;

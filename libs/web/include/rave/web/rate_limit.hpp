@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "rave/web/token_bucket.hpp"
+#include "rave/base/token_bucket.hpp"
 
 namespace rave::web {
 

@@ -93,7 +93,8 @@ struct ServerOptions {
   /// A socket with more unsent bytes is closed.
   std::size_t waiting_bytes = std::size_t{16} << 20U;
   int send_buffer_bytes = 64 << 10;  ///< Small, so that a slow connection is detected at once.
-  /// Timeout of a ping without an answer, and of an incomplete request.
+  /// A WebSocket from which nothing came for this long, not even the answer to a ping, is closed;
+  /// so is an incomplete request.
   std::chrono::seconds idle{15};
   std::string subprotocol;  ///< Subprotocol of `/ws`, requested by the page; empty: none.
   /// Whether pages of other origins are denied POST requests and the WebSocket `/ws`. False: the

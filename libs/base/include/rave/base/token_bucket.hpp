@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <chrono>
 
-namespace rave::web {
+namespace rave {
 
-/// Limits the rate of one kind of action: `burst` at once, then `per_s`. One thread.
+/// Limits the rate of one kind of action: `burst` at once, then `per_s`. One owner thread.
 class TokenBucket {
  public:
   using Clock = std::chrono::steady_clock;
@@ -33,4 +33,4 @@ class TokenBucket {
   Clock::time_point at_{};
 };
 
-}  // namespace rave::web
+}  // namespace rave

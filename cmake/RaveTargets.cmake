@@ -30,7 +30,9 @@ target_compile_options(rave_build_flags INTERFACE
   -ffile-prefix-map=${rave_source_from_build}=)
 if(RAVE_SANITIZE)
   target_compile_options(rave_build_flags INTERFACE
-    -fsanitize=${RAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    -fsanitize=${RAVE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    # The checks hide from g++ what an std::optional without a value keeps it from reading.
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(rave_build_flags INTERFACE -fsanitize=${RAVE_SANITIZE})
   if(RAVE_SANITIZE MATCHES undefined AND NOT RAVE_FUZZERS)
     # Two checks before each access through a pointer double the time that compiling takes. A null

@@ -209,6 +209,7 @@ Status look_at_number(const runtime::BuiltScenario& built, std::size_t hosts) {
 
 Result<ManagedEnd> manage_time(const ManagedRun& run, runtime::BuiltScenario built,
                                std::vector<config::PlannedHost> hosts) {
+  RAVE_TRY(run.control.check_start(built.live_reason));
   if (!runtime::needs_manager(built)) return wait_for_hosts(run, built);
   const config::ScenarioFile& file = run.scenario.scenario;
   run.console.warn("run", "the run is in real time: {}", built.live_reason);

@@ -14,10 +14,16 @@
 namespace rave::cli {
 namespace {
 
+void add_paused(CLI::App& app, bool& paused) {
+  app.add_flag("--paused", paused,
+               "Start paused: `rave resume`, `rave step` or the page continues");
+}
+
 void add_run(CLI::App& root, Command& chosen) {
   const auto [app, c] = add_command(root, chosen, "run", "Run a scenario", run);
   add_scenario(app, c.scenario);
   add_run_options(app, c);
+  add_paused(app, c.paused);
   add_processes(app, c.processes, "Divide the robots evenly among N processes", 1);
   auto* const gui = app.add_flag(
       "--gui", c.gui,
@@ -75,6 +81,7 @@ void add_env(CLI::App& root, Command& chosen) {
   app.add_flag("--resume", c.resume,
                "Continue a run that lost its manager (default with on_lost_host: restart)");
   add_run_options(app, c.run);
+  add_paused(app, c.run.paused);
   add_processes(app, c.run.processes,
                 "Number of hosts, host-1 to host-N, among which the robots are divided", 2);
   add_bus_options(app, c.run.bus);

@@ -28,6 +28,10 @@ Result<std::unique_ptr<RunStart>> RunStart::open(const RunCommand& options, std:
   std::unique_ptr<RunStart> start(new RunStart(std::move(folder), options.quiet));
   // As soon as there is a folder, so that all later messages are in the file, too.
   RAVE_TRY(start->console_.open_file(start->path() / "console.log"));
+  if (options.paused) {
+    start->control_.pause();
+    start->console_.info("run", "paused before the first step; `rave resume` starts it");
+  }
   return start;
 }
 

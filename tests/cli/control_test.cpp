@@ -73,6 +73,30 @@ TEST_F(Control, AStoppedRobotStandsFromTheNextStepOn) {
   EXPECT_NE(events().find("herd-1"), std::string::npos);
 }
 
+TEST_F(Control, ARunThatStartsPausedWaitsBeforeItsFirstStep) {
+  start("good_scenario.yaml", {"--paused"});
+  EXPECT_NE(rave({"ps"}).out.find(" 0.00 of "), std::string::npos) << rave({"ps"}).out;
+  EXPECT_EQ(rave({"set", "anna", "body.scale", "1.2"}).exit_code, 0);
+  EXPECT_EQ(rave({"step", "--count", "3"}).exit_code, 0);
+  wait_until([&] { return rave({"ps"}).out.find(" 0.03 of ") != std::string::npos; });
+  EXPECT_EQ(rave({"resume"}).exit_code, 0);
+  wait_until([&] { return rave({"ps"}).out.find("running") != std::string::npos; });
+  end();
+  EXPECT_NE(content_of(output() + "/console.log").find("paused before the first step"),
+            std::string::npos);
+}
+
+TEST_F(Control, ARunInRealTimeCannotStartPaused) {
+  for (const char* const processes : {"1", "2"}) {
+    const Ended ended = rave({"run", "live.yaml", "--processes", processes, "--paused", "--output",
+                              output(), "--bus-tag", folder_.path().filename().string()});
+    EXPECT_EQ(ended.exit_code, 2) << ended.out;
+    EXPECT_NE(ended.err.find("the run cannot start paused: it is in real time: "),
+              std::string::npos)
+        << ended.err;
+  }
+}
+
 TEST_F(Control, WhatWasDoneByHandIsDoneAgainByVerify) {
   start("good_scenario.yaml");
   EXPECT_EQ(rave({"pause"}).exit_code, 0);

@@ -26,7 +26,10 @@ class PacedRun : public ::testing::Test {
     words.insert(words.end(), more.begin(), more.end());
     process_ = start_rave(words, {setting_});
     ASSERT_GT(process_, 0);
-    wait_until([&] { return rave({"ps"}).out.find("running") != std::string::npos; });
+    wait_until([&] {
+      const std::string out = rave({"ps"}).out;
+      return out.find("running") != std::string::npos || out.find("paused") != std::string::npos;
+    });
   }
   /// Gives up only when something is broken.
   template <class Holds>

@@ -145,7 +145,9 @@ TEST_F(PageOrders, TheHashIsThatOfOneProcessAndTheChatIsInTheRecord) {
 }
 
 TEST_F(PageOrders, TwoPagesOfOnePersonAskOneAnother) {
+  pace_ = "0.5x";
   start("pages", with_page({"--no-record"}));
+  HeldRun::give({"resume"});
   sign_in();
   RawSocket first = page();
   RawSocket second = page();
@@ -165,7 +167,9 @@ TEST_F(PageOrders, TwoPagesOfOnePersonAskOneAnother) {
 }
 
 TEST_F(PageOrders, APageThatIsLoadedAnewHasItsRobots) {
+  pace_ = "0.5x";
   start("reload", with_page({"--no-record"}));
+  HeldRun::give({"resume"});
   sign_in();
   {
     RawSocket page = this->page();

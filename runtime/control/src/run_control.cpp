@@ -87,6 +87,12 @@ bool RunControl::paused() const {
   return paused_;
 }
 
+Status RunControl::check_start(std::string_view live_reason) const {
+  if (live_reason.empty() || !paused()) return {};
+  return fail(ErrorCode::kInvalidArgument, "the run cannot start paused: it is in real time: {}",
+              live_reason);
+}
+
 Result<std::future<Result<std::string>>> RunControl::post(RunRequest request) {
   std::future<Result<std::string>> answer;
   std::stop_source wake(std::nostopstate);

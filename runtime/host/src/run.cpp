@@ -98,6 +98,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   RAVE_TRY_ASSIGN(BuiltScenario built,
                   build(adjusted, catalogue, {options.program_runner, &console, &pace}));
   const bool live = !built.live_reason.empty();
+  if (options.control != nullptr) RAVE_TRY(options.control->check_start(built.live_reason));
   if (live && (file.pace.is_max() || file.pace.factor > 1)) {
     console.warn("run", "the run is in real time: {}", built.live_reason);
     pace.set_factor(1);

@@ -183,6 +183,10 @@ class RunControl {
   [[nodiscard]] bool ends_everybody() const noexcept { return everybody_.load(); }
   [[nodiscard]] bool paused() const;
 
+  /// Whether a run may start as this asks. `live_reason`: why it is live; empty: it is not. Error
+  /// kInvalidArgument: it is live, and to start paused.
+  [[nodiscard]] Status check_start(std::string_view live_reason) const;
+
   /// Executes a request and waits until the run has done so, which is before its next step, also
   /// while it is paused. Returns a description of what was done. Errors: kNotFound and
   /// kInvalidArgument (those of the run), kState (no run in progress), kTimeout (not executed

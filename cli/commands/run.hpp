@@ -25,7 +25,7 @@ struct RunCommand {
   bool no_picture = false;
   bool no_record = false;
   bool arm = false;
-  bool paused = false;  ///< Wait before the first step until somebody resumes it.
+  bool paused = false;  ///< Wait before the first step until a person resumes it.
   bool quiet = false;
   std::vector<std::string> plugins;
   std::optional<int> processes;  ///< Divide the robots among this number of processes.

@@ -48,7 +48,8 @@ Result<int> robot(const RobotCommand& options) {
   runtime::RunControl& control = start.control();
   how.run =
       start.run_options(run, control::own_run_name(scenario.scenario.name.value, options.host));
-  how.begin_request = control::bus_requests_of(control);
+  control::ManagerRelay relay(how.bus);
+  how.begin_request = control::bus_requests_of(control, &relay);
   RAVE_TRY_ASSIGN(how.begin_command, control::commands_of(control, scenario, options.host));
   start.serve(how.run.run_name, "host", "this host");
   const auto line = open_host_line(run.line, options.host, how.bus, control, start.console());

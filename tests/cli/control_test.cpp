@@ -78,7 +78,7 @@ TEST_F(Control, ARunThatStartsPausedWaitsBeforeItsFirstStep) {
   EXPECT_NE(rave({"ps"}).out.find(" 0.00 of "), std::string::npos) << rave({"ps"}).out;
   EXPECT_EQ(rave({"set", "anna", "body.scale", "1.2"}).exit_code, 0);
   EXPECT_EQ(rave({"step", "--count", "3"}).exit_code, 0);
-  wait_until([&] { return rave({"ps"}).out.find(" 0.03 of ") != std::string::npos; });
+  wait_until([&] { return rave({"ps"}).out.find(" 0.02 of ") != std::string::npos; });
   EXPECT_EQ(rave({"resume"}).exit_code, 0);
   wait_until([&] { return rave({"ps"}).out.find("running") != std::string::npos; });
   end();

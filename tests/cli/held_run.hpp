@@ -41,6 +41,8 @@ class HeldRun : public ::testing::Test {
     wait_until([&] {
       return rave({"edit", "list"}).exit_code == 0 && rave({"pause"}).exit_code == 0;
     });
+    // `rave ps` says 0 s before step 0 and after it.
+    give({"step"});
   }
   /// Gives up only when something is broken.
   template <class Holds>

@@ -2,6 +2,7 @@
 // Orders from a page, over the server of the run: the same orders at the same steps to robots in
 // one process and in several; two pages of one person; and what they say to one another.
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "held_run.hpp"
@@ -9,12 +10,11 @@
 #include "rave/record/merge.hpp"
 #include "rave/record/run_messages.hpp"
 #include "rave/record/run_reader.hpp"
-#include "rave/web_testing/raw_client.hpp"
+#include "signed_in.hpp"
 
 namespace rave::cli_test {
 namespace {
 
-using web::testing::RawClient;
 using web::testing::RawSocket;
 
 class PageOrders : public HeldRun {
@@ -29,25 +29,10 @@ class PageOrders : public HeldRun {
   }
   /// Signs in by the link that the run printed.
   void sign_in() {
-    const std::string begin = "http://127.0.0.1:";
-    wait_until([&] { return content_of(output_ + ".log").find("/enter") != std::string::npos; });
-    const std::string said = content_of(output_ + ".log");
-    const std::string place = said.substr(said.find(begin) + begin.size());
-    port_ = static_cast<std::uint16_t>(std::stoi(place));
-    const std::string target =
-        place.substr(place.find('/'), place.find_first_of(" \n") - place.find('/'));
-    RawClient client(port_, {});
-    client.send(fmt::format("GET {} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nConnection: close\r\n\r\n",
-                            target, port_));
-    const std::string answer = client.read_all();
-    const std::size_t at = answer.find("Set-Cookie: ");
-    ASSERT_NE(at, std::string::npos) << answer;
-    cookie_ = answer.substr(at + 12, answer.find(';', at) - at - 12);
+    wait_until([&] { return SignedIn::is_in(content_of(output_ + ".log")); });
+    person_.emplace(content_of(output_ + ".log"));
   }
-  [[nodiscard]] RawSocket page() const {
-    return {
-        port_, {}, fmt::format("Cookie: {}\r\nOrigin: http://127.0.0.1:{}\r\n", cookie_, port_)};
-  }
+  [[nodiscard]] RawSocket page() const { return person_->page(); }
   /// Sends a request and returns its answer.
   static std::string ask(RawSocket& page, const std::string& message) {
     static int number = 0;
@@ -111,8 +96,7 @@ class PageOrders : public HeldRun {
     return lines;
   }
 
-  std::uint16_t port_ = 0;
-  std::string cookie_;
+  std::optional<SignedIn> person_;
 };
 
 TEST_F(PageOrders, TheHashIsThatOfOneProcessAndTheChatIsInTheRecord) {

@@ -341,7 +341,9 @@ void Bus::collect_matches(Endpoint& endpoint) {
 }
 
 void Bus::collect_incompatible(const Endpoint& endpoint) {
-  if (auto text = take_mismatch(endpoint.entity, endpoint.reads)) {
+  // A manager and a monitor of one run do not match each other on purpose.
+  const bool all = config_.side == Side::kAll;
+  if (auto text = take_mismatch(endpoint.entity, endpoint.reads, all)) {
     events_.push_back({EventKind::kIncompatible, endpoint.topic, "", 0, *std::move(text)});
   }
 }

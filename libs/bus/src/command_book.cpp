@@ -12,7 +12,9 @@ constexpr std::chrono::seconds kWarnEvery{1};
 }  // namespace
 
 void CommandBook::hear(const Command& command, Clock::time_point now) {
-  if (!budget_.take(now)) {
+  const bool stop = command.kind == rave_wire_COMMAND_STOP;
+  // A flood of orders must not keep a robot from being stopped.
+  if (!budget_.take(now) && !stop) {
     // No answer: the sender repeats what needs one, and a drive is renewed anyway.
     if (log_ != nullptr && (!warned_ || now - *warned_ >= kWarnEvery)) {
       warned_ = now;
@@ -29,7 +31,7 @@ void CommandBook::hear(const Command& command, Clock::time_point now) {
   Known& known = known_[key];
   if (command.number <= known.newest) return hear_again(command, known);
   const bool drive = command.kind == rave_wire_COMMAND_DRIVE;
-  if (!drive && open_.size() >= kMostOpen) {
+  if (!drive && !stop && open_.size() >= kMostOpen) {
     refuse(command, "too many orders are waiting; try again later");
     return;
   }

@@ -105,7 +105,7 @@ Status validate(const RosterEntry& sample) {
 Status validate(const Command& sample) {
   RAVE_TRY(check_writer(sample));
   RAVE_TRY(check_id("robot", sample.robot));
-  if (sample.kind > rave_wire_COMMAND_PLACE) return invalid("kind is unknown");
+  if (sample.kind > rave_wire_COMMAND_ARM) return invalid("kind is unknown");
   if (sample.number == 0) return invalid("number is 0");
   RAVE_TRY(check_label("author", sample.author, true));
   RAVE_TRY(check_label("text", sample.text, sample.kind == rave_wire_COMMAND_TEXT));

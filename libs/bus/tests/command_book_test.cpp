@@ -115,6 +115,14 @@ TEST_F(CommandBookTest, BeyondTheRateCommandsWaitForTheirRepetition) {
   EXPECT_EQ(begun_.size(), kAtOnce + 1) << "it was not taken for a repetition";
 }
 
+TEST_F(CommandBookTest, AStopHasNoLimit) {
+  for (std::uint64_t i = 1; i <= 6000; ++i) hear(i, rave_wire_COMMAND_TEXT);
+  const std::size_t begun = begun_.size();
+  ASSERT_EQ(begun, 5000U);
+  hear(6001, rave_wire_COMMAND_STOP, 1, 7);
+  EXPECT_EQ(begun_.size(), begun + 1);
+}
+
 TEST_F(CommandBookTest, OrdersThatWaitForTheirResultsHaveALimit) {
   for (std::uint64_t i = 1; i <= CommandBook::kMostOpen + 1; ++i) {
     if (i % 4000 == 0) now_ += std::chrono::seconds(1);

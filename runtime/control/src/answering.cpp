@@ -34,6 +34,9 @@ Answer hold(runtime::RunControl& control, const Request& request) {
 }  // namespace
 
 std::optional<Answer> answer_at_once(runtime::RunControl& control, const Request& request) {
+  if (request.relay && control.status().follows) {
+    return Answer{false, "only requests over the bus are forwarded: address the manager", {}};
+  }
   switch (request.what) {
     case What::kStatus:
       return Answer{true, "", control.status()};

@@ -34,29 +34,44 @@ std::string told_of(const Request& request) {
   return text;
 }
 
+/// Polls for what somewhere else is done, and writes it with `line`.
+template <class Done>
+BegunRequest awaited(std::future<Done> done, std::string told,
+                     std::string (*line)(const Done& done)) {
+  // shared_ptr because a std::function must be copyable, and it is shared with nothing else.
+  const auto shared = std::make_shared<std::future<Done>>(std::move(done));
+  return {[shared, line]() -> std::optional<std::string> {
+            if (shared->wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+              return std::nullopt;
+            }
+            return line(shared->get());
+          },
+          std::move(told), true};
+}
+
 }  // namespace
 
-bus::BeginRequest bus_requests_of(RunControl& control) {
-  return [&control](std::string_view line) -> BegunRequest {
+bus::BeginRequest bus_requests_of(RunControl& control, ManagerRelay* relay) {
+  return [&control, relay](std::string_view line) -> BegunRequest {
     const auto request = parse_request(line);
     if (!request) {
       return answered({false, request.error().message, {}},
                       "malformed request: " + request.error().message, false);
+    }
+    if (request->relay && relay != nullptr) {
+      return awaited<Result<Answer>>(
+          relay->post(*request), told_of(*request), [](const Result<Answer>& answer) {
+            return line_of(answer ? *answer : Answer{false, answer.error().message, {}});
+          });
     }
     if (const auto answer = answer_at_once(control, *request)) {
       return answered(*answer, told_of(*request));
     }
     auto posted = control.post(request->run);
     if (!posted) return answered({false, posted.error().message, {}}, told_of(*request));
-    // shared_ptr because a std::function must be copyable, and it is shared with nothing else.
-    const auto awaited = std::make_shared<std::future<Result<std::string>>>(*std::move(posted));
-    return {[awaited]() -> std::optional<std::string> {
-              if (awaited->wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-                return std::nullopt;
-              }
-              return line_of(answer_of(awaited->get()));
-            },
-            told_of(*request), true};
+    return awaited<Result<std::string>>(
+        *std::move(posted), told_of(*request),
+        [](const Result<std::string>& result) { return line_of(answer_of(result)); });
   };
 }
 

@@ -68,10 +68,15 @@ struct BusRun::Impl {
   bus::WaitSet waits;
   std::string from;
   std::vector<BusPeer> peers{};
+  Clock::time_point grew{};  ///< When the last of `peers` appeared.
   std::string scenario{};    ///< The scenario of the run, as its manager reports it.
   std::uint64_t number = 0;  ///< The number of the last request.
 
   void look();
+  /// When the search for processes is complete, at most `latest`.
+  [[nodiscard]] Clock::time_point search_end(Clock::time_point latest) const {
+    return peers.empty() ? latest : std::min(latest, grew + kMoment);
+  }
   [[nodiscard]] bool knows(std::uint64_t writer) const {
     return std::ranges::find(peers, writer, &BusPeer::writer) != peers.end();
   }
@@ -87,6 +92,7 @@ void BusRun::Impl::look() {
     if (knows(info.writer) || peers.size() >= rave_wire_kMaxHosts) return;
     peers.push_back({info.writer, info.name, info.machine, info.host == rave_wire_kNone,
                      info.clock == rave_wire_CLOCK_REAL_TIME});
+    grew = Clock::now();
   });
   states.take([this](const bus::RunState& state) {
     if (knows(state.writer)) scenario = plain_text(state.scenario);
@@ -214,14 +220,9 @@ Result<BusPeer> BusRun::find(std::string_view host, Duration patience) {
 std::vector<BusPeer> BusRun::all(Duration patience) {
   Impl& run = *impl_;
   const auto latest = Clock::now() + std::chrono::nanoseconds(patience.ns);
-  auto end = latest;
-  std::size_t known = 0;
   for (;;) {
     run.look();
-    if (run.peers.size() > known) {
-      known = run.peers.size();
-      end = std::min(latest, Clock::now() + kMoment);
-    }
+    const auto end = run.search_end(latest);
     if (Clock::now() >= end) return run.peers;
     static_cast<void>(run.waits.wait(bus::left_until(end)));
   }
@@ -250,13 +251,10 @@ std::vector<BusReply> BusRun::ask_each(const Request& request, const Meant& mean
   const auto line = request_line(request);
   if (!line) return {};
   const auto latest = Clock::now() + std::chrono::nanoseconds(patience.ns);
-  auto end = latest;  // The end of the search.
-  std::size_t known = 0;
   std::vector<Asked> asked;
   for (;;) {
     run.look();
-    if (run.peers.size() > known) end = std::min(latest, Clock::now() + kMoment);
-    known = run.peers.size();
+    const auto end = run.search_end(latest);
     for (const BusPeer& peer : run.peers) {
       const bool before = std::ranges::any_of(
           asked, [&peer](const Asked& one) { return one.peer.writer == peer.writer; });

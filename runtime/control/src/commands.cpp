@@ -23,9 +23,10 @@ using runtime::RunRequest;
 using Kind = RunRequest::Kind;
 
 /// In the order of rave_wire_CommandKind.
-constexpr std::array kKinds = {Kind::kDrive,  Kind::kGoal, Kind::kPath,
-                               Kind::kCancel, Kind::kText, Kind::kPlace};
-static_assert(kKinds.size() == rave_wire_COMMAND_PLACE + 1);
+constexpr std::array kKinds = {Kind::kDrive,  Kind::kGoal,    Kind::kPath,
+                               Kind::kCancel, Kind::kText,    Kind::kPlace,
+                               Kind::kStop,   Kind::kRelease, Kind::kArm};
+static_assert(kKinds.size() == rave_wire_COMMAND_ARM + 1);
 
 bus::CommandResult result_of(const Result<std::string>& result) {
   std::string text = without_control_characters(result ? *result : result.error().message, " ");
@@ -95,6 +96,8 @@ Status to_command(const RunRequest& order, bus::Command& command,
   command = {};
   command.kind = static_cast<rave_wire_CommandKind>(kind - kKinds.begin());
   command.page = order.page;
+  // An order needs the lease, whoever gives it.
+  command.overrides = order.overrides && !runtime::is_order(order.kind);
   if (order.by.empty() || !bus::put_text(command.author, order.by)) {
     return fail(ErrorCode::kInvalidArgument, "the author `{}`: expected 1 to {} bytes", order.by,
                 sizeof command.author - 1);
@@ -134,6 +137,7 @@ Result<RunRequest> order_of(const bus::Command& command, std::string robot) {
   order.w_radps = command.w_radps;
   order.speed_mps = command.speed_mps;
   order.page = command.page;
+  order.overrides = command.overrides;
   return order;
 }
 

@@ -118,6 +118,7 @@ std::string write_request(const Request& request) {
   if (!run.by.empty()) json["by"] = run.by;
   if (run.overrides) json["overrides"] = true;
   if (run.page != 0) json["page"] = run.page;
+  if (request.relay) json["relay"] = true;
   for (const Vec2 p_W : run.points) json["points"].push_back({p_W.x, p_W.y});
   if (run.edit) json["edit"] = Json::parse(config::write_edit(*run.edit));
   if (run.yaw_rad) json["yaw"] = *run.yaw_rad;

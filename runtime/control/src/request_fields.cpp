@@ -112,6 +112,7 @@ bool take_order(Json& json, RunRequest& request) {
 
 bool take_request_fields(Json& json, Request& request) {
   RunRequest& run = request.run;
+  if (request.what == Request::What::kRun && !take(json, "relay", request.relay)) return false;
   if (request.what == Request::What::kRun && run.kind >= Kind::kDrive) return take_order(json, run);
   if (!request.only_reads() && !take_author(json, run)) return false;
   if (request.what == Request::What::kStep) {

@@ -79,11 +79,22 @@ TEST_F(CommandsTest, EveryKindComesBackAsItWasSent) {
   sent.back().value = "look out";
   sent.push_back(order(Kind::kPlace));
   sent.back().points = {{0, 0}};
+  for (const Kind hold : {Kind::kStop, Kind::kRelease, Kind::kArm}) {
+    sent.push_back(order(hold));
+    sent.back().overrides = true;
+  }
   for (RunRequest& request : sent) {
     static_cast<void>(begin(request, 1));
     request.robot = "bert";
   }
-  EXPECT_EQ(asked(), sent) << "nobody is a super-user by what they say themselves";
+  EXPECT_EQ(asked(), sent);
+}
+
+TEST_F(CommandsTest, AnOrderDoesNotOverrideALease) {
+  RunRequest goal = order(Kind::kCancel);
+  goal.overrides = true;
+  static_cast<void>(begin(goal, 1));
+  EXPECT_FALSE(asked().at(0).overrides);
 }
 
 TEST_F(CommandsTest, AnOrderIsAnsweredWithWhatTheRunSays) {
@@ -125,7 +136,7 @@ TEST_F(CommandsTest, RobotsOfOtherHostsAreLeftToThem) {
 TEST_F(CommandsTest, WhatIsNoOrderIsRefused) {
   bus::Command command;
   std::vector<rave_wire_OrderPoint> points;
-  EXPECT_FALSE(to_command(order(Kind::kStop), command, points));
+  EXPECT_FALSE(to_command(order(Kind::kTake), command, points));
   RunRequest path = order(Kind::kPath);
   path.points.resize(10'000);
   const Status made = to_command(path, command, points);

@@ -161,9 +161,7 @@ void look_on_while_held(RunSession& run) {
   run.observers.held(run.engine);
   run.observers.tick(run.engine);
   const auto now = Clock::now();
-  if (run.options.control == nullptr || !run.observers.has_orders() || now < run.next_status) {
-    return;
-  }
+  if (run.options.control == nullptr || now < run.next_status) return;
   run.next_status = now + kStatusInterval;
   run.options.control->refresh([&run](RunStatus& status) { refresh(run, status); });
 }

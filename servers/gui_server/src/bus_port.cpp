@@ -19,42 +19,82 @@ constexpr Duration kStatusPatience = from_seconds(1);
 /// How often the driver of a robot is asked about, who is heard without an answer meanwhile.
 constexpr auto kAskDriver = std::chrono::seconds(1);
 constexpr Duration kHostPatience = from_seconds(2);
+/// A host that does not answer must not delay the next stop for longer.
+constexpr Duration kHoldPatience = from_seconds(1);
 
-/// Whether the host of a robot is asked, and no other process: it keeps the lease.
-bool is_for_host(runtime::RunRequest::Kind kind) {
+/// Whether it holds robots, or lets them go.
+bool is_hold(runtime::RunRequest::Kind kind) {
   using Kind = runtime::RunRequest::Kind;
-  return runtime::OrderDesk::is_for(kind) || kind == Kind::kStop || kind == Kind::kArm ||
-         kind == Kind::kResetShadow;
+  return kind == Kind::kStop || kind == Kind::kRelease || kind == Kind::kArm;
 }
 
-/// In lock-step the manager has the say, in real time each host of its robots.
-bool has_the_say(const control::BusPeer& peer, const std::string& /*scenario*/) {
-  return !peer.manager || !peer.live;
+bool is_host(const control::BusPeer& peer, const std::string& /*scenario*/) {
+  return !peer.manager;
+}
+
+/// What processes of a run answer to one request.
+struct Replies {
+  std::string done;
+  std::string refused;
+
+  void add(std::string_view from, bool good, std::string_view text) {
+    std::string& said = good ? done : refused;
+    if (!said.empty()) said += "; ";
+    said += fmt::format("{}: {}", from, text);
+  }
+  void add(const std::vector<control::BusReply>& replies) {
+    for (const control::BusReply& reply : replies) {
+      add(reply.peer.name, reply.answer && reply.answer->good,
+          reply.answer ? reply.answer->text : reply.answer.error().message);
+    }
+  }
+  /// `one`: it is enough that one of them has done it.
+  [[nodiscard]] Result<std::string> result(bool one) const {
+    if (done.empty() && refused.empty()) {
+      return fail(ErrorCode::kNotFound, "no process of the run answers");
+    }
+    if (refused.empty() || (one && !done.empty())) return done;
+    if (done.empty()) return fail(ErrorCode::kState, "{}", refused);
+    return fail(ErrorCode::kState, "{}; {}", refused, done);
+  }
+};
+
+Result<std::string> ask_host(control::BusRun& bus, const std::string& host,
+                             const control::Request& request) {
+  RAVE_TRY_ASSIGN(const control::BusPeer peer, bus.find(host, kHostPatience));
+  RAVE_TRY_ASSIGN(const control::Answer answer, bus.ask(peer, request));
+  if (!answer.good) return fail(ErrorCode::kState, "{}", answer.text);
+  return answer.text;
 }
 
 }  // namespace
 
-Result<std::unique_ptr<BusPort>> BusPort::open(std::unique_ptr<control::BusRun> bus,
-                                               std::unique_ptr<control::BusRun> status,
-                                               const bus::BusConfig& config,
+Result<std::unique_ptr<BusPort>> BusPort::open(const bus::BusConfig& bus, bool lock_step,
                                                const std::vector<std::string>& robots,
                                                std::map<std::string, std::string> host_of) {
-  std::unique_ptr<BusPort> port(new BusPort(std::move(bus), std::move(status), std::move(host_of)));
+  RAVE_TRY_ASSIGN(auto status, control::BusRun::open(bus, "GUI Server"));
+  std::unique_ptr<BusPort> port(new BusPort(std::move(status), lock_step, std::move(host_of)));
   BusPort* const self = port.get();
   RAVE_TRY_ASSIGN(port->commands_,
-                  control::CommandSender::open(config, robots, [self] { self->stir(); }));
-  RAVE_TRY(start_thread(port->thread_, "requests of pages",
-                        [self](const std::stop_token& stop) { self->work(stop); }));
+                  control::CommandSender::open(bus, robots, [self] { self->stir(); }));
+  const auto lane = [self,
+                     &bus](Answer (BusPort::*does)(control::BusRun&, const runtime::RunRequest&)) {
+    return RequestLane::open(bus, [self, does](control::BusRun& end, const auto& request) {
+      Answer answer = (self->*does)(end, request);
+      self->stir();
+      return answer;
+    });
+  };
+  RAVE_TRY_ASSIGN(port->holds_, lane(&BusPort::hold_all));
+  RAVE_TRY_ASSIGN(port->requests_, lane(&BusPort::ask));
   RAVE_TRY(start_thread(port->watcher_, "the status of robots",
                         [self](const std::stop_token& stop) { self->watch(stop); }));
   return port;
 }
 
 BusPort::~BusPort() {
-  for (std::jthread* const thread : {&watcher_, &thread_}) {
-    thread->request_stop();
-    if (thread->joinable()) thread->join();
-  }
+  watcher_.request_stop();
+  if (watcher_.joinable()) watcher_.join();
 }
 
 void BusPort::stir() {
@@ -71,18 +111,15 @@ std::vector<runtime::RunStatus::Robot> BusPort::robots() const {
 void BusPort::watch(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     std::vector<runtime::RunStatus::Robot> robots;
-    std::vector<runtime::RunStatus::Robot> of_manager;
     for (control::BusReply& reply :
-         status_->ask_each(control::Request{}, has_the_say, kStatusPatience)) {
+         status_->ask_each(control::Request{}, is_host, kStatusPatience)) {
       if (!reply.answer || !reply.answer->good) continue;
       auto& told = reply.answer->status.robots;
-      auto& all = reply.peer.manager ? of_manager : robots;
-      all.insert(all.end(), std::make_move_iterator(told.begin()),
-                 std::make_move_iterator(told.end()));
+      robots.insert(robots.end(), std::make_move_iterator(told.begin()),
+                    std::make_move_iterator(told.end()));
     }
     std::unique_lock lock(mutex_);
-    // Hosts know more of their robots than a manager.
-    robots_ = robots.empty() ? std::move(of_manager) : std::move(robots);
+    robots_ = std::move(robots);
     changed_.wait_for(lock, stop, kStatusEvery, [this] { return stirred_; });
     stirred_ = false;
   }
@@ -90,9 +127,11 @@ void BusPort::watch(const std::stop_token& stop) {
 
 Result<std::future<Result<std::string>>> BusPort::post(runtime::RunRequest request) {
   if (request.kind == runtime::RunRequest::Kind::kDrive) return drive(request);
-  // Only one order names no robot: a cancel of all, which is a request to each process.
-  const bool order = runtime::is_order(request.kind) && !request.robot.empty();
-  return order ? commands_->post(std::move(request)) : queue(std::move(request));
+  const bool hold = is_hold(request.kind);
+  if (request.robot.empty() && hold) return holds_->queue(std::move(request));
+  // A cancel of all names no robot: it is a request to each host.
+  const bool command = (hold || runtime::is_order(request.kind)) && !request.robot.empty();
+  return command ? commands_->post(std::move(request)) : requests_->queue(std::move(request));
 }
 
 Result<std::future<Result<std::string>>> BusPort::drive(const runtime::RunRequest& request) {
@@ -106,63 +145,41 @@ Result<std::future<Result<std::string>>> BusPort::drive(const runtime::RunReques
   take.robot = request.robot;
   take.by = request.by;
   take.page = request.page;
-  return queue(std::move(take));
+  return requests_->queue(std::move(take));
 }
 
-Result<std::future<Result<std::string>>> BusPort::queue(runtime::RunRequest request) {
-  const std::lock_guard lock(mutex_);
-  auto& [asked, promise] = waiting_.emplace_back(std::move(request), std::promise<Answer>());
-  auto answer = promise.get_future();
-  changed_.notify_all();
-  return answer;
-}
-
-void BusPort::work(const std::stop_token& stop) {
-  for (;;) {
-    std::unique_lock lock(mutex_);
-    if (!changed_.wait(lock, stop, [this] { return !waiting_.empty(); })) break;
-    auto [request, promise] = std::move(waiting_.front());
-    waiting_.pop_front();
-    lock.unlock();
-    promise.set_value(ask(request));
-    stir();
-  }
-  for (auto& [request, promise] : waiting_) {
-    promise.set_value(fail(ErrorCode::kState, "the server is shutting down"));
-  }
-}
-
-BusPort::Answer BusPort::ask(const runtime::RunRequest& request) {
-  const control::Request asked = control::request_of(request);
+BusPort::Answer BusPort::ask(control::BusRun& bus, const runtime::RunRequest& request) {
+  using Kind = runtime::RunRequest::Kind;
+  const bool of_body = request.kind == Kind::kSet && request.key.starts_with("body.");
+  const bool of_world = request.kind == Kind::kEdit || request.kind == Kind::kList ||
+                        (lock_step_ && (of_body || request.kind == Kind::kChat));
+  if (of_world) return ask_manager(bus, request);
   const auto host = host_of_.find(request.robot);
-  if (host != host_of_.end() && is_for_host(request.kind)) return ask_host(host->second, asked);
-  const bool of_hosts = runtime::OrderDesk::is_for(request.kind);
-  const auto meant = [of_hosts](const control::BusPeer& peer, const std::string& scenario) {
-    return of_hosts ? !peer.manager : has_the_say(peer, scenario);
-  };
-  std::string done;
-  std::string refused;
-  for (const control::BusReply& reply : bus_->ask_each(asked, meant)) {
-    const bool good = reply.answer && reply.answer->good;
-    std::string& text = good ? done : refused;
-    if (!text.empty()) text += "; ";
-    text += fmt::format("{}: {}", reply.peer.manager ? "manager" : reply.peer.name,
-                        reply.answer ? reply.answer->text : reply.answer.error().message);
-  }
-  if (done.empty() && refused.empty()) {
-    return fail(ErrorCode::kNotFound, "no process of the run answers");
-  }
-  // A robot is of one host, and the others do not know it.
-  const bool whole = refused.empty() || (!request.robot.empty() && !done.empty());
-  if (!whole) return fail(ErrorCode::kState, "{}", refused);
-  return done;
+  if (host != host_of_.end()) return ask_host(bus, host->second, control::request_of(request));
+  Replies replies;
+  replies.add(bus.ask_each(control::request_of(request), is_host));
+  return replies.result(!request.robot.empty());
 }
 
-BusPort::Answer BusPort::ask_host(const std::string& host, const control::Request& request) {
-  RAVE_TRY_ASSIGN(const control::BusPeer peer, bus_->find(host, kHostPatience));
-  RAVE_TRY_ASSIGN(const control::Answer answer, bus_->ask(peer, request));
-  if (!answer.good) return fail(ErrorCode::kState, "{}", answer.text);
-  return answer.text;
+BusPort::Answer BusPort::hold_all(control::BusRun& bus, const runtime::RunRequest& request) {
+  Replies replies;
+  replies.add(bus.ask_each(control::request_of(request), is_host, kHoldPatience));
+  // In lock-step the manager also knows the robots of hosts that are lost and may come back.
+  if (lock_step_) {
+    const Answer managed = ask_manager(bus, request);
+    replies.add("manager", managed.has_value(), managed ? *managed : managed.error().message);
+  }
+  return replies.result(false);
+}
+
+BusPort::Answer BusPort::ask_manager(control::BusRun& bus, const runtime::RunRequest& request) {
+  control::Request relayed = control::request_of(request);
+  relayed.relay = true;
+  const auto host = host_of_.find(request.robot);
+  if (host != host_of_.end()) return ask_host(bus, host->second, relayed);
+  const std::vector<control::BusPeer> hosts = bus.all(kHostPatience);
+  if (hosts.empty()) return fail(ErrorCode::kNotFound, "no process of the run answers");
+  return ask_host(bus, hosts.front().name, relayed);
 }
 
 std::vector<runtime::RunStatus::Robot> ManagedPort::robots() const {

@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <deque>
 #include <map>
 #include <mutex>
 #include <string>
@@ -12,20 +11,20 @@
 
 #include "rave/control/bus_run.hpp"
 #include "rave/control/command_sender.hpp"
+#include "request_lane.hpp"
 #include "run_port.hpp"
 
 namespace rave::gui_server {
 
-/// Stops and releases robots of a run over its bus, in a thread of its own: through each
-/// host.
+/// The way to a run over its bus: to its hosts, which forward what only the Environment Manager can
+/// do. Stops do not wait for other requests.
 class BusPort final : public RunPort {
  public:
-  /// `bus`, `status`: two ends of the bus of the run, for requests and for questions. Orders have a
-  /// third, of `config`. `robots`: the names of all, by id. `host_of`: the name of the host of each
-  /// robot. Errors: those of control::CommandSender::open().
+  /// `bus`: as the server joins it, a monitor. `lock_step`: the run is not in real time. `robots`:
+  /// the names of all, by id. `host_of`: the name of the host of each robot. Errors: those of
+  /// control::CommandSender::open() and RequestLane::open().
   [[nodiscard]] static Result<std::unique_ptr<BusPort>> open(
-      std::unique_ptr<control::BusRun> bus, std::unique_ptr<control::BusRun> status,
-      const bus::BusConfig& config, const std::vector<std::string>& robots,
+      const bus::BusConfig& bus, bool lock_step, const std::vector<std::string>& robots,
       std::map<std::string, std::string> host_of);
   BusPort(const BusPort&) = delete;
   BusPort& operator=(const BusPort&) = delete;
@@ -41,33 +40,34 @@ class BusPort final : public RunPort {
  private:
   using Answer = Result<std::string>;
 
-  BusPort(std::unique_ptr<control::BusRun> bus, std::unique_ptr<control::BusRun> status,
+  BusPort(std::unique_ptr<control::BusRun> status, bool lock_step,
           std::map<std::string, std::string> host_of)
-      : bus_(std::move(bus)), status_(std::move(status)), host_of_(std::move(host_of)) {}
+      : status_(std::move(status)), lock_step_(lock_step), host_of_(std::move(host_of)) {}
 
-  void work(const std::stop_token& stop);
   void watch(const std::stop_token& stop);
-  [[nodiscard]] Answer ask(const runtime::RunRequest& request);
-  /// What only the host of the robot can do.
-  [[nodiscard]] Answer ask_host(const std::string& host, const control::Request& request);
+  [[nodiscard]] Answer ask(control::BusRun& bus, const runtime::RunRequest& request);
+  /// Stops, releases or arms all robots.
+  [[nodiscard]] Answer hold_all(control::BusRun& bus, const runtime::RunRequest& request);
+  /// What only the manager does, by way of a host: that of the robot, or any.
+  [[nodiscard]] Answer ask_manager(control::BusRun& bus, const runtime::RunRequest& request);
   /// A drive gets no answer; now and then its robot is asked whether it listens to this driver.
   [[nodiscard]] Result<std::future<Answer>> drive(const runtime::RunRequest& request);
   /// Lets watch() ask for the robots soon.
   void stir();
-  [[nodiscard]] Result<std::future<Answer>> queue(runtime::RunRequest request);
 
-  std::unique_ptr<control::BusRun> bus_;
   std::unique_ptr<control::BusRun> status_;
+  const bool lock_step_;
   const std::map<std::string, std::string> host_of_;  ///< By robot.
   /// By robot; of the server's thread.
   std::map<std::string, std::chrono::steady_clock::time_point> asked_;
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::deque<std::pair<runtime::RunRequest, std::promise<Answer>>> waiting_;
   std::vector<runtime::RunStatus::Robot> robots_;
   bool stirred_ = false;  ///< Something was done, so that `robots_` are to be asked for again.
   std::unique_ptr<control::CommandSender> commands_;
-  std::jthread thread_;
+  std::unique_ptr<RequestLane>
+      holds_;  ///< Of all robots; apart, so that no other request delays them.
+  std::unique_ptr<RequestLane> requests_;
   std::jthread watcher_;
 };
 

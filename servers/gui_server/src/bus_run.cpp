@@ -47,13 +47,9 @@ BusFeed::World world_of(const config::ExpandedScenario& scenario,
   return world;
 }
 
-/// Requests go to who takes them, in the partitions of hosts and manager.
 Result<std::unique_ptr<BusPort>> port_to_hosts(const config::ExpandedScenario& scenario,
                                                const runtime::BuiltScenario& built,
-                                               bus::BusConfig bus) {
-  bus.side = bus::Side::kAll;
-  RAVE_TRY_ASSIGN(auto asker, control::BusRun::open(bus, "GUI Server"));
-  RAVE_TRY_ASSIGN(auto status, control::BusRun::open(bus, "GUI Server"));
+                                               const bus::BusConfig& bus) {
   std::vector<std::string> names;
   for (const sim::RobotSpec& robot : built.spec.robots) names.push_back(robot.name);
   RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
@@ -61,7 +57,7 @@ Result<std::unique_ptr<BusPort>> port_to_hosts(const config::ExpandedScenario& s
   for (const config::PlannedHost& host : hosts) {
     for (const std::size_t robot : host.robots) host_of[names[robot]] = host.name;
   }
-  return BusPort::open(std::move(asker), std::move(status), bus, names, std::move(host_of));
+  return BusPort::open(bus, built.live_reason.empty(), names, std::move(host_of));
 }
 
 BusFeed::OnOver replays(OnOver on_over) {

@@ -32,7 +32,7 @@ using BegunCommand = std::function<std::optional<CommandResult>()>;
 /// the call only. Always called in the same thread.
 using BeginCommand = std::function<BegunCommand(const Command&)>;
 
-/// The commands that a process has received. It limits their rate, ignores commands that are older
+/// The commands that a process has received. It limits their rate except of stops, ignores commands that are older
 /// than the newest of the same sender and robot, and executes a repeated command once. One owner
 /// thread.
 class CommandBook {

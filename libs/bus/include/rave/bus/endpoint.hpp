@@ -30,6 +30,8 @@ void give_back(dds_entity_t reader, Loan& loan) noexcept;
 
 /// A message for users if an entity with incompatible QoS has appeared on the topic since the last
 /// call: which policy is incompatible, and how to correct it. Empty if there is none.
-[[nodiscard]] std::optional<std::string> take_mismatch(dds_entity_t entity, bool reads);
+/// `all_partitions`: false: an entity in another partition is none.
+[[nodiscard]] std::optional<std::string> take_mismatch(dds_entity_t entity, bool reads,
+                                                       bool all_partitions = true);
 
 }  // namespace rave::bus

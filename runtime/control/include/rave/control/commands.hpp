@@ -20,9 +20,9 @@ namespace rave::control {
                                                     const config::ExpandedScenario& scenario,
                                                     std::string_view host);
 
-/// Converts an order. Run and writer are set by its Writer; robot and number by the caller. The
-/// command refers to `points`, which must outlive it. Errors: kInvalidArgument (not an order, no
-/// author, too many points, or a text that is too long).
+/// Converts an order, a stop, a release or an arming. Run and writer are set by its Writer; robot
+/// and number by the caller. The command refers to `points`, which must outlive it. Errors:
+/// kInvalidArgument (another kind, no author, too many points, or a text that is too long).
 [[nodiscard]] Status to_command(const runtime::RunRequest& order, bus::Command& command,
                                 std::vector<rave_wire_OrderPoint>& points);
 

@@ -24,6 +24,8 @@ struct Request {
   std::uint64_t count = 1;  ///< kStep: 1 to 1e9.
   /// kRun: the request to the run, with finite numbers. Otherwise only its sender is set.
   runtime::RunRequest run = {};
+  /// kRun, over the bus: a host forwards it to the Environment Manager and returns its answer.
+  bool relay = false;
 
   /// Whether it changes nothing: it has no author and is not logged.
   [[nodiscard]] bool only_reads() const noexcept {
@@ -34,7 +36,7 @@ struct Request {
 
 /// A request to the run itself.
 [[nodiscard]] inline Request request_of(runtime::RunRequest run) {
-  return {Request::What::kRun, 1, std::move(run)};
+  return {Request::What::kRun, 1, std::move(run), false};
 }
 
 /// The error for a line of more than kMaxLineBytes.

@@ -20,8 +20,6 @@ CALL = re.compile(r"\b(\w+)\s*\(([^()]*(?:\([^()]*\)[^()]*)*)\)")
 RAVE_NAME = re.compile(r"^rave(?:::|_)([a-z0-9_]+)$")
 # Folders whose folders are libraries with a row each, as those of libs/ are.
 ROOMS = ("runtime", "ops")
-# The head of the table of the rooms inside a library, in its README.md.
-ROOM_TABLE = "room of `src/`"
 # Third-party packages by the start of an include and by the name in a link line.
 PACKAGE_INCLUDES = {"fmt/": "fmt", "tl/": "expected", "yaml-cpp/": "yaml-cpp", "png.h": "png",
                     "cairo": "cairo", "spdlog/": "spdlog", "CLI/": "cli11", "zlib.h": "zlib",
@@ -36,6 +34,8 @@ PACKAGE_LINKS = {"fmt::": "fmt", "tl::": "expected", "yaml-cpp": "yaml-cpp", "PN
                  "Eigen3::": "eigen", "${ZSTD_": "zstd", "Boost::": "boost", "${CMAKE_DL_LIBS}": "dl",
                  "hwy::": "hwy", "CycloneDDS::": "dds", "rave::wire": "wire",
                  "OpenSSL::": "openssl", "rave::ros2_wire": "wire"}
+# The head of the table of the rooms inside a library, in its README.md.
+ROOM_TABLE = "room of `src/`"
 
 
 def tables(tree, page):
@@ -294,12 +294,13 @@ DOC = """| who | may use | packages | why |
 | `base` | nothing | fmt, expected | |
 | `math` | base | none | |
 | `sim`, `robot` | base, math, robot | none | |
+| `servers` | any | any | |
 | `drivers` | base, robot | any | |
 | `virtual drivers` | base, robot, sim | any | |
 | `programs` | base, robot | none | |
 | `host`, `ops` | libs, pace | any | |
 | `pace` | base | any | |
-| `cli`, `servers` | any | any | |
+| `cli` | any | any | |
 """
 ROOM_DOC = """| room of `src/` | may use | public headers |
 |---|---|---|
@@ -316,9 +317,6 @@ CLEAN = {
     "libs/robot/a.hpp": '#include "rave/math/a.hpp"\n',
     "libs/robot/tests/t.cpp": '#include "rave/sim/a.hpp"\n#include "../src/b.hpp"\n',
     "libs/sim/a.hpp": '#include "rave/robot/a.hpp"\n',
-    "drivers/x/x.cpp": '#include "rave/sim/a.hpp"\nRAVE_VIRTUAL_PLUGIN("x")\n',
-    "runtime/host/src/h.cpp": '#include "rave/sim/a.hpp"\n#include "rave/pace/a.hpp"\n',
-    "runtime/pace/include/rave/pace/a.hpp": '#include "rave/base/a.hpp"\n',
     "servers/page/README.md": ROOM_DOC,
     "servers/page/include/rave/page/source.hpp": "int x;\n",
     "servers/page/include/rave/page/page.hpp": "int x;\n",
@@ -327,20 +325,23 @@ CLEAN = {
     "servers/page/src/people/door.hpp": '#include <vector>\n',
     "servers/page/src/page.cpp": '#include "live/feed.hpp"\n#include "people/door.hpp"\n',
     "servers/page/tests/t.cpp": '#include "people/door.hpp"\n',
+    "drivers/x/x.cpp": '#include "rave/sim/a.hpp"\nRAVE_VIRTUAL_PLUGIN("x")\n',
+    "runtime/host/src/h.cpp": '#include "rave/sim/a.hpp"\n#include "rave/pace/a.hpp"\n',
+    "runtime/pace/include/rave/pace/a.hpp": '#include "rave/base/a.hpp"\n',
     "cli/main.cpp": '#include "rave/sim/a.hpp"\n#include "rave/pace/a.hpp"\n',
 }
 
 
 def broken(expected, **files):
     names = {"math": "libs/math/b.cpp", "math_cmake": "libs/math/CMakeLists.txt",
-             "driver": "drivers/y/y.cpp", "driver_cmake": "drivers/y/CMakeLists.txt",
-             "program": "programs/p/p.cpp", "program_cmake": "programs/p/CMakeLists.txt",
-             "cli_cmake": "cli/CMakeLists.txt", "new": "libs/extra/a.cpp",
-             "pace": "runtime/pace/src/p.cpp", "room": "runtime/extra/src/a.cpp", "table": TABLE,
              "rooms": "servers/page/README.md",
              "run": "servers/page/src/run/log.cpp", "people": "servers/page/src/people/key.cpp",
              "attic": "servers/page/src/attic/old.cpp",
-             "face": "servers/page/include/rave/page/face.hpp", "walls": "libs/math/src/fast/a.cpp"}
+             "face": "servers/page/include/rave/page/face.hpp", "walls": "libs/math/src/fast/a.cpp",
+             "driver": "drivers/y/y.cpp", "driver_cmake": "drivers/y/CMakeLists.txt",
+             "program": "programs/p/p.cpp", "program_cmake": "programs/p/CMakeLists.txt",
+             "cli_cmake": "cli/CMakeLists.txt", "new": "libs/extra/a.cpp",
+             "pace": "runtime/pace/src/p.cpp", "room": "runtime/extra/src/a.cpp", "table": TABLE}
     return expected, CLEAN | {names[key]: text for key, text in files.items()}
 
 

@@ -5,6 +5,9 @@
 Reads every #include and the link lines of every CMake file. A test or benchmark may use what it
 likes, but nobody includes a file through `..`, and nobody outside drivers/ and tests links what is
 defined there. The table itself may not go round in a circle.
+
+A library whose src/ has folders has a table of these rooms in its README.md, and is held to it in
+the same way.
 """
 import posixpath
 import re
@@ -31,15 +34,29 @@ PACKAGE_LINKS = {"fmt::": "fmt", "tl::": "expected", "yaml-cpp": "yaml-cpp", "PN
                  "Eigen3::": "eigen", "${ZSTD_": "zstd", "Boost::": "boost", "${CMAKE_DL_LIBS}": "dl",
                  "hwy::": "hwy", "CycloneDDS::": "dds", "rave::wire": "wire",
                  "OpenSSL::": "openssl", "rave::ros2_wire": "wire"}
+# The head of the table of the rooms inside a library, in its README.md.
+ROOM_TABLE = "room of `src/`"
+
+
+def tables(tree, page):
+    """(first cell of the head, [cells of a row]) of each table of a page."""
+    head, rows = None, []
+    for line in [*(tree.read(page).splitlines() if page in tree.files else []), ""]:
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+        if not line.startswith("|"):
+            if head is not None:
+                yield head, rows
+            head, rows = None, []
+        elif head is None:
+            head = cells[0]
+        elif len(cells) > 2 and not set(cells[0]) <= set("-: "):
+            rows.append(cells)
 
 
 def read_table(tree):
-    """{owner: (libraries or None for any, packages or None for any)} of the Markdown table."""
+    """{owner: (libraries or None for any, packages or None for any)} of the table of layers."""
     rules = {}
-    for line in tree.read(TABLE).splitlines() if TABLE in tree.files else []:
-        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
-        if not line.startswith("|") or len(cells) < 3 or set(cells[0]) <= set("-: "):
-            continue
+    for cells in [row for head, rows in tables(tree, TABLE) if head == "who" for row in rows]:
         uses = [None if "any" in cell.split() else set(re.findall(r"[a-z][a-z0-9_-]*", cell))
                 for cell in cells[1:3]]
         for owner in re.findall(r"`([a-z0-9_ ]+)`", cells[0]):
@@ -82,7 +99,7 @@ def with_libraries(rules, found):
             for owner, (uses, packages) in rules.items()}
 
 
-def circles(rules):
+def circles(rules, page=TABLE):
     """Rows that use each other in a circle, a line for each."""
     findings, done = set(), set()
 
@@ -98,7 +115,7 @@ def circles(rules):
 
     for owner in sorted(rules):
         visit(owner, [])
-    return [f"{TABLE}: a circle: {ring}" for ring in sorted(findings)]
+    return [f"{page}: a circle: {ring}" for ring in sorted(findings)]
 
 
 def leaves_folder(name, target):
@@ -185,6 +202,79 @@ def check_links(tree, rules, known):
     return findings
 
 
+def room_table(tree, folder):
+    """({room: (rooms, None)}, {public header: room}) of a library. The row with the name of the
+    library itself is about the files that are directly in src/."""
+    uses, headers = {}, {}
+    rows = [row for head, rows in tables(tree, f"{folder}/README.md") if head == ROOM_TABLE
+            for row in rows]
+    names = [cells[0].strip("`") for cells in rows]
+    for name, cells in zip(names, rows):
+        listed = set(re.findall(r"[a-z][a-z0-9_]*", cells[1])) - {"nothing"}
+        uses[name] = (set(names) - {name} if listed == {"any"} else listed, None)
+        headers |= {header: name for header in re.findall(r"`(\w+\.hpp)`", cells[2])}
+    return uses, headers
+
+
+class InnerRooms:
+    """The rooms inside one library."""
+
+    def __init__(self, tree, folder):
+        self.tree, self.page, self.name = tree, f"{folder}/README.md", folder.split("/")[-1]
+        self.rules, self.headers = room_table(tree, folder)
+        self.source = f"{folder}/src/"
+        self.public = f"{folder}/include/rave/{self.name}/"
+        self.files = set(tree.files)
+
+    def room_of(self, file):
+        """The room of a file of the library; None: it has none."""
+        if file.startswith(self.public):
+            return self.headers.get(file[len(self.public):])
+        inner = file[len(self.source):].split("/")
+        return inner[0] if len(inner) > 1 else self.name
+
+    def file_of(self, name, target):
+        """(file of the library that an include means or None, whether by its name in src/)."""
+        if target.startswith(f"rave/{self.name}/"):
+            return self.public + target.split("/", 2)[2], True
+        if self.source + target in self.files and ".." not in target:
+            return self.source + target, True
+        beside = posixpath.normpath(posixpath.join(posixpath.dirname(name), target))
+        inside = beside.startswith(self.source) and beside in self.files
+        return beside if inside else None, False
+
+    def check_file(self, file):
+        room = self.room_of(file)
+        if room not in self.rules:
+            yield f"{file}: no room for it in the table ({self.page})"
+            return
+        for number, line in common.numbered(self.tree.read(file)):
+            match = INCLUDE.match(line)
+            used, named = self.file_of(file, match.group(1)) if match else (None, True)
+            if not named and used:
+                yield (f"{file}:{number}: `{match.group(1)}`: include it as "
+                       f"`{used[len(self.source):]}`")
+            elif used:
+                fault = judge(self.rules[room], room, self.room_of(used), None)
+                if fault:
+                    yield f"{file}:{number}: {fault} ({self.page})"
+
+    def check(self):
+        if not self.rules:
+            return [f"{self.page}: no table of the rooms of src/"]
+        files = [f for f in self.tree.sources if f.startswith((self.source, self.public))]
+        empty = sorted(set(self.rules) - {self.room_of(f) for f in files})
+        return (circles(self.rules, self.page) +
+                [f"{self.page}: there is no room `{room}`" for room in empty] +
+                [finding for file in files for finding in self.check_file(file)])
+
+
+def check_rooms(tree):
+    divided = {f.split("/src/")[0] for f in tree.sources
+               if not common.is_support(f) and "/" in f.partition("/src/")[2]}
+    return [finding for folder in sorted(divided) for finding in InnerRooms(tree, folder).check()]
+
+
 def check(tree):
     rules = read_table(tree)
     found, served = libraries(tree)
@@ -195,7 +285,8 @@ def check(tree):
     if findings:
         return findings
     known = found | served
-    return check_includes(tree, rules, known) + check_links(tree, rules, known)
+    return (check_includes(tree, rules, known) + check_links(tree, rules, known) +
+            check_rooms(tree))
 
 
 DOC = """| who | may use | packages | why |
@@ -203,12 +294,20 @@ DOC = """| who | may use | packages | why |
 | `base` | nothing | fmt, expected | |
 | `math` | base | none | |
 | `sim`, `robot` | base, math, robot | none | |
+| `servers` | any | any | |
 | `drivers` | base, robot | any | |
 | `virtual drivers` | base, robot, sim | any | |
 | `programs` | base, robot | none | |
 | `host`, `ops` | libs, pace | any | |
 | `pace` | base | any | |
 | `cli` | any | any | |
+"""
+ROOM_DOC = """| room of `src/` | may use | public headers |
+|---|---|---|
+| `run` | nothing | `source.hpp` |
+| `live` | run | none |
+| `people` | nothing | none |
+| `page` | any | `page.hpp` |
 """
 CLEAN = {
     TABLE: DOC,
@@ -218,6 +317,14 @@ CLEAN = {
     "libs/robot/a.hpp": '#include "rave/math/a.hpp"\n',
     "libs/robot/tests/t.cpp": '#include "rave/sim/a.hpp"\n#include "../src/b.hpp"\n',
     "libs/sim/a.hpp": '#include "rave/robot/a.hpp"\n',
+    "servers/page/README.md": ROOM_DOC,
+    "servers/page/include/rave/page/source.hpp": "int x;\n",
+    "servers/page/include/rave/page/page.hpp": "int x;\n",
+    "servers/page/src/run/log.hpp": '#include "rave/page/source.hpp"\n',
+    "servers/page/src/live/feed.cpp": '#include "run/log.hpp"\n#include "rave/page/source.hpp"\n',
+    "servers/page/src/people/door.hpp": '#include <vector>\n',
+    "servers/page/src/page.cpp": '#include "live/feed.hpp"\n#include "people/door.hpp"\n',
+    "servers/page/tests/t.cpp": '#include "people/door.hpp"\n',
     "drivers/x/x.cpp": '#include "rave/sim/a.hpp"\nRAVE_VIRTUAL_PLUGIN("x")\n',
     "runtime/host/src/h.cpp": '#include "rave/sim/a.hpp"\n#include "rave/pace/a.hpp"\n',
     "runtime/pace/include/rave/pace/a.hpp": '#include "rave/base/a.hpp"\n',
@@ -227,6 +334,10 @@ CLEAN = {
 
 def broken(expected, **files):
     names = {"math": "libs/math/b.cpp", "math_cmake": "libs/math/CMakeLists.txt",
+             "rooms": "servers/page/README.md",
+             "run": "servers/page/src/run/log.cpp", "people": "servers/page/src/people/key.cpp",
+             "attic": "servers/page/src/attic/old.cpp",
+             "face": "servers/page/include/rave/page/face.hpp", "walls": "libs/math/src/fast/a.cpp",
              "driver": "drivers/y/y.cpp", "driver_cmake": "drivers/y/CMakeLists.txt",
              "program": "programs/p/p.cpp", "program_cmake": "programs/p/CMakeLists.txt",
              "cli_cmake": "cli/CMakeLists.txt", "new": "libs/extra/a.cpp",
@@ -255,6 +366,21 @@ BREACHES = [
     broken("`pace` may not use `host`", pace='#include "rave/host/a.hpp"\n'),
     broken("a circle: `host` -> `pace` -> `host`",
            table=DOC.replace("| `pace` | base |", "| `pace` | base, host |")),
+    broken("log.cpp:1: `run` may not use `people` (servers/page/README.md)",
+           run='#include "people/door.hpp"\n'),
+    broken("`people` may not use `run`", people='#include "rave/page/source.hpp"\n'),
+    broken("`run` may not use `page`", run='#include "rave/page/page.hpp"\n'),
+    broken("key.cpp:1: `door.hpp`: include it as `people/door.hpp`",
+           people='#include "door.hpp"\n'),
+    broken("include it as `run/log.hpp`", people='#include "../run/log.hpp"\n'),
+    broken("old.cpp: no room for it", attic="int x;\n"),
+    broken("face.hpp: no room for it", face="int x;\n"),
+    broken("libs/math/README.md: no table of the rooms", walls="int x;\n"),
+    broken("there is no room `attic`", rooms=ROOM_DOC + "| `attic` | nothing | none |\n"),
+    broken("a circle: `live` -> `run` -> `live`",
+           rooms=ROOM_DOC.replace("| `run` | nothing |", "| `run` | live |")),
+    broken("a circle: `page` -> `run` -> `page`",
+           rooms=ROOM_DOC.replace("| `run` | nothing |", "| `run` | page |")),
 ]
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ it('is the table of the documentation, which the server is compared with', () =>
 });
 
 it('has the words of the server for what rights withhold', () => {
-  const source = readFileSync(join(process.cwd(), '../servers/gui_server/src/restricted_source.cpp'), 'utf8');
+  const source = readFileSync(join(process.cwd(), '../servers/gui_server/src/visitors/restricted_source.cpp'), 'utf8');
   expect(source).toContain(`kNotYours = "${kNotYours}"`);
 });
 

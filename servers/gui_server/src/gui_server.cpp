@@ -6,18 +6,18 @@
 #include <algorithm>
 #include <chrono>
 
-#include "components.hpp"
-#include "door.hpp"
-#include "foxglove_door.hpp"
-#include "foxglove_guests.hpp"
+#include "foxglove/foxglove_door.hpp"
+#include "foxglove/foxglove_guests.hpp"
 #include "metrics.hpp"
+#include "people/door.hpp"
 #include "rave/base/file.hpp"
 #include "rave/gui_server/source.hpp"
 #include "rave/web/rate_limit.hpp"
 #include "rave/web/server.hpp"
 #include "rave/web/static_files.hpp"
-#include "ticket_desk.hpp"
-#include "visitors.hpp"
+#include "run/components.hpp"
+#include "visitors/ticket_desk.hpp"
+#include "visitors/visitors.hpp"
 
 namespace rave::gui_server {
 namespace {

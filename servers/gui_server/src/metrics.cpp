@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <sodium.h>
 
+#include "people/secrets.hpp"
 #include "rave/base/file.hpp"
 #include "rave/web/rate_limit.hpp"
-#include "secrets.hpp"
 
 namespace rave::gui_server {
 namespace {

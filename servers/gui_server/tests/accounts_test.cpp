@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "audit_log.hpp"
 #include "metrics.hpp"
+#include "people/audit_log.hpp"
+#include "people/secrets.hpp"
 #include "rave/base/file.hpp"
-#include "secrets.hpp"
 
 namespace rave::gui_server {
 namespace {

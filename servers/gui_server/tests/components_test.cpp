@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "components.hpp"
+#include "run/components.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "component_watch.hpp"
+#include "live/component_watch.hpp"
 
 namespace rave::gui_server {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "event_fold.hpp"
+#include "run/event_fold.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "run_port.hpp"
+#include "live/run_port.hpp"
 
 namespace rave::gui_server::testing {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "map_book.hpp"
 #include "rave/gui_server/source.hpp"
+#include "run/map_book.hpp"
 
 namespace rave::gui_server::testing {
 

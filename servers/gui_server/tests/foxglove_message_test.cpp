@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "foxglove_message.hpp"
+#include "foxglove/foxglove_message.hpp"
 
 #include <gtest/gtest.h>
 
-#include "foxglove_door.hpp"
+#include "foxglove/foxglove_door.hpp"
 
 namespace rave::gui_server {
 namespace {

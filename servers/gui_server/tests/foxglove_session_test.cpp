@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What one client is sent, and when.
-#include "foxglove_session.hpp"
+#include "foxglove/foxglove_session.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "foxglove_topics.hpp"
+#include "foxglove/foxglove_topics.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <set>
 
 #include "fake_run.hpp"
-#include "foxglove_scene.hpp"
+#include "foxglove/foxglove_scene.hpp"
 #include "rave/base/file.hpp"
 
 namespace rave::gui_server {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "frame_pace.hpp"
+#include "page/frame_pace.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "frames.hpp"
+#include "page/frames.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 
 #include "rave/base/check.hpp"
 #include "rave/gui_server/accounts.hpp"
-#include "rights_desk.hpp"
+#include "visitors/rights_desk.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace rave::gui_server;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "audit_lines.hpp"
+#include "people/audit_lines.hpp"
 #include "rave/base/check.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "foxglove_message.hpp"
+#include "foxglove/foxglove_message.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace rave::gui_server;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "page_message.hpp"
+#include "page/page_message.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static_cast<void>(rave::gui_server::parse_page_message(

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "ticket_request.hpp"
+#include "visitors/ticket_request.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto request = rave::gui_server::parse_ticket_request(

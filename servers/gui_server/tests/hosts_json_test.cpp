@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hosts_json.hpp"
+#include "live/hosts_json.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the recordings of a run on the bus are when it is over. That they are played: page_hosts.
-#include "kept_recordings.hpp"
+#include "replay/kept_recordings.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run that is shown while it goes on, without its loop.
-#include "live_source.hpp"
+#include "live/live_source.hpp"
 
 #include <gtest/gtest.h>
 

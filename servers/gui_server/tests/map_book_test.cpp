@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "map_book.hpp"
+#include "run/map_book.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "map_stream.hpp"
-#include "world_map.hpp"
+#include "page/map_stream.hpp"
+#include "run/world_map.hpp"
 
 namespace rave::gui_server {
 namespace {

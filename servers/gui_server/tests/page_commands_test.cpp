@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "page_commands.hpp"
+#include "page/page_commands.hpp"
 
 #include <gtest/gtest.h>
 

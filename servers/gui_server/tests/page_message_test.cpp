@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "page_message.hpp"
+#include "page/page_message.hpp"
 
 #include <gtest/gtest.h>
 

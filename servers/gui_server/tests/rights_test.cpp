@@ -9,9 +9,9 @@
 #include "rave/base/file.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/host/host_run.hpp"
-#include "rights_desk.hpp"
-#include "scenario_rights.hpp"
-#include "view.hpp"
+#include "rights/scenario_rights.hpp"
+#include "visitors/rights_desk.hpp"
+#include "visitors/view.hpp"
 
 namespace rave::gui_server {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What one page is sent of a run in progress, and when.
-#include "session.hpp"
+#include "page/session.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fake_port.hpp"
-#include "live_source.hpp"
+#include "live/live_source.hpp"
 
 namespace rave::gui_server {
 namespace {

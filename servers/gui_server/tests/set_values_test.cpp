@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "set_values.hpp"
+#include "live/set_values.hpp"
 
 #include <gtest/gtest.h>
 
 #include "fake_port.hpp"
-#include "live_source.hpp"
+#include "live/live_source.hpp"
 #include "nlohmann/json.hpp"
-#include "page_text.hpp"
+#include "page/page_text.hpp"
 
 namespace rave::gui_server {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "shared_texts.hpp"
+#include "page/shared_texts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live/bus_port.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+
+#include "rave/base/thread.hpp"
+#include "rave/control/order_desk.hpp"
+#include "rave/control/order_words.hpp"
+
+namespace rave::gui_server {
+
+namespace {
+
+constexpr auto kStatusEvery = std::chrono::seconds(1);
+constexpr Duration kStatusPatience = from_seconds(1);
+/// How often the driver of a robot is asked about, who is heard without an answer meanwhile.
+constexpr auto kAskDriver = std::chrono::seconds(1);
+constexpr Duration kHostPatience = from_seconds(2);
+/// A host that does not answer must not delay the next stop for longer.
+constexpr Duration kHoldPatience = from_seconds(1);
+
+/// Whether it holds robots, or lets them go.
+bool is_hold(runtime::RunRequest::Kind kind) {
+  using Kind = runtime::RunRequest::Kind;
+  return kind == Kind::kStop || kind == Kind::kRelease || kind == Kind::kArm;
+}
+
+bool is_host(const control::BusPeer& peer, const std::string& /*scenario*/) {
+  return !peer.manager;
+}
+
+/// What processes of a run answer to one request.
+struct Replies {
+  std::string done;
+  std::string refused;
+
+  void add(std::string_view from, bool good, std::string_view text) {
+    std::string& said = good ? done : refused;
+    if (!said.empty()) said += "; ";
+    said += fmt::format("{}: {}", from, text);
+  }
+  void add(const std::vector<control::BusReply>& replies) {
+    for (const control::BusReply& reply : replies) {
+      add(reply.peer.name, reply.answer && reply.answer->good,
+          reply.answer ? reply.answer->text : reply.answer.error().message);
+    }
+  }
+  /// `one`: it is enough that one of them has done it.
+  [[nodiscard]] Result<std::string> result(bool one) const {
+    if (done.empty() && refused.empty()) {
+      return fail(ErrorCode::kNotFound, "no process of the run answers");
+    }
+    if (refused.empty() || (one && !done.empty())) return done;
+    if (done.empty()) return fail(ErrorCode::kState, "{}", refused);
+    return fail(ErrorCode::kState, "{}; {}", refused, done);
+  }
+};
+
+Result<std::string> ask_host(control::BusRun& bus, const std::string& host,
+                             const control::Request& request) {
+  RAVE_TRY_ASSIGN(const control::BusPeer peer, bus.find(host, kHostPatience));
+  RAVE_TRY_ASSIGN(const control::Answer answer, bus.ask(peer, request));
+  if (!answer.good) return fail(ErrorCode::kState, "{}", answer.text);
+  return answer.text;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<BusPort>> BusPort::open(const bus::BusConfig& bus, bool lock_step,
+                                               const std::vector<std::string>& robots,
+                                               std::map<std::string, std::string> host_of) {
+  RAVE_TRY_ASSIGN(auto status, control::BusRun::open(bus, "GUI Server"));
+  std::unique_ptr<BusPort> port(new BusPort(std::move(status), lock_step, std::move(host_of)));
+  BusPort* const self = port.get();
+  RAVE_TRY_ASSIGN(port->commands_,
+                  control::CommandSender::open(bus, robots, [self] { self->stir(); }));
+  const auto lane = [self,
+                     &bus](Answer (BusPort::*does)(control::BusRun&, const runtime::RunRequest&)) {
+    return RequestLane::open(bus, [self, does](control::BusRun& end, const auto& request) {
+      Answer answer = (self->*does)(end, request);
+      self->stir();
+      return answer;
+    });
+  };
+  RAVE_TRY_ASSIGN(port->holds_, lane(&BusPort::hold_all));
+  RAVE_TRY_ASSIGN(port->requests_, lane(&BusPort::ask));
+  RAVE_TRY(start_thread(port->watcher_, "the status of robots",
+                        [self](const std::stop_token& stop) { self->watch(stop); }));
+  return port;
+}
+
+BusPort::~BusPort() {
+  watcher_.request_stop();
+  if (watcher_.joinable()) watcher_.join();
+}
+
+void BusPort::stir() {
+  const std::lock_guard lock(mutex_);
+  stirred_ = true;
+  changed_.notify_all();
+}
+
+std::vector<runtime::RunStatus::Robot> BusPort::robots() const {
+  const std::lock_guard lock(mutex_);
+  return robots_;
+}
+
+void BusPort::watch(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    std::vector<runtime::RunStatus::Robot> robots;
+    for (control::BusReply& reply :
+         status_->ask_each(control::Request{}, is_host, kStatusPatience)) {
+      if (!reply.answer || !reply.answer->good) continue;
+      auto& told = reply.answer->status.robots;
+      robots.insert(robots.end(), std::make_move_iterator(told.begin()),
+                    std::make_move_iterator(told.end()));
+    }
+    std::unique_lock lock(mutex_);
+    robots_ = std::move(robots);
+    changed_.wait_for(lock, stop, kStatusEvery, [this] { return stirred_; });
+    stirred_ = false;
+  }
+}
+
+Result<std::future<Result<std::string>>> BusPort::post(runtime::RunRequest request) {
+  if (request.kind == runtime::RunRequest::Kind::kDrive) return drive(request);
+  const bool hold = is_hold(request.kind);
+  if (request.robot.empty() && hold) return holds_->queue(std::move(request));
+  // A cancel of all names no robot: it is a request to each host.
+  const bool command = (hold || runtime::is_order(request.kind)) && !request.robot.empty();
+  return command ? commands_->post(std::move(request)) : requests_->queue(std::move(request));
+}
+
+Result<std::future<Result<std::string>>> BusPort::drive(const runtime::RunRequest& request) {
+  RAVE_TRY_ASSIGN(auto sent, commands_->post(request));
+  const auto now = std::chrono::steady_clock::now();
+  auto& asked = asked_[request.robot];
+  if (now - asked < kAskDriver) return sent;
+  asked = now;
+  runtime::RunRequest take;
+  take.kind = runtime::RunRequest::Kind::kTake;
+  take.robot = request.robot;
+  take.by = request.by;
+  take.page = request.page;
+  return requests_->queue(std::move(take));
+}
+
+BusPort::Answer BusPort::ask(control::BusRun& bus, const runtime::RunRequest& request) {
+  using Kind = runtime::RunRequest::Kind;
+  const bool of_body = request.kind == Kind::kSet && request.key.starts_with("body.");
+  const bool of_world = request.kind == Kind::kEdit || request.kind == Kind::kList ||
+                        (lock_step_ && (of_body || request.kind == Kind::kChat));
+  if (of_world) return ask_manager(bus, request);
+  const auto host = host_of_.find(request.robot);
+  if (host != host_of_.end()) return ask_host(bus, host->second, control::request_of(request));
+  Replies replies;
+  replies.add(bus.ask_each(control::request_of(request), is_host));
+  return replies.result(!request.robot.empty());
+}
+
+BusPort::Answer BusPort::hold_all(control::BusRun& bus, const runtime::RunRequest& request) {
+  Replies replies;
+  replies.add(bus.ask_each(control::request_of(request), is_host, kHoldPatience));
+  // In lock-step the manager also knows the robots of hosts that are lost and may come back.
+  if (lock_step_) {
+    const Answer managed = ask_manager(bus, request);
+    replies.add("manager", managed.has_value(), managed ? *managed : managed.error().message);
+  }
+  return replies.result(false);
+}
+
+BusPort::Answer BusPort::ask_manager(control::BusRun& bus, const runtime::RunRequest& request) {
+  control::Request relayed = control::request_of(request);
+  relayed.relay = true;
+  const auto host = host_of_.find(request.robot);
+  if (host != host_of_.end()) return ask_host(bus, host->second, relayed);
+  const std::vector<control::BusPeer> hosts = bus.all(kHostPatience);
+  if (hosts.empty()) return fail(ErrorCode::kNotFound, "no process of the run answers");
+  return ask_host(bus, hosts.front().name, relayed);
+}
+
+std::vector<runtime::RunStatus::Robot> ManagedPort::robots() const {
+  std::vector<runtime::RunStatus::Robot> robots = manager_.status().robots;
+  std::map<std::string_view, runtime::RunStatus::Robot*> by_name;
+  for (runtime::RunStatus::Robot& robot : robots) by_name.emplace(robot.name, &robot);
+  for (runtime::RunStatus::Robot& told : hosts_->robots()) {
+    const auto robot = by_name.find(told.name);
+    if (robot == by_name.end()) continue;
+    // Who drives and who is stopped the manager learns sooner.
+    robot->second->armed = told.armed;
+    robot->second->takes = std::move(told.takes);
+    robot->second->order = std::move(told.order);
+    robot->second->changed = std::move(told.changed);
+  }
+  return robots;
+}
+
+Result<std::future<Result<std::string>>> ManagedPort::post(runtime::RunRequest request) {
+  const bool of_hosts = runtime::OrderDesk::is_for(request.kind);
+  return of_hosts ? hosts_->post(std::move(request)) : manager_.post(std::move(request));
+}
+
+}  // namespace rave::gui_server

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live/request_lane.hpp"
+
+#include "rave/base/thread.hpp"
+
+namespace rave::gui_server {
+
+Result<std::unique_ptr<RequestLane>> RequestLane::open(const bus::BusConfig& config, Ask ask) {
+  RAVE_TRY_ASSIGN(auto bus, control::BusRun::open(config, "GUI Server"));
+  std::unique_ptr<RequestLane> lane(new RequestLane(std::move(bus), std::move(ask)));
+  RequestLane* const self = lane.get();
+  RAVE_TRY(start_thread(lane->thread_, "requests of pages",
+                        [self](const std::stop_token& stop) { self->work(stop); }));
+  return lane;
+}
+
+RequestLane::~RequestLane() {
+  thread_.request_stop();
+  if (thread_.joinable()) thread_.join();
+}
+
+std::future<RequestLane::Answer> RequestLane::queue(runtime::RunRequest request) {
+  const std::lock_guard lock(mutex_);
+  auto& [asked, promise] = waiting_.emplace_back(std::move(request), std::promise<Answer>());
+  auto answer = promise.get_future();
+  changed_.notify_all();
+  return answer;
+}
+
+void RequestLane::work(const std::stop_token& stop) {
+  for (;;) {
+    std::unique_lock lock(mutex_);
+    if (!changed_.wait(lock, stop, [this] { return !waiting_.empty(); })) break;
+    auto [request, promise] = std::move(waiting_.front());
+    waiting_.pop_front();
+    lock.unlock();
+    promise.set_value(ask_(*bus_, request));
+  }
+  const std::lock_guard lock(mutex_);
+  for (auto& [request, promise] : waiting_) {
+    promise.set_value(fail(ErrorCode::kState, "the server is shutting down"));
+  }
+}
+
+}  // namespace rave::gui_server

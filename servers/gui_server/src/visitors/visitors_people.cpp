@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// What super-users ask about people, and the answers.
+#include <algorithm>
+
+#include "visitors/visitors.hpp"
+
+namespace rave::gui_server {
+
+void Visitors::note_malformed(std::uint64_t id, std::string_view why, bool cut) {
+  const auto found = visitors_.find(id);
+  if (found == visitors_.end()) return;
+  const std::string& user = found->second.person.name;
+  audit_->note("refused", {{"why", "message"}, {"user", user}, {"detail", why}});
+  if (cut) audit_->note("cut_off", {{"why", "malformed messages"}, {"user", user}});
+}
+
+void Visitors::flooded(std::uint64_t id) {
+  const auto found = visitors_.find(id);
+  if (found == visitors_.end()) return;
+  audit_->note("cut_off", {{"why", "too many messages"}, {"user", found->second.person.name}});
+}
+
+bool Visitors::is_operator(const Visitor& visitor) {
+  return known(visitor.person).name != visitor.person.name;
+}
+
+void Visitors::take_people(std::uint64_t id, const PeopleMessage& message) {
+  Visitor& visitor = visitors_.at(id);
+  if (!visitor.conducts()) {
+    audit_->note("refused",
+                 {{"why", "account"}, {"user", visitor.person.name}, {"detail", word_of(message)}});
+    visitor.page->send(payload(answer_text({std::string(word_of(message)),
+                                            false,
+                                            "Only a super-user can do this.",
+                                            request_of(message),
+                                            {}})));
+    return;
+  }
+  const std::string by = is_operator(visitor) ? std::string("operator") : visitor.person.name;
+  people_desk_.take(
+      message, by, [this, id](const PeopleDesk::Outcome& outcome) { told_of_people(id, outcome); });
+}
+
+void Visitors::told_of_people(std::uint64_t id, const PeopleDesk::Outcome& outcome) {
+  // It takes effect before it is sent.
+  if (outcome.changed) check();
+  const auto found = visitors_.find(id);
+  if (found == visitors_.end()) return;
+  const Visitor& visitor = found->second;
+  // Who lost the role meanwhile gets no link.
+  if (!outcome.message.empty() && visitor.conducts()) {
+    visitor.page->send(payload(outcome.message));
+  }
+  visitor.page->send(payload(answer_text(outcome.answer)));
+}
+
+void Visitors::tell_accounts() {
+  if (!source_) return;
+  const std::uint64_t lines = audit_->written() + 1;
+  web::Payload accounts;
+  for (auto& [id, visitor] : visitors_) {
+    if (!visitor.conducts()) continue;
+    if (visitor.told_accounts != accounts_news_) {
+      if (!accounts) {
+        std::map<std::string, unsigned> pages;
+        unsigned links = 0;
+        for (const auto& [other, there] : visitors_) {
+          ++(is_operator(there) ? links : pages[there.person.name]);
+        }
+        accounts = payload(people_desk_.message(pages, links));
+      }
+      visitor.page->send(accounts);
+      visitor.told_accounts = accounts_news_;
+    }
+    if (visitor.told_audit == lines) continue;
+    visitor.told_audit = lines;
+    if (audit_->keeps()) {
+      visitor.page->send(
+          payload(fmt::format(R"({{"type":"audit_written","lines":{}}})", lines - 1)));
+    }
+  }
+}
+
+}  // namespace rave::gui_server

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What visitors say to people and robots.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "visitors/visitors.hpp"
+
+namespace rave::gui_server {
+
+Result<std::string> Visitors::chat(std::uint64_t id, const ChatMessage& chat) {
+  using To = ChatMessage::To;
+  Visitor& visitor = visitors_.at(id);
+  if (visitor.eyes)
+    return fail(ErrorCode::kState, "While you view the page as another user, you can only watch.");
+  if (!source_) return fail(ErrorCode::kState, "No run is in progress.");
+  if (!visitor.view->may_any(InfoClass::kChat)) {
+    return fail(ErrorCode::kState, "Your rights do not include this.");
+  }
+  ChatRoom::Line line;
+  line.from = known_as(visitor.person);
+  line.to = chat.to;
+  line.name = chat.name;
+  line.text = chat.text;
+  line.t_s = source_->open_playhead()->look(Session::Clock::now()).now_s;
+  const Cast& cast = desk_.cast();
+  CommandMessage told;
+  told.kind = CommandMessage::Kind::kText;
+  told.value = chat.text;
+  for (std::uint32_t slot = 0; slot < visitor.view->robots(); ++slot) {
+    const std::uint32_t robot = *visitor.view->robot_of(slot);
+    const bool meant = (chat.to == To::kRobot && slot == chat.slot) ||
+                       (chat.to == To::kTeam && cast.teams[robot] == chat.name);
+    if (!meant || !visitor.view->may(InfoClass::kChat, robot)) continue;
+    line.robots.push_back(robot);
+    if (chat.to == To::kRobot) line.name = cast.names[robot];
+    if (source_->about().live && visitor.view->may(InfoClass::kCommand, robot)) {
+      told.slots.push_back(slot);
+    }
+  }
+  if ((chat.to == To::kRobot || chat.to == To::kTeam) && line.robots.empty()) {
+    return fail(ErrorCode::kNotFound, "There is no such robot or team.");
+  }
+  if (chat.to == To::kUser && !is_there(chat.name)) {
+    return fail(ErrorCode::kNotFound, "`{}` is not connected.", chat.name);
+  }
+  const std::size_t robots = std::min(told.slots.size(), kMostCommanded);
+  told.slots.resize(robots);
+  told.request = chat.request;
+  RAVE_TRY(room_.say(std::move(line), Session::Clock::now()));
+  source_->keep_chat(ChatRoom::text_of(room_.last()));
+  if (robots > 0) visitor.page->command(told);
+  return robots > 0 ? fmt::format("Sent to {} robots.", robots) : std::string("Said.");
+}
+
+bool Visitors::is_there(const std::string& name) const {
+  return std::any_of(visitors_.begin(), visitors_.end(), [&name](const auto& entry) {
+    return known_as(entry.second.person).name == name;
+  });
+}
+
+}  // namespace rave::gui_server

@@ -2,7 +2,9 @@
 #include "page.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <thread>
@@ -32,11 +34,20 @@ void open_browser(const std::string& link) {
   if (std::system(command.c_str()) != 0) return;  // The link was told; nothing is lost.
 }
 
-std::string how_to_reach(const std::string& link, const std::string& foxglove, std::uint16_t port) {
+/// The name of this machine, for a command that is typed on another one.
+std::string machine() {
+  std::array<char, 256> name{};
+  if (::gethostname(name.data(), name.size() - 1) != 0 || name[0] == '\0') return "THIS_MACHINE";
+  return name.data();
+}
+
+std::string how_to_reach(const std::string& link, const std::string& foxglove, std::uint16_t port,
+                         bool loopback) {
   std::string text = fmt::format("open  {}\n", link);
   if (!foxglove.empty()) text += fmt::format("foxglove  {}\n", foxglove);
-  if (!has_desktop()) {
-    text += fmt::format("from your machine, first:  ssh -L {0}:127.0.0.1:{0} THIS_MACHINE\n", port);
+  if (!has_desktop() && loopback) {
+    text +=
+        fmt::format("from your machine, first:  ssh -L {0}:127.0.0.1:{0} {1}\n", port, machine());
   }
   return text + "Ctrl-C ends\n";
 }
@@ -52,7 +63,8 @@ Result<std::unique_ptr<gui_server::GuiServer>> serve_page(
   }
   RAVE_TRY_ASSIGN(auto server, gui_server::GuiServer::start(whole, std::move(source)));
   const std::string link = server->entry();
-  put(stdout, how_to_reach(link, server->foxglove_address(), server->port()));
+  const bool loopback = whole.listen == gui_server::GuiOptions().listen;
+  put(stdout, how_to_reach(link, server->foxglove_address(), server->port(), loopback));
   std::fflush(stdout);
   if (!options.no_open) open_browser(link);
   return server;

@@ -206,6 +206,27 @@ TEST(ViewOfARun, WithholdsEventsThatNameTheUnseen) {
   LogEvent event;
   event.slots = {2};
   EXPECT_EQ(view.event(event)->slots, (std::vector<std::uint32_t>{1}));
+  LogEvent left_out;
+  left_out.kind = "contact";
+  left_out.text = "7 more in this step";
+  EXPECT_FALSE(view.event(left_out)) << "it counts the contacts of withheld robots";
+}
+
+TEST(ViewOfARun, WithoutTheLogHasNoEvents) {
+  const auto seen_with = [](const Reach& reach, std::vector<std::uint32_t> slots) {
+    Rights rights;
+    EXPECT_TRUE(rights.set(Role::kObserver, InfoClass::kLog, reach));
+    LogEvent event;
+    event.text = "something happens";
+    event.slots = std::move(slots);
+    return View{rights, {"ben", Role::kObserver, kGreen}, cast()}.event(event).has_value();
+  };
+  EXPECT_TRUE(seen_with({Kind::kAll, {}}, {0}));
+  EXPECT_TRUE(seen_with({Kind::kOwn, {}}, {0}));
+  EXPECT_FALSE(seen_with({Kind::kOwn, {}}, {1}));
+  EXPECT_TRUE(seen_with({Kind::kOwn, {}}, {})) << "the run itself";
+  EXPECT_FALSE(seen_with({Kind::kNone, {}}, {0}));
+  EXPECT_FALSE(seen_with({Kind::kNone, {}}, {}));
 }
 
 TEST(ViewOfARun, WithholdsWhatIsSaidToRobotsOfOthersAndWhereTheyAreSent) {

@@ -9,14 +9,10 @@
 #include <thread>
 #include <utility>
 
+#include "live/request_lane.hpp"
 #include "live/run_port.hpp"
 #include "rave/control/bus_run.hpp"
 #include "rave/control/command_sender.hpp"
-<<<<<<< HEAD:servers/gui_server/src/bus_port.hpp
-#include "request_lane.hpp"
-#include "run_port.hpp"
-=======
->>>>>>> h/rooms:servers/gui_server/src/live/bus_port.hpp
 
 namespace rave::gui_server {
 

@@ -196,8 +196,10 @@ std::optional<LogEvent> View::event(const LogEvent& event) const {
     mine.slots.push_back(*slot_of(robot));
   }
   if (names_hidden(event.text)) return std::nullopt;
-  // As with the message `hosts`: names of processes tell how the whole is divided.
-  if (event.kind.starts_with("process ") && !may_all(InfoClass::kPose)) return std::nullopt;
+  // As with the message `hosts`: names of processes tell how the whole is divided. And a number of
+  // contacts counts those of withheld robots.
+  const bool of_all = event.kind.starts_with("process ") || event.kind == "contact";
+  if (of_all && event.slots.empty() && !may_all(InfoClass::kPose)) return std::nullopt;
   // Obstacles that came later are none of the names that are known.
   if (!may_any(InfoClass::kObstacles) && event.slots.empty() &&
       (event.kind + event.text).find("obstacle") != std::string::npos) {

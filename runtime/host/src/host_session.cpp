@@ -154,11 +154,11 @@ Result<HostOutcome> run_session(const HostSetup& host, sim::Engine& engine, bus:
   RAVE_TRY_ASSIGN(
       const auto face,
       BusFace::open(bus, host.slot.number, !live || !needs_manager(host.built), &host.catalogue));
-  options.observers.push_back(face.get());
-  RAVE_TRY_ASSIGN(
-      const auto observers,
-      ObserverList::open({host.scenario, host.expanded, host.built.robot_kinds, engine,
-                          host.catalogue, options, host.console, host.options.host, live, live}));
+  const std::vector<RunObserver*> own = {face.get()};
+  RAVE_TRY_ASSIGN(const auto observers,
+                  ObserverList::open({host.scenario, host.expanded, host.built.robot_kinds, engine,
+                                      host.catalogue, options, host.console, host.options.host,
+                                      live, live, own}));
   RunSession run(engine, *observers, host.pace, host.scenario.scenario, options, host.console,
                  live);
   const auto exchange = make(run, *face);

@@ -39,9 +39,9 @@ class LeaseNotes final : public RunObserver {
 };
 
 /// All observers of a run, in the order in which they read a step: results, leases, ROS 2,
-/// shadows, those of the options, those of the kind of run, and the recording. All but the
-/// recording, which keeps what the others found, are told that the run begins. README.md of this
-/// library says what a new one takes.
+/// shadows, those of the options, those of the kind of run, and the recording. `run_begins()` is
+/// called for all but the recording, which keeps what the others found. README.md of this library
+/// says what a new one takes.
 class ObserverList {
  public:
   /// What the list is made from. Refers to its parts, which outlive the list.

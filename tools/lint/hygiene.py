@@ -31,7 +31,7 @@ OUTPUT = re.compile(r"(?<![\w.>])(?:std\s*::\s*)?(?:exit|_exit|quick_exit|printf
 MAY_PRINT = ("libs/base/src/check.cpp",)
 LARGEST_BYTES = 1_000_000
 # A folder in one of these is a library.
-LIBRARY_FOLDERS = ("libs", "runtime", "ops", "servers")
+LIBRARY_FOLDERS = ("libs", "runtime", "ops", "servers", "bench")
 BY_HAND = re.compile(r"\badd_library\(\s*\w+\s+(?:STATIC|SHARED|OBJECT)\b")
 # A path into the tests of another folder; data files may lie there.
 OTHERS_TESTS = re.compile(r"(?:CMAKE_SOURCE_DIR\}|\.\.)/[\w./]*\btests(?:/[\w./]*\.[ch]pp|[/\w]*\"?\)|/\w+\"?\s)")
@@ -166,6 +166,7 @@ BREACHES = [
     ("do not print", {"libs/a/a.cpp": TOP + "void f() { std::cout << 1; }\n"}),
     ("do not print", {"libs/a/a.cpp": TOP + "void f() { exit(1); }\n"}),
     ("runtime/a: a library has a README", {"runtime/a/CMakeLists.txt": f"# {LICENCE}\n"}),
+    ("bench/a: a library has a README", {"bench/a/CMakeLists.txt": f"# {LICENCE}\n"}),
     ("made by rave_library", {"ops/a/CMakeLists.txt": f"# {LICENCE}\nadd_library(a STATIC a.cpp)\n",
                               "ops/a/README.md": "# a\n"}),
     ("rave_part", {"drivers/a/CMakeLists.txt": f"# {LICENCE}\nadd_library(a STATIC a.cpp)\n"}),

@@ -66,9 +66,9 @@ bool resumes(const ManagedRun& run) {
 }
 
 /// Options of a manager that are the same in lock-step and in real time.
-manager::RunOptions options_of(const ManagedRun& run, std::vector<config::PlannedHost> hosts,
-                               bool real_time) {
-  manager::RunOptions how;
+manager::ManagerRunOptions options_of(const ManagedRun& run, std::vector<config::PlannedHost> hosts,
+                                      bool real_time) {
+  manager::ManagerRunOptions how;
   how.bus = run.bus;
   how.identity = manager_of(run, real_time);
   how.scenario = run.scenario.scenario.name.value;

@@ -18,7 +18,7 @@ import urllib.parse
 import urllib.request
 
 TEXT, BINARY, CLOSE, PING, PONG = 1, 2, 8, 9, 10
-HEAD = struct.Struct("<BBHIdII")  # Kind, flags, revision, sequence, time, step, robots.
+HEAD = struct.Struct("<BBHIdII")  # Kind, flags, unused, sequence, time, step, robots.
 PAST, TRUE_POSES = 1, 2
 KNOWN = 1
 

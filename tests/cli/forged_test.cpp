@@ -109,7 +109,7 @@ TEST_F(Forged, AReportOfAStepThatCannotBeEndsTheRunWithAMessage) {
         EXPECT_TRUE((*wrong)->say(report));
         return console("env").find("host `two` is here") != std::string::npos;
       },
-      "it has its seat");
+      "it has its slot");
   wait_for_line("one", "waiting for two");
   report.step = 1'000'000;
   wait_until(
@@ -140,7 +140,7 @@ TEST_F(Forged, AStepThatAHostDoesNotSayAnyMoreIsNotWaitedFor) {
         EXPECT_TRUE((*wrong)->say(report, kOther));
         return console("env").find("host `two` is here") != std::string::npos;
       },
-      "it has its seat");
+      "it has its slot");
   report.step = 0;
   for (int i = 0; i < 10; ++i) EXPECT_TRUE((*wrong)->say(report));
   start_host("one", "crowd.yaml", words_);

@@ -13,7 +13,7 @@
 
 namespace rave::cli_test {
 
-/// A process that fits in a run in lock-step, takes the seat of a host, and says what it likes.
+/// A process that fits in a run in lock-step, takes the slot of a host, and says what it likes.
 class WrongHost {
  public:
   /// `apart`: the words that keep a test's run apart.

@@ -58,7 +58,10 @@ def is_template(name):
 
 def is_support(name):
     """Whether a file is a test, benchmark or fuzz target rather than a part of what is shipped."""
-    return bool(SUPPORT_FOLDERS & set(name.split("/")[:-1]))
+    folders = name.split("/")[:-1]
+    # A folder in bench/ is a library, which `rave bench` links.
+    return bool(SUPPORT_FOLDERS & set(folders[1:] if folders[0:1] == ["bench"] and folders[1:]
+                                      else folders))
 
 
 def code_of(text):

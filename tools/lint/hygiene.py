@@ -7,6 +7,7 @@ in lower case; libraries that neither print nor exit; no large files. Each libra
 each linked target is made by rave_library() or rave_part(). Headers beyond 250 lines are named,
 without being an error.
 """
+import posixpath
 import re
 import sys
 
@@ -30,10 +31,12 @@ OUTPUT = re.compile(r"(?<![\w.>])(?:std\s*::\s*)?(?:exit|_exit|quick_exit|printf
 MAY_PRINT = ("libs/base/src/check.cpp",)
 LARGEST_BYTES = 1_000_000
 # A folder in one of these is a library.
-LIBRARY_FOLDERS = ("libs", "runtime", "ops", "servers")
+LIBRARY_FOLDERS = ("libs", "runtime", "ops", "servers", "bench")
 BY_HAND = re.compile(r"\badd_library\(\s*\w+\s+(?:STATIC|SHARED|OBJECT)\b")
 # A path into the tests of another folder; data files may lie there.
 OTHERS_TESTS = re.compile(r"(?:CMAKE_SOURCE_DIR\}|\.\.)/[\w./]*\btests(?:/[\w./]*\.[ch]pp|[/\w]*\"?\)|/\w+\"?\s)")
+# The same in a source; data files may lie there, and a folder may name its own tests.
+INCLUDED_TESTS = re.compile(r'^\s*#\s*include\s*["<]([^">]*\btests/[^">]*)[">]')
 LONG_HEADER_LINES = 250
 
 
@@ -112,6 +115,19 @@ def check_libraries(tree):
                 yield f"{name}:{number}: what several folders test with is in a folder `testing`"
 
 
+def check_included_tests(tree):
+    for name in tree.sources:
+        folder = "/".join(name.split("/")[:2]) + "/"
+        for number, line in common.numbered(tree.read(name)):
+            match = INCLUDED_TESTS.match(line)
+            if not match:
+                continue
+            target = match.group(1)
+            place = posixpath.normpath(posixpath.join(posixpath.dirname(name), target))
+            if not target.startswith("../") or not place.startswith(folder):
+                yield f"{name}:{number}: what several folders test with is in a folder `testing`"
+
+
 def long_headers(tree):
     for name in tree.sources:
         lines = tree.read(name).count("\n")
@@ -120,13 +136,15 @@ def long_headers(tree):
 
 
 def check(tree):
-    rules = (check_names, check_sizes, check_licence, check_text, check_output, check_libraries)
+    rules = (check_names, check_sizes, check_licence, check_text, check_output, check_libraries,
+             check_included_tests)
     return [finding for rule in rules for finding in rule(tree)]
 
 
 TOP = f"// {LICENCE}\n"
 CLEAN = {
     "libs/a/src/good_name.cpp": TOP + '#include "a/home/b.hpp"\nint exits = log.printf_like(1);\n',
+    "libs/a/bench/b.cpp": TOP + '#include "../tests/c.hpp"\n',
     "libs/a/tests/good_test.cpp": TOP + 'auto p = "/tmp/x"; std::printf("x");\n',
     "cli/main.cpp": TOP + 'int main() { std::exit(1); }\n',
     "tools/a.py": f"#!/usr/bin/env python3\n# {LICENCE}\n",
@@ -148,6 +166,7 @@ BREACHES = [
     ("do not print", {"libs/a/a.cpp": TOP + "void f() { std::cout << 1; }\n"}),
     ("do not print", {"libs/a/a.cpp": TOP + "void f() { exit(1); }\n"}),
     ("runtime/a: a library has a README", {"runtime/a/CMakeLists.txt": f"# {LICENCE}\n"}),
+    ("bench/a: a library has a README", {"bench/a/CMakeLists.txt": f"# {LICENCE}\n"}),
     ("made by rave_library", {"ops/a/CMakeLists.txt": f"# {LICENCE}\nadd_library(a STATIC a.cpp)\n",
                               "ops/a/README.md": "# a\n"}),
     ("rave_part", {"drivers/a/CMakeLists.txt": f"# {LICENCE}\nadd_library(a STATIC a.cpp)\n"}),
@@ -155,6 +174,8 @@ BREACHES = [
                                                  '"${CMAKE_SOURCE_DIR}/libs/a/tests")\n'}),
     ("folder `testing`", {"bench/CMakeLists.txt": f"# {LICENCE}\n"
                                                  "rave_test(a SOURCES ../libs/a/tests/b.cpp)\n"}),
+    ("folder `testing`", {"libs/a/tests/a_test.cpp": TOP + '#include "b/tests/c.hpp"\n'}),
+    ("folder `testing`", {"libs/a/tests/a_test.cpp": TOP + '#include "../../b/tests/c.hpp"\n'}),
     ("bytes; more", {"docs/a.bin": "x" * (LARGEST_BYTES + 1)}),
 ]
 

@@ -19,7 +19,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]')
 CALL = re.compile(r"\b(\w+)\s*\(([^()]*(?:\([^()]*\)[^()]*)*)\)")
 RAVE_NAME = re.compile(r"^rave(?:::|_)([a-z0-9_]+)$")
 # Folders whose folders are libraries with a row each, as those of libs/ are.
-ROOMS = ("runtime", "ops")
+ROOMS = ("runtime", "ops", "bench")
 # Third-party packages by the start of an include and by the name in a link line.
 PACKAGE_INCLUDES = {"fmt/": "fmt", "tl/": "expected", "yaml-cpp/": "yaml-cpp", "png.h": "png",
                     "cairo": "cairo", "spdlog/": "spdlog", "CLI/": "cli11", "zlib.h": "zlib",
@@ -86,7 +86,7 @@ def package_of(text, prefixes):
 def libraries(tree):
     found = {f.split("/")[1] for f in tree.files if f.startswith("libs/") and f.count("/") > 1}
     served = {f.split("/include/rave/")[1].split("/")[0] for f in tree.files
-              if f.startswith(("servers/", "bench/", "drivers/support/")) and "/include/rave/" in f
+              if f.startswith(("servers/", "drivers/support/")) and "/include/rave/" in f
               and "/testing/" not in f}
     rooms = {f.split("/")[1] for f in tree.files
              if f.startswith(tuple(room + "/" for room in ROOMS)) and f.count("/") > 1}
@@ -300,6 +300,7 @@ DOC = """| who | may use | packages | why |
 | `programs` | base, robot | none | |
 | `host`, `ops` | libs, pace | any | |
 | `pace` | base | any | |
+| `swarm` | base, sim | any | |
 | `cli` | any | any | |
 """
 ROOM_DOC = """| room of `src/` | may use | public headers |
@@ -328,6 +329,9 @@ CLEAN = {
     "drivers/x/x.cpp": '#include "rave/sim/a.hpp"\nRAVE_VIRTUAL_PLUGIN("x")\n',
     "runtime/host/src/h.cpp": '#include "rave/sim/a.hpp"\n#include "rave/pace/a.hpp"\n',
     "runtime/pace/include/rave/pace/a.hpp": '#include "rave/base/a.hpp"\n',
+    "bench/bench_a.cpp": '#include "rave/pace/a.hpp"\n',
+    "bench/swarm/src/a.cpp": '#include "rave/sim/a.hpp"\n',
+    "bench/swarm/tests/t.cpp": '#include "rave/pace/a.hpp"\n',
     "cli/main.cpp": '#include "rave/sim/a.hpp"\n#include "rave/pace/a.hpp"\n',
 }
 
@@ -341,7 +345,7 @@ def broken(expected, **files):
              "driver": "drivers/y/y.cpp", "driver_cmake": "drivers/y/CMakeLists.txt",
              "program": "programs/p/p.cpp", "program_cmake": "programs/p/CMakeLists.txt",
              "cli_cmake": "cli/CMakeLists.txt", "new": "libs/extra/a.cpp",
-             "pace": "runtime/pace/src/p.cpp", "room": "runtime/extra/src/a.cpp", "table": TABLE}
+             "pace": "runtime/pace/src/p.cpp", "swarm": "bench/swarm/src/b.cpp", "room": "runtime/extra/src/a.cpp", "table": TABLE}
     return expected, CLEAN | {names[key]: text for key, text in files.items()}
 
 
@@ -363,6 +367,7 @@ BREACHES = [
     broken("there is no library", math='#include "rave/smi/a.hpp"\n'),
     broken("no row for `extra`", new="int x;\n"),
     broken("no row for `extra`", room="int x;\n"),
+    broken("`swarm` may not use `pace`", swarm='#include "rave/pace/a.hpp"\n'),
     broken("`pace` may not use `host`", pace='#include "rave/host/a.hpp"\n'),
     broken("a circle: `host` -> `pace` -> `host`",
            table=DOC.replace("| `pace` | base |", "| `pace` | base, host |")),

@@ -114,7 +114,7 @@ export class FakeRun {
     const all = this.may.includes('obstacles');
     const bodies = this.bodies.filter((body) => all || body.kind !== 'virtual');
     return [this.hello(), {type: 'scene', bodies, hidden: all ? [] : ['virtual']},
-      {type: 'roster', revision: 1, robots: this.robots},
+      {type: 'roster', robots: this.robots},
       {type: 'events', reset: true, first: 0, events: this.events}, this.time(),
       ...(this.hosts ? [{type: 'hosts', hosts: this.hosts}] : []), ...(this.may.includes('rights') ? [this.rights, this.accounts] : []),
       ...(this.source === 'live' ? [this.leases([...this.drives.keys()], true), {type: 'chat', reset: true, lines: this.lines}] : []),
@@ -232,7 +232,6 @@ export class FakeRun {
     const buffer = new ArrayBuffer(kPoseHeader + 14 * n);
     const view = new DataView(buffer);
     view.setUint8(0, 1);
-    view.setUint16(2, 1, true);
     view.setUint32(4, sequence, true);
     view.setFloat64(8, this.now_s, true);
     view.setUint32(16, Math.round(this.now_s * 100), true);

@@ -5,7 +5,7 @@ import {PoseHistory, Placed, turn} from './pose_history';
 
 function frame(time_s: number, x: number, yaw = 0, past = false, flags = 1): PoseFrame {
   return {
-    sequence: 0, revision: 1, past, truth: false, time_s, step: 0,
+    sequence: 0, past, truth: false, time_s, step: 0,
     x: Float64Array.of(x), y: Float64Array.of(0), yaw: Float32Array.of(yaw), speed: Float32Array.of(0),
     flags: Uint16Array.of(flags),
   };

@@ -34,7 +34,7 @@ export class PoseHistory {
    * `held`: the run stands, and frames come with its steps alone, so the time between them says nothing. */
   add(frame: PoseFrame, now_ms: number, held = false): void {
     const last = this.newest ?? this.past[this.past.length - 1] ?? null;
-    const other = last !== null && (last.revision !== frame.revision || last.x.length !== frame.x.length);
+    const other = last !== null && last.x.length !== frame.x.length;
     if (last !== null && (other || (!frame.past && frame.time_s < last.time_s - 1e-9))) this.clear();
     this.note(frame);
     if (frame.past) {

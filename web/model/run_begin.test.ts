@@ -10,7 +10,7 @@ const hello = (source: 'live' | 'replay', may: Hello['may'] = ['log']) => ({
   run: {name: 'r', source, clock: 'lock_step', started: '', step_s: 0.01, seed: 7, hash: null, recording: null},
 }) as Hello;
 const time = (begin_s: number) => ({type: 'time', now_s: 20, step: 0, begin_s, end_s: 20, duration_s: 60, state: 'running', reason: '', pace: 1, speed: 1}) as ServerMessage;
-const roster = (...kinds: Robot['kind'][]) => ({type: 'roster', revision: 1, robots: kinds.map((kind, i) => ({name: `r${i}`, kind, sensors: []}))}) as unknown as ServerMessage;
+const roster = (...kinds: Robot['kind'][]) => ({type: 'roster', robots: kinds.map((kind, i) => ({name: `r${i}`, kind, sensors: []}))}) as unknown as ServerMessage;
 
 function modelOf(...messages: ServerMessage[]): RunModel {
   const model = new RunModel();

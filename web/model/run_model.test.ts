@@ -68,7 +68,7 @@ it('shows a robot that was handed over as what it is now', () => {
   const model = new RunModel();
   const robot = {name: 'r', team: '', kind: 'simulated' as const, word: '', recorded: false, program: '', drivers: [], shapes: [], sensors: [],
     twin: {kind: 'real' as const, drivers: ['create_drive'], sensors: []}};
-  model.takeMessage({type: 'roster', revision: 1, robots: [robot]});
+  model.takeMessage({type: 'roster', robots: [robot]});
   let told = 0;
   model.rosterChanged.on(() => ++told);
   const frame = (flags: number): ArrayBuffer => {

@@ -11,10 +11,10 @@ function robot(name: string, recorded = false): Robot {
 
 function modelWith(robots: Robot[], flags: number[]): RunModel {
   const model = new RunModel();
-  model.takeMessage({type: 'roster', revision: 1, robots});
+  model.takeMessage({type: 'roster', robots});
   const zeros = new Float64Array(robots.length);
   model.poses.add({
-    sequence: 1, revision: 1, past: false, truth: false, time_s: 0, step: 0, x: zeros, y: zeros,
+    sequence: 1, past: false, truth: false, time_s: 0, step: 0, x: zeros, y: zeros,
     yaw: new Float32Array(robots.length), speed: new Float32Array(robots.length), flags: Uint16Array.from(flags),
   }, 0);
   return model;

@@ -21,7 +21,6 @@ export const kCommandsOf = 0xefff;
 /** Where all robots of the roster are at one moment. Metres, radians, metres per second. */
 export interface PoseFrame {
   sequence: number;
-  revision: number;
   past: boolean;
   truth: boolean;
   time_s: number;
@@ -141,7 +140,6 @@ function decodePoses(buffer: ArrayBuffer, view: DataView): PoseFrame {
   }
   return {
     sequence: view.getUint32(4, true),
-    revision: view.getUint16(2, true),
     past: (flags & 1) !== 0,
     truth: (flags & 2) !== 0,
     time_s: view.getFloat64(8, true),

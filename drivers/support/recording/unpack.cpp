@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recording/unpack.hpp"
 
+#include <fmt/ranges.h>
 #include <sodium.h>
 #include <zlib.h>
 
@@ -90,13 +91,14 @@ Result<UnpackedText> unpack_text(std::string_view bytes, const std::string& file
   }
 }
 
+// runtime/recording does the same with files that are larger than the memory. No library may be
+// used by both without a price: `base` would bring libsodium to every program, `record` would bring
+// the reader of recordings to the plug-ins of players.
 std::string sha256_hex(std::string_view bytes) {
   std::array<unsigned char, crypto_hash_sha256_BYTES> digest{};
   crypto_hash_sha256(digest.data(), reinterpret_cast<const unsigned char*>(bytes.data()),
                      bytes.size());
-  std::string text;
-  for (const unsigned char byte : digest) text += fmt::format("{:02x}", byte);
-  return text;
+  return fmt::format("{:02x}", fmt::join(digest, ""));
 }
 
 }  // namespace rave::recording

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "rave/base/file.hpp"
-#include "recording/tests/pack.hpp"
+#include "rave/player_testing/pack.hpp"
 #include "utias/dataset.hpp"
 
 namespace rave::utias {

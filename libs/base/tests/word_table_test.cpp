@@ -18,6 +18,13 @@ TEST(WordTable, AreFoundBothWays) {
   EXPECT_EQ(kLights.find("Red"), std::nullopt);
 }
 
+TEST(WordTable, CountsItsRows) {
+  constexpr auto kTable = word_table<Light>(
+      {{"red", Light::kRed}, {"green", Light::kGreen}, {"broken", Light::kBroken}});
+  static_assert(kTable.words().size() == 3);
+  EXPECT_EQ(kTable.find("broken"), Light::kBroken);
+}
+
 TEST(WordTable, AreListedInMessages) {
   EXPECT_EQ(join_names(kLights.words()), "red and green");
   EXPECT_EQ(join_names(kLights.words(), "or"), "red or green");

@@ -30,6 +30,12 @@ inline Status check_number(std::string_view field, double value, double limit) {
   return invalid("{} is {}, not within +-{}", field, value, limit);
 }
 
+/// Checks the range of a message.
+inline Status check_range(std::string_view field, double range_m) {
+  if (range_m >= 0 && range_m <= kMaxPosition_m) return {};
+  return invalid("{} is {}, not within 0 and {}", field, range_m, kMaxPosition_m);
+}
+
 template <class Sequence>
 Status check_numbers(std::string_view list, std::string_view field, const Sequence& numbers,
                      std::size_t size, double limit) {

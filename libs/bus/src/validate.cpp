@@ -131,10 +131,7 @@ Status validate(const Packet& sample) {
   RAVE_TRY(check_number("x_m", sample.x_m, kMaxPosition_m));
   RAVE_TRY(check_number("y_m", sample.y_m, kMaxPosition_m));
   RAVE_TRY(check_number("antenna_z_m", sample.antenna_z_m, kMaxPosition_m));
-  if (!(sample.range_m >= 0 && sample.range_m <= kMaxPosition_m)) {
-    return invalid("range_m is {}, not within 0 and {}", sample.range_m, kMaxPosition_m);
-  }
-  return {};
+  return check_range("range_m", sample.range_m);
 }
 
 Status validate(const HostInfo& sample) {

@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // As validate.cpp, for the messages of lock-step.
 #include <algorithm>
+#include <limits>
 
 #include "sample_checks.hpp"
 
 namespace rave::bus {
 namespace {
+
+/// Of a unit vector, with room for rounding.
+constexpr double kMaxDirection = 2;
+/// Of a parameter any finite number; its range is the driver's.
+constexpr double kMaxValue = std::numeric_limits<double>::max();
+/// Far beyond what an engine accepts.
+constexpr double kMaxScale = 1e3;
 
 Status check_place(std::string_view list, std::size_t index, double x_m, double y_m,
                    double yaw_rad) {
@@ -42,6 +50,25 @@ Status check_samples(const Sequence& sequence) {
   return {};
 }
 
+/// Checks what the columns and poses do not have: pushes, touches and sizes.
+Status check_marks(const WorldStep& sample) {
+  const auto pushed = elements(sample.pushed);
+  for (std::size_t i = 0; i < pushed.size(); ++i) {
+    RAVE_TRY(check_place("pushed", i, pushed[i].x_m, pushed[i].y_m, pushed[i].yaw_rad));
+  }
+  for (const auto& point : elements(sample.touches)) {
+    RAVE_TRY(check_number("touches.x", point.x, kMaxDirection));
+    RAVE_TRY(check_number("touches.y", point.y, kMaxDirection));
+  }
+  for (const auto& robot : elements(sample.resized)) {
+    RAVE_TRY(check_number("resized.scale", robot.scale, kMaxScale));
+  }
+  for (const auto& robot : elements(sample.authority.scales)) {
+    RAVE_TRY(check_number("authority.scales.scale", robot.scale, kMaxScale));
+  }
+  return {};
+}
+
 Status check_sent(const rave_wire_SentPackets& sent) {
   const auto packets = elements(sent.packets);
   for (std::size_t i = 0; i < packets.size(); ++i) {
@@ -51,10 +78,13 @@ Status check_sent(const rave_wire_SentPackets& sent) {
       return invalid("sent.packets[{}] has {} bytes from {} on, of {}", i, packet.size,
                      packet.first_byte, sent.bytes._length);
     }
-    RAVE_TRY(check_place("sent.packets", i, packet.x_m, packet.y_m, packet.antenna_z_m));
-    if (!(packet.range_m >= 0)) {
-      return invalid("sent.packets[{}].range_m is {}", i, packet.range_m);
+    if (packet.to_kind > rave_wire_TO_TEAM) {
+      return invalid("sent.packets[{}].to_kind is unknown", i);
     }
+    RAVE_TRY(check_number("sent.packets.x_m", packet.x_m, kMaxPosition_m));
+    RAVE_TRY(check_number("sent.packets.y_m", packet.y_m, kMaxPosition_m));
+    RAVE_TRY(check_number("sent.packets.antenna_z_m", packet.antenna_z_m, kMaxPosition_m));
+    RAVE_TRY(check_range("sent.packets.range_m", packet.range_m));
   }
   return {};
 }
@@ -110,6 +140,10 @@ Status check_inputs(const Sequence& inputs) {
     for (const auto& change : elements(input.changes)) {
       RAVE_TRY(check_label("inputs.changes.name", change.name, true));
       if (change.kind > rave_wire_VALUE_LIST) return invalid("inputs.changes.kind is unknown");
+      RAVE_TRY(check_number("inputs.changes.number", change.number, kMaxValue));
+      for (const double value : elements(change.list)) {
+        RAVE_TRY(check_number("inputs.changes.list", value, kMaxValue));
+      }
     }
   }
   return {};
@@ -144,6 +178,7 @@ Status validate(const WorldStep& sample) {
   RAVE_TRY(check_events("authority.events", sample.authority.events, robots));
   RAVE_TRY(check_refused(sample.authority, robots));
   RAVE_TRY(check_named("authority.scales", sample.authority.scales, robots));
+  RAVE_TRY(check_marks(sample));
   RAVE_TRY(check_sent(sample.sent));
   RAVE_TRY(check_poses(sample.poses));
   RAVE_TRY(check_samples(sample.samples));

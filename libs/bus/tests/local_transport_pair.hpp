@@ -75,7 +75,7 @@ struct Pair {
     return local_transport;
   }
   /// Both ends know each other.
-  [[nodiscard]] bool goes() const {
+  [[nodiscard]] bool connected() const {
     return eventually([&] { return comes_short(); });
   }
   /// Sends bytes to the reader from an address; how many samples came of it. None if the system

@@ -16,7 +16,7 @@ namespace {
 
 TEST(LocalTransport, SmallSamplesTakeItAndLargeOnesDoNot) {
   const Pair pair;
-  EXPECT_TRUE(pair.goes());
+  EXPECT_TRUE(pair.connected());
   EXPECT_TRUE(eventually([&] { return !pair.comes_short(kMostLocalBytes); }));
 }
 
@@ -35,7 +35,7 @@ TEST(LocalTransport, AWaitSetWakesFromBoth) {
   ASSERT_TRUE(waits && waits->add(*pair.reader));
   for (int i = 0; i < 3; ++i) {
     // After one that was too big for it some are not tried.
-    ASSERT_TRUE(pair.goes());
+    ASSERT_TRUE(pair.connected());
     pair.reader->take([](const WorldStep&) {});
     pair.send(1000);
     EXPECT_EQ(waits->wait(Duration{10'000'000'000}), Woken::kReady);
@@ -64,7 +64,7 @@ TEST(LocalTransport, ASleepEndsByTimeBellDatagramAndStop) {
   const Pair pair;
   auto waits = WaitSet::create(*pair.right);
   ASSERT_TRUE(waits && waits->add(*pair.reader));
-  ASSERT_TRUE(pair.goes());
+  ASSERT_TRUE(pair.connected());
   std::uint64_t last = 0;
   const auto take = [&] { pair.reader->take([&](const WorldStep& world) { last = world.step; }); };
   // The first samples went by DDS, and some of them may come at any time.
@@ -100,7 +100,7 @@ TEST(LocalTransport, WhatComesByDdsIsNotLeftLyingWhileDatagramsCome) {
   auto far_writer = Writer<WorldStep>::create(**far);
   auto waits = WaitSet::create(*pair.right);
   ASSERT_TRUE(far_writer && waits && waits->add(*pair.reader));
-  ASSERT_TRUE(pair.goes());
+  ASSERT_TRUE(pair.connected());
   ASSERT_TRUE(
       eventually([&] { return far_writer->readers() == 1 && pair.reader->writers() == 2; }));
   for (std::uint64_t step = 1; step <= 20; ++step) {
@@ -120,21 +120,21 @@ TEST(LocalTransport, WhatComesByDdsIsNotLeftLyingWhileDatagramsCome) {
   }
 }
 
-/// A receiver and somebody who knocks at it.
-struct Door {
+/// A receiver, and a socket that sends to it.
+struct ReceiverWithSender {
   RunId run = RunId::random();
   LocalAddress address{run, 1, kWorldStep};
   LocalReceiver receiver{topic_of<WorldStep>(), run, *LocalSocket::open(address)};
-  std::optional<LocalSocket> visitor = LocalSocket::open({run, 2, 0});
+  std::optional<LocalSocket> sender = LocalSocket::open({run, 2, 0});
 
-  void knock(std::string_view bytes) const {
-    EXPECT_EQ(::sendto(visitor->descriptor(), bytes.data(), bytes.size(), 0,
+  void send(std::string_view bytes) const {
+    EXPECT_EQ(::sendto(sender->descriptor(), bytes.data(), bytes.size(), 0,
                        reinterpret_cast<const sockaddr*>(&address.name), address.size),
               static_cast<ssize_t>(bytes.size()));
   }
   /// Somebody waits and is woken by this.
   void wake() {
-    knock("x");
+    send("x");
     EXPECT_TRUE(receiver.fetch());
   }
   /// The text of the next datagram; "none" if there is none.
@@ -146,62 +146,62 @@ struct Door {
 };
 
 TEST(LocalTransport, WhatEndedAWaitIsReceivedOnceAndInItsTurn) {
-  Door door;
-  EXPECT_FALSE(door.receiver.fetch());
-  door.knock("first");
-  door.knock("second");
-  EXPECT_TRUE(door.receiver.fetch());
-  EXPECT_TRUE(door.receiver.fetch()) << "nobody has taken it";
-  EXPECT_EQ(door.next(), "first");
-  EXPECT_EQ(door.next(), "second");
-  EXPECT_EQ(door.next(), "none");
-  EXPECT_FALSE(door.receiver.fetch());
-  door.knock("");
-  EXPECT_TRUE(door.receiver.fetch()) << "an empty one is one, too";
-  EXPECT_EQ(door.next(), "");
-  EXPECT_EQ(door.next(), "none");
+  ReceiverWithSender link;
+  EXPECT_FALSE(link.receiver.fetch());
+  link.send("first");
+  link.send("second");
+  EXPECT_TRUE(link.receiver.fetch());
+  EXPECT_TRUE(link.receiver.fetch()) << "nobody has taken it";
+  EXPECT_EQ(link.next(), "first");
+  EXPECT_EQ(link.next(), "second");
+  EXPECT_EQ(link.next(), "none");
+  EXPECT_FALSE(link.receiver.fetch());
+  link.send("");
+  EXPECT_TRUE(link.receiver.fetch()) << "an empty one is one, too";
+  EXPECT_EQ(link.next(), "");
+  EXPECT_EQ(link.next(), "none");
 }
 
 TEST(LocalTransport, WhoSentWhatEndedAWaitIsSaidWhenItIsReceived) {
-  Door door;
-  door.wake();
-  door.receiver.meet({2, 3});
-  const auto first = door.receiver.receive();
+  ReceiverWithSender link;
+  link.wake();
+  link.receiver.meet({2, 3});
+  const auto first = link.receiver.receive();
   ASSERT_TRUE(first);
   EXPECT_EQ(first->writer, 2U) << "known since";
-  door.wake();
-  door.receiver.meet({3});
-  const auto last = door.receiver.receive();
+  link.wake();
+  link.receiver.meet({3});
+  const auto last = link.receiver.receive();
   ASSERT_TRUE(last);
   EXPECT_EQ(last->writer, 2U) << "its last words";
 }
 
 TEST(LocalTransport, OnlyATakeThatADatagramWokeLeavesDdsAlone) {
-  Door door;
-  LocalReceiver& receiver = door.receiver;
+  ReceiverWithSender link;
+  LocalReceiver& receiver = link.receiver;
   EXPECT_EQ(receiver.begin_take(100), 100U) << "nobody has waited";
   EXPECT_FALSE(receiver.leaves_dds(true));
-  door.wake();
+  link.wake();
   EXPECT_EQ(receiver.begin_take(100), 1U);
   EXPECT_TRUE(receiver.leaves_dds(true));
   EXPECT_EQ(receiver.begin_take(100), 100U) << "not again";
   EXPECT_FALSE(receiver.leaves_dds(true));
-  door.wake();
+  link.wake();
   receiver.note_dds();
   EXPECT_EQ(receiver.begin_take(100), 1U);
   EXPECT_FALSE(receiver.leaves_dds(true)) << "there is something";
-  door.wake();
+  link.wake();
   EXPECT_EQ(receiver.begin_take(100), 1U);
   EXPECT_FALSE(receiver.leaves_dds(false)) << "it was for nobody";
   receiver.meet({2, 3});
-  door.wake();
+  link.wake();
   EXPECT_EQ(receiver.begin_take(100), 100U) << "of two there may be two";
   EXPECT_TRUE(receiver.leaves_dds(true));
 }
 
 TEST(LocalTransport, AFullQueueGoesByDdsAndTheNewestArrives) {
   const Pair pair;
-  ASSERT_TRUE(pair.goes());
+  ASSERT_TRUE(pair.connected());
   // More than any system keeps in a queue.
   constexpr std::uint64_t kLast = 10'000;
   for (std::uint64_t step = 1; step <= kLast; ++step) pair.send(step);
@@ -215,7 +215,7 @@ TEST(LocalTransport, AFullQueueGoesByDdsAndTheNewestArrives) {
     return newest == kLast;
   }));
   EXPECT_TRUE(by_dds);
-  EXPECT_TRUE(pair.goes());
+  EXPECT_TRUE(pair.connected());
 }
 
 TEST(LocalTransport, WhenAReaderIsKilledTheOthersMissNothing) {
@@ -236,7 +236,7 @@ TEST(LocalTransport, WhenAReaderIsKilledTheOthersMissNothing) {
 
 TEST(LocalTransport, WhatStrangersThrowIsRefused) {
   const Pair pair;
-  ASSERT_TRUE(pair.goes());
+  ASSERT_TRUE(pair.connected());
   const LocalAddress stranger(pair.domain.run, 77, 0);
   for (const std::string& bytes : {std::string("hello"), std::string(), datagram(WorldStep{}),
                                    std::string(kMostLocalBytes + 1, 'x')}) {
@@ -246,7 +246,7 @@ TEST(LocalTransport, WhatStrangersThrowIsRefused) {
     EXPECT_EQ(*came, 0U);
     EXPECT_EQ(pair.right->foreign_samples(), before + 1) << bytes.size() << " bytes";
   }
-  EXPECT_TRUE(pair.goes());
+  EXPECT_TRUE(pair.connected());
 }
 
 TEST(LocalTransport, WhatAKnownProcessSendsIsJudgedLikeASampleOfDds) {

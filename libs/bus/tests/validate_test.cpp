@@ -260,9 +260,14 @@ TEST(Validate, PacketsSayWhoTheyAreForAndFromWhere) {
   packet.to_robot = rave_wire_kNone;
   EXPECT_EQ(reason(packet), "to_robot is none");
   packet.to_robot = 3;
-  packet.x_m = kNaN;
-  EXPECT_TRUE(reason(packet).starts_with("x_m is nan"));
-  packet.x_m = 0;
+  for (double Packet::*const number :
+       {&Packet::x_m, &Packet::y_m, &Packet::antenna_z_m, &Packet::range_m}) {
+    for (const double bad : {kNaN, kInfinity, -kInfinity}) {
+      packet.*number = bad;
+      EXPECT_NE(reason(packet).find("_m is "), std::string::npos) << bad;
+    }
+    packet.*number = 0;
+  }
   packet.range_m = -1;
   EXPECT_EQ(reason(packet), "range_m is -1, not within 0 and 10000000");
   packet.range_m = 0;

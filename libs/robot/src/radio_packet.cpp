@@ -21,7 +21,8 @@ constexpr unsigned kKindMask = 0x3;
 constexpr unsigned kHasPosition = 0x4;
 constexpr unsigned kLineOfSight = 0x8;
 
-// CRC-32 of IEEE 802.3, as in zlib and Ethernet: reversed polynomial 0xEDB88320.
+// CRC-32 of IEEE 802.3, as in zlib and Ethernet: reversed polynomial 0xEDB88320. Not the function
+// of libs/record, which is zlib's: programs link this library, and must not need zlib.
 constexpr std::array<std::uint32_t, 256> crc_table() {
   std::array<std::uint32_t, 256> table{};
   for (std::uint32_t i = 0; i < 256; ++i) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Everything that comes from another process is checked here before any of it is used. A report or
-// world that does not pass changes nothing.
+// world that does not pass changes nothing. Whether numbers are finite is known of what came over
+// the bus, by rave/bus/validate.hpp; the checks of it here guard against callers in this process,
+// whose messages no bus has seen.
 #include "message_checks.hpp"
 
 #include <algorithm>

@@ -37,9 +37,9 @@ void check_mode(const fs::path& key, KeyInfo& info) {
 
 /// Adds problems of a file to those of a member. All are collected instead of stopping at the
 /// first: a set is repaired by copying it again, and one needs to know how much of it is wrong.
-class Findings {
+class MemberProblems {
  public:
-  Findings(fs::path folder, KeyInfo& info) : folder_(std::move(folder)), info_(&info) {}
+  MemberProblems(fs::path folder, KeyInfo& info) : folder_(std::move(folder)), info_(&info) {}
 
   /// The content of a file; empty if it cannot be read.
   std::string read(const char* file) {
@@ -75,15 +75,15 @@ bool are_all_there(const fs::path& folder, KeyInfo& info) {
 /// Checks that the documents are signed by the authority, and that the permissions are those of
 /// this member.
 void check_documents(const std::string& authority, const CertificateFacts& facts,
-                     Findings& findings) {
-  const auto governance = signed_text(authority, findings.read(kGovernance));
-  if (!governance) findings.add(kGovernance, governance.error());
-  const auto permissions = signed_text(authority, findings.read(kPermissions));
+                     MemberProblems& problems) {
+  const auto governance = signed_text(authority, problems.read(kGovernance));
+  if (!governance) problems.add(kGovernance, governance.error());
+  const auto permissions = signed_text(authority, problems.read(kPermissions));
   if (!permissions) {
-    findings.add(kPermissions, permissions.error());
+    problems.add(kPermissions, permissions.error());
   } else if (permissions->find("<subject_name>" + facts.subject + "</subject_name>") ==
              std::string::npos) {
-    findings.add(kPermissions, Error{ErrorCode::kState, "it belongs to another member", {}});
+    problems.add(kPermissions, Error{ErrorCode::kState, "it belongs to another member", {}});
   }
 }
 
@@ -99,22 +99,22 @@ KeyInfo read_member(const fs::path& folder, const std::string& authority) {
   KeyInfo info;
   info.name = without_slash(folder).filename();
   if (!are_all_there(folder, info)) return info;
-  Findings findings(folder, info);
-  const std::string certificate = findings.read(kIdentity);
+  MemberProblems problems(folder, info);
+  const std::string certificate = problems.read(kIdentity);
   const auto facts = read_certificate(certificate);
   if (!facts) {
-    findings.add(kIdentity, facts.error());
+    problems.add(kIdentity, facts.error());
     return info;
   }
   info = info_of(*facts);
-  findings.add(kIdentity, check_issued(authority, certificate));
+  problems.add(kIdentity, check_issued(authority, certificate));
   for (const char* const file : {kIdentityCa, kPermissionsCa}) {
-    if (findings.read(file) != authority) {
-      findings.add(file, Error{ErrorCode::kState, "it differs from the authority of this set", {}});
+    if (problems.read(file) != authority) {
+      problems.add(file, Error{ErrorCode::kState, "it differs from the authority of this set", {}});
     }
   }
-  findings.add(kIdentityKey, check_pair({certificate, findings.read(kIdentityKey)}));
-  check_documents(authority, *facts, findings);
+  problems.add(kIdentityKey, check_pair({certificate, problems.read(kIdentityKey)}));
+  check_documents(authority, *facts, problems);
   check_mode(folder / kIdentityKey, info);
   return info;
 }

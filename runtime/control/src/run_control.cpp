@@ -12,23 +12,25 @@ using Kind = RunRequest::Kind;
 
 constexpr std::string_view kEnded = "the run has ended";
 
-constexpr WordTable<Kind, 17> kWords = {{{"stop", Kind::kStop},
-                                         {"release", Kind::kRelease},
-                                         {"arm", Kind::kArm},
-                                         {"set", Kind::kSet},
-                                         {"edit", Kind::kEdit},
-                                         {"list", Kind::kList},
-                                         {"hand_over", Kind::kHandOver},
-                                         {"reset_shadow", Kind::kResetShadow},
-                                         {"drive", Kind::kDrive},
-                                         {"goal", Kind::kGoal},
-                                         {"path", Kind::kPath},
-                                         {"cancel", Kind::kCancel},
-                                         {"text", Kind::kText},
-                                         {"place", Kind::kPlace},
-                                         {"take", Kind::kTake},
-                                         {"give", Kind::kGive},
-                                         {"chat", Kind::kChat}}};
+constexpr auto kWords = word_table<Kind>({
+    {"stop", Kind::kStop},
+    {"release", Kind::kRelease},
+    {"arm", Kind::kArm},
+    {"set", Kind::kSet},
+    {"edit", Kind::kEdit},
+    {"list", Kind::kList},
+    {"hand_over", Kind::kHandOver},
+    {"reset_shadow", Kind::kResetShadow},
+    {"drive", Kind::kDrive},
+    {"goal", Kind::kGoal},
+    {"path", Kind::kPath},
+    {"cancel", Kind::kCancel},
+    {"text", Kind::kText},
+    {"place", Kind::kPlace},
+    {"take", Kind::kTake},
+    {"give", Kind::kGive},
+    {"chat", Kind::kChat},
+});
 
 }  // namespace
 

@@ -37,8 +37,8 @@ class SteppedExchange final : public HostExchange {
         port_(port),
         host_(host),
         account_(host.scenario, run.engine.spec()),
-        post_(run.engine, host.slot.number, unique_number(), &run.console) {
-    report_.host = host.slot.number;
+        post_(run.engine, host.part.number, unique_number(), &run.console) {
+    report_.host = host.part.number;
     run.forwarder = &post_;
     run.observers.forward_to(&post_);
   }
@@ -62,7 +62,7 @@ class SteppedExchange final : public HostExchange {
     look_back(run_, obstacle_events(world_));
     keep_roster(port_.roster(), run_.engine, run_.observers, run_.console);
     account_.after_step(run_.engine);
-    port_.show(run_.engine, host_.slot.robots);
+    port_.show(run_.engine, host_.part.robots);
   }
   const std::optional<lock_step::RunEnding>& ending() const override { return port_.ending(); }
   void complete(RunFacts& facts) override;
@@ -177,10 +177,10 @@ Result<HostOutcome> run_stepped_host(const HostSetup& host, BuiltScenario& built
   host.pace.set_factor(0);
   for (const std::string& note : built.notes) host.console.warn("scenario", "{}", note);
   const HostOptions& options = host.options;
-  lock_step::Identity self{host.slot.number, options.host,
-                           static_cast<std::uint32_t>(host.slot.robots.size()),
+  lock_step::Identity self{host.part.number, options.host,
+                           static_cast<std::uint32_t>(host.part.robots.size()),
                            shared_number(host.scenario), interface_stamp()};
-  self.real_robots = real_robots(built.spec, host.slot.robots);
+  self.real_robots = real_robots(built.spec, host.part.robots);
   self.folder = kept_folder(options.run);
   std::function<void()> on_step_done;
   built.spec.on_step_done = [&on_step_done] { on_step_done(); };
@@ -193,7 +193,7 @@ Result<HostOutcome> run_stepped_host(const HostSetup& host, BuiltScenario& built
                   HostPort::open(options.bus, std::move(self), &host.console, patience,
                                  options.begin_request, options.begin_command));
   port->word().describe(file.name.value, steps_of(file), file.step_s.value);
-  introduce_robots(port->roster(), engine->spec(), host.slot.robots, host.console);
+  introduce_robots(port->roster(), engine->spec(), host.part.robots, host.console);
   const auto make = [&](RunSession& run, const BusFace& /*face*/) {
     return std::make_unique<SteppedExchange>(run, *port, host);
   };
@@ -204,13 +204,13 @@ Result<HostOutcome> run_stepped_host(const HostSetup& host, BuiltScenario& built
 
 Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::Catalogue& catalogue,
                              HostOptions options) {
-  RAVE_TRY_ASSIGN(const HostSlot slot, find_slot(scenario, options.host));
+  RAVE_TRY_ASSIGN(const HostPart part, find_host_part(scenario, options.host));
   const RunOptions& run = options.run;
   const std::string expanded = config::write_expanded(scenario);
   RAVE_TRY(write_file_atomically(run.output / "scenario.yaml", expanded));
   ConsoleTee console(run.log);
   BuildOptions how{run.program_runner, &console};
-  how.local = slot.robots;
+  how.local = part.robots;
   how.others = options.others.get();
   WallPace pace(1);
   how.live_clock = &pace;
@@ -218,7 +218,7 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   keep_history_for_observers(adjusted.scenario);
   RAVE_TRY_ASSIGN(BuiltScenario built, build(adjusted, catalogue, how));
   options.others.reset();
-  const HostSetup host{scenario, expanded, catalogue, options, slot, console, pace, built};
+  const HostSetup host{scenario, expanded, catalogue, options, part, console, pace, built};
   return built.live_reason.empty() ? run_stepped_host(host, built) : run_live_host(host, built);
 }
 

@@ -77,17 +77,17 @@ Status leave_facts(const RunSession& run, const HostSetup& host, HostExchange& e
 
 }  // namespace
 
-Result<HostSlot> find_slot(const config::ExpandedScenario& scenario, const std::string& name) {
+Result<HostPart> find_host_part(const config::ExpandedScenario& scenario, const std::string& name) {
   RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
   std::vector<std::string_view> names;
   for (std::uint32_t h = 0; h < hosts.size(); ++h) {
     names.emplace_back(hosts[h].name);
     if (hosts[h].name != name) continue;
-    HostSlot slot{h, {}};
+    HostPart part{h, {}};
     for (const std::size_t robot : hosts[h].robots) {
-      slot.robots.emplace_back(static_cast<std::uint32_t>(robot));
+      part.robots.emplace_back(static_cast<std::uint32_t>(robot));
     }
-    return slot;
+    return part;
   }
   if (hosts.empty()) {
     return fail(ErrorCode::kNotFound,
@@ -153,12 +153,12 @@ Result<HostOutcome> run_session(const HostSetup& host, sim::Engine& engine, bus:
   // In real time the manager publishes obstacles itself.
   RAVE_TRY_ASSIGN(
       const auto face,
-      BusFace::open(bus, host.slot.number, !live || !needs_manager(host.built), &host.catalogue));
-  options.observers.push_back(face.get());
-  RAVE_TRY_ASSIGN(
-      const auto observers,
-      ObserverList::open({host.scenario, host.expanded, host.built.robot_kinds, engine,
-                          host.catalogue, options, host.console, host.options.host, live, live}));
+      BusFace::open(bus, host.part.number, !live || !needs_manager(host.built), &host.catalogue));
+  const std::vector<RunObserver*> own = {face.get()};
+  RAVE_TRY_ASSIGN(const auto observers,
+                  ObserverList::open({host.scenario, host.expanded, host.built.robot_kinds, engine,
+                                      host.catalogue, options, host.console, host.options.host,
+                                      live, live, own}));
   RunSession run(engine, *observers, host.pace, host.scenario.scenario, options, host.console,
                  live);
   const auto exchange = make(run, *face);

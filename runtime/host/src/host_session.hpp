@@ -10,8 +10,8 @@
 
 #include "bus_face.hpp"
 #include "rave/assemble/build.hpp"
+#include "rave/host/host_part.hpp"
 #include "rave/host/host_run.hpp"
-#include "rave/host/host_slot.hpp"
 #include "rave/protocol/roster.hpp"
 #include "rave/protocol/run_words.hpp"
 #include "rave/results/facts.hpp"
@@ -25,7 +25,7 @@ struct HostSetup {
   const std::string& expanded;  ///< The same as a file.
   plugin::Catalogue& catalogue;
   const HostOptions& options;
-  const HostSlot& slot;
+  const HostPart& part;
   ConsoleTee& console;
   WallPace& pace;
   const BuiltScenario& built;  ///< Its spec is moved into the engine.

@@ -25,9 +25,9 @@ struct ReportGroup {
 };
 
 std::vector<ReportGroup> report_groups(const config::ExpandedScenario& scenario,
-                                       const HostSlot& slot) {
+                                       const HostPart& part) {
   std::vector<ReportGroup> groups;
-  for (const RobotId robot : slot.robots) {
+  for (const RobotId robot : part.robots) {
     const std::uint32_t period =
         config::report_period_steps(scenario, scenario.robots[robot.value()]);
     auto found = std::find_if(groups.begin(), groups.end(), [&](const ReportGroup& group) {
@@ -51,8 +51,8 @@ class LiveExchange final : public HostExchange {
         live_(world),
         face_(face),
         begun_(begun),
-        groups_(report_groups(host.scenario, host.slot)),
-        twins_(run.engine, host.slot.robots) {
+        groups_(report_groups(host.scenario, host.part)),
+        twins_(run.engine, host.part.robots) {
     run.observers.on_place([&world](const sim::WorldInput& input) { return world.place(input); });
   }
 
@@ -206,19 +206,19 @@ Result<HostLink::Options> link_options(const HostSetup& host, const BuiltScenari
   options.bus = host.options.bus;
   // Robots of all hosts talk to one another.
   options.bus.reach = bus::Reach::kAll;
-  options.self = {host.slot.number,
+  options.self = {host.part.number,
                   host.options.host,
-                  static_cast<std::uint32_t>(host.slot.robots.size()),
+                  static_cast<std::uint32_t>(host.part.robots.size()),
                   shared_number(host.scenario),
                   interface_stamp(),
                   true};
-  options.self.real_robots = real_robots(built.spec, host.slot.robots);
+  options.self.real_robots = real_robots(built.spec, host.part.robots);
   options.self.folder = kept_folder(host.options.run);
   options.managed = needs_manager(built);
   RAVE_TRY_ASSIGN(options.host_of, hosts_of_twins(host.scenario, built.spec));
   options.sees = false;
   options.talks = false;
-  for (const RobotId robot : host.slot.robots) {
+  for (const RobotId robot : host.part.robots) {
     const std::uint32_t type = built.spec.robots[robot.value()].type;
     options.sees = options.sees || built.sees[type] != 0;
     options.talks = options.talks || !built.spec.types[type].communicators.empty();
@@ -243,7 +243,7 @@ Result<HostOutcome> run_live_host(const HostSetup& host, BuiltScenario& built) {
   RAVE_TRY_ASSIGN(const auto link, HostLink::open(std::move(options), *live));
   const config::ScenarioFile& file = host.scenario.scenario;
   link->word().describe(file.name.value, steps_of(file), file.step_s.value);
-  introduce_robots(link->roster(), built.spec, host.slot.robots, host.console);
+  introduce_robots(link->roster(), built.spec, host.part.robots, host.console);
   // The run starts when all devices are open here, and everywhere.
   RunControl* const control = host.options.run.control;
   Result<bool> begun = false;

@@ -42,7 +42,7 @@ Status ObserverList::open_all(const Parts& parts) {
   if (ros2_) all_.push_back(ros2_.get());
   if (shadows_) all_.push_back(shadows_.get());
   all_.insert(all_.end(), options.observers.begin(), options.observers.end());
-  if (options.observers.empty() && !options.record) return {};
+  all_.insert(all_.end(), parts.own.begin(), parts.own.end());
   record::RunInfo info = info_of(parts.engine, results_.kinds);
   info.scenario = parts.scenario.scenario.name.value;
   const record::StringMap hybrids = PartKeeper::describe(parts.engine.spec());

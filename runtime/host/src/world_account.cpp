@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <variant>
 
-#include "rave/host/host_slot.hpp"
+#include "rave/host/host_part.hpp"
 
 namespace rave::runtime {
 namespace {

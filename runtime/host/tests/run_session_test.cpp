@@ -79,6 +79,20 @@ class FakeExchange final : public WorldExchange {
   RunSession& run_;
 };
 
+/// Keeps whether it was told that a run begins, and of which scenario.
+class Beginner final : public RunObserver {
+ public:
+  Status run_begins(const RunView& run) override {
+    scenario = run.info.scenario;
+    ++begun;
+    return {};
+  }
+  void after_step(const StepView& /*step*/) override {}
+
+  int begun = 0;
+  std::string scenario{};
+};
+
 class RunSessionTest : public ::testing::Test {
  protected:
   RunSessionTest()
@@ -91,8 +105,14 @@ class RunSessionTest : public ::testing::Test {
     options_.record = false;
     options_.control = &control_;
     options_.on_progress = [this](const report::Progress&) { ++progress_; };
-    observers_ = ObserverList::open({scenario_, expanded_, host_.kinds(), *engine_,
-                                     host_.catalogue(), options_, console_})
+    observers_ = ObserverList::open({.scenario = scenario_,
+                                     .expanded = expanded_,
+                                     .robot_kinds = host_.kinds(),
+                                     .engine = *engine_,
+                                     .catalogue = host_.catalogue(),
+                                     .options = options_,
+                                     .console = console_,
+                                     .own = {&beginner_}})
                      .value();
     run_.emplace(*engine_, *observers_, pace_, scenario_.scenario, options_, console_, false);
     exchange_.emplace(*run_);
@@ -107,6 +127,7 @@ class RunSessionTest : public ::testing::Test {
   RunControl control_;
   RunOptions options_;
   int progress_ = 0;
+  Beginner beginner_;
   std::unique_ptr<sim::Engine> engine_;
   std::unique_ptr<ObserverList> observers_;
   std::optional<RunSession> run_;
@@ -122,6 +143,13 @@ TEST_F(RunSessionTest, DoesTheTurnsThatTheExchangeGivesIt) {
   exchange_.reset();
   run_.reset();
   EXPECT_TRUE(control_.status().scenario.empty());
+}
+
+TEST_F(RunSessionTest, TellsItsOwnObserversThatItBegins) {
+  ASSERT_FALSE(options_.record);
+  ASSERT_TRUE(options_.observers.empty());
+  EXPECT_EQ(beginner_.begun, 1);
+  EXPECT_EQ(beginner_.scenario, "small");
 }
 
 TEST_F(RunSessionTest, WithoutAWorldDoesNoStep) {

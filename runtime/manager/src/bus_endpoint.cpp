@@ -3,7 +3,7 @@
 
 namespace rave::manager {
 
-Result<std::unique_ptr<BusEndpoint>> BusEndpoint::open(const RunOptions& options) {
+Result<std::unique_ptr<BusEndpoint>> BusEndpoint::open(const ManagerRunOptions& options) {
   bus::BusConfig own = options.bus;
   // The manager has a partition and reserved ports of its own, so hosts of a large run need to look
   // for it alone.
@@ -37,9 +37,9 @@ void BusEndpoint::meet(const bus::HostInfo& info, bool begun) {
   if (info.host == rave_wire_kNone) {
     // A run has one manager. Of two that start at once the later one goes; one that serves a run
     // already stays, whatever its start time.
-    const bool goes = !begun && lock_step::gives_way(introduced_, info);
-    second_ = second_ || goes;
-    if (!goes) foreign_.write(LogLevel::kWarning, kSource, not_listened_to(info));
+    const bool yields = !begun && lock_step::gives_way(introduced_, info);
+    second_ = second_ || yields;
+    if (!yields) foreign_.write(LogLevel::kWarning, kSource, not_listened_to(info));
     return;
   }
   if (const Status fits = lock_step::check_fits(identity_, info); !fits) {

@@ -18,7 +18,7 @@
 #include "rave/bus/standstill.hpp"
 #include "rave/bus/wait_set.hpp"
 #include "rave/bus/writer.hpp"
-#include "rave/manager/run_options.hpp"
+#include "rave/manager/manager_run_options.hpp"
 #include "rave/protocol/host_results.hpp"
 #include "rave/protocol/introduction.hpp"
 #include "rave/protocol/pulse.hpp"
@@ -29,7 +29,7 @@ namespace rave::manager {
 class BusEndpoint final : public ManagerEndpoint {
  public:
   /// Errors: those of bus::Bus::open().
-  [[nodiscard]] static Result<std::unique_ptr<BusEndpoint>> open(const RunOptions& options);
+  [[nodiscard]] static Result<std::unique_ptr<BusEndpoint>> open(const ManagerRunOptions& options);
 
   /// The bus, for the topics that only one kind of run has.
   [[nodiscard]] bus::Bus& bus() noexcept { return *bus_; }

@@ -69,7 +69,7 @@ class LiveOnBus final : public LiveEndpoint {
 
 }  // namespace
 
-Result<std::unique_ptr<LiveEndpoint>> LiveEndpoint::open(const RunOptions& options) {
+Result<std::unique_ptr<LiveEndpoint>> LiveEndpoint::open(const ManagerRunOptions& options) {
   RAVE_TRY_ASSIGN(auto endpoint, BusEndpoint::open(options));
   auto made = std::make_unique<LiveOnBus>(std::move(endpoint));
   RAVE_TRY(made->open());

@@ -11,7 +11,7 @@
 #include "rave/base/result.hpp"
 #include "rave/base/time.hpp"
 #include "rave/bus/topics.hpp"
-#include "rave/manager/run_options.hpp"
+#include "rave/manager/manager_run_options.hpp"
 
 namespace rave::manager {
 
@@ -20,7 +20,7 @@ namespace rave::manager {
 class LiveEndpoint {
  public:
   /// Errors: those of bus::Bus::open().
-  [[nodiscard]] static Result<std::unique_ptr<LiveEndpoint>> open(const RunOptions& options);
+  [[nodiscard]] static Result<std::unique_ptr<LiveEndpoint>> open(const ManagerRunOptions& options);
   virtual ~LiveEndpoint() = default;
 
   /// Sleeps until a message arrives, the time has passed or `stop` is set.

@@ -57,15 +57,15 @@ Result<std::unique_ptr<LiveHosts>> LiveHosts::open(const LiveManagerOptions& opt
   return std::make_unique<LiveHosts>(options, std::move(endpoint));
 }
 
-Status LiveHosts::look_at_processes(bool goes) {
-  RAVE_TRY_ASSIGN(const auto gone, endpoint().look_at_processes(goes));
-  for (const std::uint64_t writer : gone) lose(writer, goes);
+Status LiveHosts::look_at_processes(bool running) {
+  RAVE_TRY_ASSIGN(const auto gone, endpoint().look_at_processes(running));
+  for (const std::uint64_t writer : gone) lose(writer, running);
   return {};
 }
 
 // A slot keeps its name and the poses of its robots: others still sense them where they were, until
 // they become stale.
-void LiveHosts::lose(std::uint64_t writer, bool goes) {
+void LiveHosts::lose(std::uint64_t writer, bool running) {
   refused_.erase(writer);
   wrong_hands_.erase(writer);
   // The place becomes free for another process of the same host.
@@ -79,7 +79,7 @@ void LiveHosts::lose(std::uint64_t writer, bool goes) {
     slot.steps = {};
     slot.obstacle_revision = 0;
     news_ = true;
-    if (!goes) continue;
+    if (!running) continue;
     ++slot.losses;
     options_.log->error(kSource, "host `{}` is gone; the others continue{}{}", slot.name,
                         slot.command.empty() ? "" : "; start it again with: ", slot.command);

@@ -54,9 +54,9 @@ class LiveHosts {
   void wait(Duration timeout, const std::stop_token& stop = {}) { endpoint_->wait(timeout, stop); }
   /// The part of the endpoint that both kinds of run share.
   [[nodiscard]] ManagerEndpoint& endpoint() noexcept { return endpoint_->common(); }
-  /// Learns which processes are present and which have left; leaving counts as a loss if the run
-  /// `goes`. Errors: kState (another manager).
-  Status look_at_processes(bool goes);
+  /// Learns which processes are present and which have left; leaving counts as a loss while
+  /// the run is `running`. Errors: kState (another manager).
+  Status look_at_processes(bool running);
   void take_pings(const std::function<void(const bus::ClockPing&)>& visit) {
     endpoint_->take_pings(visit);
   }
@@ -113,7 +113,7 @@ class LiveHosts {
   [[nodiscard]] bool take_news() noexcept { return std::exchange(news_, false); }
 
  private:
-  void lose(std::uint64_t writer, bool goes);
+  void lose(std::uint64_t writer, bool running);
   void take_in(const bus::HostState& state);
   void refuse_handed(std::uint64_t writer, std::string_view why);
 

@@ -12,7 +12,7 @@
 #include "drain.hpp"
 #include "manager_endpoint.hpp"
 #include "manager_habits.hpp"
-#include "rave/manager/run_options.hpp"
+#include "rave/manager/manager_run_options.hpp"
 #include "served.hpp"
 
 namespace rave::manager {
@@ -22,7 +22,7 @@ namespace rave::manager {
 class ManagerRun {
  protected:
   /// Neither is owned.
-  ManagerRun(const RunOptions& options, ManagerEndpoint& endpoint)
+  ManagerRun(const ManagerRunOptions& options, ManagerEndpoint& endpoint)
       : common_(options), endpoint_(endpoint) {}
   ~ManagerRun() = default;
 
@@ -69,7 +69,7 @@ class ManagerRun {
     return results;
   }
 
-  const RunOptions& common_;
+  const ManagerRunOptions& common_;
   ManagerEndpoint& endpoint_;
   bool begun_ = false;  ///< All hosts have been present, or it continues without some.
   std::vector<std::string> problems_;

@@ -94,7 +94,7 @@ Status SteppedOnBus::write(const std::vector<HostSlot>& slots) {
 
 }  // namespace
 
-Result<std::unique_ptr<SteppedEndpoint>> SteppedEndpoint::open(const RunOptions& options) {
+Result<std::unique_ptr<SteppedEndpoint>> SteppedEndpoint::open(const ManagerRunOptions& options) {
   RAVE_TRY_ASSIGN(auto endpoint, BusEndpoint::open(options));
   auto made = std::make_unique<SteppedOnBus>(std::move(endpoint));
   RAVE_TRY(made->open());

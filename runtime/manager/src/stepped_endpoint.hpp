@@ -12,7 +12,7 @@
 #include "manager_endpoint.hpp"
 #include "rave/base/result.hpp"
 #include "rave/base/time.hpp"
-#include "rave/manager/run_options.hpp"
+#include "rave/manager/manager_run_options.hpp"
 #include "rave/sim/authority_state.hpp"
 #include "rave/sim/world_step.hpp"
 
@@ -25,7 +25,8 @@ class SteppedEndpoint {
   using Visit = std::function<void(const bus::HostReport&)>;
 
   /// Errors: those of bus::Bus::open().
-  [[nodiscard]] static Result<std::unique_ptr<SteppedEndpoint>> open(const RunOptions& options);
+  [[nodiscard]] static Result<std::unique_ptr<SteppedEndpoint>> open(
+      const ManagerRunOptions& options);
   virtual ~SteppedEndpoint() = default;
 
   /// Sleeps until a message arrives, the time has passed or `stop` is set.

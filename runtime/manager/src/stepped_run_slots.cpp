@@ -100,8 +100,8 @@ Status SteppedRun::hear(const bus::HostReport& message) {
   if (message.host >= slots_.size() || !bus_->knows(message.writer)) return {};
   RAVE_TRY(leave_alone(message));
   HostSlot& slot = slots_[message.host];
-  if (const Status sits = claim_slot(slot, message); !sits) {
-    bus_->refuse(message, sits.error().message);
+  if (const Status claimed = claim_slot(slot, message); !claimed) {
+    bus_->refuse(message, claimed.error().message);
     return {};
   }
   if (begun_ && message.writer == slot.writer && message.step < slot.last_step) {

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "rave/base/check.hpp"
-#include "rave/math/finite.hpp"
 #include "rave/math/transform.hpp"
 
 namespace rave::real_time {
@@ -18,8 +16,6 @@ namespace {
 constexpr std::uint32_t kOwn = 0;
 constexpr std::uint32_t kOthers = 1;
 constexpr std::uint32_t kNone = RobotId::kNone;
-
-bool finite(const RobotSight& sight) { return is_finite(sight.X_WR) && is_finite(sight.velocity); }
 
 std::vector<std::uint8_t> local_robots(const sim::EngineSpec& spec) {
   std::vector<std::uint8_t> local(spec.robots.size(), spec.local ? 0 : 1);
@@ -139,7 +135,7 @@ SimTime LiveWorld::time_of(std::uint64_t step) const noexcept {
 
 bool LiveWorld::see(const RobotSight& sight) {
   const std::uint32_t r = sight.robot.value();
-  if (r >= other_of_.size() || other_of_[r] == kNone || !finite(sight)) return false;
+  if (r >= other_of_.size() || other_of_[r] == kNone) return false;
   Other& other = others_[other_of_[r]];
   // A world repeats the last pose of each robot until its host reports a newer one.
   if (!other.any_stamp && sight.stamp <= other.last.stamp) return false;
@@ -227,13 +223,10 @@ bool LiveWorld::hear(std::uint64_t writer, const sim::SentPacket& packet,
   const std::uint32_t r = packet.robot.value();
   if (r >= other_of_.size() || other_of_[r] == kNone) return false;
   const sim::EngineSpec& spec = authority_->spec();
-  // The bus has checked the format. These bounds depend on the scenario, which the bus does not
-  // know.
+  // The bus has checked the numbers and kinds. The number of communicators depends on the scenario,
+  // which the bus does not know.
   const bool sane = packet.communicator < spec.types[spec.robots[r].type].communicators.size() &&
-                    bytes.size() <= sim::SentPacket::kMostBytes &&
-                    packet.to.kind <= RecipientKind::kTeam && std::isfinite(packet.x_m) &&
-                    std::isfinite(packet.y_m) && std::isfinite(packet.antenna_z_m) &&
-                    packet.range_m >= 0 && std::isfinite(packet.range_m);
+                    bytes.size() <= sim::SentPacket::kMostBytes;
   if (!sane) return false;
   // A restarted process counts from the beginning.
   Counted& newest = newest_[{r, packet.communicator}];
@@ -302,7 +295,7 @@ Status LiveWorld::begin_at(std::uint64_t step, std::span<const RobotSight> start
   }
   for (const RobotSight& start : starts) {
     const std::uint32_t r = start.robot.value();
-    if (r < local_.size() && local_[r] != 0 && finite(start)) put(r, start.X_WR);
+    if (r < local_.size() && local_[r] != 0) put(r, start.X_WR);
   }
   RAVE_TRY(authority_->resume(before, {}));
   authority_->repeat_schedule();

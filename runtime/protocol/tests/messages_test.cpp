@@ -6,6 +6,7 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "example_messages.hpp"
 #include "rave/bus/validate.hpp"
@@ -299,6 +300,28 @@ TEST(Messages, AWorldThatNobodyCouldUseIsRefusedWithItsField) {
             "inputs.by has control characters");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[4].v_mps = std::nan(""); }),
             "inputs.v_mps is nan, not within +-10000");
+}
+
+TEST(Messages, AWorldWithANumberThatIsNoneIsRefused) {
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const double bad : {std::nan(""), inf, -inf}) {
+    for (double rave_wire_SentPacket::*const number :
+         {&rave_wire_SentPacket::x_m, &rave_wire_SentPacket::y_m,
+          &rave_wire_SentPacket::antenna_z_m, &rave_wire_SentPacket::range_m}) {
+      EXPECT_NE(refusal_of([&](bus::WorldStep& w) { w.sent.packets._buffer[0].*number = bad; }), "")
+          << bad;
+    }
+    EXPECT_NE(refusal_of([&](bus::WorldStep& w) { w.pushed._buffer[0].y_m = bad; }), "");
+    EXPECT_NE(refusal_of([&](bus::WorldStep& w) { w.touches._buffer[0].x = bad; }), "");
+    EXPECT_NE(refusal_of([&](bus::WorldStep& w) { w.resized._buffer[0].scale = bad; }), "");
+    EXPECT_NE(refusal_of([&](bus::WorldStep& w) { w.authority.scales._buffer[0].scale = bad; }),
+              "");
+    EXPECT_NE(
+        refusal_of([&](bus::WorldStep& w) { w.inputs._buffer[1].changes._buffer[0].number = bad; }),
+        "");
+  }
+  EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.sent.packets._buffer[0].to_kind = 3; }),
+            "sent.packets[0].to_kind is unknown");
 }
 
 TEST(Messages, AWorldWithObstaclesOrEventsThatCannotBeIsRefusedWithItsField) {

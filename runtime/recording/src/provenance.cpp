@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/recording/provenance.hpp"
 
+#include <fmt/ranges.h>
 #include <sodium.h>
 #include <unistd.h>
 
@@ -89,9 +90,7 @@ Result<std::string> sha256_of_file(const fs::path& path) {
   }
   std::array<unsigned char, crypto_hash_sha256_BYTES> digest;
   crypto_hash_sha256_final(&state, digest.data());
-  std::string text;
-  for (const unsigned char byte : digest) text += fmt::format("{:02x}", byte);
-  return text;
+  return fmt::format("{:02x}", fmt::join(digest, ""));
 }
 
 Files input_files(const config::ExpandedScenario& scenario, const sim::Engine& engine) {

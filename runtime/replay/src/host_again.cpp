@@ -5,7 +5,7 @@
 
 #include "rave/control/requests.hpp"
 #include "rave/control/world_request.hpp"
-#include "rave/host/host_slot.hpp"
+#include "rave/host/host_part.hpp"
 
 namespace rave::runtime {
 // A recording of one host has the sums that this host added to the run hash. To repeat them bit by
@@ -22,9 +22,9 @@ Result<std::unique_ptr<HostAgain>> HostAgain::create(const config::ExpandedScena
                                                      const std::string& host,
                                                      plugin::Catalogue& catalogue,
                                                      const BuildOptions& options) {
-  RAVE_TRY_ASSIGN(const HostSlot slot, find_slot(scenario, host));
+  RAVE_TRY_ASSIGN(const HostPart part, find_host_part(scenario, host));
   std::vector<std::uint32_t> host_of(scenario.robots.size(), kRest);
-  for (const RobotId robot : slot.robots) host_of[robot.value()] = kOwn;
+  for (const RobotId robot : part.robots) host_of[robot.value()] = kOwn;
   std::vector<RobotId> rest;
   for (std::uint32_t r = 0; r < host_of.size(); ++r) {
     if (host_of[r] == kRest) rest.emplace_back(r);
@@ -41,7 +41,7 @@ Result<std::unique_ptr<HostAgain>> HostAgain::create(const config::ExpandedScena
   again->rest_report_.host = kRest;
   // A spec owns parts of drivers and cannot be copied, so the scenario is built once for each of
   // the three.
-  RAVE_TRY_ASSIGN(sim::EngineSpec own, spec_of(slot.robots));
+  RAVE_TRY_ASSIGN(sim::EngineSpec own, spec_of(part.robots));
   own.on_step_done = [raw = again.get()] {
     if (raw->look) raw->look();
   };
@@ -50,7 +50,7 @@ Result<std::unique_ptr<HostAgain>> HostAgain::create(const config::ExpandedScena
     RAVE_TRY_ASSIGN(sim::EngineSpec others, spec_of(rest));
     RAVE_TRY_ASSIGN(again->rest_, sim::Engine::create(std::move(others)));
   }
-  RAVE_TRY_ASSIGN(sim::EngineSpec world, spec_of(slot.robots));
+  RAVE_TRY_ASSIGN(sim::EngineSpec world, spec_of(part.robots));
   RAVE_TRY_ASSIGN(again->authority_,
                   sim::WorldAuthority::create(std::move(world), std::move(host_of)));
   return again;

@@ -103,17 +103,17 @@ TEST(Frames, AreThoseThatThePageIsTestedWith) {
   std::uint32_t sequence = 0;
   for (const PosesAt& poses : sample_poses()) {
     ++sequence;
-    json["poses"].push_back(poses_json(poses, {sequence, 1, sequence == 2, false}));
+    json["poses"].push_back(poses_json(poses, {sequence, sequence == 2, false}));
   }
   for (const ReadingAt& reading : sample_readings()) {
     json["readings"].push_back(reading_json(reading, reading.part == 2));
   }
   const std::vector<VarianceAt> variances = {{0, 0.25F, 0.0625F}, {70000, 4, 0}};
   json["variances"] = {
-      {{"hex", hex_of(encode_variances(variances, 17.5, 1))},
+      {{"hex", hex_of(encode_variances(variances, 17.5))},
        {"time_s", 17.5},
        {"robots", Json::array({Json::array({0, 0.25, 0.0625}), Json::array({70000, 4, 0})})}},
-      {{"hex", hex_of(encode_variances({}, 0, 1))}, {"time_s", 0}, {"robots", Json::array()}}};
+      {{"hex", hex_of(encode_variances({}, 0))}, {"time_s", 0}, {"robots", Json::array()}}};
   json["tiles"] = {tile_json({3, "walker"}), tile_json({maps::kNoRobot, "höhle"})};
   const std::string text = json.dump(1) + "\n";
   if (std::getenv("RAVE_WRITE_FRAMES") != nullptr) {

@@ -5,7 +5,7 @@ import type {PoseFrame} from '../../protocol/frames';
 import {SpeedTrace, askedLines} from './speed_trace';
 
 function frame(time_s: number, speed: number, yaw: number, flags = 1): PoseFrame {
-  return {sequence: 0, revision: 1, past: false, truth: false, time_s, step: 0, x: new Float64Array(1), y: new Float64Array(1),
+  return {sequence: 0, past: false, truth: false, time_s, step: 0, x: new Float64Array(1), y: new Float64Array(1),
     yaw: Float32Array.of(yaw), speed: Float32Array.of(speed), flags: Uint16Array.of(flags)};
 }
 

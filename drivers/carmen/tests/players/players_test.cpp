@@ -5,7 +5,7 @@
 
 #include "carmen/log.hpp"
 #include "rave/base_testing/no_threads.hpp"
-#include "recording/tests/played.hpp"
+#include "rave/player_testing/played.hpp"
 
 namespace rave::carmen {
 namespace {

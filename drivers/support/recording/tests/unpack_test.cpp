@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pack.hpp"
+#include "rave/player_testing/pack.hpp"
 
 namespace rave::recording {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "../recorded.hpp"
-#include "recording/tests/played.hpp"
+#include "rave/player_testing/played.hpp"
 
 namespace rave::utias {
 

@@ -80,7 +80,6 @@ std::string encode_poses(const PosesAt& poses, const PoseFrameHead& head) {
   const auto quantum = static_cast<float>(quantum_for(robots, origin_x, origin_y));
   put(frame, 0, std::uint8_t{1});
   put(frame, 1, static_cast<std::uint8_t>((head.past ? 1 : 0) | (head.truth ? 2 : 0)));
-  put(frame, 2, head.roster_revision);
   put(frame, 4, head.sequence);
   put(frame, 8, poses.time_s);
   put(frame, 16, static_cast<std::uint32_t>(poses.step));
@@ -144,11 +143,9 @@ std::string encode_tile(const MapName& name, const MapShown& map, std::uint32_t 
   return frame;
 }
 
-std::string encode_variances(std::span<const VarianceAt> variances, double time_s,
-                             std::uint16_t roster_revision) {
+std::string encode_variances(std::span<const VarianceAt> variances, double time_s) {
   std::string frame(kVarianceHeader + kVarianceBytes * variances.size(), '\0');
   put(frame, 0, std::uint8_t{3});
-  put(frame, 2, roster_revision);
   put(frame, 4, static_cast<std::uint32_t>(variances.size()));
   put(frame, 8, time_s);
   std::size_t offset = kVarianceHeader;

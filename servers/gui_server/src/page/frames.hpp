@@ -12,7 +12,6 @@ namespace rave::gui_server {
 
 struct PoseFrameHead {
   std::uint32_t sequence = 0;
-  std::uint16_t roster_revision = 0;
   bool past = false;
   bool truth = false;
 };
@@ -35,7 +34,6 @@ struct VarianceAt {
   float yaw_rad2 = 0;
   friend bool operator==(const VarianceAt&, const VarianceAt&) = default;
 };
-[[nodiscard]] std::string encode_variances(std::span<const VarianceAt> variances, double time_s,
-                                           std::uint16_t roster_revision);
+[[nodiscard]] std::string encode_variances(std::span<const VarianceAt> variances, double time_s);
 
 }  // namespace rave::gui_server

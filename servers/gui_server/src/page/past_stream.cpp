@@ -34,7 +34,6 @@ std::size_t PastStream::send_poses(double t_s, std::uint32_t& sequence, const Se
   if (poses.robots.empty() || poses.time_s > t_s + kPastSpacing_s) return 0;
   PoseFrameHead head;
   head.sequence = ++sequence;
-  head.roster_revision = 1;
   head.past = true;
   std::string frame = encode_poses(poses, head);
   const std::size_t bytes = frame.size();

@@ -286,7 +286,6 @@ void Session::send_frame(SharedFrames& frames) {
 void Session::send_poses(SharedFrames& frames, std::uint32_t sequence, bool truth) {
   const PosesAt& poses = cursor_->poses();
   PoseFrameHead head;
-  head.roster_revision = 1;
   head.sequence = sequence;
   head.truth = truth;
   web::Payload own;
@@ -337,7 +336,7 @@ void Session::send_variances() {
     variances.push_back({slot, robot.variance_xy_m2, robot.variance_yaw_rad2});
   }
   if (variances == told_variances_) return;
-  socket_.send_binary(payload(encode_variances(variances, poses.time_s, 1)));
+  socket_.send_binary(payload(encode_variances(variances, poses.time_s)));
   told_variances_ = std::move(variances);
 }
 

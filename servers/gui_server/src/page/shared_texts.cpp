@@ -32,9 +32,8 @@ web::Payload SharedTexts::scene(const std::shared_ptr<Source>& source) {
 
 web::Payload SharedTexts::roster(const std::shared_ptr<Source>& source) {
   // The robots of a source never change.
-  return shared(of(source).roster, 0, [&] {
-    return R"({"type":"roster","revision":1,"robots":)" + source->robots_json() + "}";
-  });
+  return shared(of(source).roster, 0,
+                [&] { return R"({"type":"roster","robots":)" + source->robots_json() + "}"; });
 }
 
 web::Payload SharedTexts::events(const std::shared_ptr<Source>& source) {

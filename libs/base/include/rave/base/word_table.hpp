@@ -11,6 +11,7 @@ namespace rave {
 
 /// A table of words and of what each stands for, such as
 /// `constexpr WordTable<Side, 2> kSides = {{{"left", Side::kLeft}, {"right", Side::kRight}}};`
+/// For a table that grows, word_table() counts the rows.
 template <class Value, std::size_t kRows>
 struct WordTable {
   std::pair<std::string_view, Value> rows[kRows];
@@ -37,5 +38,15 @@ struct WordTable {
     return words;
   }
 };
+
+/// A table of as many rows as are given:
+/// `constexpr auto kSides = word_table<Side>({{"left", Side::kLeft}, {"right", Side::kRight}});`
+template <class Value, std::size_t kRows>
+[[nodiscard]] constexpr WordTable<Value, kRows> word_table(
+    const std::pair<std::string_view, Value> (&rows)[kRows]) noexcept {
+  WordTable<Value, kRows> table{};
+  for (std::size_t i = 0; i < kRows; ++i) table.rows[i] = rows[i];
+  return table;
+}
 
 }  // namespace rave

@@ -39,8 +39,9 @@ class LeaseNotes final : public RunObserver {
 };
 
 /// All observers of a run, in the order in which they read a step: results, leases, ROS 2,
-/// shadows, those of the options, and the recording. To add one, write a RunObserver and a line in
-/// open_all().
+/// shadows, those of the options, those of the kind of run, and the recording. `run_begins()` is
+/// called for all but the recording, which keeps what the others found. README.md of this library
+/// says what a new one takes.
 class ObserverList {
  public:
   /// What the list is made from. Refers to its parts, which outlive the list.
@@ -55,6 +56,8 @@ class ObserverList {
     std::string host{};    ///< Of one of several: its name.
     bool live = false;     ///< In real time.
     bool shadows = false;  ///< Shadows run; not in lock-step over processes.
+    /// Those of the kind of run. Not owned; they outlive the list.
+    std::vector<RunObserver*> own{};
   };
   /// Opens all observers. Errors: those of an observer that cannot start.
   [[nodiscard]] static Result<std::unique_ptr<ObserverList>> open(const Parts& parts);
@@ -121,7 +124,7 @@ class ObserverList {
   std::unique_ptr<Shadows> shadows_;
   LeaseNotes leases_;
   std::unique_ptr<RecordKeeper> record_;
-  std::vector<RunObserver*> all_;  ///< These and those of the options.
+  std::vector<RunObserver*> all_;  ///< These, and those that others own.
   OrderDesk desk_;
   std::function<Status(const sim::WorldInput&)> place_;
   InputForwarder* forwarder_ = nullptr;

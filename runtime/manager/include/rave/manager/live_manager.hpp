@@ -8,7 +8,7 @@
 
 #include "rave/base/result.hpp"
 #include "rave/base/time.hpp"
-#include "rave/manager/run_options.hpp"
+#include "rave/manager/manager_run_options.hpp"
 #include "rave/protocol/host_results.hpp"
 #include "rave/sim/engine_spec.hpp"
 #include "rave/sim/event.hpp"
@@ -16,7 +16,7 @@
 namespace rave::manager {
 
 /// Configuration of a manager for a run in real time.
-struct LiveManagerOptions : RunOptions {
+struct LiveManagerOptions : ManagerRunOptions {
   /// All robots, by id.
   struct Robot {
     std::string name;

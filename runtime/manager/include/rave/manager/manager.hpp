@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
-#include "rave/manager/run_options.hpp"
+#include "rave/manager/manager_run_options.hpp"
 #include "rave/pace/lateness.hpp"
 #include "rave/protocol/host_results.hpp"
 #include "rave/sim/engine_spec.hpp"
@@ -17,7 +17,7 @@
 namespace rave::manager {
 
 /// Configuration of a manager for a world that several hosts share in lock-step.
-struct ManagerOptions : RunOptions {
+struct ManagerOptions : ManagerRunOptions {
   std::uint64_t steps = 0;
   config::LostHost on_lost_host = config::LostHost::kWait;
   double pace = 0;  ///< Simulated seconds per second; 0: not limited.

@@ -16,7 +16,7 @@
 namespace rave::manager {
 
 /// Configuration of a manager that is the same in lock-step and in real time.
-struct RunOptions {
+struct ManagerRunOptions {
   bus::BusConfig bus;
   lock_step::Identity identity;  ///< `host` is kNone; `real_time` says which kind of run it is.
   std::string scenario;          ///< Name of the scenario, for people.

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "recording/tests/player.hpp"
-#include "recording/tests/recording_sink.hpp"
+#include "rave/player_testing/player.hpp"
+#include "rave/player_testing/recording_sink.hpp"
 
 namespace rave::recording {
 

@@ -13,15 +13,15 @@
 
 namespace rave::runtime {
 
-/// The place of one host of a scenario, whichever process serves it.
-struct HostSlot {
+/// The part of a scenario that one host runs, whichever process serves it.
+struct HostPart {
   std::uint32_t number = 0;
   std::vector<RobotId> robots;
 };
 
 /// Error kNotFound: the scenario has no hosts, or none of this name.
-[[nodiscard]] Result<HostSlot> find_slot(const config::ExpandedScenario& scenario,
-                                         const std::string& name);
+[[nodiscard]] Result<HostPart> find_host_part(const config::ExpandedScenario& scenario,
+                                              const std::string& name);
 
 /// What the world says of obstacles in its step; an engine that is one of several hosts has no
 /// events of them.

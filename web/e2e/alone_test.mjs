@@ -11,6 +11,9 @@ import {driveByMouse, newest, placeOf, sendByClick, slotOf} from './commander.mj
 import {clickAt} from './hands.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
+const kStale = 2;
+/** `staleness_s` of the robots is 0.5 s; half a second more for the ways to the page, and one for a busy machine. */
+const kStale_ms = 2000;
 rmSync(folder, {recursive: true, force: true});
 mkdirSync(folder, {recursive: true});
 const bus = ['--run', `alone-${process.pid}`];
@@ -78,9 +81,24 @@ try {
     await until(page, `[...${newest}.flags].every((flags) => !(flags & 4))`);
     await sendByClick(page, 'ben', 1, 0);
   });
-  await check('a robot whose host is gone takes no goal, and the page says so', async () => {
-    const ben = await slotOf(page, 'ben');
+
+  await check('a robot whose host is gone is stale on the page, in the picture and in its row', async () => {
+    const [anna, ben] = [await slotOf(page, 'anna'), await slotOf(page, 'ben')];
+    const row = page.locator('rave-robots .row', {hasText: 'ben'});
+    await page.evaluate(`${app}.showPanel('robots')`);
+    await row.waitFor();
+    assert.doesNotMatch(await row.innerText(), /stale/);
     children[1].kill('SIGKILL');
+    await until(page, `${newest}.flags[${ben}] & ${kStale}`, kStale_ms);
+    assert.equal(await page.evaluate(`${newest}.flags[${anna}] & ${kStale}`), 0, 'the robot of the other host is not');
+    await row.getByText('pose stale').waitFor();
+    // Nothing that is old is drawn as new: the body loses its fill.
+    await until(page, `document.querySelector('rave-world').placed.flags[${ben}] & ${kStale}`);
+    await page.screenshot({path: join(folder, 'stale.png')});
+  });
+
+  await check('it takes no goal, and the page says so', async () => {
+    const ben = await slotOf(page, 'ben');
     await until(page, `${app}.link.direct.open.length === 1`);
     const answer = await page.evaluate((slot) => document.querySelector('rave-app').commands.goal([slot], [[1, 1]]), ben);
     assert.equal(answer.good, false);

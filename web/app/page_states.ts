@@ -51,7 +51,7 @@ export function renderNoRun(): TemplateResult {
 export function renderRefused(reason: string): TemplateResult {
   return html`<div class="whole">${logo()}<h1>${reason === '' || reason === 'not signed in' ? 'You are not signed in' : reason}</h1>
     <p>Open the link that the terminal printed when the run began. It works once.</p>
-    <p>If you have an account on this server, <a href="./">signs in</a>.</p></div>`;
+    <p>If you have an account on this server, <a href="./">sign in</a>.</p></div>`;
 }
 
 export const stateStyles = css`

@@ -16,7 +16,7 @@ export function renderPenBar(context: PanelContext, panel: string, world: WorldP
   return html`<div class="pen-bar" role="toolbar" aria-label="Tools">
     ${tool('select', 'Select', 'pointer')}${tool('goal', 'Goal', 'target')}${tool('path', 'Path', 'route')}
     <button aria-pressed=${panel === 'joystick'} @click=${() => show(panel === 'joystick' ? 'world' : 'joystick')}>${icon('joystick', 22)}Drive</button>
-    <rave-stop .context=${context}></rave-stop></div>`;
+    <rave-stop pen .context=${context}></rave-stop></div>`;
 }
 
 export const penStyles = css`

@@ -153,6 +153,8 @@ export class StopButton extends LiveElement {
       .view-only small { color: var(--text-3); }
       .spoken { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
       @media (max-width: 599px) { .stop, .view-only, .release { min-width: 140px; } .release:not(.large) { min-width: 0; padding: 0 8px; } .release:not(.large) span { display: none; } }
+      :host([pen]) button { height: 64px; }
+      :host([pen]) .stop, :host([pen]) .large { min-width: 132px; gap: 10px; padding: 0 8px; }
     `,
   ];
 }

@@ -9,7 +9,7 @@ import {kLayouts, type LayoutName} from './dock';
 import {icon} from './icons';
 import {logo} from './logo';
 import {controls} from './styles';
-import {initials, roleText, sizeText, startedText} from './words';
+import {faceStyle, initials, roleText, sizeText, startedText} from './words';
 
 const kFaces = 3;
 /** Those that the tooltip names. */
@@ -143,7 +143,7 @@ export class TopBar extends LiveElement {
 }
 
 function face(person: Person, you: boolean): TemplateResult {
-  return html`<i class="face ${you ? 'you' : ''}" aria-hidden="true">${initials(person.name)}</i>`;
+  return html`<i class="face ${you ? 'you' : ''}" style=${faceStyle(person.name)} aria-hidden="true">${initials(person.name)}</i>`;
 }
 
 customElements.define('rave-top-bar', TopBar);

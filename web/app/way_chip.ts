@@ -24,7 +24,7 @@ export class WayChip extends LiveElement {
     }
     const blocked = bad.find((line) => line.state === 'blocked');
     if (blocked) {
-      return html`<button class="chip warn" title="The host joined after this page was loaded, so the security policy of the page does not include it." @click=${() => location.reload()}>Reload to reach ${blocked.ticket.host}</button>`;
+      return html`<button class="chip warn" title="The host has joined or changed its address since this page was loaded, so the security policy of the page does not include it." @click=${() => location.reload()}>Reload to reach ${blocked.ticket.host}</button>`;
     }
     if (lines.open.length > 0) {
       const ms = lines.latency_ms;

@@ -21,6 +21,21 @@ export function initials(name: string): string {
   return (words.length > 1 ? words[0][0] + words[1][0] : name.slice(0, 2)).toUpperCase();
 }
 
+const kPersonHues = 8;
+
+/** Token of the hue of a person, by the name alone: it is the same on all pages. */
+export function personHue(name: string): string {
+  // FNV-1a.
+  let hash = 2166136261;
+  for (let i = 0; i < name.length; ++i) hash = Math.imul(hash ^ name.charCodeAt(i), 16777619);
+  return `person-${((hash >>> 0) % kPersonHues) + 1}`;
+}
+
+/** Style of the face of another person. */
+export function faceStyle(name: string): string {
+  return `--person-fill:var(--${personHue(name)})`;
+}
+
 export function roleText(role: string): string {
   return {observer: 'Observer', commander: 'Commander', super_user: 'Super-User'}[role] ?? role;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The main path in Firefox, driven through WebDriver BiDi: node firefox_test.mjs RAVE SCENARIO FOLDER
+// The main path in Firefox, also as wide as a tablet and a phone, driven through WebDriver BiDi: node firefox_test.mjs RAVE SCENARIO FOLDER
 import assert from 'node:assert/strict';
 import {existsSync, mkdirSync, rmSync} from 'node:fs';
 import {join} from 'node:path';
@@ -16,7 +16,8 @@ mkdirSync(folder, {recursive: true});
 const newest = `${app}.model.poses.newest`;
 const kStopped = 4;
 const stopped = `[...${newest}.flags].filter((flags) => flags & ${kStopped}).length`;
-const gui = await startServer(rave, ['run', scenario, '--gui', '--quiet', '--no-picture', '--duration', '60', '--output', join(folder, 'run')]);
+const gui = await startServer(rave, ['run', scenario, '--gui', '--quiet', '--no-picture', '--duration', '60', '--pace', '0.5x', '--output', join(folder, 'run')]);
+const {origin} = new URL(gui.link);
 const browser = await launchFirefox();
 try {
   const context = await browser.newContext({viewport: {width: 1400, height: 900}});
@@ -73,15 +74,50 @@ try {
     await until(page, `${stopped} === 0`);
   });
 
-  await check('STOP stops all robots; a button that is held releases them', async () => {
-    await page.getByTitle('Stop all robots').click();
-    await until(page, `${stopped} === 16`);
-    const box = await page.getByRole('button', {name: /Hold to release/}).boundingBox();
-    await page.mouse.move(box.x + 30, box.y + 30);
-    await page.mouse.down();
-    await until(page, `${stopped} === 0`);
-    await page.mouse.up();
-  });
+  /** STOP at a page, and the button that is held to release. */
+  const stopsAndReleases = async (there) => {
+    await there.getByTitle('Stop all robots').click();
+    await until(there, `${stopped} === 16`);
+    const box = await there.getByRole('button', {name: /Hold to release/}).boundingBox();
+    await there.mouse.move(box.x + 30, box.y + 30);
+    await there.mouse.down();
+    await until(there, `${stopped} === 0`);
+    await there.mouse.up();
+  };
+  await check('STOP stops all robots; a button that is held releases them', () => stopsAndReleases(page));
+
+  for (const [name, width, height] of [['tablet', 820, 1180], ['phone', 390, 844]]) {
+    await check(`as wide as a ${name}: robots move, one is chosen and read, STOP and release`, async () => {
+      const narrow = await browser.newContext({viewport: {width, height}, storageState: await context.storageState()});
+      const there = await narrow.newPage();
+      showFailures(there, join(folder, `failed-${name}.png`));
+      there.on('pageerror', (error) => errors.push(String(error)));
+      there.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
+      await there.goto(origin);
+      await until(there, `${app}?.model?.robots?.length === 16 && ${newest} !== null`);
+      assert.equal(await there.evaluate('innerWidth'), width);
+      const first = await there.evaluate(`({time_s: ${newest}.time_s, painted: ${app}.world.painted})`);
+      await until(there, `${newest}.time_s > ${first.time_s} + 1 && ${app}.world.painted > ${first.painted} + 10`);
+      if (name === 'phone') await there.locator('nav').getByRole('button', {name: 'Robots'}).click();
+      else await there.evaluate(`${app}.showPanel('robots')`);
+      await there.locator('rave-robots .row', {hasText: 'real-3'}).click();
+      if (name === 'phone') {
+        await there.locator('nav').getByRole('button', {name: 'World'}).click();
+        await there.locator('rave-sheet').getByText('real-3').waitFor();
+        await there.locator('rave-sheet').getByRole('button', {name: 'Sensors'}).click();
+        await there.locator('rave-sheet rave-sensors').getByText('121 rays').waitFor();
+      } else {
+        await there.evaluate(`${app}.showPanel('sensors')`);
+        await there.locator('rave-sensors').getByText('121 rays').waitFor();
+      }
+      await stopsAndReleases(there);
+      const wide = await there.evaluate(() => document.documentElement.scrollWidth);
+      assert.ok(wide <= width, `${wide} px`);
+      await there.screenshot({path: join(folder, `${name}.png`)});
+      await narrow.close();
+      showFailures(page, join(folder, 'failed.png'));
+    });
+  }
 
   await check('a panel moves to a window of its own, and comes back', async () => {
     const group = page.locator('.dv-groupview', {has: page.locator('rave-world')});

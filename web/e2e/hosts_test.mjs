@@ -6,6 +6,7 @@ import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {knowsHosts, launch, startServer} from './browser.mjs';
 import {app, check, report, until} from './checks.mjs';
+import {watchUntouched} from './untouched.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
 const newest = `${app}.model.poses.newest`;
@@ -97,6 +98,21 @@ try {
     await until(page, `${parcel}?.pose[0] === 4`);
     await servers[0].end();
     assert.equal(JSON.parse(readFileSync(join(folder, 'run', 'result.json'))).whole, true);
+  });
+
+  await check('three processes that are watched have the hash of three that are not', async () => {
+    const kShort_s = 10;
+    const run = (name, ...words) => ['run', scenario, '--processes', '3', '--quiet', '--no-picture', '--duration', String(kShort_s), '--output', join(folder, name), '--run', `${name}-${process.pid}`, ...words];
+    const hash = (name) => JSON.parse(readFileSync(join(folder, name, 'result.json'))).hash;
+    execFileSync(rave, run('unseen', '--pace', 'max'), {stdio: 'ignore'});
+    const seen = await startServer(rave, run('seen', '--gui', '--pace', 'realtime'));
+    servers.push(seen);
+    const watcher = await context.newPage();
+    console.log('watched', JSON.stringify(await watchUntouched(watcher, seen.link, kShort_s)));
+    await seen.end();
+    await watcher.close();
+    assert.match(hash('unseen'), /^[0-9a-f]{16}$/);
+    assert.equal(hash('seen'), hash('unseen'));
   });
 
   const shared = ['--processes', '2', '--quiet', '--no-picture', '--no-record', '--duration', '120', '--pace', 'realtime', ...tag];

@@ -321,6 +321,8 @@ try {
       const small = await browser.newContext({viewport: {width, height}, hasTouch: true, isMobile: true});
       const hand = await opened(small);
       showFailures(hand, join(folder, `failure-${name}.png`));
+      const stop = await hand.locator('rave-stop .stop').boundingBox();
+      assert.deepEqual([stop.width, stop.height], name === 'pen' ? [132, 64] : [140, 60]);
       await choose(hand, 6);
       const finger = new Hand(hand, 'touch');
       const at = await placeOf(hand, ...(await freePlace(hand, 0.5)));

@@ -101,6 +101,13 @@ try {
     await paul.lease.getByText('No person drives').waitFor();
   });
 
+  await check('the faces of others have a hue of their own, the same on every page', async () => {
+    const hueOf = ({page}, of) => page.locator('rave-top-bar .people .face', {hasText: of}).evaluate((face) => getComputedStyle(face).backgroundColor);
+    const [paulAtOlga, quinnAtOlga, paulAtQuinn] = [await hueOf(olga, 'PA'), await hueOf(olga, 'QU'), await hueOf(quinn, 'PA')];
+    assert.equal(paulAtOlga, paulAtQuinn);
+    assert.notEqual(paulAtOlga, quinnAtOlga);
+  });
+
   await check('a line to all is read by all', async () => {
     await say(olga, 'All', 'Good morning, lab.');
     for (const one of [olga, paul, quinn]) await reads(one, 'Good morning, lab.');

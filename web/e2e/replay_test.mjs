@@ -51,6 +51,8 @@ try {
     const other = await (await browser.newContext()).newPage();
     await other.goto(origin);
     await other.getByText('You are not signed in').waitFor();
+    await other.getByText('If you have an account on this server, sign in.').waitFor();
+    await other.screenshot({path: join(folder, 'stranger.png')});
     await other.close();
   });
 

@@ -6,6 +6,7 @@ import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {launch, startServer} from './browser.mjs';
 import {app, check, report, showFailures, until, watch} from './checks.mjs';
+import {boxIn3d} from './world/box_in_3d.mjs';
 import {differ, inside, keep, noteTexts, robotAt, stageBox, texts, withFlags} from './world/look.mjs';
 
 const [rave, scenario, crowd, folder] = process.argv.slice(2);
@@ -311,6 +312,8 @@ try {
     assert.equal(await page.evaluate(`${app}.selection.slots.length`), 16);
     await page.evaluate(`${app}.selection.set([${real}])`);
   });
+
+  await boxIn3d(page, real, folder);
 
   await check('the picture moves, zooms, turns and measures at the keyboard alone', async () => {
     const look = async () => (await page.evaluate(`${world}.viewpoint()`)).split(',').slice(1).map(Number);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import {kLineProtocol, proofText, type HostMessage, type LineAnswer, type LineOrder, type LineTicket} from '../protocol/line';
 import {Signal} from './signal';
+import {SilenceWatch} from './silence';
 
 const kFirstRetry_ms = 300;
 const kLongestRetry_ms = 5000;
 const kPing_ms = 1000;
 /** The number of pings whose median counts. */
 const kPings = 5;
-/** Without an answer to a ping for so long the line is dead, whatever the browser thinks. */
+/** Without a message for so long, though pings are answered, the line is dead, whatever the browser thinks. */
 const kDead_ms = 4000;
 
 /** `untrusted`: TLS fails, most often since the browser does not know the certificate. `withdrawn`: another
@@ -43,7 +44,10 @@ export class DirectLine {
   private readonly open_ = new Map<number, (answer: LineAnswer) => void>();
   private readonly pings = new Map<number, number>();
   private readonly measured: number[] = [];
-  private heardAt_ms = 0;
+  private readonly silence = new SilenceWatch(() => {
+    this.set('lost');
+    this.dial();
+  });
   private ended = false;
 
   constructor(private ticket_: LineTicket, private readonly signer: Signer) {
@@ -98,7 +102,7 @@ export class DirectLine {
     let opened = false;
     const socket = new WebSocket(this.ticket_.url, kLineProtocol);
     this.socket = socket;
-    this.heardAt_ms = performance.now();
+    this.silence.heard(kDead_ms);
     socket.onopen = () => (opened = true);
     socket.onmessage = (message: MessageEvent<string>) => {
       if (this.socket === socket) void this.take(socket, JSON.parse(message.data) as HostMessage);
@@ -111,6 +115,7 @@ export class DirectLine {
   private drop(): void {
     const old = this.socket;
     this.socket = null;
+    this.silence.end();
     old?.close();
     for (const done of this.open_.values()) done({good: false, text: `The line to host ${this.ticket_.host} was lost.`});
     this.open_.clear();
@@ -129,7 +134,7 @@ export class DirectLine {
   }
 
   private async take(socket: WebSocket, message: HostMessage): Promise<void> {
-    this.heardAt_ms = performance.now();
+    this.silence.heard(kDead_ms);
     switch (message.type) {
       case 'challenge': {
         const {ticket, url} = this.ticket_;
@@ -164,13 +169,8 @@ export class DirectLine {
 
   private ping(): void {
     if (this.state !== 'open') return;
-    const now_ms = performance.now();
-    if (now_ms - this.heardAt_ms > kDead_ms) {
-      this.set('lost');
-      return this.dial();
-    }
     const id = ++this.id;
-    this.pings.set(id, now_ms);
+    this.pings.set(id, performance.now());
     this.send({type: 'ping', id});
   }
 

@@ -7,10 +7,15 @@ import type {RunModel} from './run_model';
 import type {MapKey} from './maps';
 import {Windows} from '../panel_api/windows';
 import {Signal} from './signal';
+import {SilenceWatch} from './silence';
 
 const kFirstRetry_ms = 500;
 const kLongestRetry_ms = 8000;
 const kProbeRest_ms = 120;
+/** The server sends the time once a second at least, whatever the run does and whatever this person may see. */
+const kSilent_ms = 3000;
+/** The first messages of a run may be large and the line slow. */
+const kPatience_ms = 15_000;
 
 /** `refused`: the user has no access. `empty`: the server has no run. */
 export type LinkState = 'opening' | 'open' | 'lost' | 'refused' | 'empty';
@@ -42,6 +47,9 @@ export class Link {
   private socket: WebSocket | null = null;
   private retry_ms = kFirstRetry_ms;
   private timer = 0;
+  /** For how long the line may be silent. */
+  private limit_ms = kPatience_ms;
+  private readonly silence: SilenceWatch = new SilenceWatch(() => this.lose('lost', this.silence.heardAt_ms));
   private readonly interests = new Map<object, Interest>();
   private lastLook = '';
   private lookQueued = false;
@@ -86,11 +94,14 @@ export class Link {
 
   open(): void {
     clearTimeout(this.timer);
-    this.socket?.close();
+    this.drop();
     const socket = new WebSocket(this.url, 'rave.gui.1');
     socket.binaryType = 'arraybuffer';
     this.socket = socket;
+    this.silence.heard(kPatience_ms);
     socket.onopen = () => {
+      // Without a run the server has nothing to say.
+      this.silence.end();
       this.lastLook = '';
       this.lastMaps = '[]';
       this.toldKey = '';
@@ -101,6 +112,7 @@ export class Link {
     socket.onclose = (event) => {
       if (this.socket !== socket) return;
       if (event.code === kNotSignedIn || event.code === kNotAllowed) {
+        this.drop();
         this.refusal = event.reason;
         this.set('refused');
         return;
@@ -222,7 +234,11 @@ export class Link {
   private take(socket: WebSocket, data: string | ArrayBuffer): void {
     if (this.socket !== socket) return;
     if (typeof data === 'string') {
-      this.model.takeMessage(JSON.parse(data) as ServerMessage);
+      const message = JSON.parse(data) as ServerMessage;
+      if (message.type === 'hello') this.limit_ms = kPatience_ms;
+      else if (message.type === 'time') this.limit_ms = kSilent_ms;
+      this.silence.heard(this.limit_ms);
+      this.model.takeMessage(message);
       // Only now is it known that the server has something to say.
       if (this.state !== 'open') {
         this.retry_ms = kFirstRetry_ms;
@@ -230,6 +246,7 @@ export class Link {
       }
       return;
     }
+    this.silence.heard(this.limit_ms);
     this.bytes += data.byteLength;
     this.age.take(data, performance.timeOrigin + performance.now());
     const sequence = this.model.takeFrame(data, performance.now());
@@ -243,8 +260,17 @@ export class Link {
     }
   }
 
-  private lose(state: 'lost' | 'empty'): void {
-    if (this.state !== 'lost') this.lostAt_ms = performance.now();
+  /** What this socket still brings does not count any more. */
+  private drop(): void {
+    const old = this.socket;
+    this.socket = null;
+    this.silence.end();
+    old?.close();
+  }
+
+  private lose(state: 'lost' | 'empty', at_ms = performance.now()): void {
+    if (this.state !== 'lost') this.lostAt_ms = at_ms;
+    this.drop();
     this.retryAt_ms = performance.now() + this.retry_ms;
     this.timer = window.setTimeout(() => this.open(), this.retry_ms);
     this.retry_ms = Math.min(2 * this.retry_ms, kLongestRetry_ms);

@@ -4,7 +4,7 @@ import {clockText} from '../../app/clock';
 import {icon} from '../../app/icons';
 import {LiveElement} from '../../app/live_element';
 import {controls, glyphs} from '../../app/styles';
-import {initials} from '../../app/words';
+import {faceStyle, initials} from '../../app/words';
 import type {Say} from '../../protocol/messages';
 import {renderWithheld, withheldStyles} from '../withheld';
 import {saidIn, type Said} from './said';
@@ -128,7 +128,7 @@ export class ChatPanel extends LiveElement {
     const hue = line.slot === null ? null : palette.hue(line.slot);
     return html`<article>${robot !== undefined && hue !== null
       ? html`<span class="who"><i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i></span>`
-      : html`<span class="who"><i class="face ${line.yours ? 'you' : ''}">${initials(line.yours ? (model.hello?.user.name ?? '') : line.name)}</i></span>`}
+      : html`<span class="who"><i class="face ${line.yours ? 'you' : ''}" style=${faceStyle(line.name)}>${initials(line.yours ? (model.hello?.user.name ?? '') : line.name)}</i></span>`}
       <div><b>${line.name}</b><time>${clockText(line.t)}</time>${line.to === '' ? nothing : html`<span class="tag">to ${line.to}</span>`}${robot === undefined ? nothing : html`<span class="tag robot">robot</span>`}
         <p>${line.text}</p></div></article>`;
   }

@@ -2,6 +2,7 @@
 import type {Camera} from './camera';
 import type {Measure} from './measure';
 import type {OrderHands} from './orders/order_hands';
+import type {SelectionBox} from './selection_box';
 import type {StageContext} from './stage';
 
 /** What the hands need to know of the picture. */
@@ -15,7 +16,7 @@ export interface Hands {
   /** The menu of a robot, or of the selection. */
   menu(px: number, py: number): void;
   slotAt(px: number, py: number): number | null;
-  slotsIn(box: readonly [number, number, number, number]): number[];
+  slotsIn(box: SelectionBox): number[];
   /** A press on the small map goes there; true if it was one. */
   jump(px: number, py: number): boolean;
   /** The pointer moved, whatever is pressed. */
@@ -28,7 +29,7 @@ const kLong_ms = 450;
 /** Mouse, fingers and wheel over the top view: pan, zoom, pick, box, measure. */
 export class TopGestures {
   /** Being drawn with Shift; pixels. */
-  box: [number, number, number, number] | null = null;
+  box: SelectionBox | null = null;
   private readonly pointers = new Map<number, {x: number; y: number}>();
   private long = 0;
   private pressed: {x: number; y: number; moved: boolean; box: boolean} | null = null;

@@ -12,7 +12,7 @@ import type {Stage, StageContext} from './stage';
 import {makeSwarm} from './make_swarm';
 import {TopGestures} from './top_gestures';
 import {TopView} from './top_view';
-import {withAlpha} from './scan_layer';
+import {drawBox, slotsIn, type SelectionBox} from './selection_box';
 
 const kDensity_ms = 500;
 const kMinimapBelow_px = 30;
@@ -92,7 +92,7 @@ export class TopStage implements Stage {
       this.view.drawBase(ctx, other, placed, context.layers());
       this.view.drawLife(ctx, other, placed, context.truth, context.layers(), this.orderLayer, null);
     });
-    this.paintBox(ctx);
+    if (this.gestures.box !== null) drawBox(ctx, this.context.palette, this.gestures.box);
     this.measure.draw(ctx, camera, context.palette);
     return going;
   }
@@ -140,19 +140,6 @@ export class TopStage implements Stage {
       (camera.scale < kMinimapBelow_px || mostAreOutside(camera, placed));
     if (wanted && bounds !== null) this.minimap.draw(ctx, camera, placed, context.model.robots, bounds, context.palette);
     else this.minimap.hide();
-  }
-
-  private paintBox(ctx: CanvasRenderingContext2D): void {
-    if (this.gestures.box === null) return;
-    const [x0, y0, x1, y1] = this.gestures.box;
-    const intent = this.context.palette.token('intent');
-    ctx.strokeStyle = intent;
-    ctx.lineWidth = 1;
-    ctx.fillStyle = withAlpha(intent, 0.12);
-    ctx.setLineDash([4, 3]);
-    ctx.fillRect(x0, y0, x1 - x0, y1 - y0);
-    ctx.strokeRect(x0, y0, x1 - x0, y1 - y0);
-    ctx.setLineDash([]);
   }
 
   fit(animate: boolean, closer = false): boolean {
@@ -232,14 +219,8 @@ export class TopStage implements Stage {
     return [this.camera.toScreenX(x), this.camera.toScreenY(y)];
   }
 
-  slotsIn([ax, ay, bx, by]: readonly [number, number, number, number]): number[] {
-    const slots: number[] = [];
-    for (let slot = 0; slot < this.context.placed.count; ++slot) {
-      const [x, y] = this.screenOf(slot);
-      const inside = x >= Math.min(ax, bx) && x <= Math.max(ax, bx) && y >= Math.min(ay, by) && y <= Math.max(ay, by);
-      if (inside && (this.context.placed.flags[slot] & RobotFlag.known) !== 0) slots.push(slot);
-    }
-    return slots;
+  slotsIn(box: SelectionBox): number[] {
+    return slotsIn(box, this.context.placed, (slot) => this.screenOf(slot));
   }
 
   jump(px: number, py: number): boolean {

@@ -14,6 +14,7 @@ export const kWorldKeys: readonly {keys: string[]; what: string}[] = [
   {keys: ['← ↑ → ↓'], what: 'move the focused picture, or the end of a measure'},
   {keys: ['Ctrl ← ↑ → ↓'], what: 'the same in small steps; turn in 3-D'},
   {keys: ['+', '−'], what: 'zoom the focused picture'},
+  {keys: ['Shift drag'], what: 'select all robots in a box'},
 ];
 
 /** Moves and zooms the picture that has the focus. False: the key means nothing to it. Shift and arrows drive robots. */

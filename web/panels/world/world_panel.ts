@@ -237,10 +237,11 @@ export class WorldPanel extends LiveElement {
     this.requestUpdate();
   }
 
-  /** While Z is held. */
+  /** While Z is held; it lies over the top view. */
   lens(on: boolean): void {
     if (this.top.lens.on === on) return;
     this.top.lens.on = on;
+    if (on) void this.setMode('top');
     this.draw();
   }
 
@@ -383,14 +384,7 @@ export class WorldPanel extends LiveElement {
     return `World View: ${model.robots.length} robots, ${model.bodies.size} bodies. The panel Robots lists them. Arrows move the picture, plus and minus zoom it.`;
   }
 
-  static override styles = [
-    controls,
-    glyphs,
-    worldMenuStyles,
-    worldCardStyles,
-    orderStyles,
-    worldPanelStyles,
-  ];
+  static override styles = [controls, glyphs, worldMenuStyles, worldCardStyles, orderStyles, worldPanelStyles];
 }
 
 function motion(): boolean {

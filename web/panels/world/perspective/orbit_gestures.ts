@@ -1,26 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
+import type {SelectionBox} from '../selection_box';
 import type {StageContext} from '../stage';
 import {pick} from '../top_gestures';
 import type {Orbit} from './orbit';
 
 const kSlip_px = 4;
 
-/** Mouse: the left button turns, the right one or Shift pans, the wheel zooms. One finger pans, two zoom and turn. */
+/** What the hands need to know of the picture. */
+export interface OrbitHands {
+  slotAt(px: number, py: number): number | null;
+  slotsIn(box: SelectionBox): number[];
+}
+
+/** Mouse: the left button turns, with Shift it draws a box; the right one pans, the wheel zooms. One finger pans, two zoom and turn. */
 export class OrbitGestures {
+  /** Being drawn with Shift; pixels. */
+  box: SelectionBox | null = null;
   private readonly pointers = new Map<number, {x: number; y: number}>();
-  private pressed: {x: number; y: number; moved: boolean; pans: boolean} | null = null;
+  private pressed: {x: number; y: number; moved: boolean; does: 'turn' | 'pan' | 'box'} | null = null;
 
   constructor(
     element: HTMLElement, private readonly context: StageContext, private readonly orbit: Orbit,
-    private readonly slotAt: (px: number, py: number) => number | null,
+    private readonly hands: OrbitHands,
   ) {
     element.addEventListener('pointerdown', (event) => this.down(event));
     element.addEventListener('pointermove', (event) => this.move(event));
     element.addEventListener('pointerup', (event) => this.up(event));
-    element.addEventListener('pointercancel', (event) => this.up(event));
+    element.addEventListener('pointercancel', (event) => {
+      this.drop();
+      this.up(event);
+    });
     element.addEventListener('pointerleave', () => context.selection.hover(null));
     element.addEventListener('contextmenu', (event) => event.preventDefault());
     element.addEventListener('wheel', (event) => this.wheel(event), {passive: false});
+  }
+
+  /** Drops a box that is being drawn. */
+  drop(): boolean {
+    const begun = this.box !== null;
+    this.box = null;
+    return begun;
   }
 
   private wheel(event: WheelEvent): void {
@@ -38,14 +57,15 @@ export class OrbitGestures {
     (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
     const {offsetX: x, offsetY: y} = event;
     this.pointers.set(event.pointerId, {x, y});
-    this.pressed = {x, y, moved: false, pans: event.pointerType === 'touch' || event.button !== 0 || event.shiftKey};
+    const pans = event.pointerType === 'touch' || event.button !== 0;
+    this.pressed = {x, y, moved: false, does: pans ? 'pan' : event.shiftKey ? 'box' : 'turn'};
   }
 
   private move(event: PointerEvent): void {
     const {offsetX: x, offsetY: y} = event;
     const last = this.pointers.get(event.pointerId);
     if (last === undefined) {
-      this.context.selection.hover(this.slotAt(x, y));
+      this.context.selection.hover(this.hands.slotAt(x, y));
       return;
     }
     if (this.pointers.size === 2) this.twist(event, last);
@@ -54,7 +74,11 @@ export class OrbitGestures {
     if (pressed === null || this.pointers.size !== 1) return;
     if (Math.hypot(x - pressed.x, y - pressed.y) > kSlip_px) pressed.moved = true;
     if (!pressed.moved) return;
-    if (pressed.pans) {
+    if (pressed.does === 'box') {
+      this.box = [pressed.x, pressed.y, x, y];
+      return this.context.redraw();
+    }
+    if (pressed.does === 'pan') {
       this.orbit.pan(x - last.x, y - last.y);
       this.context.selection.follow(false);
     } else this.orbit.rotate(x - last.x, y - last.y);
@@ -80,7 +104,9 @@ export class OrbitGestures {
     const {pressed} = this;
     if (pressed === null || this.pointers.size > 0) return;
     this.pressed = null;
-    if (!pressed.moved) pick(this.context.selection, this.slotAt(event.offsetX, event.offsetY), event.ctrlKey || event.metaKey);
+    if (this.box !== null) this.context.selection.set(this.hands.slotsIn(this.box));
+    this.box = null;
+    if (!pressed.moved) pick(this.context.selection, this.hands.slotAt(event.offsetX, event.offsetY), event.ctrlKey || event.metaKey);
     this.context.redraw();
   }
 }

@@ -6,6 +6,7 @@ import {hasCard} from '../graphics_card';
 import {radiusOf} from '../outlines';
 import {bytesOf, rampBytes} from '../ramp';
 import {shownReadings} from '../reading_layer';
+import {drawBox, slotsIn, type SelectionBox} from '../selection_box';
 import type {Stage, StageContext} from '../stage';
 import {Surface} from '../surface';
 import type {Tone} from '../swarm';
@@ -55,6 +56,7 @@ export class PerspectiveStage implements Stage {
   private readonly rings = new FlatLayer(0.012, 2);
   private readonly doubts = new FlatLayer(0.0105, 2);
   private readonly overlay: Overlay;
+  private readonly gestures: OrbitGestures;
   private readonly tint = new Tint();
   private surface: Surface | null = null;
   private radii: number[] = [];
@@ -75,7 +77,7 @@ export class PerspectiveStage implements Stage {
     this.scene.add(new AmbientLight('#ffffff', 1.5), this.sun, this.sun.target, this.floor.group, this.maps.group, this.bodies.group, this.solid.group,
       this.glass.group, this.scans.mesh, this.trails.mesh, this.doubts.mesh, this.rings.mesh);
     this.overlay = new Overlay(context, this.orbit);
-    new OrbitGestures(this.element, context, this.orbit, (px, py) => this.slotAt(px, py));
+    this.gestures = new OrbitGestures(this.element, context, this.orbit, this);
   }
 
   refresh(): void {
@@ -152,6 +154,7 @@ export class PerspectiveStage implements Stage {
       ctx.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
       ctx.clearRect(0, 0, orbit.width, orbit.height);
       this.overlay.draw(ctx, readings, this.surface, shown);
+      if (this.gestures.box !== null) drawBox(ctx, this.context.palette, this.gestures.box);
     }
     return going;
   }
@@ -232,7 +235,7 @@ export class PerspectiveStage implements Stage {
     return bounds.x0 <= bounds.x1 ? bounds : null;
   }
 
-  private slotAt(px: number, py: number): number | null {
+  slotAt(px: number, py: number): number | null {
     const {placed, model} = this.context;
     const touch = matchMedia('(pointer: coarse)').matches ? kFinger_px : kMouse_px;
     let best: number | null = null;
@@ -247,6 +250,14 @@ export class PerspectiveStage implements Stage {
       best = slot;
     }
     return best;
+  }
+
+  slotsIn(box: SelectionBox): number[] {
+    const {placed} = this.context;
+    return slotsIn(box, placed, (slot) => {
+      const at = this.orbit.project(placed.x[slot], placed.y[slot], 0);
+      return at === null ? null : [at.x, at.y];
+    });
   }
 
   screenOf(slot: number): [number, number] {
@@ -285,7 +296,7 @@ export class PerspectiveStage implements Stage {
   }
 
   drop(): boolean {
-    return false;
+    return this.gestures.drop();
   }
 
   snapshot(): HTMLCanvasElement {

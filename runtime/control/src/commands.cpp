@@ -96,7 +96,7 @@ Status to_command(const RunRequest& order, bus::Command& command,
   command = {};
   command.kind = static_cast<rave_wire_CommandKind>(kind - kKinds.begin());
   command.page = order.page;
-  // An order needs the lease, whoever gives it.
+  // An order needs the lease, even that of a super-user.
   command.overrides = order.overrides && !runtime::is_order(order.kind);
   if (order.by.empty() || !bus::put_text(command.author, order.by)) {
     return fail(ErrorCode::kInvalidArgument, "the author `{}`: expected 1 to {} bytes", order.by,

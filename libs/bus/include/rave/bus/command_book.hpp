@@ -32,9 +32,9 @@ using BegunCommand = std::function<std::optional<CommandResult>()>;
 /// the call only. Always called in the same thread.
 using BeginCommand = std::function<BegunCommand(const Command&)>;
 
-/// The commands that a process has received. It limits their rate except of stops, ignores commands that are older
-/// than the newest of the same sender and robot, and executes a repeated command once. One owner
-/// thread.
+/// The commands that a process has received. It limits their rate except of stops, ignores commands
+/// that are older than the newest of the same sender and robot, and executes a repeated command
+/// once. One owner thread.
 class CommandBook {
  public:
   using Clock = std::chrono::steady_clock;

@@ -120,8 +120,10 @@ TEST_F(OrdersOverHosts, APathThatIsTooLongIsRefusedAtOnce) {
 }
 
 TEST_F(OrdersOverHosts, WhatAHostRefusesIsSaid) {
+  pace_ = "0.5x";
   start("split",
         {"--processes", "3", "--no-record", "--bus-tag", folder_.path().filename().string()});
+  give({"resume"});
   const Ended deaf = rave({"say", "bert", "hello"});
   EXPECT_EQ(deaf.exit_code, 1) << deaf.out;
   EXPECT_NE(deaf.err.find("its program takes no texts"), std::string::npos) << deaf.err;

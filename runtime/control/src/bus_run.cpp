@@ -186,10 +186,12 @@ Result<BusPeer> BusRun::find(std::string_view host, Duration patience) {
   const auto end = Clock::now() + std::chrono::nanoseconds(patience.ns);
   for (;;) {
     run.look();
-    const auto found = std::ranges::find_if(run.peers, [host](const BusPeer& peer) {
-      return host.empty() ? peer.manager : !peer.manager && peer.name == host;
-    });
-    if (found != run.peers.end()) return *found;
+    // The newest: that of a process which took the place of one that died a moment ago.
+    const auto found =
+        std::find_if(run.peers.rbegin(), run.peers.rend(), [host](const BusPeer& peer) {
+          return host.empty() ? peer.manager : !peer.manager && peer.name == host;
+        });
+    if (found != run.peers.rend()) return *found;
     if (Clock::now() >= end) break;
     static_cast<void>(run.waits.wait(bus::left_until(end)));
   }

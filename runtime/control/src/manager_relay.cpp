@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/control/manager_relay.hpp"
 
+#include <chrono>
 #include <memory>
 
 #include "rave/base/thread.hpp"
@@ -12,6 +13,8 @@ namespace {
 /// Together less than who asked the host waits for its answer.
 constexpr Duration kSearchPatience = from_seconds(1);
 constexpr Duration kAnswerPatience = from_seconds(3);
+/// How often a relay without requests looks who has come and gone.
+constexpr std::chrono::milliseconds kLook{500};
 
 /// Asks the manager, on a bus that is opened when it is first needed.
 Result<Answer> ask_manager(const bus::BusConfig& config, std::unique_ptr<BusRun>& bus,
@@ -55,7 +58,13 @@ void ManagerRelay::work(const std::stop_token& stop) {
   std::unique_ptr<BusRun> bus;
   for (;;) {
     std::unique_lock lock(mutex_);
-    if (!changed_.wait(lock, stop, [this] { return !waiting_.empty(); })) break;
+    const bool asked = changed_.wait_for(lock, stop, kLook, [this] { return !waiting_.empty(); });
+    if (stop.stop_requested()) break;
+    if (!asked) {
+      lock.unlock();
+      if (bus) static_cast<void>(bus->all(Duration{}));
+      continue;
+    }
     auto [request, promise] = std::move(waiting_.front());
     waiting_.pop_front();
     lock.unlock();

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/request_lane.hpp"
 
+#include <chrono>
+
 #include "rave/base/thread.hpp"
 
 namespace rave::gui_server {
+namespace {
+
+/// How often a lane without requests looks who has come and gone.
+constexpr std::chrono::milliseconds kLook{500};
+
+}  // namespace
 
 Result<std::unique_ptr<RequestLane>> RequestLane::open(const bus::BusConfig& config, Ask ask) {
   RAVE_TRY_ASSIGN(auto bus, control::BusRun::open(config, "GUI Server"));
@@ -30,7 +38,13 @@ std::future<RequestLane::Answer> RequestLane::queue(runtime::RunRequest request)
 void RequestLane::work(const std::stop_token& stop) {
   for (;;) {
     std::unique_lock lock(mutex_);
-    if (!changed_.wait(lock, stop, [this] { return !waiting_.empty(); })) break;
+    const bool asked = changed_.wait_for(lock, stop, kLook, [this] { return !waiting_.empty(); });
+    if (stop.stop_requested()) break;
+    if (!asked) {
+      lock.unlock();
+      static_cast<void>(bus_->all(Duration{}));
+      continue;
+    }
     auto [request, promise] = std::move(waiting_.front());
     waiting_.pop_front();
     lock.unlock();

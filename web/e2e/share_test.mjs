@@ -105,6 +105,7 @@ try {
     assert.equal(await setRight(boss.page, {role: 'observer', class: 'obstacles', reach: 'none'}), true);
     await untilHere(guest.page, () => guest.last('scene').hidden.includes('virtual'), 'no obstacles');
     // The words of the server and those of the page are about the same.
+    await until(guest.page, `${app}.model.whyNot('obstacles').includes('ada')`);
     const why = await guest.page.evaluate(`${app}.model.whyNot('obstacles')`);
     assert.equal(why, 'You may not see virtual obstacles. By default observers, commanders and super-users have this right. Ask a super-user who is here: ada.');
     await guest.page.getByRole('button', {name: 'virtual obstacles'}).waitFor();

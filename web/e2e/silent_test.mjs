@@ -54,7 +54,7 @@ try {
   await check('it is live again when the server goes on, by itself', async () => {
     const before = await page.evaluate(`${newest}.time_s`);
     server.child.kill('SIGCONT');
-    await until(page, `${app}.link.state === 'open' && ${newest}.time_s > ${before} + 0.5`);
+    await until(page, `${app}.link.state === 'open' && ${newest} != null && ${newest}.time_s > ${before} + 0.5`);
     await page.locator('rave-top-bar .state', {hasText: 'Live'}).waitFor();
     assert.ok(await stop.isEnabled());
     assert.equal(await page.getByRole('alert').count(), 0);

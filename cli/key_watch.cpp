@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <pthread.h>
-#include <sys/eventfd.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
 
@@ -29,12 +28,11 @@ namespace {
 
 }  // namespace
 
-KeyWatch::KeyWatch(bool keys)
-    : keys_(keys && ::tcgetattr(STDIN_FILENO, &before_) == 0), quit_(::eventfd(0, EFD_CLOEXEC)) {
+KeyWatch::KeyWatch(bool keys) : keys_(keys && ::tcgetattr(STDIN_FILENO, &before_) == 0) {
   const ::sigset_t set = ends();
   // Blocked before the thread starts, which inherits it: a signal is then read and runs no handler.
   ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
-  signals_ = ::signalfd(-1, &set, SFD_CLOEXEC);
+  signals_ = Descriptor(::signalfd(-1, &set, SFD_CLOEXEC));
   if (keys_) {
     ::termios single = before_;
     single.c_lflag &= ~static_cast<::tcflag_t>(ICANON | ECHO);
@@ -56,13 +54,11 @@ void KeyWatch::give_back() const {
 }
 
 KeyWatch::~KeyWatch() {
-  ::eventfd_write(quit_, 1);
+  quit_.ring();
   if (thread_.joinable()) {
     thread_.join();
     give_back();
   }
-  ::close(signals_);
-  ::close(quit_);
 }
 
 std::stop_token KeyWatch::next() {
@@ -93,14 +89,15 @@ void KeyWatch::take_key() {
 
 void KeyWatch::watch() {
   while (!ended_) {
-    std::array<::pollfd, 3> sources = {
-        {{signals_, POLLIN, 0}, {quit_, POLLIN, 0}, {keys_ ? STDIN_FILENO : -1, POLLIN, 0}}};
+    std::array<::pollfd, 3> sources = {{{signals_.get(), POLLIN, 0},
+                                        {quit_.descriptor(), POLLIN, 0},
+                                        {keys_ ? STDIN_FILENO : -1, POLLIN, 0}}};
     if (::poll(sources.data(), sources.size(), -1) < 0) continue;
     if (sources[1].revents != 0) return;
     if (sources[0].revents != 0) {
       // Taken, or it would end the process as soon as it is let in again.
       ::signalfd_siginfo signal{};
-      static_cast<void>(::read(signals_, &signal, sizeof signal) > 0);
+      static_cast<void>(::read(signals_.get(), &signal, sizeof signal) > 0);
       end_it();
       wake();
     }

@@ -8,6 +8,8 @@
 #include <stop_token>
 #include <thread>
 
+#include "rave/base/bell.hpp"
+
 namespace rave::cli {
 
 /// Watches for the end of a command with a display: SIGINT, SIGTERM, SIGQUIT, SIGHUP or the key q;
@@ -42,8 +44,8 @@ class KeyWatch {
 
   ::termios before_{};  ///< Read before it is known that there are keys.
   const bool keys_;
-  int signals_ = -1;
-  int quit_;  ///< Becomes readable when the thread shall end.
+  Descriptor signals_;
+  Bell quit_;  ///< Becomes readable when the thread shall end.
   std::atomic<bool> ended_{false};
   std::atomic<bool> toggled_{false};
   std::mutex mutex_;  // over `happened_`

@@ -33,8 +33,8 @@ Result<ChildEnd> run_child(const std::filesystem::path& executable,
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
     return fail(ErrorCode::kIo, "cannot make a pipe: {}", std::system_category().message(errno));
   }
-  const process::Descriptor from_child(ends[0]);
-  process::Descriptor to_parent(ends[1]);
+  const Descriptor from_child(ends[0]);
+  Descriptor to_parent(ends[1]);
   process::ChildOptions options;
   options.words = {executable.string()};
   options.words.insert(options.words.end(), arguments.begin(), arguments.end());

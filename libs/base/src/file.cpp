@@ -8,25 +8,11 @@
 #include <cerrno>
 #include <cstring>
 
+#include "rave/base/descriptor.hpp"
 #include "rave/base/regular_file.hpp"
 
 namespace rave {
 namespace {
-
-/// Closes a file descriptor when it goes out of scope.
-class FileHandle {
- public:
-  explicit FileHandle(int fd) noexcept : fd_(fd) {}
-  FileHandle(const FileHandle&) = delete;
-  FileHandle& operator=(const FileHandle&) = delete;
-  ~FileHandle() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  [[nodiscard]] int get() const noexcept { return fd_; }
-
- private:
-  int fd_;
-};
 
 tl::unexpected<Error> system_failure(const std::filesystem::path& path, std::string_view what) {
   const int code = errno;
@@ -38,7 +24,7 @@ tl::unexpected<Error> system_failure(const std::filesystem::path& path, std::str
 /// a move to another name: otherwise a power failure can leave that name with an empty file.
 Status create_file(const std::filesystem::path& path, int flags, ::mode_t mode,
                    std::string_view content) {
-  const FileHandle file(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, mode));
+  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | flags, mode));
   if (file.get() < 0) return system_failure(path, "create");
   while (!content.empty()) {
     const ssize_t count = ::write(file.get(), content.data(), content.size());
@@ -54,23 +40,18 @@ Status create_file(const std::filesystem::path& path, int flags, ::mode_t mode,
 
 Result<int> open_regular_file(const std::filesystem::path& path) {
   // O_NONBLOCK opens a pipe without waiting; it does not affect regular files.
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (fd < 0) return system_failure(path, "open");
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!file) return system_failure(path, "open");
   struct stat info {};
-  if (::fstat(fd, &info) != 0) {
-    auto failure = system_failure(path, "inspect");
-    ::close(fd);
-    return failure;
-  }
-  if (S_ISREG(info.st_mode)) return fd;
-  ::close(fd);
+  if (::fstat(file.get(), &info) != 0) return system_failure(path, "inspect");
+  if (S_ISREG(info.st_mode)) return file.release();
   return fail(ErrorCode::kIo, "cannot read `{}`: it is {}", path.string(),
               S_ISDIR(info.st_mode) ? "a folder" : "not a regular file");
 }
 
 Result<std::string> read_file(const std::filesystem::path& path, std::size_t max_bytes) {
   RAVE_TRY_ASSIGN(const int opened, open_regular_file(path));
-  const FileHandle file(opened);
+  const Descriptor file(opened);
   std::string content;
   char buffer[1 << 16];
   while (true) {

@@ -67,13 +67,6 @@ std::optional<LocalSocket> LocalSocket::open(const LocalAddress& address) {
   return socket;
 }
 
-LocalSocket::LocalSocket(LocalSocket&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-LocalSocket::~LocalSocket() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
 LocalDecoder::LocalDecoder(const TopicSpec& topic)
     : type_(topic.type), topic_(topic.local_transport), sample_(dds_alloc(topic.type->m_size)) {
   std::memset(sample_, 0, type_->m_size);

@@ -6,7 +6,6 @@
 #include <poll.h>
 #include <sched.h>
 #include <sys/eventfd.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -33,9 +32,10 @@ constexpr std::chrono::milliseconds kMostCrowded{1000};
 }  // namespace
 
 Result<std::unique_ptr<Relay>> Relay::create(dds_entity_t set, dds_entity_t bell) {
-  const int event = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-  if (event < 0) return fail(ErrorCode::kIo, "cannot wait: no event descriptor is available");
-  std::unique_ptr<Relay> relay(new Relay(set, bell, event));
+  Bell event;
+  if (event.descriptor() < 0)
+    return fail(ErrorCode::kIo, "cannot wait: no event descriptor is available");
+  std::unique_ptr<Relay> relay(new Relay(set, bell, std::move(event)));
   RAVE_TRY(start_thread(relay->thread_, "a wait set", [it = relay.get()] { it->run(); }));
   return relay;
 }
@@ -47,7 +47,6 @@ Relay::~Relay() {
   ask_.release();
   dds_set_guardcondition(bell_, true);
   if (thread_.joinable()) thread_.join();
-  ::close(event_);
 }
 
 void Relay::run() noexcept {
@@ -59,7 +58,7 @@ void Relay::run() noexcept {
     // The thread waits for the next request: the condition in the set persists until a sample is
     // taken.
     answered_ = true;
-    static_cast<void>(::eventfd_write(event_, 1));
+    event_.ring();
   }
 }
 
@@ -126,7 +125,8 @@ Relay::Came Relay::wait(Duration timeout) {
     // The thread may be about to answer.
     if (count <= 0) return ready() ? Came::kSet : Came::kNothing;
     eventfd_t times = 0;
-    if (polled_.front().revents != 0) static_cast<void>(::eventfd_read(event_, &times));
+    if (polled_.front().revents != 0)
+      static_cast<void>(::eventfd_read(event_.descriptor(), &times));
   }
 }
 

@@ -10,8 +10,10 @@
 #include <memory>
 #include <semaphore>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "rave/base/bell.hpp"
 #include "rave/base/result.hpp"
 #include "rave/base/time.hpp"
 
@@ -37,8 +39,11 @@ class Relay {
   [[nodiscard]] Came wait(Duration timeout);
 
  private:
-  Relay(dds_entity_t set, dds_entity_t bell, int event)
-      : set_(set), bell_(bell), event_(event), polled_{{event, POLLIN, 0}} {}
+  Relay(dds_entity_t set, dds_entity_t bell, Bell event)
+      : set_(set),
+        bell_(bell),
+        event_(std::move(event)),
+        polled_{{event_.descriptor(), POLLIN, 0}} {}
   void run() noexcept;
   /// Whether the set has a condition that holds; if so, tells the receivers.
   [[nodiscard]] bool ready() const;
@@ -50,7 +55,7 @@ class Relay {
 
   dds_entity_t set_;
   dds_entity_t bell_;
-  int event_;
+  Bell event_;
   std::vector<pollfd> polled_;  ///< The event descriptor, then the sockets of the receivers.
   std::vector<LocalReceiver*> receivers_;
   std::chrono::steady_clock::time_point crowded_until_{};

@@ -14,10 +14,8 @@ namespace rave::record {
 ByteSource::ByteSource(std::string name, ByteSpan bytes) noexcept
     : name_(std::move(name)), memory_(bytes), size_(bytes.size()) {}
 ByteSource::ByteSource(std::string name, int fd, std::uint64_t size) noexcept
-    : name_(std::move(name)), fd_(fd), size_(size) {}
-ByteSource::~ByteSource() {
-  if (fd_ >= 0) ::close(fd_);
-}
+    : name_(std::move(name)), file_(fd), size_(size) {}
+ByteSource::~ByteSource() = default;
 
 Result<std::unique_ptr<ByteSource>> ByteSource::open(const std::filesystem::path& path) {
   RAVE_TRY_ASSIGN(const int fd, open_regular_file(path));
@@ -32,7 +30,7 @@ Status ByteSource::read(std::uint64_t offset, std::uint64_t size, Bytes& out) co
     return fail(ErrorCode::kParse, "`{}`: {} bytes at offset {} reach beyond the end ({} bytes)",
                 name_, size, offset, size_);
   }
-  if (fd_ < 0) {
+  if (!file_) {
     const ByteSpan found = memory_.subspan(offset, size);
     out.assign(found.begin(), found.end());
     return {};
@@ -43,7 +41,7 @@ Status ByteSource::read(std::uint64_t offset, std::uint64_t size, Bytes& out) co
   std::uint64_t done = 0;
   while (done < size) {
     const ssize_t count =
-        ::pread(fd_, out.data() + done, size - done, static_cast<off_t>(offset + done));
+        ::pread(file_.get(), out.data() + done, size - done, static_cast<off_t>(offset + done));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
       return fail(ErrorCode::kIo, "cannot read `{}` at offset {}: {}", name_, offset + done,

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bytes.hpp"
+#include "rave/base/descriptor.hpp"
 #include "rave/base/result.hpp"
 
 namespace rave::record {
@@ -30,7 +31,7 @@ class ByteSource {
   ByteSource(std::string name, int fd, std::uint64_t size) noexcept;
 
   std::string name_;
-  int fd_ = -1;
+  Descriptor file_;
   ByteSpan memory_;
   std::uint64_t size_ = 0;
 };

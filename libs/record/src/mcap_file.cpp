@@ -17,12 +17,9 @@
 namespace rave::record {
 
 McapFile::McapFile(std::filesystem::path path, int fd)
-    : path_(std::move(path)), fd_(fd), compressor_(ZSTD_createCCtx()) {}
+    : path_(std::move(path)), file_(fd), compressor_(ZSTD_createCCtx()) {}
 
-McapFile::~McapFile() {
-  ZSTD_freeCCtx(compressor_);
-  if (fd_ >= 0) ::close(fd_);
-}
+McapFile::~McapFile() { ZSTD_freeCCtx(compressor_); }
 
 Result<std::unique_ptr<McapFile>> McapFile::create(const std::filesystem::path& path,
                                                    std::string_view profile,
@@ -48,14 +45,15 @@ Result<std::unique_ptr<McapFile>> McapFile::create(const std::filesystem::path& 
 Status McapFile::append(ByteSpan bytes) {
   ByteSpan rest = bytes;
   while (!rest.empty()) {
-    const ssize_t count = ::write(fd_, rest.data(), rest.size());
+    const ssize_t count = ::write(file_.get(), rest.data(), rest.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) {
       const int code = errno;
       // Truncate the incomplete record, so that later ones, if only the index, follow a complete
       // one.
       const auto good = static_cast<off_t>(offset_);
-      const bool cut = ::ftruncate(fd_, good) == 0 && ::lseek(fd_, good, SEEK_SET) == good;
+      const bool cut =
+          ::ftruncate(file_.get(), good) == 0 && ::lseek(file_.get(), good, SEEK_SET) == good;
       return fail(ErrorCode::kIo, "cannot write `{}` at offset {}: {}{}", path_.string(), offset_,
                   std::strerror(code),
                   cut ? "" : " (and the incomplete piece could not be removed)");
@@ -205,7 +203,8 @@ Status McapFile::put_summary(const std::vector<SchemaInfo>& schemas,
   group(std::span<const Statistics>(&statistics_, 1));
   const std::size_t indexes = out_.size();
   for (const ChunkPlace& place : chunks_) {
-    RAVE_TRY_ASSIGN(const ChunkInfo info, read_back(fd_, place, path_.string(), compressed_));
+    RAVE_TRY_ASSIGN(const ChunkInfo info,
+                    read_back(file_.get(), place, path_.string(), compressed_));
     put_record(out_, info);
   }
   if (out_.size() > indexes) {
@@ -242,8 +241,8 @@ Status McapFile::finish(const std::vector<SchemaInfo>& schemas,
   out_.clear();
   RAVE_TRY(put_summary(schemas, channels));
   RAVE_TRY(append(out_));
-  const int fd = std::exchange(fd_, -1);
-  if (::close(fd) != 0) {
+  // Closing may report that what was written is lost.
+  if (::close(file_.release()) != 0) {
     return fail(ErrorCode::kIo, "cannot close `{}`: {}", path_.string(), std::strerror(errno));
   }
   return {};

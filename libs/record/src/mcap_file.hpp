@@ -11,6 +11,7 @@
 #include "bytes.hpp"
 #include "chunk.hpp"
 #include "chunk_place.hpp"
+#include "rave/base/descriptor.hpp"
 #include "rave/base/result.hpp"
 #include "rave/record/mcap_types.hpp"
 
@@ -47,7 +48,7 @@ class McapFile {
                                    const std::vector<ChannelInfo>& channels);
 
   std::filesystem::path path_;
-  int fd_;
+  Descriptor file_;
   ZSTD_CCtx_s* compressor_;
   std::uint64_t offset_ = 0;
   std::uint32_t data_crc_ = 0;

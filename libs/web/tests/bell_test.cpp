@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What wakes the thread of a server.
-#include "rave/process/bell.hpp"
+#include "rave/base/bell.hpp"
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ class ServerBell : public testing::Test {
 
 TEST_F(ServerBell, IsHeardEachTimeItRings) {
   std::atomic<int> rung = 0;
-  const process::Bell bell;
+  const Bell bell;
   hear(bell.descriptor(), rung);
   for (int i = 0; i < 3; ++i) {
     bell.ring();
@@ -68,7 +68,7 @@ TEST_F(ServerBell, IsHeardEachTimeItRings) {
 
 TEST_F(ServerBell, OneThatRangBeforeIsHeardAtOnce) {
   std::atomic<int> rung = 0;
-  const process::Bell bell;
+  const Bell bell;
   bell.ring();
   bell.ring();
   hear(bell.descriptor(), rung);
@@ -80,8 +80,8 @@ TEST_F(ServerBell, OneThatRangBeforeIsHeardAtOnce) {
 TEST_F(ServerBell, IsHeardNoMoreOnceThereIsAnotherOrNone) {
   std::atomic<int> first_rung = 0;
   std::atomic<int> second_rung = 0;
-  const process::Bell first;
-  const process::Bell second;
+  const Bell first;
+  const Bell second;
   hear(first.descriptor(), first_rung);
   hear(second.descriptor(), second_rung);
   first.ring();
@@ -98,7 +98,7 @@ TEST_F(ServerBell, IsHeardNoMoreOnceThereIsAnotherOrNone) {
 TEST_F(ServerBell, MayGoBeforeTheServer) {
   std::atomic<int> rung = 0;
   {
-    const process::Bell bell;
+    const Bell bell;
     hear(bell.descriptor(), rung);
     bell.ring();
     rung.wait(0);

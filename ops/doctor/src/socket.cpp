@@ -46,17 +46,12 @@ Result<Socket> Socket::bind(const Place& place, bool shared) {
   const auto address = address_of(place);
   if (!address) return fail(ErrorCode::kInvalidArgument, "`{}` is not an address", place.address);
   Socket socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  if (socket.descriptor_ < 0) return failed("socket");
+  if (!socket.descriptor_) return failed("socket");
   const int on = 1;
-  if (shared) ::setsockopt(socket.descriptor_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  if (::bind(socket.descriptor_, general(*address), sizeof *address) != 0) return failed("bind");
+  if (shared) ::setsockopt(socket.descriptor_.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  if (::bind(socket.descriptor_.get(), general(*address), sizeof *address) != 0)
+    return failed("bind");
   return socket;
-}
-
-Socket::Socket(Socket&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-Socket::~Socket() {
-  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 Status Socket::connect(const Place& place) {
@@ -64,7 +59,8 @@ Status Socket::connect(const Place& place) {
   if (!address) return fail(ErrorCode::kInvalidArgument, "`{}` is not an address", place.address);
   // A connected socket reports the ICMP message "port unreachable" as an error; an unconnected one
   // would only stay silent.
-  if (::connect(descriptor_, general(*address), sizeof *address) != 0) return failed("connect");
+  if (::connect(descriptor_.get(), general(*address), sizeof *address) != 0)
+    return failed("connect");
   return {};
 }
 
@@ -75,9 +71,10 @@ Status Socket::join(const char* group, const std::string& interface_address) {
     return fail(ErrorCode::kInvalidArgument, "`{}` is not an address", interface_address);
   }
   const int on = 1;
-  if (::setsockopt(descriptor_, IPPROTO_IP, IP_MULTICAST_IF, &request, sizeof request) != 0 ||
-      ::setsockopt(descriptor_, IPPROTO_IP, IP_MULTICAST_LOOP, &on, sizeof on) != 0 ||
-      ::setsockopt(descriptor_, IPPROTO_IP, IP_ADD_MEMBERSHIP, &request, sizeof request) != 0) {
+  if (::setsockopt(descriptor_.get(), IPPROTO_IP, IP_MULTICAST_IF, &request, sizeof request) != 0 ||
+      ::setsockopt(descriptor_.get(), IPPROTO_IP, IP_MULTICAST_LOOP, &on, sizeof on) != 0 ||
+      ::setsockopt(descriptor_.get(), IPPROTO_IP, IP_ADD_MEMBERSHIP, &request, sizeof request) !=
+          0) {
     return failed("multicast");
   }
   return {};
@@ -86,24 +83,24 @@ Status Socket::join(const char* group, const std::string& interface_address) {
 Status Socket::send(std::string_view bytes, const Place& to) const {
   const auto address = address_of(to);
   if (!address) return fail(ErrorCode::kInvalidArgument, "`{}` is not an address", to.address);
-  if (::sendto(descriptor_, bytes.data(), bytes.size(), 0, general(*address), sizeof *address) <
-      0) {
+  if (::sendto(descriptor_.get(), bytes.data(), bytes.size(), 0, general(*address),
+               sizeof *address) < 0) {
     return failed("send");
   }
   return {};
 }
 
 Status Socket::send(std::string_view bytes) const {
-  if (::send(descriptor_, bytes.data(), bytes.size(), 0) < 0) return failed("send");
+  if (::send(descriptor_.get(), bytes.data(), bytes.size(), 0) < 0) return failed("send");
   return {};
 }
 
 Result<std::optional<Socket::Received>> Socket::receive(std::span<char> into, int wait_ms) const {
-  ::pollfd source{descriptor_, POLLIN, 0};
+  ::pollfd source{descriptor_.get(), POLLIN, 0};
   if (::poll(&source, 1, wait_ms) <= 0) return std::nullopt;
   ::sockaddr_in from{};
   ::socklen_t size = sizeof from;
-  const ::ssize_t received = ::recvfrom(descriptor_, into.data(), into.size(), MSG_DONTWAIT,
+  const ::ssize_t received = ::recvfrom(descriptor_.get(), into.data(), into.size(), MSG_DONTWAIT,
                                         reinterpret_cast<::sockaddr*>(&from), &size);
   if (received < 0 && (errno == EAGAIN || errno == EINTR)) return std::nullopt;
   if (received < 0) return failed("receive");
@@ -113,7 +110,7 @@ Result<std::optional<Socket::Received>> Socket::receive(std::span<char> into, in
 std::uint16_t Socket::port() const {
   ::sockaddr_in address{};
   ::socklen_t size = sizeof address;
-  ::getsockname(descriptor_, reinterpret_cast<::sockaddr*>(&address), &size);
+  ::getsockname(descriptor_.get(), reinterpret_cast<::sockaddr*>(&address), &size);
   return ::ntohs(address.sin_port);
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "rave/base/descriptor.hpp"
 #include "rave/base/result.hpp"
 
 namespace rave::doctor {
@@ -29,9 +30,6 @@ class Socket {
   /// Binds a socket to a port of an address; port 0: any. `shared`: other shared sockets may have
   /// the same port. Errors: kIo with the message of the system, kState if the port is taken.
   [[nodiscard]] static Result<Socket> bind(const Place& place, bool shared = false);
-  Socket(Socket&& other) noexcept;
-  Socket& operator=(Socket&&) = delete;
-  ~Socket();
 
   /// Restricts the socket to one remote address. Messages that it refuses become errors of
   /// receive(). Error kIo.
@@ -52,12 +50,12 @@ class Socket {
   /// process listens at the port), kIo (such as `No route to host`).
   [[nodiscard]] Result<std::optional<Received>> receive(std::span<char> into, int wait_ms) const;
 
-  [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
+  [[nodiscard]] int descriptor() const noexcept { return descriptor_.get(); }
   [[nodiscard]] std::uint16_t port() const;
 
  private:
   explicit Socket(int descriptor) : descriptor_(descriptor) {}
-  int descriptor_ = -1;
+  Descriptor descriptor_;
 };
 
 }  // namespace rave::doctor

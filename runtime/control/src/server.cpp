@@ -2,7 +2,6 @@
 #include "rave/control/server.hpp"
 
 #include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "answering.hpp"
+#include "rave/base/bell.hpp"
 #include "rave/base/thread.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/control/protocol.hpp"
@@ -54,7 +54,7 @@ struct Server::Impl {
   runtime::RunControl* control = nullptr;
   fs::path path;
   Descriptor listener;
-  Descriptor wake;
+  Bell wake;
   std::vector<Connection> connections;
   std::thread thread;
 };
@@ -96,7 +96,7 @@ bool Server::Impl::read_some(Connection& connection) {
 void Server::Impl::run() {
   std::vector<pollfd> watched;
   for (;;) {
-    watched.assign({{wake.get(), POLLIN, 0}, {listener.get(), POLLIN, 0}});
+    watched.assign({{wake.descriptor(), POLLIN, 0}, {listener.get(), POLLIN, 0}});
     for (const Connection& connection : connections) {
       watched.push_back({connection.file.get(), POLLIN, 0});
     }
@@ -123,10 +123,9 @@ Result<std::unique_ptr<Server>> Server::start(const std::string& run,
   RAVE_TRY_ASSIGN(const sockaddr_un address, address_of(made));
   RAVE_TRY(address_of(impl->path));
   impl->listener = Descriptor(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
-  impl->wake = Descriptor(::eventfd(0, EFD_CLOEXEC));
   std::error_code ignored;
   fs::remove(made, ignored);
-  if (impl->wake.get() < 0 || impl->listener.get() < 0 ||
+  if (impl->wake.descriptor() < 0 || impl->listener.get() < 0 ||
       ::bind(impl->listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) !=
           0 ||
       ::chmod(made.c_str(), 0600) != 0 || ::listen(impl->listener.get(), 16) != 0 ||
@@ -150,9 +149,7 @@ Server::Server(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Server::~Server() {
   std::error_code ignored;
   fs::remove(impl_->path, ignored);
-  const std::uint64_t one = 1;
-  while (::write(impl_->wake.get(), &one, sizeof one) < 0 && errno == EINTR) {
-  }
+  impl_->wake.ring();
   impl_->thread.join();
 }
 

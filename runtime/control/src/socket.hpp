@@ -9,12 +9,10 @@
 #include <filesystem>
 #include <string_view>
 
+#include "rave/base/descriptor.hpp"
 #include "rave/base/result.hpp"
-#include "rave/process/descriptor.hpp"
 
 namespace rave::control {
-
-using process::Descriptor;
 
 [[nodiscard]] inline Result<sockaddr_un> address_of(const std::filesystem::path& path) {
   sockaddr_un address{};

@@ -73,7 +73,7 @@ Status run() {
   limit_this_process();
   // First of all, so that a crash in the constructors of the plug-in is reported, too.
   RAVE_TRY(install_crash_report(kChildSocket));
-  RAVE_TRY_ASSIGN(SharedMemory memory, SharedMemory::map(process::Descriptor(kChildMemory)));
+  RAVE_TRY_ASSIGN(SharedMemory memory, SharedMemory::map(Descriptor(kChildMemory)));
   RAVE_TRY_ASSIGN(const auto host, ProgramHost::create(std::move(memory), kChildSocket));
   end_with_host(static_cast<pid_t>(host->order().parent));
   if (host->start()) host->serve();

@@ -23,7 +23,7 @@ namespace rave::isolation {
 
 struct IsolatedProgram::Impl {
   Impl(const IsolationOptions& options, std::string who, const HostServices& host,
-       SharedMemory shared, Layout where, ChildProcess child, process::Descriptor socket)
+       SharedMemory shared, Layout where, ChildProcess child, Descriptor socket)
       : timeout_s(options.decide_timeout_s),
         memory(std::move(shared)),
         layout(std::move(where)),
@@ -129,8 +129,8 @@ void IsolatedProgram::Impl::copy_messages_out(const DecideItem& item) const {
 namespace {
 
 struct Sockets {
-  process::Descriptor host;
-  process::Descriptor child;
+  Descriptor host;
+  Descriptor child;
 };
 
 Result<Sockets> make_sockets() {
@@ -140,7 +140,7 @@ Result<Sockets> make_sockets() {
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, files) != 0) {
     return fail(ErrorCode::kIo, "cannot make a socket pair: {}", std::strerror(errno));
   }
-  return Sockets{process::Descriptor(files[0]), process::Descriptor(files[1])};
+  return Sockets{Descriptor(files[0]), Descriptor(files[1])};
 }
 
 struct Shared {

@@ -29,7 +29,7 @@ ErrorCode error_code(std::uint32_t number) {
 
 }  // namespace
 
-Link::Link(std::string who, HostServices host, ChildProcess child, process::Descriptor socket,
+Link::Link(std::string who, HostServices host, ChildProcess child, Descriptor socket,
            double last_word_s)
     : who_(std::move(who)),
       host_(host),

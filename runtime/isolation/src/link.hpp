@@ -11,8 +11,8 @@
 #include "child_process.hpp"
 #include "deadline.hpp"
 #include "message.hpp"
+#include "rave/base/descriptor.hpp"
 #include "rave/base/result.hpp"
-#include "rave/process/descriptor.hpp"
 #include "rave/robot/interface.hpp"
 
 namespace rave::isolation {
@@ -22,7 +22,7 @@ class Link {
  public:
   /// `who` begins each error message, such as "program `wander` of robot `anna`". `last_word_s` is
   /// the time that a late child has to report its source line.
-  Link(std::string who, HostServices host, ChildProcess child, process::Descriptor socket,
+  Link(std::string who, HostServices host, ChildProcess child, Descriptor socket,
        double last_word_s);
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
@@ -56,7 +56,7 @@ class Link {
   std::string who_;
   HostServices host_;
   ChildProcess child_;
-  process::Descriptor socket_;
+  Descriptor socket_;
   double last_word_s_;
   std::vector<char> buffer_;
   std::string refusal_;

@@ -12,7 +12,7 @@
 namespace rave::isolation {
 
 Result<SharedMemory> SharedMemory::create(std::size_t bytes) {
-  process::Descriptor file(::memfd_create("rave-program", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  Descriptor file(::memfd_create("rave-program", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   if (file.get() < 0 || ::ftruncate(file.get(), static_cast<off_t>(bytes)) != 0 ||
       // The seals fix the size. A child that could shrink the file would make the host fault when
       // it reads beyond the end.
@@ -23,7 +23,7 @@ Result<SharedMemory> SharedMemory::create(std::size_t bytes) {
   return map(std::move(file));
 }
 
-Result<SharedMemory> SharedMemory::map(process::Descriptor file) {
+Result<SharedMemory> SharedMemory::map(Descriptor file) {
   struct stat info {};
   if (::fstat(file.get(), &info) != 0) {
     return fail(ErrorCode::kIo, "cannot read the size of shared memory: {}", std::strerror(errno));

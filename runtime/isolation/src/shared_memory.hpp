@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
+#include "rave/base/descriptor.hpp"
 #include "rave/base/result.hpp"
-#include "rave/process/descriptor.hpp"
 
 namespace rave::isolation {
 
@@ -15,7 +15,7 @@ class SharedMemory {
   /// Errors: kIo.
   [[nodiscard]] static Result<SharedMemory> create(std::size_t bytes);
   /// Maps memory that a host created. Takes ownership of the descriptor. Errors: kIo.
-  [[nodiscard]] static Result<SharedMemory> map(process::Descriptor file);
+  [[nodiscard]] static Result<SharedMemory> map(Descriptor file);
 
   SharedMemory() = default;
   SharedMemory(SharedMemory&& other) noexcept;
@@ -31,7 +31,7 @@ class SharedMemory {
   }
 
  private:
-  process::Descriptor file_;
+  Descriptor file_;
   std::byte* data_ = nullptr;
   std::size_t size_ = 0;
 };

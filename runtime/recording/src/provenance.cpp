@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "rave/base/descriptor.hpp"
 #include "rave/base/file.hpp"
 #include "rave/base/regular_file.hpp"
 #include "rave/config/diagnostics.hpp"
@@ -70,12 +71,12 @@ void add_version(plugin::Catalogue& catalogue, std::span<const DriverKind> kinds
 
 Result<std::string> sha256_of_file(const fs::path& path) {
   // A pipe or device would block or never end.
-  RAVE_TRY_ASSIGN(const int fd, open_regular_file(path));
-  const std::unique_ptr<std::FILE, CloseFile> file(::fdopen(fd, "rb"));
-  if (file == nullptr) {
-    ::close(fd);
-    return fail(ErrorCode::kIo, "cannot read `{}`", path.string());
-  }
+  RAVE_TRY_ASSIGN(const int opened, open_regular_file(path));
+  Descriptor descriptor(opened);
+  const std::unique_ptr<std::FILE, CloseFile> file(::fdopen(descriptor.get(), "rb"));
+  if (file == nullptr) return fail(ErrorCode::kIo, "cannot read `{}`", path.string());
+  // The stream closes it.
+  static_cast<void>(descriptor.release());
   crypto_hash_sha256_state state;
   crypto_hash_sha256_init(&state);
   // A block at a time, since recordings may be larger than the memory.

@@ -30,19 +30,6 @@ Result<ByteLine> ByteLine::open(const Address& address, Wait limit, const Wake* 
   return ByteLine(fd);
 }
 
-ByteLine::ByteLine(ByteLine&& other) noexcept
-    : fd_(std::exchange(other.fd_, -1)), lost_(std::move(other.lost_)) {}
-
-ByteLine& ByteLine::operator=(ByteLine&& other) noexcept {
-  std::swap(fd_, other.fd_);
-  std::swap(lost_, other.lost_);
-  return *this;
-}
-
-ByteLine::~ByteLine() {
-  if (fd_ >= 0) ::close(fd_);
-}
-
 ReadResult ByteLine::lose(std::string why) noexcept {
   lost_ = std::move(why);
   return {ReadEnd::kLost, 0};
@@ -52,10 +39,10 @@ ReadResult ByteLine::read(std::span<char> room, Wait limit, const Wake* wake) no
   if (!lost_.empty()) return {ReadEnd::kLost, 0};
   const HostTime end = host_now() + limit;
   while (true) {
-    const int ready = detail::wait_ready(fd_, POLLIN, end, wake);
+    const int ready = detail::wait_ready(fd_.get(), POLLIN, end, wake);
     if (ready < 0) return {ReadEnd::kWoken, 0};
     if (ready == 0) return {ReadEnd::kTimeout, 0};
-    const ssize_t size = ::read(fd_, room.data(), room.size());
+    const ssize_t size = ::read(fd_.get(), room.data(), room.size());
     if (size > 0) return {ReadEnd::kBytes, static_cast<std::size_t>(size)};
     if (size == 0) return lose("the other end closed the connection");
     if (errno != EAGAIN && errno != EINTR) return lose(std::strerror(errno));
@@ -66,12 +53,12 @@ Status ByteLine::write(std::string_view bytes, Wait limit, const Wake* wake) {
   const HostTime end = host_now() + limit;
   while (!bytes.empty()) {
     if (!lost_.empty()) return fail(ErrorCode::kIo, "the line is lost: {}", lost_);
-    const int ready = detail::wait_ready(fd_, POLLOUT, end, wake);
+    const int ready = detail::wait_ready(fd_.get(), POLLOUT, end, wake);
     if (ready < 0) return fail(ErrorCode::kState, "closed while writing");
     if (ready == 0) return fail(ErrorCode::kTimeout, "the device does not accept data");
     // send() can suppress SIGPIPE, but works for sockets only; a serial line needs write().
-    ssize_t size = ::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    if (size < 0 && errno == ENOTSOCK) size = ::write(fd_, bytes.data(), bytes.size());
+    ssize_t size = ::send(fd_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (size < 0 && errno == ENOTSOCK) size = ::write(fd_.get(), bytes.data(), bytes.size());
     if (size > 0) bytes.remove_prefix(static_cast<std::size_t>(size));
     if (size < 0 && errno != EAGAIN && errno != EINTR) lose(std::strerror(errno));
   }

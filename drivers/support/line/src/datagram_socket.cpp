@@ -120,51 +120,39 @@ Result<DatagramSocket> DatagramSocket::open(const std::string& host, std::uint16
     return fail(ErrorCode::kIo, "cannot {} UDP port {} of {}: {}", what, port, host,
                 std::strerror(errno));
   };
-  if (opened.fd_ < 0) return failed("open");
+  if (!opened.fd_) return failed("open");
   // Several sockets may listen to one group; a unicast address belongs to one socket.
   const int one = 1;
   const sockaddr* where =
       group != nullptr ? reinterpret_cast<const sockaddr*>(&group->address) : own->ai_addr;
-  if (group != nullptr && !set(opened.fd_, SOL_SOCKET, SO_REUSEADDR, one)) return failed("share");
-  if (::bind(opened.fd_, where, own->ai_addrlen) != 0) return failed("listen on");
-  if (group != nullptr && !join(opened.fd_, *group, *own)) return failed("join the group on");
+  if (group != nullptr && !set(opened.fd_.get(), SOL_SOCKET, SO_REUSEADDR, one))
+    return failed("share");
+  if (::bind(opened.fd_.get(), where, own->ai_addrlen) != 0) return failed("listen on");
+  if (group != nullptr && !join(opened.fd_.get(), *group, *own)) return failed("join the group on");
   sockaddr_storage bound{};
   socklen_t size = sizeof bound;
-  if (::getsockname(opened.fd_, reinterpret_cast<sockaddr*>(&bound), &size) == 0) {
+  if (::getsockname(opened.fd_.get(), reinterpret_cast<sockaddr*>(&bound), &size) == 0) {
     // The port is at the same place in both address families.
     opened.port_ = ntohs(as<sockaddr_in>(bound).sin_port);
   }
   return opened;
 }
 
-DatagramSocket::DatagramSocket(DatagramSocket&& other) noexcept
-    : fd_(std::exchange(other.fd_, -1)), port_(other.port_) {}
-
-DatagramSocket& DatagramSocket::operator=(DatagramSocket&& other) noexcept {
-  std::swap(fd_, other.fd_);
-  std::swap(port_, other.port_);
-  return *this;
-}
-
-DatagramSocket::~DatagramSocket() {
-  if (fd_ >= 0) ::close(fd_);
-}
-
 ReadResult DatagramSocket::receive(std::span<std::byte> room, Wait limit,
                                    const Wake& wake) const noexcept {
   const HostTime end = host_now() + limit;
   while (true) {
-    const int ready = detail::wait_ready(fd_, POLLIN, end, &wake);
+    const int ready = detail::wait_ready(fd_.get(), POLLIN, end, &wake);
     if (ready < 0) return {ReadEnd::kWoken, 0};
     if (ready == 0) return {ReadEnd::kTimeout, 0};
-    const ssize_t size = ::recv(fd_, room.data(), room.size(), 0);
+    const ssize_t size = ::recv(fd_.get(), room.data(), room.size(), 0);
     if (size >= 0) return {ReadEnd::kBytes, static_cast<std::size_t>(size)};
     if (!is_passing(errno)) return {ReadEnd::kLost, 0};
   }
 }
 
 Status DatagramSocket::send(std::span<const std::byte> bytes, const Peer& to) const {
-  const ssize_t sent = ::sendto(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL,
+  const ssize_t sent = ::sendto(fd_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL,
                                 reinterpret_cast<const sockaddr*>(&to.address), to.size);
   if (sent >= 0 || is_passing(errno)) return {};
   return fail(ErrorCode::kIo, "cannot send to {}: {}", to.text, std::strerror(errno));

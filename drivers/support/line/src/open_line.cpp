@@ -13,26 +13,11 @@
 #include <memory>
 #include <utility>
 
+#include "rave/base/descriptor.hpp"
 #include "rave/line/byte_line.hpp"
 
 namespace rave::line {
 namespace {
-
-/// Closes a descriptor unless it is taken.
-class Fd {
- public:
-  explicit Fd(int fd) : fd_(fd) {}
-  Fd(Fd&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Fd& operator=(Fd&&) = delete;
-  ~Fd() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  [[nodiscard]] int get() const noexcept { return fd_; }
-  [[nodiscard]] int take() noexcept { return std::exchange(fd_, -1); }
-
- private:
-  int fd_;
-};
 
 tl::unexpected<Error> system_error(const Address& address, int number) {
   const bool missing = number == ENOENT || number == ENXIO || number == ENODEV;
@@ -60,13 +45,13 @@ Status make_raw(const Address& address, int fd) {
 
 Result<int> connect_to(const Address& address, const addrinfo& target, HostTime end,
                        const Wake* wake) {
-  Fd fd(::socket(target.ai_family, target.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  Descriptor fd(::socket(target.ai_family, target.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (fd.get() < 0) return system_error(address, errno);
   const int yes = 1;
   // Commands are a few bytes. Nagle's algorithm would hold them back for the answer to the ones
   // before.
   ::setsockopt(fd.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-  if (::connect(fd.get(), target.ai_addr, target.ai_addrlen) == 0) return fd.take();
+  if (::connect(fd.get(), target.ai_addr, target.ai_addrlen) == 0) return fd.release();
   if (errno != EINPROGRESS) return system_error(address, errno);
   const int ready = detail::wait_ready(fd.get(), POLLOUT, end, wake);
   if (ready < 0) return fail(ErrorCode::kState, "closed while connecting");
@@ -75,20 +60,20 @@ Result<int> connect_to(const Address& address, const addrinfo& target, HostTime 
   socklen_t size = sizeof error;
   ::getsockopt(fd.get(), SOL_SOCKET, SO_ERROR, &error, &size);
   if (error != 0) return system_error(address, error);
-  return fd.take();
+  return fd.release();
 }
 
 }  // namespace
 
 Result<int> detail::open_serial(const Address& address) {
   // O_NOCTTY: a serial line must not become the terminal that sends signals to this process.
-  Fd fd(::open(address.device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  Descriptor fd(::open(address.device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (fd.get() < 0) return system_error(address, errno);
   if (::isatty(fd.get()) == 0) {
     return fail(ErrorCode::kInvalidArgument, "`{}` is not a serial line", address.device);
   }
   RAVE_TRY(make_raw(address, fd.get()));
-  return fd.take();
+  return fd.release();
 }
 
 Result<int> detail::open_tcp(const Address& address, Wait limit, const Wake* wake) {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "rave/base/bell.hpp"
 #include "rave/base/latest.hpp"
 #include "rave/base/wall_clock.hpp"
 #include "rave/gui_server/source.hpp"
-#include "rave/process/bell.hpp"
 
 // What passes between the thread of a run and that of the GUI Server, without a lock.
 namespace rave::gui_server {
@@ -89,7 +89,7 @@ struct LiveBox {
   }
 
   Latest<LivePicture> pictures;
-  process::Bell bell;      ///< There is a newer picture.
+  Bell bell;               ///< There is a newer picture.
   Latest<Audience> wants;  ///< From the server to the run.
   NewsQueue news;
   std::atomic<double> max_hz{0};  ///< Pictures per second that pages want; 0: none.

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "people/secrets.hpp"
+#include "rave/base/descriptor.hpp"
 #include "rave/base/file.hpp"
 #include "rave/base/wall_clock.hpp"
 
@@ -27,29 +28,16 @@ constexpr std::size_t kMostAccounts = 5000;
 constexpr std::size_t kMostInvitations = 1000;
 constexpr std::ptrdiff_t kSessionsOfOne = 20;
 
-/// Held while a process reads, changes and writes. Ends with the process, however that ends.
-class FileLock {
- public:
-  static Result<FileLock> take(const fs::path& file) {
-    const int fd = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-    // flock() and not a lock file that is created and removed: that one would stay after a crash.
-    if (fd < 0 || ::flock(fd, LOCK_EX) != 0) {
-      const int code = errno;
-      if (fd >= 0) ::close(fd);
-      return fail(ErrorCode::kIo, "cannot lock `{}`: {}", file.string(), std::strerror(code));
-    }
-    return FileLock(fd);
+/// A lock that is held while a process reads, changes and writes. Ends with the process, however
+/// that ends.
+Result<Descriptor> lock_file(const fs::path& file) {
+  Descriptor lock(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+  // flock() and not a lock file that is created and removed: that one would stay after a crash.
+  if (!lock || ::flock(lock.get(), LOCK_EX) != 0) {
+    return fail(ErrorCode::kIo, "cannot lock `{}`: {}", file.string(), std::strerror(errno));
   }
-  FileLock(FileLock&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  FileLock& operator=(FileLock&&) = delete;
-  ~FileLock() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-
- private:
-  explicit FileLock(int fd) noexcept : fd_(fd) {}
-  int fd_;
-};
+  return lock;
+}
 
 std::int64_t wall_s() { return wall_ns() / kSecond_ns; }
 
@@ -177,7 +165,7 @@ Status Accounts::refresh() {
 
 Status Accounts::change(const std::function<Status(AccountsFile&)>& how) {
   const std::lock_guard lock(file_mutex_);
-  RAVE_TRY_ASSIGN(const FileLock file_lock, FileLock::take(folder_ / "lock"));
+  RAVE_TRY_ASSIGN(const Descriptor file_lock, lock_file(folder_ / "lock"));
   // Under the lock, since another process may have changed the file.
   RAVE_TRY(read_if_changed());
   // A copy: if `how` or the write fails, the state in memory is still that of the file.

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "rave/base/descriptor.hpp"
 #include "rave/base/file.hpp"
 
 namespace rave::gui_server {
@@ -37,11 +38,10 @@ void AuditLog::note(std::string_view what, Fields fields) {
   const std::lock_guard lock(mutex_);
   if (is_too_many(what, fields)) return;
   turn_over();
-  const int file =
-      ::open((folder_ / kFile).c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+  const Descriptor file(
+      ::open((folder_ / kFile).c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
   const bool written =
-      file >= 0 && ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  if (file >= 0) ::close(file);
+      file && ::write(file.get(), text.data(), text.size()) == static_cast<ssize_t>(text.size());
   ++(written ? written_ : lost_);
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "rave/base/descriptor.hpp"
 #include "rave/bus/run_id.hpp"
 #include "rave/bus/topics.hpp"
 
@@ -41,14 +42,11 @@ class LocalSocket {
  public:
   /// Empty if the system refuses, or if the address is in use.
   [[nodiscard]] static std::optional<LocalSocket> open(const LocalAddress& address);
-  LocalSocket(LocalSocket&& other) noexcept;
-  LocalSocket& operator=(LocalSocket&&) = delete;
-  ~LocalSocket();
-  [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
+  [[nodiscard]] int descriptor() const noexcept { return descriptor_.get(); }
 
  private:
   explicit LocalSocket(int descriptor) : descriptor_(descriptor) {}
-  int descriptor_;
+  Descriptor descriptor_;
 };
 
 /// Decodes datagrams into samples. Reuses the memory of the sample.

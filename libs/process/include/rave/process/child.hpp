@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "rave/base/descriptor.hpp"
 #include "rave/base/result.hpp"
-#include "rave/process/descriptor.hpp"
 
 namespace rave::process {
 

@@ -263,7 +263,7 @@ class Source {
   [[nodiscard]] virtual std::unique_ptr<Playhead> open_playhead() = 0;
 
   // A run in progress.
-  /// Descriptor of the process::Bell that rings when tick() would show a newer state; negative:
+  /// Descriptor of the Bell that rings when tick() would show a newer state; negative:
   /// none rings.
   [[nodiscard]] virtual int bell() const noexcept { return -1; }
   /// Called when the bell rings, and at least 25 times a second, before the pages are served.

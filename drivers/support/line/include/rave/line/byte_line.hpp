@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "rave/base/descriptor.hpp"
 #include "rave/line/address.hpp"
 #include "rave/line/host_clock.hpp"
 #include "rave/line/wake.hpp"
@@ -35,12 +36,6 @@ class ByteLine {
   /// kTimeout, kState (woken).
   [[nodiscard]] static Result<ByteLine> open(const Address& address, Wait limit, const Wake* wake);
 
-  ByteLine(ByteLine&& other) noexcept;
-  ByteLine& operator=(ByteLine&& other) noexcept;
-  ByteLine(const ByteLine&) = delete;
-  ByteLine& operator=(const ByteLine&) = delete;
-  ~ByteLine();
-
   /// Reads available bytes; waits at most `limit` for the first.
   [[nodiscard]] ReadResult read(std::span<char> room, Wait limit, const Wake* wake) noexcept;
   /// Sends all bytes. Errors: kIo (lost), kTimeout (the device does not accept them), kState
@@ -53,7 +48,7 @@ class ByteLine {
   explicit ByteLine(int fd) : fd_(fd) {}
   ReadResult lose(std::string why) noexcept;
 
-  int fd_ = -1;
+  Descriptor fd_;
   std::string lost_;
 };
 

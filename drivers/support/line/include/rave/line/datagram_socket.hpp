@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rave/base/descriptor.hpp"
 #include "rave/line/byte_line.hpp"
 
 namespace rave::line {
@@ -37,12 +38,6 @@ class DatagramSocket {
   /// `port`. Errors: kInvalidArgument, kIo.
   [[nodiscard]] static Result<DatagramSocket> open(const std::string& host, std::uint16_t port,
                                                    const Peer* group);
-  DatagramSocket(DatagramSocket&& other) noexcept;
-  DatagramSocket& operator=(DatagramSocket&& other) noexcept;
-  DatagramSocket(const DatagramSocket&) = delete;
-  DatagramSocket& operator=(const DatagramSocket&) = delete;
-  ~DatagramSocket();
-
   /// Receives the next datagram, truncated to the buffer; results as in ByteLine::read().
   [[nodiscard]] ReadResult receive(std::span<std::byte> room, Wait limit,
                                    const Wake& wake) const noexcept;
@@ -54,7 +49,7 @@ class DatagramSocket {
  private:
   explicit DatagramSocket(int fd) : fd_(fd) {}
 
-  int fd_;
+  Descriptor fd_;
   std::uint16_t port_ = 0;
 };
 

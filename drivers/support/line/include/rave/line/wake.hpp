@@ -4,6 +4,7 @@
 #include <chrono>
 #include <thread>
 
+#include "rave/base/descriptor.hpp"
 #include "rave/base/result.hpp"
 
 namespace rave::line {
@@ -15,7 +16,7 @@ class Wake {
   Wake() = default;
   Wake(const Wake&) = delete;
   Wake& operator=(const Wake&) = delete;
-  ~Wake();
+  ~Wake() = default;
 
   /// Call it first. Error: kIo.
   [[nodiscard]] Status open();
@@ -26,10 +27,10 @@ class Wake {
   /// Waits for the bell; false: it did not ring within `limit`.
   [[nodiscard]] bool wait(std::chrono::milliseconds limit) const noexcept;
   /// Descriptor for poll(); readable after ring() until clear().
-  [[nodiscard]] int fd() const noexcept { return fd_; }
+  [[nodiscard]] int fd() const noexcept { return event_.get(); }
 
  private:
-  int fd_ = -1;
+  Descriptor event_;
 };
 
 }  // namespace rave::line

@@ -3,9 +3,9 @@
 
 #include <sys/eventfd.h>
 
-#include "rave/process/descriptor.hpp"
+#include "rave/base/descriptor.hpp"
 
-namespace rave::process {
+namespace rave {
 
 /// Wakes a thread that waits for descriptors. If the system has no descriptor left, it is silent.
 class Bell {
@@ -20,4 +20,4 @@ class Bell {
   Descriptor file_;
 };
 
-}  // namespace rave::process
+}  // namespace rave

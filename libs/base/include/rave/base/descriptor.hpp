@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace rave::process {
+namespace rave {
 
 /// Owns a file descriptor; negative: none.
 class Descriptor {
@@ -20,6 +20,8 @@ class Descriptor {
 
   [[nodiscard]] int get() const noexcept { return file_; }
   [[nodiscard]] explicit operator bool() const noexcept { return file_ >= 0; }
+  /// The caller closes it from now on.
+  [[nodiscard]] int release() noexcept { return std::exchange(file_, -1); }
   /// Closes the descriptor now.
   void reset() noexcept {
     if (file_ >= 0) ::close(file_);
@@ -30,4 +32,4 @@ class Descriptor {
   int file_;
 };
 
-}  // namespace rave::process
+}  // namespace rave

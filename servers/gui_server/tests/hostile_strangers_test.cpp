@@ -162,6 +162,8 @@ TEST_F(Hostile, MetricsNameNobody) {
 }
 
 TEST_F(Hostile, ListeningElsewhereNeedsTlsAndAccounts) {
+  // A run is shown by one server at a time.
+  server_.reset();
   const auto error = [this](const GuiOptions& options) {
     const auto started = GuiServer::start(options, run_);
     return started ? "none" : started.error().message;

@@ -73,7 +73,7 @@ TEST(CreateUnplug, ARobotThatWasRestartedIsStartedAnew) {
   bench.await_standstill();
   const OdometryReading before = bench.poses->samples().back().records.front();
   bench.peer->tell("reboot");  // off, and its counters begin at zero
-  bench.await_report([](const nlohmann::json& r) { return r["connects"] == 2; });
+  bench.await_report([](const nlohmann::json& r) { return r["connects"] >= 2; });
   bench.keep_driving(0.2, 0);
   bench.poses->await_record([&](const OdometryReading& r) { return r.x_m > before.x_m + 0.1; });
   EXPECT_EQ(bench.odometry.report()["restarts"], 1);

@@ -110,8 +110,10 @@ TEST_F(FoxgloveRun, ShowsRobotsAndObstaclesWhereTheyAre) {
   // The clock of the run is that of the client.
   const std::uint64_t before = client.time_ns;
   ASSERT_TRUE(client.subscribe("/poses", 4));
-  const Json poses = client.data(4);
-  EXPECT_GT(client.time_ns, before);
+  Json poses = client.data(4);
+  // The first may be of the moment that is known already.
+  while (poses.is_object() && client.time_ns <= before) poses = client.data(4);
+  ASSERT_TRUE(poses.is_object());
   EXPECT_EQ(poses.at("robots")[0].at("name"), "bert");
   EXPECT_NEAR(poses.at("robots")[0].at("y_m").get<double>(), 0.5, 1e-3);
   // An obstacle that is added comes, and goes again.

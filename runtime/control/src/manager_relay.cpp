@@ -28,50 +28,55 @@ Result<Answer> ask_manager(const bus::BusConfig& config, std::unique_ptr<BusRun>
 
 }  // namespace
 
-ManagerRelay::~ManagerRelay() {
-  thread_.request_stop();
-  if (thread_.joinable()) thread_.join();
+ManagerRelay::Lane::~Lane() {
+  thread.request_stop();
+  if (thread.joinable()) thread.join();
 }
 
 std::future<Result<Answer>> ManagerRelay::post(Request request) {
+  using Kind = runtime::RunRequest::Kind;
   request.relay = false;
-  const std::lock_guard lock(mutex_);
+  const Kind kind = request.run.kind;
+  const bool hold = kind == Kind::kStop || kind == Kind::kRelease || kind == Kind::kArm;
+  Lane& lane = hold ? holds_ : others_;
+  const std::lock_guard lock(lane.mutex);
   auto& [asked, promise] =
-      waiting_.emplace_back(std::move(request), std::promise<Result<Answer>>());
+      lane.waiting.emplace_back(std::move(request), std::promise<Result<Answer>>());
   auto answer = promise.get_future();
-  if (!thread_.joinable()) {
-    Status started = start_thread(thread_, "requests to the manager",
-                                  [this](const std::stop_token& stop) { work(stop); });
+  if (!lane.thread.joinable()) {
+    Status started = start_thread(lane.thread, "requests to the manager",
+                                  [this, &lane](const std::stop_token& stop) { work(lane, stop); });
     if (!started) {
       promise.set_value(tl::unexpected(std::move(started).error()));
-      waiting_.pop_back();
+      lane.waiting.pop_back();
     }
   }
-  changed_.notify_all();
+  lane.changed.notify_all();
   return answer;
 }
 
-void ManagerRelay::work(const std::stop_token& stop) {
+void ManagerRelay::work(Lane& lane, const std::stop_token& stop) const {
   bus::BusConfig config = config_;
   config.side = bus::Side::kManager;
   config.beside = true;
   std::unique_ptr<BusRun> bus;
   for (;;) {
-    std::unique_lock lock(mutex_);
-    const bool asked = changed_.wait_for(lock, stop, kLook, [this] { return !waiting_.empty(); });
+    std::unique_lock lock(lane.mutex);
+    const bool asked =
+        lane.changed.wait_for(lock, stop, kLook, [&lane] { return !lane.waiting.empty(); });
     if (stop.stop_requested()) break;
     if (!asked) {
       lock.unlock();
       if (bus) static_cast<void>(bus->all(Duration{}));
       continue;
     }
-    auto [request, promise] = std::move(waiting_.front());
-    waiting_.pop_front();
+    auto [request, promise] = std::move(lane.waiting.front());
+    lane.waiting.pop_front();
     lock.unlock();
     promise.set_value(ask_manager(config, bus, request));
   }
-  const std::lock_guard lock(mutex_);
-  for (auto& [request, promise] : waiting_) {
+  const std::lock_guard lock(lane.mutex);
+  for (auto& [request, promise] : lane.waiting) {
     promise.set_value(fail(ErrorCode::kState, "the host has ended"));
   }
 }

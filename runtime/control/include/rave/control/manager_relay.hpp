@@ -16,14 +16,15 @@ namespace rave::control {
 
 /// Forwards requests of a host to the Environment Manager of its run, for a GUI Server, which
 /// exchanges no messages with the manager. Joins the bus with the first request, in a thread of its
-/// own.
+/// own; stops, releases and armings have another, so that nothing delays them or uses up the number
+/// of requests that the manager accepts from one sender.
 class ManagerRelay {
  public:
   /// `host`: the bus of the host, as it joins it.
   explicit ManagerRelay(bus::BusConfig host) : config_(std::move(host)) {}
   ManagerRelay(const ManagerRelay&) = delete;
   ManagerRelay& operator=(const ManagerRelay&) = delete;
-  ~ManagerRelay();
+  ~ManagerRelay() = default;
 
   /// Forwards a request. Any thread; does not wait. Errors of the future: kNotFound (no manager),
   /// those of BusRun::open() and BusRun::ask().
@@ -32,13 +33,20 @@ class ManagerRelay {
  private:
   using Waiting = std::pair<Request, std::promise<Result<Answer>>>;
 
-  void work(const std::stop_token& stop);
+  /// One after the other, in the order in which they came.
+  struct Lane {
+    ~Lane();
+    std::mutex mutex{};
+    std::condition_variable_any changed{};
+    std::deque<Waiting> waiting{};
+    std::jthread thread{};
+  };
+
+  void work(Lane& lane, const std::stop_token& stop) const;
 
   bus::BusConfig config_;
-  std::mutex mutex_;
-  std::condition_variable_any changed_;
-  std::deque<Waiting> waiting_;
-  std::jthread thread_;
+  Lane holds_;
+  Lane others_;
 };
 
 }  // namespace rave::control

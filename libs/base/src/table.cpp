@@ -303,8 +303,8 @@ class SpacedTable {
 
 std::string toned(std::string text, Tone tone, bool ansi) {
   if (!ansi || tone == Tone::kPlain || text.empty()) return text;
-  constexpr std::string_view kCodes[] = {"", "2", "32", "33", "1;31"};
-  return fmt::format("\033[{}m{}{}", kCodes[static_cast<std::size_t>(tone)], text, kPlain);
+  constexpr std::string_view kToneCodes[] = {"", "2", "32", "33", "1;31"};
+  return fmt::format("\033[{}m{}{}", kToneCodes[static_cast<std::size_t>(tone)], text, kPlain);
 }
 
 std::vector<std::string> table_lines(const Table& table, const TableOptions& options) {

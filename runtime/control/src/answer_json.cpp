@@ -167,7 +167,8 @@ class Reader {
   }
   template <class T>
   static bool read(const Json& json, std::optional<T>& value) {
-    return read(json, value.emplace());
+    value = T{};
+    return read(json, *value);
   }
   template <class T>
   static bool read(const Json& json, std::vector<T>& list) {

@@ -79,7 +79,8 @@ void LiveSource::command(const CommandMessage& command, const Author& author,
                         reply(slot, good, std::move(text));
                       }});
   };
-  if (command.of_obstacle()) return post(request_of(command, author), kNoSlot);
+  const RunRequest& order = command;
+  if (command.of_obstacle()) return post(request_of(order, author), kNoSlot);
   // Robots that are driven by way of a server would stop with it.
   using Kind = CommandMessage::Kind;
   // Placing takes a lease, which a page that goes leaves by the same way.
@@ -91,7 +92,7 @@ void LiveSource::command(const CommandMessage& command, const Author& author,
     for (const std::uint32_t slot : command.slots) reply(slot, false, kNoRelay);
     return;
   }
-  RunRequest all = request_of(command, author);
+  RunRequest all = request_of(order, author);
   const bool shared = command.kind == Kind::kPath || command.points.size() <= 1;
   if (!shared) all.points.clear();
   for (std::size_t i = 0; i < command.slots.size(); ++i) {

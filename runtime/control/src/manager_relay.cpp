@@ -34,10 +34,11 @@ ManagerRelay::Lane::~Lane() {
 }
 
 std::future<Result<Answer>> ManagerRelay::post(Request request) {
-  using Kind = runtime::RunRequest::Kind;
+  using RequestKind = runtime::RunRequest::Kind;
   request.relay = false;
-  const Kind kind = request.run.kind;
-  const bool hold = kind == Kind::kStop || kind == Kind::kRelease || kind == Kind::kArm;
+  const RequestKind kind = request.run.kind;
+  const bool hold =
+      kind == RequestKind::kStop || kind == RequestKind::kRelease || kind == RequestKind::kArm;
   Lane& lane = hold ? holds_ : others_;
   const std::lock_guard lock(lane.mutex);
   auto& [asked, promise] =

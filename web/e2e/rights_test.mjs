@@ -130,8 +130,9 @@ try {
     const took_ms = [await press('robots of own teams', [1, 1]), await press('all robots', [0, 0])];
     const gone_ms = Date.now();
     await until(olga.page, `${app}.model.robots.every(({sensors}) => sensors.length === 0)`);
-    // What was on its way came before the roster.
-    await new Promise((resolve) => setTimeout(resolve, 1500));
+    // What was on its way came before the roster. The server sends the time once a second.
+    const times = () => olga.wire.messages.filter(({type, at_ms}) => type === 'time' && at_ms > gone_ms).length;
+    await olga.wire.until(() => times() >= 2, 'the time, twice');
     assert.equal(olga.wire.readingsAt_ms.filter((at_ms) => at_ms > gone_ms).length, 0);
     await olga.page.locator('rave-sensors').getByText(/sensors and their readings/i).first().waitFor();
     await olga.page.screenshot({path: join(folder, 'without.png')});
@@ -153,7 +154,9 @@ try {
       globalThis.losses = 0;
       link.changed.on(() => (globalThis.losses += link.state === 'open' ? 0 : 1));
     });
-    await olga.page.waitForTimeout(5000);
+    const since_ms = Date.now();
+    // For longer than a silent link is kept.
+    await olga.wire.until(() => olga.wire.messages.filter(({type, at_ms}) => type === 'time' && at_ms > since_ms).length >= 5, 'the time');
     assert.equal(await olga.page.evaluate('globalThis.losses'), 0);
   });
 } finally {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A WebSocket without a page: what the server sends to a person, and takes from them, whatever a page would show or send.
+import {once} from 'node:events';
 import WebSocket from 'ws';
 
 const kPoses = 1;
@@ -46,11 +47,13 @@ export class Wire {
   }
 
   async until(holds, what) {
-    const end = Date.now() + kLimit_ms;
+    const limit = AbortSignal.timeout(kLimit_ms);
     for (let found = holds(); ; found = holds()) {
       if (found) return found;
-      if (Date.now() > end) throw new Error(`never on the wire: ${what}`);
-      await new Promise((resolve) => setTimeout(resolve, 10));
+      // What is waited for comes with a message, if it comes; the socket has taken it by then.
+      await once(this.socket, 'message', {signal: limit}).catch(() => {
+        throw new Error(`never on the wire: ${what}`);
+      });
     }
   }
 

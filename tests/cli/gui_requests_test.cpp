@@ -3,13 +3,18 @@
 // asked, and what waits for what.
 #include <dds/dds.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <sstream>
 
 #include "onlooker.hpp"
 #include "shared_world.hpp"
@@ -23,6 +28,9 @@ using Words = std::vector<std::string>;
 
 constexpr const char* kManager = "environment manager";
 constexpr const char* kServer = "GUI Server";
+
+/// Pose of a robot or an obstacle: x in m, y in m, heading in rad.
+using Pose = std::array<double, 3>;
 
 /// The partitions of a reader or writer.
 std::set<std::string> partitions_of(const dds_qos_t* qos) {
@@ -116,6 +124,11 @@ class GuiRequests : public SharedWorld {
     ::kill(gui_, SIGKILL);
     static_cast<void>(wait_for(gui_));
   }
+  /// Asks the manager, from its machine, until it takes the request.
+  void give(const Words& words) {
+    const Words variables = {"XDG_RUNTIME_DIR=" + folder_.path().string()};
+    wait_until([&] { return run_rave(words, variables).exit_code == 0; }, "a run that takes it");
+  }
   /// A page that sees the run in progress.
   [[nodiscard]] RawSocket page() const {
     RawSocket page = person_->page();
@@ -123,6 +136,33 @@ class GuiRequests : public SharedWorld {
       const std::string time = page.text_with(R"("type":"time")");
       if (time.empty() || time.find(R"("state":"running")") != std::string::npos) return page;
     }
+  }
+
+  /// What the manager says of the obstacles.
+  [[nodiscard]] std::map<std::string, Pose> managed_obstacles() const {
+    std::map<std::string, Pose> all;
+    const Ended list = run_rave({"edit", "list"}, {"XDG_RUNTIME_DIR=" + folder_.path().string()});
+    std::istringstream lines(list.out);
+    std::string line;
+    std::getline(lines, line);  // How many there are.
+    while (std::getline(lines, line)) {
+      std::array<char, 64> name{};
+      Pose pose{};
+      EXPECT_EQ(std::sscanf(line.c_str(), " %*u %63s %*s (%lf, %lf) m, %lf deg", name.data(),
+                            &pose[0], &pose[1], &pose[2]),
+                4)
+          << line;
+      pose[2] *= M_PI / 180;
+      all[name.data()] = pose;
+    }
+    return all;
+  }
+  /// What the GUI Server tells somebody who comes now.
+  [[nodiscard]] std::map<std::string, Pose> shown_obstacles() const {
+    std::map<std::string, Pose> all;
+    const auto scene = nlohmann::json::parse(person_->page().text_with(R"("type":"scene")"));
+    for (const auto& body : scene["bodies"]) all[body["name"]] = body["pose"].get<Pose>();
+    return all;
   }
 
   const bus::RunId run_ = bus::RunId::random();
@@ -205,6 +245,138 @@ TEST_F(GuiRequests, ManagerAndGuiServerHaveNoTopicInCommon) {
     const std::set<std::string> expected = {"rave/" + run_.text() +
                                             (end.process == kManager ? "" : "/hosts")};
     EXPECT_EQ(end.partitions, expected) << end.process << " " << end.topic;
+  }
+}
+
+/// A frame of poses of a page, as docs/reference/gui-frames.md has it.
+struct PoseFrame {
+  std::uint32_t sequence = 0;
+  std::uint32_t step = 0;
+  double quantum_m = 0;
+  std::vector<Pose> poses;
+};
+
+/// Empty: some other frame.
+std::optional<PoseFrame> pose_frame(const RawSocket::Frame& frame) {
+  constexpr std::size_t kHead = 48;
+  constexpr std::size_t kBytesPerRobot = 14;
+  constexpr unsigned kPast = 1;
+  const std::string& bytes = frame.payload;
+  if (frame.opcode != 2 || bytes.size() < kHead || bytes[0] != 1) return std::nullopt;
+  if ((static_cast<unsigned char>(bytes[1]) & kPast) != 0) return std::nullopt;
+  const auto at = [&bytes]<class T>(std::size_t offset, T value) {
+    std::memcpy(&value, bytes.data() + offset, sizeof value);
+    return value;
+  };
+  const std::size_t n = at(20, std::uint32_t{});
+  if (bytes.size() != kHead + kBytesPerRobot * n) return std::nullopt;
+  PoseFrame read{at(4, std::uint32_t{}), at(16, std::uint32_t{}), at(40, float{}),
+                 std::vector<Pose>(n)};
+  for (std::size_t i = 0; i < n; ++i) {
+    read.poses[i] = {at(24, double{}) + read.quantum_m * at(kHead + 4 * i, std::int32_t{}),
+                     at(32, double{}) + read.quantum_m * at(kHead + 4 * (n + i), std::int32_t{}),
+                     2 * M_PI * at(kHead + 8 * n + 2 * i, std::uint16_t{}) / 65'536};
+  }
+  return read;
+}
+
+void expect_same(const PoseFrame& shown, const std::vector<Pose>& managed) {
+  ASSERT_EQ(shown.poses.size(), managed.size());
+  for (std::size_t r = 0; r < managed.size(); ++r) {
+    EXPECT_NEAR(shown.poses[r][0], managed[r][0], shown.quantum_m) << r;
+    EXPECT_NEAR(shown.poses[r][1], managed[r][1], shown.quantum_m) << r;
+    EXPECT_LT(std::abs(std::remainder(shown.poses[r][2] - managed[r][2], 2 * M_PI)), 1e-4) << r;
+  }
+}
+
+/// How many robots moved further than a frame can be wrong.
+std::size_t moved(const std::vector<Pose>& before, const std::vector<Pose>& after) {
+  std::size_t count = 0;
+  for (std::size_t r = 0; r < after.size(); ++r) {
+    if (std::hypot(after[r][0] - before[r][0], after[r][1] - before[r][1]) > 1e-3) ++count;
+  }
+  return count;
+}
+
+TEST_F(GuiRequests, ManagerAndGuiServerReportTheSameRobotsAtTheSameStep) {
+  auto bus = join_as_onlooker(run_, apart());
+  ASSERT_TRUE(bus) << bus.error().text();
+  auto worlds = bus::Reader<bus::WorldStep>::create(**bus);
+  ASSERT_TRUE(worlds) << worlds.error().text();
+  start_all("crowd.yaml");
+  RawSocket page = this->page();
+  page.send(
+      R"({"type":"look","poses":true,"true_poses":false,"readings":[],"parts":false,"max_hz":30})");
+  // Reads what the page is sent until it holds; the newest poses.
+  PoseFrame shown;
+  const auto read_until = [&](const auto& holds) {
+    while (true) {
+      const auto frame = page.next();
+      if (!frame) return false;  // The connection ended.
+      if (const auto poses = pose_frame(*frame)) {
+        shown = *poses;
+        // Without an answer the server stops after two frames.
+        page.send(fmt::format(R"({{"type":"ack","sequence":{}}})", shown.sequence));
+      }
+      if (holds(frame->payload)) return true;
+    }
+  };
+  std::vector<Pose> before;
+  for (std::uint32_t i = 1; i <= 3; ++i) {
+    ASSERT_TRUE(read_until([&](const std::string&) { return shown.step > 100 * i; }));
+    give({"pause"});
+    // The server tells the time of a run that stands once a second, behind the last frame.
+    int told = 0;
+    ASSERT_TRUE(read_until([&told](const std::string& text) {
+      return text.find(R"("reason":"paused")") != std::string::npos && ++told == 2;
+    }));
+    std::vector<Pose> managed;
+    std::uint64_t step = 0;
+    worlds->take([&](const bus::WorldStep& world) {
+      if (world.step < step) return;
+      step = world.step;
+      managed.resize(world.x_m._length);
+      for (std::size_t r = 0; r < managed.size(); ++r) {
+        managed[r] = {world.x_m._buffer[r], world.y_m._buffer[r], world.yaw_rad._buffer[r]};
+      }
+    });
+    // Hosts tell the number of their next step.
+    EXPECT_EQ(shown.step, step + 1);
+    ASSERT_EQ(managed.size(), 30U);
+    expect_same(shown, managed);
+    if (i > 1) {
+      EXPECT_GT(moved(before, managed), managed.size() / 2);
+    }
+    before = managed;
+    give({"resume"});
+  }
+}
+
+TEST_F(GuiRequests, ManagerAndGuiServerReportTheSameObstacles) {
+  start_all("crowd.yaml");
+  RawSocket page = this->page();
+  page.send(R"({"type":"edit","request":1,"do":"add","name":"crate","pose":[6,6,0],"disc":0.2})");
+  page.send(R"({"type":"edit","request":2,"do":"add","name":"log","pose":[7,6,1],"disc":0.3})");
+  page.send(R"({"type":"edit","request":3,"do":"move","name":"crate","pose":[5,6.5,0.5]})");
+  page.send(R"({"type":"edit","request":4,"do":"remove","name":"log"})");
+  const std::string removed = page.text_with(R"("request":4)");
+  EXPECT_NE(removed.find(R"("good":true)"), std::string::npos) << removed;
+  // Both say so some steps later; then they say the same.
+  std::map<std::string, Pose> shown;
+  std::map<std::string, Pose> managed;
+  wait_until(
+      [&] {
+        shown = shown_obstacles();
+        managed = managed_obstacles();
+        return shown.size() == 2 && managed.size() == 2 && shown.contains("crate") &&
+               managed.contains("crate") && shown["crate"][0] == 5 && managed["crate"][0] == 5;
+      },
+      "an obstacle that was added, moved and stays");
+  for (const auto& [name, pose] : shown) {
+    ASSERT_TRUE(managed.contains(name)) << name;
+    EXPECT_NEAR(pose[0], managed[name][0], 1e-3) << name;
+    EXPECT_NEAR(pose[1], managed[name][1], 1e-3) << name;
+    EXPECT_NEAR(pose[2], managed[name][2], 1e-3) << name;  // Listed with 0.1 degrees.
   }
 }
 

@@ -50,18 +50,22 @@ step_kills() {
     RAVE_OVERLOAD_ROUNDS="${RAVE_OVERLOAD_ROUNDS:-3}" step_ctest release -L '^kills$'
 }
 
+# Programs are several times slower here, and what a kill shows does not depend on the preset: these
+# steps kill at two moments per test.
+sanitized_kill_rounds=2
+
 # Assertions are on here, and the hash of a run does not depend on optimisation.
 # Checks of the source do not depend on the preset: release has run them.
 step_asan_ubsan() {
   step_build asan-ubsan || return 0
   ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1 \
-    UBSAN_OPTIONS=print_stacktrace=1 step_ctest asan-ubsan -LE '^(lint|headers|docs|no_asan)$'
+    UBSAN_OPTIONS=print_stacktrace=1 RAVE_KILL_ROUNDS="$sanitized_kill_rounds" step_ctest asan-ubsan -LE '^(lint|headers|docs|no_asan)$'
 }
 
 step_tsan() {
   step_build tsan || return 0
   TSAN_OPTIONS="second_deadlock_stack=1:halt_on_error=1:suppressions=$root/tools/tsan.supp" \
-    step_tsan_ctest -LE '^(lint|headers|docs|no_tsan)$'
+    RAVE_KILL_ROUNDS="$sanitized_kill_rounds" step_tsan_ctest -LE '^(lint|headers|docs|no_tsan)$'
 }
 
 # A kernel that places memory at very random addresses stops gcc's thread sanitizer.

@@ -24,8 +24,7 @@ void append(std::string& list, const std::string& text) {
 }  // namespace
 
 void OrderPost::give(Line line, std::vector<runtime::RunRequest> requests, Answer answer) {
-  using Kind = runtime::RunRequest::Kind;
-  const bool stop = !requests.empty() && requests.front().kind == Kind::kStop;
+  const bool stop = !requests.empty() && requests.front().kind == runtime::RunRequest::Kind::kStop;
   const auto own = std::ranges::count(waiting_, line, &Waiting::line);
   // A stop is never refused for lack of room.
   if (!stop && static_cast<std::size_t>(own) >= kMostWaiting) {

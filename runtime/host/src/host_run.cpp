@@ -111,6 +111,7 @@ void SteppedExchange::serve() {
 Result<HostPort::Answer> SteppedExchange::exchange() {
   const auto meanwhile = [this] {
     look_on_while_held(run_);
+    port_.show_rest(run_.engine, host_.part.robots);
     serve();
     post_.put_off(port_.waits_for(), report_.step, InputPost::Clock::now());
     tell_roster(port_.roster(), run_.engine, run_.observers, run_.console);

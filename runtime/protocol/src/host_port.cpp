@@ -160,8 +160,15 @@ Result<HostPort::Answer> HostPort::exchange(const sim::HostReport& report, std::
 void HostPort::show(const sim::Engine& engine, std::span<const RobotId> robots) {
   Impl& port = *impl_;
   port.reports_out.note_contacts(engine);
+  port.show_due = true;
+  show_rest(engine, robots);
+}
+
+void HostPort::show_rest(const sim::Engine& engine, std::span<const RobotId> robots) {
+  Impl& port = *impl_;
   const auto now = Clock::now();
-  if (now < port.next_show) return;
+  if (!port.show_due || now < port.next_show) return;
+  port.show_due = false;
   port.next_show = now + kShowInterval;
   if (port.states.readers() > 0) port.publish(engine, robots, true, Duration{});
 }

@@ -39,6 +39,7 @@ struct HostPort::Impl final : HostConnection {
   std::set<std::uint64_t> gone{};  ///< Processes that were lost and have not come back.
   bool overslept = false;          ///< The manager was lost after this process had been suspended.
   Clock::time_point next_show{};
+  bool show_due = false;  ///< The states of the last step were not published.
 
   Impl(Identity identity, LogSink* sink, Patience its)
       : HostConnection(std::move(identity), sink, true), patience(its) {}

@@ -125,7 +125,7 @@ Status SharedResults::Impl::add(const SharedHost& host, std::string bytes,
 
 void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::size_t>& robots,
                                RunResults& results) {
-  HostShare share{host, {}, false};
+  HostShare share{static_cast<const HostState&>(host), {}, false};
   std::vector<std::string> added;
   for (const auto& folder : host.folders) {
     share.folders.push_back(folder.lexically_proximate(options.folder).generic_string());

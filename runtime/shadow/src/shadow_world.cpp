@@ -74,7 +74,7 @@ CommandKind kind_for(const sim::RobotType& type, std::uint32_t actuator) {
 }
 
 /// Removes everything that decides from the twin: its commands are decided already.
-void obey(std::shared_ptr<const Orders> orders, sim::RobotType& type) {
+void obey(const std::shared_ptr<const Orders>& orders, sim::RobotType& type) {
   std::vector<sim::ControllerSpec> controllers;
   for (std::uint32_t a = 0; a < type.actuators.size(); ++a) {
     sim::ControllerSpec& controller = controllers.emplace_back();

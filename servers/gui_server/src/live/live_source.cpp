@@ -126,6 +126,8 @@ LiveSource::LiveSource(Start start, std::shared_ptr<LiveBox> box, std::unique_pt
       component_watch_(start_.scenario),
       maps_(start_.robots_json, joined(start_.bodies)) {
   write_bodies();
+  // A frame has all robots of the roster, also before the first state has come.
+  poses_.robots.resize(start_.robots.size());
   state_.duration_s = start_.about.duration_s;
   for (std::uint32_t slot = 0; slot < start_.robots.size(); ++slot) {
     slots_.emplace(start_.robots[slot], slot);

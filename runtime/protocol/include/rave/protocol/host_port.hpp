@@ -80,6 +80,9 @@ class HostPort {
   /// Publishes the states of this host's robots for monitors: at most 30 times a second, and only
   /// while a process reads it. No process of the run does.
   void show(const sim::Engine& engine, std::span<const RobotId> robots);
+  /// While the next step is waited for: publishes the states of the last step if show() left them
+  /// out. So monitors of a paused run see where its robots stand.
+  void show_rest(const sim::Engine& engine, std::span<const RobotId> robots);
   /// The state of the run for monitors; not published before its scenario was set.
   [[nodiscard]] HostWord& word() noexcept;
   /// The bus, for objects of this thread that end before it.

@@ -2,7 +2,7 @@
 // Runs of several processes on the page: node hosts_test.mjs RAVE SCENARIO FOLDER
 import assert from 'node:assert/strict';
 import {execFileSync, spawn} from 'node:child_process';
-import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {cpSync, mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {knowsHosts, launch, startServer} from './browser.mjs';
 import {app, check, report, until} from './checks.mjs';
@@ -122,7 +122,8 @@ try {
     const other = await context.newPage();
     await other.goto(gui.link);
     await until(other, `${app}?.model?.time?.state === 'waiting'`);
-    for (const words of [['env'], ['robot', '--host', 'host-1'], ['robot', '--host', 'host-2']]) {
+    // Unpaced it would be over before the server has found all of its processes.
+    for (const words of [['env', '--pace', '4x'], ['robot', '--host', 'host-1'], ['robot', '--host', 'host-2']]) {
       const [command, ...more] = words;
       children.push(spawn(rave, [command, scenario, ...more, ...shared, '--output', join(folder, words.join('-'))], {stdio: 'ignore'}));
     }
@@ -166,6 +167,23 @@ try {
     await until(third, `${app}.model.drives.get(7)?.values?.['${key}'] === ${set}`, 10000);
     assert.deepEqual(children.slice(1).map((child) => child.exitCode), [null, null, null]);
     await again.end();
+  });
+
+  await check('a recording without the part of a host: its replay does not call itself whole', async () => {
+    // Of the run of the first check.
+    const torn = join(folder, 'torn');
+    cpSync(join(folder, 'run'), torn, {recursive: true});
+    rmSync(join(torn, 'run.mcap'), {force: true});
+    rmSync(join(torn, 'hosts', 'host-2'), {recursive: true});
+    const player = await startServer(rave, ['gui', torn]);
+    servers.push(player);
+    const last = await context.newPage();
+    await last.goto(player.link);
+    await until(last, `${app}?.model?.hello?.run.source === 'replay'`);
+    const {hash, recording} = await last.evaluate(`${app}.model.hello.run`);
+    assert.deepEqual([hash, recording.whole], [null, false]);
+    await last.getByText(', incomplete').waitFor();
+    await player.end();
   });
 
   await check('beside a run that ends: its recordings turn into the replay, wherever its processes left them', async () => {

@@ -100,13 +100,13 @@ Status Recording::read(const std::filesystem::path& file) {
   about_.components = components_left(scenario.scenario.gui);
   about_.recording = file;
   about_.recording_bytes = reader_.file_size();
-  about_.recording_whole = reader_.whole();
   about_.begin_s = static_cast<double>(reader_.statistics().start_ns) * 1e-9;
   about_.end_s = static_cast<double>(reader_.statistics().end_ns) * 1e-9;
   // What was planned does not matter for a replay: its timeline ends where the recording ends.
   about_.duration_s = about_.end_s;
   // Missing in a recording that broke off, which can be shown all the same.
   if (const auto end = record::read_run_end(reader_)) {
+    about_.recording_whole = reader_.whole();
     about_.lock_step = end->hash.has_value();
     if (end->hash) about_.hash = fmt::format("{:016x}", *end->hash);
   }

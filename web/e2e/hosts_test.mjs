@@ -122,8 +122,7 @@ try {
     const other = await context.newPage();
     await other.goto(gui.link);
     await until(other, `${app}?.model?.time?.state === 'waiting'`);
-    // Unpaced it would be over before the server has found all of its processes.
-    for (const words of [['env', '--pace', '4x'], ['robot', '--host', 'host-1'], ['robot', '--host', 'host-2']]) {
+    for (const words of [['env'], ['robot', '--host', 'host-1'], ['robot', '--host', 'host-2']]) {
       const [command, ...more] = words;
       children.push(spawn(rave, [command, scenario, ...more, ...shared, '--output', join(folder, words.join('-'))], {stdio: 'ignore'}));
     }
@@ -193,7 +192,8 @@ try {
     const last = await context.newPage();
     await last.goto(beside.link);
     await until(last, `${app}?.model?.time?.state === 'waiting'`);
-    for (const words of [['env'], ['robot', '--host', 'host-1'], ['robot', '--host', 'host-2']]) {
+    // Unpaced it would be over before the server has found all of its processes.
+    for (const words of [['env', '--pace', '4x'], ['robot', '--host', 'host-1'], ['robot', '--host', 'host-2']]) {
       const [command, ...more] = words;
       children.push(spawn(rave, [command, scenario, ...more, '--processes', '2', '--quiet', '--no-picture', '--duration', '8', ...name, '--output', join(folder, `ends-${words.join('-')}`)], {stdio: 'ignore'}));
     }

@@ -50,8 +50,8 @@ step_kills() {
     RAVE_OVERLOAD_ROUNDS="${RAVE_OVERLOAD_ROUNDS:-3}" step_ctest release -L '^kills$'
 }
 
-# Programs are several times slower here, and what a kill shows does not depend on the preset: these
-# steps kill at two moments per test.
+# Moments of a kill per test under sanitizers, where each takes several times as long. The release
+# preset has more of them (step_kills).
 sanitized_kill_rounds=2
 
 # Assertions are on here, and the hash of a run does not depend on optimisation.
@@ -59,7 +59,8 @@ sanitized_kill_rounds=2
 step_asan_ubsan() {
   step_build asan-ubsan || return 0
   ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1 \
-    UBSAN_OPTIONS=print_stacktrace=1 RAVE_KILL_ROUNDS="$sanitized_kill_rounds" step_ctest asan-ubsan -LE '^(lint|headers|docs|no_asan)$'
+    UBSAN_OPTIONS=print_stacktrace=1 RAVE_KILL_ROUNDS="$sanitized_kill_rounds" \
+    step_ctest asan-ubsan -LE '^(lint|headers|docs|no_asan)$'
 }
 
 step_tsan() {

@@ -109,8 +109,10 @@ export class StopButton extends LiveElement {
 
   private renderViewOnly(): TemplateResult {
     const {model} = this.context;
+    // Small screens have no place for the name and size of the recording.
+    const recording = model.hello?.run.recording?.whole === false ? 'incomplete recording' : 'this is a recording';
     return html`<div class="view-only" title=${model.whyNot('stop')}>${icon('eye', 18)}
-      <span>View only<small>${model.live ? 'observers cannot stop' : 'this is a recording'}</small></span></div>`;
+      <span>View only<small>${model.live ? 'observers cannot stop' : recording}</small></span></div>`;
   }
 
   private renderRelease(count: StopCount, large: boolean): TemplateResult {

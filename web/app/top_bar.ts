@@ -65,7 +65,7 @@ export class TopBar extends LiveElement {
       <span class="space"></span>
       <button class="find" aria-label="Find a robot, panel or moment" @click=${() => ask('find')}>${icon('search', 15)}<span>Find a robot, panel or moment</span><kbd>Ctrl K</kbd></button>
       <span class="space"></span>
-      ${run?.recording && !model.live ? html`<span class="chip wide" title=${run.recording.whole ? nothing : 'Its end or the part of a host is missing. `rave info` says what.'}>${icon('fileText', 14)} ${run.recording.name} ${sizeText(run.recording.bytes)}${run.recording.whole ? '' : ', incomplete'}</span>` : nothing}
+      ${run?.recording && !model.live ? html`<span class="chip wide" title=${run.recording.whole ? nothing : 'Its end or the part of a host is missing: rave info says which'}>${icon('fileText', 14)} ${run.recording.name} ${sizeText(run.recording.bytes)}${run.recording.whole ? '' : ', incomplete'}</span>` : nothing}
       <rave-way .context=${this.context}></rave-way>
       ${this.renderRate()}
       ${this.renderPeople()}

@@ -182,6 +182,8 @@ try {
     const {hash, recording} = await last.evaluate(`${app}.model.hello.run`);
     assert.deepEqual([hash, recording.whole], [null, false]);
     await last.getByText(', incomplete').waitFor();
+    await last.setViewportSize({width: 390, height: 844});
+    await last.getByText('incomplete recording').waitFor();
     await player.end();
   });
 

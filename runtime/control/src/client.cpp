@@ -6,7 +6,7 @@
 #include <chrono>
 
 #include "rave/control/folder.hpp"
-#include "socket.hpp"
+#include "rave/process/unix_socket.hpp"
 
 namespace rave::control {
 namespace {
@@ -39,8 +39,8 @@ Result<std::string> receive_line(int file) {
 
 Result<Answer> ask(const std::string& run, const Request& request) {
   RAVE_TRY_ASSIGN(const auto folder, socket_folder());
-  RAVE_TRY_ASSIGN(const Descriptor file, connect_to(folder / (run + ".sock")));
-  if (!send_all(file.get(), write_request(request))) {
+  RAVE_TRY_ASSIGN(const Descriptor file, process::connect_to(folder / (run + ".sock")));
+  if (!process::send_all(file.get(), write_request(request))) {
     return fail(ErrorCode::kIo, "the run does not accept connections: {}", std::strerror(errno));
   }
   RAVE_TRY_ASSIGN(const std::string line, receive_line(file.get()));

@@ -8,7 +8,7 @@
 #include <cstdlib>
 
 #include "rave/base/names.hpp"
-#include "socket.hpp"
+#include "rave/process/unix_socket.hpp"
 
 namespace rave::control {
 namespace {
@@ -71,7 +71,7 @@ Result<std::vector<std::string>> running_runs() {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename();
     if (!name.ends_with(kEnding) || !entry.is_socket(error)) continue;
-    const auto connection = connect_to(entry.path());
+    const auto connection = process::connect_to(entry.path());
     if (connection) {
       runs.push_back(name.substr(0, name.size() - kEnding.size()));
     } else if (connection.error().code == ErrorCode::kNotFound) {

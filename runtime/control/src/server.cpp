@@ -13,7 +13,7 @@
 #include "rave/base/thread.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/control/protocol.hpp"
-#include "socket.hpp"
+#include "rave/process/unix_socket.hpp"
 
 namespace rave::control {
 namespace {
@@ -71,7 +71,7 @@ bool Server::Impl::send(const Connection& connection, std::string_view text) con
   // A peer that does not read must not delay the others for long.
   const timeval patience{1, 0};
   ::setsockopt(connection.file.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
-  return send_all(connection.file.get(), text);
+  return process::send_all(connection.file.get(), text);
 }
 
 bool Server::Impl::read_some(Connection& connection) {
@@ -120,8 +120,8 @@ Result<std::unique_ptr<Server>> Server::start(const std::string& run,
   // Renamed to its final name only once it listens, else it would be taken for the socket of a dead
   // run.
   const fs::path made = folder / (run + ".new");
-  RAVE_TRY_ASSIGN(const sockaddr_un address, address_of(made));
-  RAVE_TRY(address_of(impl->path));
+  RAVE_TRY_ASSIGN(const sockaddr_un address, process::address_of(made));
+  RAVE_TRY(process::address_of(impl->path));
   impl->listener = Descriptor(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
   std::error_code ignored;
   fs::remove(made, ignored);

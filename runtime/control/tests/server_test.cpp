@@ -10,10 +10,10 @@
 #include <thread>
 #include <vector>
 
-#include "../src/socket.hpp"
 #include "rave/base_testing/no_threads.hpp"
 #include "rave/control/client.hpp"
 #include "rave/control/folder.hpp"
+#include "rave/process/unix_socket.hpp"
 
 namespace rave::control {
 namespace {
@@ -219,7 +219,7 @@ TEST_F(ServerTest, SilentAndRudeClientsHoldNobodyUp) {
   while (!begun_) std::this_thread::yield();
   std::vector<Descriptor> silent;
   for (int i = 0; i < 100; ++i) {
-    auto file = connect_to(folder_ / "rave/tests-3.sock");
+    auto file = process::connect_to(folder_ / "rave/tests-3.sock");
     ASSERT_TRUE(file);
     if (i % 2 == 0) {
       static_cast<void>(::send(file->get(), "{\"rave\"", 7, MSG_NOSIGNAL));
@@ -227,7 +227,7 @@ TEST_F(ServerTest, SilentAndRudeClientsHoldNobodyUp) {
     silent.push_back(*std::move(file));
   }
   const std::string long_line(3 * kMaxLineBytes, 'x');
-  auto rude = connect_to(folder_ / "rave/tests-3.sock");
+  auto rude = process::connect_to(folder_ / "rave/tests-3.sock");
   ASSERT_TRUE(rude);
   static_cast<void>(::send(rude->get(), long_line.data(), long_line.size(), MSG_NOSIGNAL));
   EXPECT_TRUE(ask("tests-3", stop("anna")).value().good);
@@ -239,7 +239,7 @@ TEST_F(ServerTest, SocketsOfTheDeadAreSweptAway) {
   const fs::path folder = socket_folder().value();
   {
     const Descriptor file(::socket(AF_UNIX, SOCK_STREAM, 0));
-    const sockaddr_un address = address_of(folder / "dead-7.sock").value();
+    const sockaddr_un address = process::address_of(folder / "dead-7.sock").value();
     ASSERT_EQ(::bind(file.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
   }
   ASSERT_TRUE(fs::exists(folder / "dead-7.sock"));

@@ -12,8 +12,10 @@
 #include "rave/base/descriptor.hpp"
 #include "rave/base/result.hpp"
 
-namespace rave::control {
+namespace rave::process {
 
+/// The address of a Unix socket. Errors: kInvalidArgument (the path has more than 107 bytes). Any
+/// thread.
 [[nodiscard]] inline Result<sockaddr_un> address_of(const std::filesystem::path& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -25,7 +27,8 @@ namespace rave::control {
   return address;
 }
 
-/// Connects to the socket at `path`. Errors: kNotFound if no process listens there, kIo.
+/// Connects to the socket at `path`, and waits while it takes no more connections. Errors:
+/// kNotFound (no process listens there), kInvalidArgument (the path is too long), kIo. Any thread.
 [[nodiscard]] inline Result<Descriptor> connect_to(const std::filesystem::path& path) {
   RAVE_TRY_ASSIGN(const sockaddr_un address, address_of(path));
   Descriptor file(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
@@ -38,7 +41,7 @@ namespace rave::control {
   return file;
 }
 
-/// Sends a whole text; false, with errno, if the peer does not take it.
+/// Sends a whole text; false, with errno, if the peer does not take it. One thread per socket.
 [[nodiscard]] inline bool send_all(int file, std::string_view text) {
   while (!text.empty()) {
     const ssize_t sent = ::send(file, text.data(), text.size(), MSG_NOSIGNAL);
@@ -49,4 +52,4 @@ namespace rave::control {
   return true;
 }
 
-}  // namespace rave::control
+}  // namespace rave::process

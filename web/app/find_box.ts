@@ -73,6 +73,7 @@ export class FindBox extends LitElement {
     const found: Found[] = [];
     const teams = new Map<string, number[]>();
     model.robots.forEach((robot, slot) => {
+      if (!model.stops(slot)) return;
       if (robot.team !== '') teams.set(robot.team, [...(teams.get(robot.team) ?? []), slot]);
       if (found.length < kMost / 2 && fits(`stop ${robot.name}`)) {
         found.push({icon: 'octagonX', text: `Stop ${robot.name}`, note: `${robot.kind}${robot.team ? `, team ${robot.team}` : ''}`, act: stop([slot])});

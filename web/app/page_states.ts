@@ -3,19 +3,32 @@
 import {css, html, nothing, type TemplateResult} from 'lit';
 import type {Link} from '../model/link';
 import type {RunModel} from '../model/run_model';
+import {countStopped} from '../model/stop_state';
 import {clockText} from './clock';
 import {icon} from './icons';
 import {logo} from './logo';
-import {roleText} from './words';
+import {namesText, roleText} from './words';
+
+/** Who stands, as the hosts say, and whom no stop of this page can reach. */
+function reachText(model: RunModel, link: Link): string {
+  const hosts = link.direct?.open.length ?? 0;
+  const {robots, stopped} = countStopped(model, (slot) => link.reachesRobot(slot));
+  const reached = new Set(robots);
+  const names = (slots: readonly number[]) => namesText(slots.map((slot) => model.robots[slot].name));
+  const out = [...model.robots.keys()].filter((slot) => model.stops(slot) && !reached.has(slot));
+  return [
+    hosts > 0 ? `Orders and STOP still go straight to ${hosts === 1 ? 'the host' : `${hosts} hosts`}.` : '',
+    stopped.length > 0 ? `${names(stopped)} ${stopped.length === 1 ? 'is' : 'are'} stopped.` : '',
+    out.length > 0 ? `${names(out)} ${out.length === 1 ? 'is out of reach: stop it at its machine.' : 'are out of reach: stop them at their machines.'}` : '',
+  ].filter((text) => text !== '').join(' ');
+}
 
 /** The picture stays, without colour, with its time. */
 export function renderLost(model: RunModel, link: Link): TemplateResult {
   const now_ms = performance.now();
   const shown = model.poses.newest;
   const again_s = Math.max(0, Math.ceil((link.retryAt_ms - now_ms) / 1000));
-  const direct = link.direct?.open.length ?? 0;
-  const without = direct > 0 ? ` Orders and STOP still go straight to ${direct === 1 ? 'the host' : `${direct} hosts`}.` : ` ${model.robots.length} robots are out of reach: stop them at their machines.`;
-  const reach = model.live && model.may('stop') ? without : '';
+  const reach = model.live && model.may('stop') ? ` ${reachText(model, link)}` : '';
   return html`<div class="strip lost" role="alert">${icon('wifiOff', 16)}
     <span><b>Link lost ${((now_ms - link.lostAt_ms) / 1000).toFixed(1)} s ago.</b>
       ${shown === null ? '' : `This is ${clockText(shown.time_s)} s. `}Trying again in ${again_s} s.${reach}</span>

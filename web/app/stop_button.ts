@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {countStopped, Hold, kTwice_ms, lastStop, Twice, type StopCount} from '../model/stop_state';
+import {countStopped, Hold, kTwice_ms, lastStop, Twice, type LastStop, type StopCount} from '../model/stop_state';
 import {viewOf} from '../panel_api/windows';
 import {bigClock} from './clock';
 import {icon} from './icons';
 import {LiveElement} from './live_element';
+import {namesText} from './words';
 import {controls} from './styles';
 
 /** STOP, and once all robots stand, the button that is held to release them. */
@@ -13,7 +14,8 @@ export class StopButton extends LiveElement {
   private readonly twice = new Twice();
   /** One press of Space has come; the second one stops. */
   private half = false;
-  private stoppedAt_s: number | null = null;
+  /** The stop of this page that has not been released: at what time of the run, if that is known. */
+  private own: {t_s: number | null} | null = null;
   private shown = '';
 
   protected override listen(): (() => void)[] {
@@ -21,8 +23,8 @@ export class StopButton extends LiveElement {
     return [
       ...this.renderAfter(model.rosterChanged, model.runChanged, model.timeChanged, model.eventsChanged, link.changed, ...(link.direct ? [link.direct.changed] : [])),
       model.pictureChanged.on(() => {
-        const count = countStopped(model);
-        const now = `${count.stopped} ${count.latched}`;
+        const count = this.count();
+        const now = `${count.stopped.join()} ${count.latched}`;
         if (now === this.shown) return;
         this.shown = now;
         this.requestUpdate();
@@ -46,9 +48,16 @@ export class StopButton extends LiveElement {
     }, kTwice_ms);
   }
 
+  /** Of those that orders reach: the others have to be stopped at their machines. */
+  private count(): StopCount {
+    const {model, link} = this.context;
+    return countStopped(model, (slot) => link.reachesRobot(slot));
+  }
+
   private stop(): void {
     const {model, link} = this.context;
-    this.stoppedAt_s = model.poses.newest?.time_s ?? model.time?.now_s ?? 0;
+    // Only the server knows what time it is in the run.
+    this.own = {t_s: link.state === 'open' ? (model.poses.newest?.time_s ?? model.time?.now_s ?? 0) : null};
     link.send({type: 'halt', do: 'stop', slots: []});
     this.requestUpdate();
   }
@@ -70,7 +79,7 @@ export class StopButton extends LiveElement {
     if (!this.hold.pressed) return;
     if (this.hold.share(performance.now()) >= 1) {
       this.hold.lift();
-      this.stoppedAt_s = null;
+      this.own = null;
       this.context.link.send({type: 'halt', do: 'release', slots: []});
     } else viewOf(this).requestAnimationFrame(() => this.grow());
     this.requestUpdate();
@@ -78,13 +87,13 @@ export class StopButton extends LiveElement {
 
   override render(): TemplateResult {
     const {model, link} = this.context;
-    const count = countStopped(model);
+    const count = this.count();
     if (model.hello !== null && !model.may('stop')) return this.renderViewOnly();
     const out = !link.reaches;
-    return html`<div aria-live="polite" class="spoken">${count.stopped > 0 ? `${count.stopped} robots are stopped.` : nothing}</div>
+    return html`<div aria-live="polite" class="spoken">${count.stopped.length > 0 ? `${this.who(count.stopped)} stopped.` : nothing}</div>
       ${count.latched && model.may('release') ? this.renderRelease(count, true) : html`
-        ${count.stopped > 0 && model.may('release') ? this.renderRelease(count, false) : nothing}
-        <button class="stop" ?disabled=${out} title="Stop all robots (Space Space)" @click=${() => this.stop()}>
+        ${count.stopped.length > 0 && model.may('release') ? this.renderRelease(count, false) : nothing}
+        <button class="stop" ?disabled=${out} title="Stop ${namesText(count.robots.map((slot) => model.robots[slot].name), 8)} (Space Space)" @click=${() => this.stop()}>
           ${icon('octagonX', 28)}<span><b>STOP</b><small>${this.stopText(count, out)}</small></span></button>`}`;
   }
 
@@ -92,19 +101,31 @@ export class StopButton extends LiveElement {
     if (out) return 'out of reach';
     if (this.half) return 'Space again';
     if (count.latched) return 'all stand';
-    return count.robots === 1 ? 'the robot' : `all ${count.robots} robots`;
+    const {robots} = this.context.model;
+    if (count.robots.length === robots.length) return robots.length === 1 ? 'the robot' : `all ${robots.length} robots`;
+    return count.robots.length === 1 ? `only ${robots[count.robots[0]].name}` : `${count.robots.length} of ${robots.length} robots`;
+  }
+
+  /** One robot by its name, several by their number. */
+  private who(slots: readonly number[]): string {
+    return slots.length === 1 ? this.context.model.robots[slots[0]].name : `${slots.length} robots`;
   }
 
   /** Who stopped and when, for everybody's stop. One's own is known before the log has it. */
   private whenStopped(): string {
-    const {model} = this.context;
-    const last = lastStop(model);
-    const own = this.stoppedAt_s;
+    const {model, link} = this.context;
+    const last = lastStop(model, (slot) => link.stops?.has(slot) ?? false);
     const you = model.knownAs;
-    if (own !== null && (last === null || last.who === you || last.who === '' || last.t_s < own)) return `stopped by you at ${bigClock(own).slice(0, 5)}`;
+    if (this.own !== null && (last === null || this.isNewer(this.own.t_s, last))) return this.own.t_s === null ? 'stopped by you' : `stopped by you at ${bigClock(this.own.t_s).slice(0, 5)}`;
     if (last === null) return 'stopped';
     const who = last.who === '' ? '' : ` by ${last.who === you ? 'you' : last.who}`;
     return `stopped${who} at ${bigClock(last.t_s).slice(0, 5)}`;
+  }
+
+  /** Whether one's own stop counts, and not what the log has. */
+  private isNewer(own_s: number | null, last: LastStop): boolean {
+    if (own_s === null) return this.context.link.state !== 'open';
+    return last.who === this.context.model.knownAs || last.who === '' || last.t_s < own_s;
   }
 
   private renderViewOnly(): TemplateResult {
@@ -125,14 +146,14 @@ export class StopButton extends LiveElement {
         act();
       }
     };
-    return html`<button class="release ${large ? 'large' : ''}" aria-label="Hold to release ${count.stopped} robots"
-        title="Hold for 0.6 s" @pointerdown=${this.press} @pointerup=${this.lift} @pointercancel=${this.lift} @blur=${this.lift}
+    return html`<button class="release ${large ? 'large' : ''}" aria-label="Hold to release ${this.who(count.stopped)}"
+        title="Hold for 0.6 s: ${namesText(count.stopped.map((slot) => this.context.model.robots[slot].name), 8)}" @pointerdown=${this.press} @pointerup=${this.lift} @pointercancel=${this.lift} @blur=${this.lift}
         @contextmenu=${(event: Event) => event.preventDefault()}
         @keydown=${(event: KeyboardEvent) => key(event, () => { if (!event.repeat) this.press(event); })}
         @keyup=${(event: KeyboardEvent) => key(event, () => this.lift())}>
       <svg width="24" height="24" viewBox="0 0 24 24" aria-hidden="true"><circle cx="12" cy="12" r="9" class="ring"/>
         <circle cx="12" cy="12" r="9" class="done" stroke-dasharray="${share * turn} ${turn}" transform="rotate(-90 12 12)"/></svg>
-      <span><b>Hold to release</b><small>${count.stopped} ${count.stopped === 1 ? 'robot' : 'robots'}${large ? `, ${when}` : ''}</small></span></button>`;
+      <span><b>Hold to release</b><small>${this.who(count.stopped)}${large ? `, ${when}` : ''}</small></span></button>`;
   }
 
   static override styles = [
@@ -143,7 +164,7 @@ export class StopButton extends LiveElement {
       .stop { background: var(--stop-fill); border: 1px solid var(--stop-edge); color: #fff; }
       .stop:active { filter: brightness(.88); }
       .stop b { display: block; font-size: var(--fs-20); line-height: 1.1; letter-spacing: .02em; }
-      small { display: block; font-size: var(--fs-12); white-space: nowrap; }
+      small { display: block; max-width: 240px; overflow: hidden; font-size: var(--fs-12); white-space: nowrap; text-overflow: ellipsis; }
       .release { padding: 0 14px; border: 2px solid var(--danger); background: var(--bg-1); color: var(--danger); }
       .release:hover { background: var(--danger-soft); }
       .release b { display: block; font-size: var(--fs-13); font-weight: var(--fw-strong); white-space: nowrap; }

@@ -2,7 +2,7 @@
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {expect, it} from 'vitest';
-import {personHue} from './words';
+import {namesText, personHue} from './words';
 
 const kTokens = readFileSync(join(process.cwd(), 'app/tokens.css'), 'utf8');
 
@@ -33,4 +33,9 @@ it('white initials are legible on each, and none is the red of faults or the vio
     expect(r > 2 * Math.max(g, b)).toBe(false);
     expect(b > r && r > g + 0.1).toBe(false);
   }
+});
+
+it('few names are said, of many the first ones', () => {
+  expect([[], ['a'], ['a', 'b'], ['a', 'b', 'c', 'd']].map((names) => namesText(names))).toEqual(['', 'a', 'a and b', 'a, b, c and d']);
+  expect(namesText(['a', 'b', 'c', 'd', 'e'])).toBe('a, b, c and 2 others');
 });

@@ -16,6 +16,13 @@ export function startedText(started: string): string {
   return `${day} ${String(date.getHours()).padStart(2, '0')}:${String(date.getMinutes()).padStart(2, '0')}`;
 }
 
+/** `anna`, `anna and ben`, `anna, ben and 4 others`. */
+export function namesText(names: readonly string[], most = 4): string {
+  const rest = names.length > most ? names.length - most + 1 : 0;
+  const said = rest > 0 ? [...names.slice(0, most - 1), `${rest} others`] : names;
+  return said.length < 2 ? (said[0] ?? '') : `${said.slice(0, -1).join(', ')} and ${said[said.length - 1]}`;
+}
+
 export function initials(name: string): string {
   const words = name.split(/[\s._-]+/).filter(Boolean);
   return (words.length > 1 ? words[0][0] + words[1][0] : name.slice(0, 2)).toUpperCase();

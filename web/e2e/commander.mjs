@@ -88,3 +88,11 @@ export async function holdStick(page, robot, least_mps = 0.05) {
   await until(page, `${speed(slot)} > ${least_mps}`);
 }
 export const dropStick = (page) => page.evaluate(() => { navigator.getGamepads = () => []; });
+
+/** Holds a button until it has acted, which takes it away or changes it. */
+export async function holdDown(page, button) {
+  await button.hover();
+  await page.mouse.down();
+  await button.waitFor({state: 'detached'});
+  await page.mouse.up();
+}

@@ -8,7 +8,7 @@ import {mkdirSync, readFileSync, rmSync} from 'node:fs';
 import {join} from 'node:path';
 import {knowsHosts, launch, startServer} from './browser.mjs';
 import {app, check, report, showFailures, until, untilHere, watch} from './checks.mjs';
-import {dropStick, holdStick, near, sendByClick} from './commander.mjs';
+import {dropStick, holdDown, holdStick, near, sendByClick} from './commander.mjs';
 import {kStands_ms, stoodAfterWord} from './stood.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
@@ -107,11 +107,33 @@ try {
     assert.equal((await drive('anna', 0)).good, true, 'it obeys when the stick is let go');
   });
 
-  await check('STOP reaches both hosts without the server, and release as well', async () => {
-    await page.evaluate(() => document.querySelector('rave-app').link.send({type: 'halt', do: 'stop', slots: []}));
-    await until(page, `[...${lines}.lines.values()].every((line) => line.stopped.length === 1)`);
-    await page.evaluate(() => document.querySelector('rave-app').link.send({type: 'halt', do: 'release', slots: []}));
-    await until(page, `[...${lines}.lines.values()].every((line) => line.stopped.length === 0)`);
+  await check('STOP without the server: button, bar and list say who is stopped; release as well', async () => {
+    const bar = page.locator('.strip.lost');
+    await page.getByRole('button', {name: /^STOP/}).click();
+    await until(page, `[...${lines}.lines.values()].every((line) => line.stopped?.length === 1)`);
+    const release = page.getByRole('button', {name: 'Hold to release 2 robots'});
+    await release.getByText('2 robots, stopped by you', {exact: true}).waitFor();
+    await bar.getByText('anna and ben are stopped.').waitFor();
+    assert.equal(await page.locator('rave-robots').getByText('stopped', {exact: true}).count(), 2);
+    await page.screenshot({path: join(folder, 'stopped-without-server.png')});
+    await holdDown(page, release);
+    await until(page, `[...${lines}.lines.values()].every((line) => line.stopped?.length === 0)`);
+    await page.getByText('all 2 robots', {exact: true}).waitFor();
+    await bar.getByText('are stopped.').waitFor({state: 'detached'});
+  });
+
+  await check('with a host out of reach, too, the page says whom STOP reaches and whom it does not', async () => {
+    const gone = hosts[2];
+    gone.kill('SIGKILL');
+    await until(page, `${lines}.open.length === 1`);
+    await page.getByText('only anna', {exact: true}).waitFor();
+    await page.locator('.strip.lost').getByText('ben is out of reach: stop it at its machine.').waitFor();
+    await page.getByRole('button', {name: /^STOP/}).click();
+    const release = page.getByRole('button', {name: 'Hold to release anna'});
+    await release.getByText('anna, stopped by you', {exact: true}).waitFor();
+    await holdDown(page, release);
+    await page.getByText('only anna', {exact: true}).waitFor();
+    startHost('right');
   });
 
   await check('the server comes back and so does the page, with its lines', async () => {

@@ -31,7 +31,8 @@ export class DirectLine {
   latency_ms: number | null = null;
   /** Who drives which robot, as the host says. */
   leases: Record<string, string> = {};
-  stopped: string[] = [];
+  /** Who stands, as the host says; null: it has not said it yet on this connection. */
+  stopped: string[] | null = null;
   /** Why the host refused the line last. */
   refusal = '';
   readonly changed = new Signal();
@@ -115,6 +116,7 @@ export class DirectLine {
   private drop(): void {
     const old = this.socket;
     this.socket = null;
+    this.stopped = null;
     this.silence.end();
     old?.close();
     for (const done of this.open_.values()) done({good: false, text: `The line to host ${this.ticket_.host} was lost.`});

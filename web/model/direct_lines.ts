@@ -74,6 +74,12 @@ export class DirectLines {
     return host === undefined ? undefined : this.lines.get(host);
   }
 
+  /** Whether a robot is stopped, by what its host says; null: the host does not say it. */
+  stands(robot: string): boolean | null {
+    const line = this.lineOf(robot);
+    return line?.state === 'open' && line.stopped !== null ? line.stopped.includes(robot) : null;
+  }
+
   /** Lines that are open. */
   get open(): DirectLine[] {
     return [...this.lines.values()].filter((line) => line.state === 'open');

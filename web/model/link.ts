@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {Look, PageMessage, ProbeRequest, ServerMessage} from '../protocol/messages';
 import type {DirectLines} from './direct_lines';
+import {LineStops} from './line_stops';
 import {OrderRouter} from './order_router';
 import {PictureAge} from './picture_age';
 import type {RunModel} from './run_model';
@@ -44,6 +45,8 @@ export class Link {
   readonly changed = new Signal();
 
   private readonly router: OrderRouter | null;
+  /** Who stands while the server is away; null: there are no direct lines. */
+  readonly stops: LineStops | null;
   private socket: WebSocket | null = null;
   private retry_ms = kFirstRetry_ms;
   private timer = 0;
@@ -78,7 +81,11 @@ export class Link {
     this.age = new PictureAge(/^(127\..*|localhost|\[?::1\]?)$/.test(new URL(url).hostname));
     this.router = direct === null ? null : new OrderRouter(model, direct);
     if (this.router) this.router.serverIsThere = () => this.state === 'open';
-    direct?.changed.on(() => this.tellPage());
+    this.stops = direct === null ? null : new LineStops(model, direct);
+    direct?.changed.on(() => {
+      this.tellPage();
+      if (this.state === 'lost') this.stops?.take();
+    });
     setInterval(() => this.measure(), 1000);
     // The server has forgotten what is looked at: robots and maps may be others now.
     model.runChanged.on(() => {
@@ -124,6 +131,11 @@ export class Link {
   /** Whether orders can reach robots, over the server or a direct line. */
   get reaches(): boolean {
     return this.state === 'open' || (this.direct?.open.length ?? 0) > 0;
+  }
+
+  /** Whether orders can reach this robot. */
+  reachesRobot(slot: number): boolean {
+    return this.state === 'open' || this.direct?.lineOf(this.model.robots[slot]?.name ?? '')?.state === 'open';
   }
 
   send(message: PageMessage): void {
@@ -280,6 +292,7 @@ export class Link {
 
   private set(state: LinkState): void {
     this.state = state;
+    if (state === 'lost') this.stops?.take();
     this.changed.emit();
   }
 

@@ -87,6 +87,19 @@ export class RunModel {
     return robot !== undefined && this.live && this.may('command') && robot.yours !== false;
   }
 
+  /** This person may stop a robot. */
+  stops(slot: number): boolean {
+    const robot = this.robots[slot];
+    return robot !== undefined && this.live && this.may('stop') && robot.stoppable !== false;
+  }
+
+  /** Why this person may not stop a robot, in words; empty if they may. */
+  whyNotStopped(slot: number): string {
+    if (this.stops(slot) || this.robots[slot] === undefined) return '';
+    if (!this.may('stop')) return this.whyNot('stop');
+    return `You may not stop ${this.robots[slot].name}. ${holdersText(kUsualRights.stop)} ${askText(this.others)}`;
+  }
+
   /** The name of the person at this page, also while they look as another person; empty until it is known. */
   get user(): string {
     return (this.hello?.seen_by ?? this.hello?.user)?.name ?? '';

@@ -23,10 +23,17 @@ function modelWith(robots: Robot[], flags: number[]): RunModel {
 describe('stopped robots', () => {
   it('are counted, and all of them turn STOP into release', () => {
     const two = [robot('a'), robot('b')];
-    expect(countStopped(modelWith(two, [1, 1]))).toEqual({robots: 2, stopped: 0, latched: false});
-    expect(countStopped(modelWith(two, [1, 1 | RobotFlag.stopped]))).toEqual({robots: 2, stopped: 1, latched: false});
+    expect(countStopped(modelWith(two, [1, 1]))).toEqual({robots: [0, 1], stopped: [], latched: false});
+    expect(countStopped(modelWith(two, [1, 1 | RobotFlag.stopped]))).toEqual({robots: [0, 1], stopped: [1], latched: false});
     const both = countStopped(modelWith(two, [RobotFlag.stopped, 1 | RobotFlag.stopped]));
-    expect(both).toEqual({robots: 2, stopped: 2, latched: true});
+    expect(both).toEqual({robots: [0, 1], stopped: [0, 1], latched: true});
+  });
+
+  it('are those that this person may stop and that can be reached', () => {
+    const three = [robot('a'), {...robot('of others'), stoppable: false as const}, robot('c')];
+    expect(countStopped(modelWith(three, [1, 1, 1]))).toEqual({robots: [0, 2], stopped: [], latched: false});
+    const stands = modelWith(three, [1 | RobotFlag.stopped, 1, 1]);
+    expect(countStopped(stands, (slot) => slot !== 2)).toEqual({robots: [0], stopped: [0], latched: true});
   });
 
   it('do not wait for recorded ones', () => {

@@ -7,24 +7,29 @@ export const kHold_ms = 600;
 /** Two presses of Space within this time are a STOP. */
 export const kTwice_ms = 600;
 
-/** How many robots there are to stop, and who stands already. */
+/** Whom STOP means, and who stands already. */
 export interface StopCount {
-  robots: number;
-  stopped: number;
+  /** Those that this person may stop, and that can be reached. */
+  robots: number[];
+  /** Those of them that stand. */
+  stopped: number[];
   /** No robot is left that could be stopped: the button releases. */
   latched: boolean;
 }
 
 /** Recorded robots obey no orders, so they do not keep the others from counting as all. */
-export function countStopped(model: RunModel): StopCount {
+export function countStopped(model: RunModel, reaches: (slot: number) => boolean = () => true): StopCount {
   const flags = model.poses.newest?.flags;
-  let stopped = 0;
+  const robots: number[] = [];
+  const stopped: number[] = [];
   let moving = 0;
   model.robots.forEach((robot, slot) => {
-    if (((flags?.[slot] ?? 0) & RobotFlag.stopped) !== 0) ++stopped;
+    if (robot.stoppable === false || !reaches(slot)) return;
+    robots.push(slot);
+    if (((flags?.[slot] ?? 0) & RobotFlag.stopped) !== 0) stopped.push(slot);
     else if (!robot.recorded) ++moving;
   });
-  return {robots: model.robots.length, stopped, latched: stopped > 0 && moving === 0};
+  return {robots, stopped, latched: stopped.length > 0 && moving === 0};
 }
 
 /** Who stopped, by what the log says of robots that stand: `stopped, by hand: ben`. */
@@ -37,12 +42,13 @@ export interface LastStop {
   who: string;
 }
 
-/** When the robots that stand were stopped, and by whom: as the log has it, for everybody's stop alike. */
-export function lastStop(model: RunModel): LastStop | null {
+/** When the robots that stand were stopped, and by whom: as the log has it, for everybody's stop alike. `unlogged`:
+ * robots whose stop the log cannot have yet. */
+export function lastStop(model: RunModel, unlogged: (slot: number) => boolean = () => false): LastStop | null {
   const flags = model.poses.newest?.flags;
   for (let i = model.events.length - 1; i >= 0; --i) {
     const event = model.events[i];
-    if (event.kind !== 'stopped' || !event.slots.some((slot) => ((flags?.[slot] ?? 0) & RobotFlag.stopped) !== 0)) continue;
+    if (event.kind !== 'stopped' || !event.slots.some((slot) => ((flags?.[slot] ?? 0) & RobotFlag.stopped) !== 0 && !unlogged(slot))) continue;
     return {t_s: event.until, who: kByHand.exec(event.text)?.[1] ?? ''};
   }
   return null;

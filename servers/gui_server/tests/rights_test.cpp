@@ -141,6 +141,19 @@ TEST(ViewOfARun, HasSlotsWithoutGapsForWhoIsSeen) {
   EXPECT_EQ(view.robots_json(roster()).find("spy"), std::string::npos);
 }
 
+TEST(ViewOfARun, SaysWhichRobotsItsPersonMayNotStop) {
+  Rights rights;
+  const Person ben{"ben", Role::kCommander, kGreen};
+  ASSERT_TRUE(rights.set(Role::kCommander, InfoClass::kStop, {Kind::kOwn, {}}));
+  const RightsJson robots = RightsJson::parse(View(rights, ben, cast()).robots_json(roster()));
+  ASSERT_EQ(robots.size(), 4U);
+  EXPECT_FALSE(robots[0].contains("stoppable"));
+  EXPECT_EQ(robots[1]["stoppable"], false);
+  // Who may stop nobody is not told of each robot.
+  ASSERT_TRUE(rights.set(Role::kCommander, InfoClass::kStop, {Kind::kNone, {}}));
+  EXPECT_EQ(View(rights, ben, cast()).robots_json(roster()).find("stoppable"), std::string::npos);
+}
+
 TEST(ViewOfARun, CutsPosesDown) {
   PosesAt all;
   for (int i = 0; i < 4; ++i) all.robots.push_back({double(i), 0, 0, 0, kKnown});

@@ -45,7 +45,7 @@ export class RobotPanel extends LiveElement {
     const hue = palette.hue(slot);
     const drive = model.drives.get(slot);
     const stopped = ((model.poses.newest?.flags[slot] ?? 0) & RobotFlag.stopped) !== 0;
-    const mayStop = model.live && model.may('stop') && !robot.recorded;
+    const mayStop = model.stops(slot) && !robot.recorded;
     const halt = (what: 'stop' | 'release') => link.send({type: 'halt', do: what, slots: [slot]});
     return html`
       <header><i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i><b style=${robot.kind === 'real' ? `color:${hue.ink}` : ''}>${robot.name}</b>

@@ -12,7 +12,7 @@ export function stateOf(robot: Robot, flags: number): string {
   return '';
 }
 
-/** Robots of a team that obey a stop: recorded ones obey no orders. */
+/** Robots of a team that this person may stop and that obey it: recorded ones obey no orders. */
 export function stoppable(robots: readonly Robot[], team: string): number[] {
-  return robots.flatMap((robot, slot) => (robot.team === team && !robot.recorded ? [slot] : []));
+  return robots.flatMap((robot, slot) => (robot.team === team && !robot.recorded && robot.stoppable !== false ? [slot] : []));
 }

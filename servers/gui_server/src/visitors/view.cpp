@@ -222,6 +222,7 @@ std::string View::robots_json(const std::string& all) const {
       one["yours"] = false;
       one.erase("parameters");
     }
+    if (may_any(InfoClass::kStop) && !may(InfoClass::kStop, robot)) one["stoppable"] = false;
     mine.push_back(std::move(one));
   }
   return mine.dump();

@@ -63,7 +63,7 @@ export class WorldOrders {
       {id: 'goal', label: 'Goal', icon: 'target', why: model.whyNotTaken(slot, 'goal')},
       {id: 'path', label: 'Path', icon: 'route', why: model.whyNotTaken(slot, 'path') === '' ? '' : model.whyNotTaken(slot, 'goal')},
       {id: 'drive', label: 'Drive', icon: 'joystick', why: model.whyNotTaken(slot, 'drive')},
-      {id: 'stop', label: 'Stop', icon: 'octagonX', why: model.live ? model.whyNot('stop') : 'This is a recording.'},
+      {id: 'stop', label: 'Stop', icon: 'octagonX', why: model.live ? model.whyNotStopped(slot) : 'This is a recording.'},
       {id: 'say', label: 'Say', icon: 'message', why: model.whyNot('chat')},
       {id: 'follow', label: 'Follow', icon: 'crosshair', why: ''},
     ];
@@ -79,7 +79,7 @@ export class WorldOrders {
     else if (id === 'drive') show('joystick');
     else if (id === 'say') show('chat');
     else if (id === 'follow') selection.follow(true);
-    else link.send({type: 'halt', do: 'stop', slots: selection.has(ring.slot) ? selection.slots.filter((slot) => model.robots[slot] !== undefined) : [ring.slot]});
+    else link.send({type: 'halt', do: 'stop', slots: selection.has(ring.slot) ? selection.slots.filter((slot) => model.stops(slot)) : [ring.slot]});
   }
 
   tools(): TemplateResult | typeof nothing {

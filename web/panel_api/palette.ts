@@ -9,6 +9,7 @@ export interface Hue {
 }
 
 const kRealHues = 5;
+const kKindHues = 3;
 
 /** The colours of tokens.css as they are in the present theme, for what is drawn on a canvas. */
 export class Palette {
@@ -36,12 +37,13 @@ export class Palette {
     return value;
   }
 
-  /** Gives the robots of a roster their hues: real ones in order, simulated ones by their kind. */
+  /** Gives the robots of a roster their hues: real ones in order, simulated ones by their kind, each kind one of its own. */
   assign(robots: readonly Robot[]): void {
     let real = 0;
+    const kinds = [...new Set(robots.map(({word}) => word).filter((word) => word !== ''))];
     this.hueNames = robots.map((robot) => {
       if (robot.kind === 'real') return `real-${(real++ % kRealHues) + 1}`;
-      return robot.word === '' ? 'sim' : 'hunter';
+      return robot.word === '' ? 'sim' : `kind-${(kinds.indexOf(robot.word) % kKindHues) + 1}`;
     });
   }
 

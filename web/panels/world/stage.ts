@@ -4,6 +4,13 @@ import type {PanelContext} from '../../panel_api';
 import type {Layers} from './layers';
 import type {OrderDesk} from './orders/order_desk';
 
+/** `room`: robots, bodies, and the walls around them. `more`: that, and what was shown. `all`: everything. `closer`: that too,
+ * or the selection where all of it is shown already. */
+export type Extent = 'room' | 'more' | 'all' | 'closer';
+
+/** `nothing`: there is nothing to show yet. */
+export type Fitted = 'nothing' | 'all' | 'selection';
+
 /** What a stage is given by the World View. */
 export interface StageContext extends PanelContext {
   /** Where everybody is in the picture that is drawn. */
@@ -30,8 +37,8 @@ export interface Stage {
   /** Draws; true as long as something moves by itself. */
   paint(now_ms: number): boolean;
   resize(width: number, height: number): void;
-  /** Shows everything; with `closer` the selection, where everything is shown already. False if there is nothing yet. */
-  fit(animate: boolean, closer?: boolean): boolean;
+  /** Shows what is there, and says which. */
+  fit(animate: boolean, what: Extent): Fitted;
   /** Where it looks from, as the address of the page says it. */
   viewpoint(): string;
   lookFrom(text: string): void;

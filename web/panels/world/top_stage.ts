@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {WorldLayer} from '../../panel_api';
 import {RobotFlag} from '../../protocol/frames';
+import {boundsOfAll, boundsOfBodies, boundsOfRobots, union, type BodyBounds} from './bounds';
 import {Camera, type Bounds} from './camera';
 import {Lens} from './lens';
 import {Measure} from './measure';
 import {Minimap, mostAreOutside} from './minimap';
-import {boxOf} from './outlines';
 import {bodyAt, OrderHands} from './orders/order_hands';
 import {OrderLayer} from './orders/order_layer';
-import type {Stage, StageContext} from './stage';
+import type {Extent, Fitted, Stage, StageContext} from './stage';
 import {makeSwarm} from './make_swarm';
 import {TopGestures} from './top_gestures';
 import {TopView} from './top_view';
@@ -17,8 +17,6 @@ import {drawBox, slotsIn, type SelectionBox} from './selection_box';
 const kDensity_ms = 500;
 const kMinimapBelow_px = 30;
 const kMinimapFrom = 40;
-/** What is shown around the middle of the robots at least, in radii of the largest. */
-const kAround = 14;
 const kFinger_px = 22;
 const kMouse_px = 8;
 
@@ -38,6 +36,9 @@ export class TopStage implements Stage {
   readonly orders: OrderHands;
   private baseKey = '';
   private revision = 0;
+  private bodies: BodyBounds = {walls: null, others: null};
+  /** What the picture was fitted to last. */
+  private fittedTo: Bounds | null = null;
 
   constructor(private readonly context: StageContext) {
     this.view = new TopView(context.model, context.palette, context.selection);
@@ -55,6 +56,7 @@ export class TopStage implements Stage {
 
   refresh(): void {
     this.view.refresh();
+    this.bodies = boundsOfBodies(this.context.model.bodies.values());
     ++this.revision;
   }
 
@@ -135,54 +137,29 @@ export class TopStage implements Stage {
   private paintMinimap(ctx: CanvasRenderingContext2D): void {
     const {camera, context} = this;
     const {placed} = context;
-    const bounds = this.bounds();
+    const bounds = this.bounds('room');
     const wanted = context.layers().minimap && placed.count >= kMinimapFrom && camera.width > 520 && bounds !== null &&
       (camera.scale < kMinimapBelow_px || mostAreOutside(camera, placed));
     if (wanted && bounds !== null) this.minimap.draw(ctx, camera, placed, context.model.robots, bounds, context.palette);
     else this.minimap.hide();
   }
 
-  fit(animate: boolean, closer = false): boolean {
-    const selected = this.bounds(this.context.selection.slots);
-    const all = this.bounds();
-    if (all === null) return false;
-    const goal = this.camera.fitted(all);
-    const there = Math.abs(goal.x - this.camera.x) + Math.abs(goal.y - this.camera.y) < 1e-6 && Math.abs(goal.scale / this.camera.scale - 1) < 1e-6;
-    this.camera.go(closer && there && selected !== null ? this.camera.fitted(selected, 120) : goal, performance.now(), animate);
-    return true;
+  fit(animate: boolean, what: Extent): Fitted {
+    const {camera} = this;
+    const bounds = what === 'more' ? union(this.bounds('room'), this.fittedTo) : this.bounds(what);
+    if (bounds === null) return 'nothing';
+    this.fittedTo = bounds;
+    const goal = camera.fitted(bounds);
+    const there = Math.abs(goal.x - camera.x) + Math.abs(goal.y - camera.y) < 1e-6 && Math.abs(goal.scale / camera.scale - 1) < 1e-6;
+    const selected = what === 'closer' && there ? boundsOfRobots(this.context.placed, this.radius, this.context.selection.slots) : null;
+    camera.go(selected === null ? goal : camera.fitted(selected, 120), performance.now(), animate);
+    return selected === null ? 'all' : 'selection';
   }
 
-  /** What holds these robots, or all robots and bodies. */
-  private bounds(slots?: readonly number[]): Bounds | null {
-    const {placed, model} = this.context;
-    const bounds: Bounds = {x0: Infinity, y0: Infinity, x1: -Infinity, y1: -Infinity};
-    const add = (x: number, y: number, r: number) => {
-      bounds.x0 = Math.min(bounds.x0, x - r);
-      bounds.y0 = Math.min(bounds.y0, y - r);
-      bounds.x1 = Math.max(bounds.x1, x + r);
-      bounds.y1 = Math.max(bounds.y1, y + r);
-    };
-    const robot = (slot: number) => {
-      if ((placed.flags[slot] & RobotFlag.known) !== 0) add(placed.x[slot], placed.y[slot], this.view.robots.radius(slot));
-    };
-    if (slots !== undefined) slots.forEach(robot);
-    else {
-      let largest = 0;
-      for (let slot = 0; slot < placed.count; ++slot) {
-        robot(slot);
-        largest = Math.max(largest, this.view.robots.radius(slot));
-      }
-      // One robot alone would fill the picture: what is around it belongs to it.
-      if (bounds.x0 <= bounds.x1) add((bounds.x0 + bounds.x1) / 2, (bounds.y0 + bounds.y1) / 2, kAround * largest);
-      for (const body of model.bodies.values()) {
-        // A building is larger than what happens in it.
-        if (body.kind === 'wall' && placed.count > 0) continue;
-        const {x, y, hx, hy} = boxOf(body);
-        add(x - hx, y - hy, 0);
-        add(x + hx, y + hy, 0);
-      }
-    }
-    return bounds.x0 <= bounds.x1 ? bounds : null;
+  private readonly radius = (slot: number) => this.view.robots.radius(slot);
+
+  private bounds(what: Extent): Bounds | null {
+    return boundsOfAll(this.context.placed, this.radius, this.bodies, what !== 'room');
   }
 
   slotAt(px: number, py: number): number | null {

@@ -5,7 +5,7 @@ import {LiveElement} from '../../app/live_element';
 import {controls, glyphs} from '../../app/styles';
 import {Placed} from '../../model/pose_history';
 import {viewOf} from '../../panel_api/windows';
-import {RobotFlag} from '../../protocol/frames';
+import {AutoFit} from './auto_fit';
 import {kLayers, readLayers, type Layers, type Poses} from './layers';
 import {sensorsToRead} from './reading_layer';
 import {orderStyles} from './orders/order_cards';
@@ -47,10 +47,7 @@ export class WorldPanel extends LiveElement {
   private perspective: Stage | null = null;
   private layers: Layers = kLayers;
   private menuOpen = false;
-  /** Robots with a pose when the picture was fitted last, -1: it was not. On the bus poses come after the world, host by host. */
-  private fittedRobots = -1;
-  /** The person has chosen what is shown: it is not fitted again by itself. */
-  private moved = false;
+  private readonly autoFit = new AutoFit();
   private shownRun = '';
   private drawQueued = false;
   private cardAt_ms = 0;
@@ -80,10 +77,7 @@ export class WorldPanel extends LiveElement {
       model.rosterChanged.on(() => {
         // The same run, as its replay or after a lost link, is shown from where the person looked.
         const run = model.hello?.run.name ?? '';
-        if (run !== this.shownRun) {
-          this.fittedRobots = -1;
-          this.moved = false;
-        }
+        if (run !== this.shownRun) this.autoFit.reset();
         this.shownRun = run;
         refresh();
       }),
@@ -126,7 +120,7 @@ export class WorldPanel extends LiveElement {
       truth: this.truth,
       layers: () => this.layers,
       redraw: () => this.draw(),
-      moved: () => (this.moved = true),
+      moved: () => this.autoFit.move(),
       desk: this.orders.desk,
       menu: (px, py) => this.orders.openMenu(px, py, this.top.slotAt(px, py), this.top.camera.toWorld(px, py), [this.clientWidth, this.place().clientHeight]),
     };
@@ -182,7 +176,7 @@ export class WorldPanel extends LiveElement {
     if (!this.hasUpdated) return;
     this.place().append(this.stage.element);
     this.resize();
-    if (mode === '3d') this.fittedRobots = -1;
+    if (mode === '3d') this.autoFit.again();
     this.draw();
   }
 
@@ -193,7 +187,7 @@ export class WorldPanel extends LiveElement {
   /** Shows everything; where everything is shown already, the selection. */
   fit(animate = true): void {
     this.context.selection.follow(false);
-    this.stage.fit(animate && motion(), true);
+    this.autoFit.ask(this.stage, animate && motion());
     this.draw();
   }
 
@@ -202,7 +196,7 @@ export class WorldPanel extends LiveElement {
   }
 
   lookFrom(text: string): void {
-    this.moved = true;
+    this.autoFit.move();
     void this.setMode(text.startsWith('3d') ? '3d' : 'top').then(() => {
       this.stage.lookFrom(text);
       this.draw();
@@ -268,7 +262,7 @@ export class WorldPanel extends LiveElement {
     if (clientWidth === 0 || clientHeight === 0) return;
     this.stage.resize(clientWidth, clientHeight);
     this.requestUpdate();
-    this.fittedRobots = -1;
+    this.autoFit.again();
     this.paint();
   }
 
@@ -294,14 +288,6 @@ export class WorldPanel extends LiveElement {
     truth.resize(0);
   }
 
-  /** Shows all robots as soon as they have poses, unless the person has chosen what is shown. */
-  private fitMore(): void {
-    const {flags, count} = this.placed;
-    let known = 0;
-    for (let slot = 0; slot < count; ++slot) known += flags[slot] & RobotFlag.known ? 1 : 0;
-    if (known > this.fittedRobots && this.stage.fit(false)) this.fittedRobots = known;
-  }
-
   private draw(): void {
     if (this.drawQueued) return;
     this.drawQueued = true;
@@ -317,7 +303,7 @@ export class WorldPanel extends LiveElement {
     const {model} = this.context;
     model.poses.interpolate(now_ms, this.placed);
     this.placeTruth(now_ms);
-    if (!this.moved && this.fittedRobots < this.placed.count && model.poses.newest !== null) this.fitMore();
+    if (model.poses.newest !== null && !this.context.selection.following) this.autoFit.look(this.stage, this.placed, now_ms, motion());
     const going = this.stage.paint(now_ms);
     // Cards stand beside things that move.
     if ((this.orders.desk.draft !== null || this.context.commands.pending.length > 0) && now_ms - this.cardAt_ms > 60) {

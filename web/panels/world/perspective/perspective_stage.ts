@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import {AmbientLight, BasicShadowMap, Color, ColorManagement, DirectionalLight, Fog, LinearSRGBColorSpace, PCFSoftShadowMap, Scene, WebGLRenderer} from 'three';
 import {RobotFlag} from '../../../protocol/frames';
+import {boundsOfAll, boundsOfBodies, union, type BodyBounds} from '../bounds';
 import type {Bounds} from '../camera';
 import {hasCard} from '../graphics_card';
 import {radiusOf} from '../outlines';
 import {bytesOf, rampBytes} from '../ramp';
 import {shownReadings} from '../reading_layer';
 import {drawBox, slotsIn, type SelectionBox} from '../selection_box';
-import type {Stage, StageContext} from '../stage';
+import type {Extent, Fitted, Stage, StageContext} from '../stage';
 import {Surface} from '../surface';
 import type {Tone} from '../swarm';
 import {Tint} from '../tint';
@@ -64,6 +65,9 @@ export class PerspectiveStage implements Stage {
   private sharpen = 0;
   private tinted = '';
   private floorKey = '';
+  private boxes: BodyBounds = {walls: null, others: null};
+  /** What the picture was fitted to last. */
+  private fittedTo: Bounds | null = null;
 
   constructor(private readonly context: StageContext) {
     this.element.className = 'stage-3d';
@@ -86,6 +90,7 @@ export class PerspectiveStage implements Stage {
     this.radii = model.robots.map((robot) => radiusOf(robot.shapes));
     this.tint.refresh(model.robots);
     this.surface = new Surface(model.bodies.values(), model.robots, palette);
+    this.boxes = boundsOfBodies(model.bodies.values());
     this.bodies.refresh(model.bodies.values(), palette);
     this.solid.refresh(model.robots, palette);
     this.glass.refresh(model.robots);
@@ -161,7 +166,7 @@ export class PerspectiveStage implements Stage {
 
   /** Floor, fog and sun fit the world; made anew when that grows or the theme changes. */
   private setFloor(): void {
-    const bounds = this.bounds();
+    const bounds = this.bounds('room');
     if (bounds === null) return;
     const {palette} = this.context;
     const round = (value: number) => Math.round(value / 10);
@@ -206,33 +211,22 @@ export class PerspectiveStage implements Stage {
     }, ghost);
   }
 
-  fit(animate: boolean, closer = false): boolean {
-    const bounds = this.bounds();
-    if (bounds === null) return false;
+  fit(animate: boolean, what: Extent): Fitted {
+    const bounds = what === 'more' ? union(this.bounds('room'), this.fittedTo) : this.bounds(what);
+    if (bounds === null) return 'nothing';
+    this.fittedTo = bounds;
     const {placed, selection} = this.context;
     const primary = selection.primary;
     const {x, y, distance} = this.orbit.eye;
     const goal = this.orbit.fitted(bounds);
     const there = Math.hypot(goal.x - x, goal.y - y) < 1e-6 && Math.abs(goal.distance / distance - 1) < 1e-6;
-    const close = closer && there && primary !== null && primary < placed.count;
+    const close = what === 'closer' && there && primary !== null && primary < placed.count;
     this.orbit.go(close ? {...goal, x: placed.x[primary], y: placed.y[primary], distance: kClose_m} : goal, performance.now(), animate);
-    return true;
+    return close ? 'selection' : 'all';
   }
 
-  private bounds(): Bounds | null {
-    const {placed, model} = this.context;
-    const bounds: Bounds = {x0: Infinity, y0: Infinity, x1: -Infinity, y1: -Infinity};
-    const add = (x: number, y: number) => {
-      bounds.x0 = Math.min(bounds.x0, x - 0.3);
-      bounds.y0 = Math.min(bounds.y0, y - 0.3);
-      bounds.x1 = Math.max(bounds.x1, x + 0.3);
-      bounds.y1 = Math.max(bounds.y1, y + 0.3);
-    };
-    for (let slot = 0; slot < placed.count; ++slot) {
-      if ((placed.flags[slot] & RobotFlag.known) !== 0) add(placed.x[slot], placed.y[slot]);
-    }
-    for (const body of model.bodies.values()) if (body.kind !== 'wall' || placed.count === 0) add(body.pose[0], body.pose[1]);
-    return bounds.x0 <= bounds.x1 ? bounds : null;
+  private bounds(what: Extent): Bounds | null {
+    return boundsOfAll(this.context.placed, (slot) => this.radii[slot] ?? 0, this.boxes, what !== 'room');
   }
 
   slotAt(px: number, py: number): number | null {

@@ -58,11 +58,15 @@ Status GpsTrack::hear(const ros2::Imu& message) {
   if (message.orientation_covariance[0] == -1) {
     return fail(ErrorCode::kInvalidArgument, "it measures no orientation");
   }
+  const std::int64_t stamp_ns = ros2::nanoseconds(message.header.stamp);
+  if (stamp_ns == 0) {
+    return fail(ErrorCode::kInvalidArgument,
+                "the orientation has no stamp, so nobody knows whether it is old");
+  }
   const double variance = message.orientation_covariance[kYaw];
   // ENU orientations count from east (REP-103); the x axis of the world may point elsewhere.
   heading_ = {wrap_angle(ros2::attitude_of(message.orientation).yaw_rad - frame_.yaw_rad()),
-              variance > 0 ? variance : options_.doubt.variance_yaw_rad2,
-              ros2::nanoseconds(message.header.stamp)};
+              variance > 0 ? variance : options_.doubt.variance_yaw_rad2, stamp_ns};
   heard_ = true;
   return {};
 }
@@ -70,11 +74,19 @@ Status GpsTrack::hear(const ros2::Imu& message) {
 Status GpsTrack::check_heading(std::int64_t stamp_ns) const {
   if (!options_.has_imu) return {};
   if (!heard_) return fail(ErrorCode::kState, "no orientation has come yet");
+  if (stamp_ns == 0) {
+    return fail(ErrorCode::kInvalidArgument,
+                "the fix has no stamp, so nobody knows whether the orientation is old");
+  }
   const std::int64_t age_ns = std::abs(stamp_ns - heading_.stamp_ns);
-  // A message without a stamp counts as true on arrival.
-  if (heading_.stamp_ns == 0 || stamp_ns == 0 || age_ns <= kOldestHeading_ns) return {};
+  if (age_ns <= kOldestHeading_ns) return {};
   return fail(ErrorCode::kState, "the newest orientation is {:.1f} s from the fix",
               static_cast<double>(age_ns) * 1e-9);
+}
+
+std::int64_t GpsTrack::stamp_ns(const ros2::NavSatFix& message) const noexcept {
+  const std::int64_t fix_ns = ros2::nanoseconds(message.header.stamp);
+  return options_.has_imu ? std::min(fix_ns, heading_.stamp_ns) : fix_ns;
 }
 
 void GpsTrack::follow(Vec2 antenna_W, double variance_xy_m2) {

@@ -30,11 +30,14 @@ class GpsTrack {
  public:
   GpsTrack(const GeoFrame& frame, const GpsOptions& options) : frame_(frame), options_(options) {}
 
-  /// Adds an orientation. Error kInvalidArgument: the message has none.
+  /// Adds an orientation. Error kInvalidArgument: the message has none, or no stamp.
   Status hear(const ros2::Imu& message);
   /// The pose for a fix. Errors: kState (no fix; no heading yet, or one more than a second old),
-  /// kInvalidArgument (too far from the origin of the world).
+  /// kInvalidArgument (too far from the origin of the world; no stamp, but an inertial unit).
   [[nodiscard]] Result<PoseReading> take(const ros2::NavSatFix& message);
+  /// The stamp of the pose for a fix: that of the fix or of the orientation, whichever is older. 0:
+  /// none.
+  [[nodiscard]] std::int64_t stamp_ns(const ros2::NavSatFix& message) const noexcept;
 
  private:
   struct Heading {

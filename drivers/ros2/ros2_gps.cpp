@@ -49,7 +49,7 @@ void Ros2Gps::drain() {
   main_->take([this](const ros2::NavSatFix& fix) {
     const auto reading = pose_of(fix);
     if (reading) {
-      publish(ros2::nanoseconds(fix.header.stamp), &*reading, 1);
+      publish(track_->stamp_ns(fix), &*reading, 1);
     } else {
       // The receiver works even though it has no fix; only silence is a failure.
       note_alive();

@@ -92,9 +92,9 @@ void Ros2TfPose::drain() {
       main_->refuse(added ? std::move(found).error() : std::move(added).error());
       return;
     }
-    // Most messages contain other frames only.
-    if (found->stamp_ns == newest_ns_ && newest_ns_ != 0) return;
-    newest_ns_ = found->stamp_ns;
+    // Most messages contain other frames only, or only one of the transforms that the pose needs.
+    if (found->stamp_ns == last_ns_) return;
+    last_ns_ = found->stamp_ns;
     const PoseReading reading{found->X_AB.x, found->X_AB.y, found->X_AB.yaw, doubt_.variance_xy_m2,
                               doubt_.variance_yaw_rad2};
     publish(found->stamp_ns, &reading, 1);

@@ -107,7 +107,7 @@ class Ros2TfPose final : public TwoTopicSensor<ros2::TfMessage, ros2::TfMessage>
   std::string base_frame_;
   Doubt doubt_;
   TfTree tree_;
-  std::int64_t newest_ns_ = 0;
+  std::int64_t last_ns_ = 0;  // stamp of the last pose
 };
 
 }  // namespace rave::ros2_driver

@@ -20,7 +20,7 @@ std::string_view frame(const char* text) {
 }  // namespace
 
 // Each frame has one parent (REP-105), so the newest transform by child describes the whole tree.
-// It keeps no history: the pose is that of the newest link.
+// It keeps no history: a pose may be newer than its stamp by a period of the fastest link.
 Status TfTree::add(const ros2::TfMessage& message, bool is_static) {
   for (const ros2::TransformStamped& each : bus::elements(message.transforms)) {
     const std::string_view child = frame(each.child_frame_id);
@@ -41,6 +41,7 @@ Status TfTree::add(const ros2::TfMessage& message, bool is_static) {
 
 Result<TfTree::Found> TfTree::find(std::string_view root, std::string_view leaf) const {
   Found found;
+  bool moves = false;
   std::string_view at = leaf;
   for (int steps = 0; at != root; ++steps) {
     const auto link = links_.find(at);
@@ -55,11 +56,24 @@ Result<TfTree::Found> TfTree::find(std::string_view root, std::string_view leaf)
     if (!link->second.X_PC) return tl::unexpected(link->second.X_PC.error());
     // From the leaf upwards: each parent is put in front of the product so far.
     found.X_AB = steps == 0 ? *link->second.X_PC : compose(*link->second.X_PC, found.X_AB);
-    // The pose is as new as its newest moving link; static links are true at all times.
-    if (!link->second.is_static) found.stamp_ns = std::max(found.stamp_ns, link->second.stamp_ns);
     at = link->second.parent;
+    // Static links are true at all times.
+    if (link->second.is_static) continue;
+    const std::int64_t stamp_ns = link->second.stamp_ns;
+    if (stamp_ns == 0) {
+      return fail(ErrorCode::kInvalidArgument,
+                  "the transform from `{}` to `{}` has no stamp, so nobody knows whether it is old",
+                  at, link->first);
+    }
+    // The pose is as old as its oldest link. A localisation repeats its own by a timer, also while
+    // the odometry is dead.
+    found.stamp_ns = moves ? std::min(found.stamp_ns, stamp_ns) : stamp_ns;
+    moves = true;
   }
-  return found;
+  if (moves) return found;
+  return fail(ErrorCode::kInvalidArgument,
+              "all transforms from `{}` to `{}` are static: the pose of a robot changes", root,
+              leaf);
 }
 
 }  // namespace rave::ros2_driver

@@ -26,11 +26,11 @@ class TfTree {
 
   struct Found {
     Pose2 X_AB;
-    /// Newest stamp among the transforms of the chain that have one; 0: none.
+    /// Oldest stamp among the transforms of the chain that are not static.
     std::int64_t stamp_ns = 0;
   };
   /// The pose of frame `leaf` (B) in its ancestor `root` (A). Errors: kNotFound says where the
-  /// chain ends; kInvalidArgument names the tilted transform.
+  /// chain ends; kInvalidArgument: a transform is tilted or has no stamp, or all are static.
   [[nodiscard]] Result<Found> find(std::string_view root, std::string_view leaf) const;
 
  private:

@@ -12,7 +12,8 @@ using Json = nlohmann::json;
 /// that is virtual.
 class CartRun : public Ros2Run {
  public:
-  void start(double duration_s) {
+  /// `limits` are further lines of its guard.
+  void start(double duration_s, const std::string& limits = "") {
     write("room", "3 1.5 0 6 3\n");
     start_peer("peer_ros2", {"--room", file("room"), "--pose", "1,1.5,0"});
     std::ifstream stream(RAVE_SOURCE_DIR "/robots/ros2-cart.yaml");
@@ -22,7 +23,7 @@ class CartRun : public Ros2Run {
     const std::string guard = "guard:\n";
     const auto at = robot.find(guard);
     ASSERT_NE(at, std::string::npos);
-    robot.insert(at + guard.size(), "  arm: false\n");
+    robot.insert(at + guard.size(), "  arm: false\n" + limits);
     write("cart.yaml", robot);
     Ros2Run::start(
         "name: cart\nduration_s: " + std::to_string(duration_s) +
@@ -100,6 +101,36 @@ TEST(Ros2Robot, ALaserThatFallsSilentStopsTheRobotUntilItSpeaksAgain) {
 
 TEST(Ros2Robot, ALaserThatReadsNothingButNegativeRangesStopsTheRobot) {
   expect_stop_by_laser("invert");
+}
+
+/// While its localisation repeats by a timer where the odometry began.
+void expect_stop_by_pose(const std::string& trouble) {
+  CartRun run;
+  ASSERT_NO_FATAL_FAILURE(run.start(600, "  fence_m: [[0, 0], [2, 0], [2, 3], [0, 3]]\n"));
+  run.await_state(testing::wheels_turn);
+  run.peer->tell(trouble);
+  run.await_console("pose lost", 1);
+  const Json stopped = run.await_state(testing::wheels_stand);
+  EXPECT_LT(stopped["farthest_x"], 2 - 0.174) << trouble;
+  const int told = run.state()["commands"].get<int>();
+  const Json later =
+      run.await_state([&](const Json& now) { return now["commands"].get<int>() > told + 40; });
+  for (const char* const key : {"x", "y", "yaw"}) EXPECT_EQ(later[key], stopped[key]) << trouble;
+  run.peer->tell("find-odometry");
+  run.await_state(testing::wheels_turn);
+  run.rave->interrupt();
+  (void)run.rave->wait();
+  const Json result = run.result();
+  ASSERT_TRUE(result.is_object());
+  EXPECT_GE(result["events"]["pose_stale"], 1);
+}
+
+TEST(Ros2Robot, AnOdometryThatFallsSilentStopsTheRobotThoughTheMapIsRepeated) {
+  expect_stop_by_pose("lose-odometry");
+}
+
+TEST(Ros2Robot, AnOdometryThatIsNotANumberStopsTheRobotThoughTheMapIsRepeated) {
+  expect_stop_by_pose("spoil-odometry");
 }
 
 TEST(Ros2Robot, ARobotWhoseHostIsKilledStopsByItself) {

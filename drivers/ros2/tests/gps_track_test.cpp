@@ -77,6 +77,12 @@ TEST_F(Gps, AnInertialUnitKnowsBetterAndSaysWhereTheBodyIs) {
   EXPECT_NEAR(reading->x_m, 1, 1e-6);
   EXPECT_NEAR(reading->y_m, 1.5, 1e-6) << "the antenna is behind the middle";
   EXPECT_EQ(reading->variance_yaw_rad2, 0.01);
+  EXPECT_EQ(track.stamp_ns(fix(1, 1, 5'500'000'000)), 5'000'000'000) << "the older of both";
+  EXPECT_EQ(track.stamp_ns(fix(1, 1, 4'500'000'000)), 4'500'000'000);
+  EXPECT_EQ(track.take(fix(1, 1)).error().message,
+            "the fix has no stamp, so nobody knows whether the orientation is old");
+  EXPECT_EQ(track.hear(imu(0)).error().message,
+            "the orientation has no stamp, so nobody knows whether it is old");
   EXPECT_EQ(track.take(fix(1, 1, 7'500'000'000)).error().message,
             "the newest orientation is 2.5 s from the fix");
   ros2::Imu without = imu(0);

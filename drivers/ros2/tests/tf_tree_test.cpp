@@ -48,9 +48,34 @@ TEST(Ros2TfTree, ComposesTheChain) {
   EXPECT_NEAR(found->X_AB.x, 0.5, 1e-12);
   EXPECT_NEAR(found->X_AB.y, 5, 1e-12);
   EXPECT_NEAR(found->X_AB.yaw, kPi / 2, 1e-12);
-  EXPECT_EQ(found->stamp_ns, 7'000'000'000) << "a static transform has no time";
+  EXPECT_EQ(found->stamp_ns, 5'000'000'000) << "the oldest; a static transform has no time";
   ASSERT_TRUE(tf.put("odom", "base_footprint", {4, 0, 0}, 8));
   EXPECT_NEAR(tree.find("map", "base_link")->X_AB.y, 6, 1e-12) << "the newest counts";
+}
+
+TEST(Ros2TfTree, ALinkThatIsRepeatedDoesNotRefreshTheOthers) {
+  TfTree tree;
+  Transforms tf(tree);
+  ASSERT_TRUE(tf.put("odom", "base_link", {3, 0, 0}, 4));
+  for (std::int32_t sec = 4; sec < 20; ++sec) {
+    ASSERT_TRUE(tf.put("map", "odom", {1, 2, 0}, sec));
+    EXPECT_EQ(tree.find("map", "base_link")->stamp_ns, 4'000'000'000);
+  }
+  ASSERT_TRUE(tf.put("odom", "base_link", {3, 0, 0}, 21));
+  EXPECT_EQ(tree.find("map", "base_link")->stamp_ns, 19'000'000'000);
+}
+
+TEST(Ros2TfTree, APoseWhoseAgeNobodyKnowsIsNone) {
+  TfTree tree;
+  Transforms tf(tree);
+  ASSERT_TRUE(tf.put("map", "odom", {}, 5, true));
+  ASSERT_TRUE(tf.put("odom", "base_link", {}, 0));
+  EXPECT_EQ(tree.find("map", "base_link").error().message,
+            "the transform from `odom` to `base_link` has no stamp, so nobody knows whether it is "
+            "old");
+  ASSERT_TRUE(tf.put("odom", "base_link", {}, 5, true));
+  EXPECT_EQ(tree.find("map", "base_link").error().message,
+            "all transforms from `map` to `base_link` are static: the pose of a robot changes");
 }
 
 TEST(Ros2TfTree, SaysWhereTheChainEnds) {

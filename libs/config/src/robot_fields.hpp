@@ -141,8 +141,9 @@ void describe(V& v, SensorFile& c) {
   v.field(
       "max_age_s", c.max_age_s,
       positive_s("Age of the newest sample of a real sensor after which the robot is stopped; "
-                 "null: three periods of the sensor, at least 0.2 s. Required for a range sensor "
-                 "whose driver does not know the period."));
+                 "null: three periods of the sensor, at least 0.2 s, and `staleness_s` for the "
+                 "sensor of `pose_from`. Required for a range sensor whose driver does not know "
+                 "the period."));
   v.field("filters", c.filters,
           {.doc = "Filters, applied in this order; for ranges, poses, odometry, velocities and "
                   "values.",

@@ -86,9 +86,10 @@ Status configure_virtual(const GroupContext& context, RobotGroup& group, SensorS
   return {};
 }
 
-/// Its age has a limit of its own: RobotType::staleness.
-bool is_pose_source(const RobotGroup& group, const SensorSlots& slots) {
-  return group.type->pose_from == static_cast<std::uint32_t>(&slots - group.sensors.data());
+/// How old the poses of the robot may be, if this is the sensor that gives them.
+std::optional<Duration> staleness_of(const RobotGroup& group, const SensorSlots& slots) {
+  const auto index = static_cast<std::uint32_t>(&slots - group.sensors.data());
+  return group.type->pose_from == index ? std::optional(group.type->staleness) : std::nullopt;
 }
 
 Status configure_hardware(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {
@@ -110,7 +111,7 @@ Status configure_hardware(const GroupContext& context, RobotGroup& group, Sensor
     slots.capacity = std::max(slots.capacity, declaration.capacity);
     slots.collect = declaration.collect != 0;
     slots.live = declaration.clock == DriverClock::kLive;
-    RAVE_TRY_ASSIGN(slots.max_age_s, max_age_s(spec, declaration, is_pose_source(group, slots)));
+    RAVE_TRY_ASSIGN(slots.max_age_s, max_age_s(spec, declaration, staleness_of(group, slots)));
     slots.info.range_min_m = declaration.range_min_m;
     slots.info.range_max_m = declaration.range_max_m;
     slots.info.bearings_rad = declaration.bearings_rad;

@@ -24,15 +24,18 @@ bool is_judged_by_link(const SensorSpec& sensor) noexcept {
 
 Result<std::optional<double>> max_age_s(const SensorSpec& sensor,
                                         const HardwareDeclaration& declaration,
-                                        bool is_pose_source) {
+                                        std::optional<Duration> staleness) {
   if (sensor.max_age_s) return sensor.max_age_s;
-  if (sensor.timing == SampleTiming::kUnknown) return std::optional<double>();
   const double period_s = declaration.period_s;
   if (sensor.timing == SampleTiming::kPeriodic && !(period_s > 0 && std::isfinite(period_s))) {
     return fail(ErrorCode::kPlugin, "is periodic, but declared a period of {} s", period_s);
   }
-  // RobotType::staleness limits its age already.
-  if (is_pose_source) return std::optional<double>();
+  if (staleness) {
+    // A recording follows the run: its samples are as old as its stamps say, which is judged there.
+    return declaration.clock == DriverClock::kLive ? std::optional(staleness->seconds())
+                                                   : std::nullopt;
+  }
+  if (sensor.timing == SampleTiming::kUnknown) return std::optional<double>();
   return std::max(kPeriods * period_s, kLeast_s);
 }
 

@@ -20,11 +20,13 @@ namespace rave::sim {
 /// In SensorSlots::heard_ns.
 inline constexpr std::int64_t kNeverHeard_ns = INT64_MIN;
 
-/// The largest age of a sensor's samples; not set: it is not watched. A pose source is watched only
-/// if its file says so. Error kPlugin: a periodic driver that did not declare its period.
+/// The largest age of a sensor's samples; not set: it is not watched. `staleness` is that of the
+/// robot whose pose the sensor gives, not set for any other sensor. A live one may be as silent as
+/// its poses may be old: stamps alone do not suffice, since they may lie ahead. Error kPlugin: a
+/// periodic driver that did not declare its period.
 [[nodiscard]] Result<std::optional<double>> max_age_s(const SensorSpec& sensor,
                                                       const HardwareDeclaration& declaration,
-                                                      bool is_pose_source);
+                                                      std::optional<Duration> staleness);
 
 /// The limit that a program gets (SensorInfo::max_age_s): half as much again, so that the guard has
 /// stopped the robot, and said why, when its program sees that the sample is old. The latency of

@@ -27,6 +27,9 @@ bool obey(const std::vector<std::string>& command, Console& console, Ros2Robot& 
   if (name == "blind") robot.set_laser(Ros2Robot::Laser::kSilent);
   if (name == "invert") robot.set_laser(Ros2Robot::Laser::kNegative);
   if (name == "see") robot.set_laser(Ros2Robot::Laser::kWorks);
+  if (name == "lose-odometry") robot.set_wheels(Ros2Robot::Wheels::kSilent);
+  if (name == "spoil-odometry") robot.set_wheels(Ros2Robot::Wheels::kNan);
+  if (name == "find-odometry") robot.set_wheels(Ros2Robot::Wheels::kWork);
   if (name == "pattern") robot.set_pattern(true);
   if (name == "garbage" && command.size() > 1) robot.write_garbage(std::atoi(command[1].c_str()));
   console.say("ok " + name);

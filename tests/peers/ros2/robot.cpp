@@ -167,6 +167,7 @@ std::int64_t Ros2Robot::attend() {
 }
 
 void Ros2Robot::write_odometry(std::int64_t stamp_ns) {
+  if (wheels_ == Wheels::kSilent) return;
   ++written_;
   nav_msgs::msg::dds_::Odometry_ message;
   message.header(header(stamp_ns, "odom"));
@@ -185,6 +186,7 @@ void Ros2Robot::write_odometry(std::int64_t stamp_ns) {
     x = static_cast<double>(written_) * 1e-3;
     v = x / 2;
   }
+  if (wheels_ == Wheels::kNan) x = std::numeric_limits<double>::quiet_NaN();
   message.pose().pose(placed(x, pattern_ ? -x : y, yaw));
   message.pose().covariance()[0] = 1e-4;
   message.pose().covariance()[7] = 1e-4;

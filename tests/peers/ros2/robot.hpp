@@ -21,6 +21,8 @@ class Ros2Robot {
  public:
   /// What its laser does.
   enum class Laser { kWorks, kSilent, kNegative };
+  /// What its odometry does: the message and the transform.
+  enum class Wheels { kWork, kSilent, kNan };
 
   explicit Ros2Robot(const Arguments& given);
 
@@ -32,6 +34,8 @@ class Ros2Robot {
   void set_mute(bool mute) { mute_ = mute; }
   /// Silent: it writes no more scans, while all else goes on. Negative: each range is -1.
   void set_laser(Laser laser) { laser_ = laser; }
+  /// Silent: it writes no odometry, while all else goes on, the localisation included.
+  void set_wheels(Wheels wheels) { wheels_ = wheels; }
   /// Whether its satellite navigation knows where it is.
   void set_fix(bool fix) { has_fix_ = fix; }
   /// Writes messages that nobody can use, `count` of each kind.
@@ -74,6 +78,7 @@ class Ros2Robot {
   std::size_t rays_;
   bool mute_ = false;
   Laser laser_ = Laser::kWorks;
+  Wheels wheels_ = Wheels::kWork;
   bool pattern_ = false;
   bool has_fix_ = true;
   std::array<double, 3> origin_{};  ///< Latitude, longitude, altitude of the room's origin.

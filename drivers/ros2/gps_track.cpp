@@ -60,8 +60,7 @@ Status GpsTrack::hear(const ros2::Imu& message) {
   }
   const std::int64_t stamp_ns = ros2::nanoseconds(message.header.stamp);
   if (stamp_ns == 0) {
-    return fail(ErrorCode::kInvalidArgument,
-                "the orientation has no stamp, so nobody knows whether it is old");
+    return fail(ErrorCode::kInvalidArgument, "the orientation has no stamp, so its age is unknown");
   }
   const double variance = message.orientation_covariance[kYaw];
   // ENU orientations count from east (REP-103); the x axis of the world may point elsewhere.
@@ -76,7 +75,7 @@ Status GpsTrack::check_heading(std::int64_t stamp_ns) const {
   if (!heard_) return fail(ErrorCode::kState, "no orientation has come yet");
   if (stamp_ns == 0) {
     return fail(ErrorCode::kInvalidArgument,
-                "the fix has no stamp, so nobody knows whether the orientation is old");
+                "the fix has no stamp, so the age of the orientation is unknown");
   }
   const std::int64_t age_ns = std::abs(stamp_ns - heading_.stamp_ns);
   if (age_ns <= kOldestHeading_ns) return {};

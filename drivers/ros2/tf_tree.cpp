@@ -62,8 +62,8 @@ Result<TfTree::Found> TfTree::find(std::string_view root, std::string_view leaf)
     const std::int64_t stamp_ns = link->second.stamp_ns;
     if (stamp_ns == 0) {
       return fail(ErrorCode::kInvalidArgument,
-                  "the transform from `{}` to `{}` has no stamp, so nobody knows whether it is old",
-                  at, link->first);
+                  "the transform from `{}` to `{}` has no stamp, so its age is unknown", at,
+                  link->first);
     }
     // The pose is as old as its oldest link. A localisation repeats its own by a timer, also while
     // the odometry is dead.

@@ -80,9 +80,9 @@ TEST_F(Gps, AnInertialUnitKnowsBetterAndSaysWhereTheBodyIs) {
   EXPECT_EQ(track.stamp_ns(fix(1, 1, 5'500'000'000)), 5'000'000'000) << "the older of both";
   EXPECT_EQ(track.stamp_ns(fix(1, 1, 4'500'000'000)), 4'500'000'000);
   EXPECT_EQ(track.take(fix(1, 1)).error().message,
-            "the fix has no stamp, so nobody knows whether the orientation is old");
+            "the fix has no stamp, so the age of the orientation is unknown");
   EXPECT_EQ(track.hear(imu(0)).error().message,
-            "the orientation has no stamp, so nobody knows whether it is old");
+            "the orientation has no stamp, so its age is unknown");
   EXPECT_EQ(track.take(fix(1, 1, 7'500'000'000)).error().message,
             "the newest orientation is 2.5 s from the fix");
   ros2::Imu without = imu(0);

@@ -71,8 +71,7 @@ TEST(Ros2TfTree, APoseWhoseAgeNobodyKnowsIsNone) {
   ASSERT_TRUE(tf.put("map", "odom", {}, 5, true));
   ASSERT_TRUE(tf.put("odom", "base_link", {}, 0));
   EXPECT_EQ(tree.find("map", "base_link").error().message,
-            "the transform from `odom` to `base_link` has no stamp, so nobody knows whether it is "
-            "old");
+            "the transform from `odom` to `base_link` has no stamp, so its age is unknown");
   ASSERT_TRUE(tf.put("odom", "base_link", {}, 5, true));
   EXPECT_EQ(tree.find("map", "base_link").error().message,
             "all transforms from `map` to `base_link` are static: the pose of a robot changes");

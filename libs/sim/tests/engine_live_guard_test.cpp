@@ -103,6 +103,8 @@ class EngineLiveGuard : public ::testing::Test {
     static constexpr ControllerOps kReckless = detail::controller_ops<Reckless>();
     RobotType type = real_type({});
     type.sensors.front() = real_sensor<CartPose>("mocap", {});
+    // That limit is on the clock of the machine, which most tests leave out.
+    type.sensors.front().max_age_s = 1e6;
     type.actuators[0].hardware_ops = &kWheels;
     type.actuators[0].driver = "cart_wheels";
     type.controllers[0].ops = &kReckless;
@@ -176,6 +178,23 @@ TEST_F(EngineLiveGuard, ACommandIsAsOldAsTheWallSays) {
   run(*engine, 1);
   ASSERT_TRUE(cart_.hand.await_count(cart_.hand.told().size() + 3));
   EXPECT_EQ(cart_.hand.told().back(), velocity_command(0, 0));
+}
+
+TEST_F(EngineLiveGuard, APoseSourceThatFallsSilentStopsTheRobotWhateverItsStampsSay) {
+  RobotType type = cart_type(0.3);
+  type.sensors.front().max_age_s.reset();
+  type.guard->world_lost = WorldLostPolicy::kIgnore;
+  type.guard->watchdog_s = 1e6;
+  // By the stamps no time passes.
+  cart_.stands_still = true;
+  const auto engine = make_engine(live_spec(std::move(type)));
+  run(*engine, 1);
+  ASSERT_TRUE(cart_.hand.await(velocity_command(0, 0)));
+  // The thread tells of it after it has written.
+  ASSERT_TRUE(cart_.hand.await_count(cart_.hand.told().size() + 2));
+  const auto stops = of_kind(run(*engine, 1), EventKind::kGuardStopped);
+  ASSERT_EQ(stops.size(), 1U);
+  EXPECT_EQ(stops[0].text, "sensor lost: `mocap` has given no sample for more than 0.5 s");
 }
 
 TEST_F(EngineLiveGuard, TheTimeOfTheEngineMayBeFarBehindTheWall) {

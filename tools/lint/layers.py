@@ -26,14 +26,14 @@ PACKAGE_INCLUDES = {"fmt/": "fmt", "tl/": "expected", "yaml-cpp/": "yaml-cpp", "
                     "sodium": "sodium", "nlohmann/": "json", "backtrace": "backtrace",
                     "gtest/": "gtest", "benchmark/": "benchmark", "dds/": "dds", "idl/": "wire",
                     "Eigen/": "eigen", "zstd.h": "zstd", "boost/": "boost", "dlfcn.h": "dl",
-                    "hwy/": "hwy", "openssl/": "openssl"}
+                    "hwy/": "hwy", "openssl/": "openssl", "lua.hpp": "lua"}
 PACKAGE_LINKS = {"fmt::": "fmt", "tl::": "expected", "yaml-cpp": "yaml-cpp", "PNG::": "png",
                  "${CAIRO_": "cairo", "spdlog::": "spdlog", "CLI11::": "cli11", "ZLIB::": "zlib",
                  "PkgConfig::sodium": "sodium", "nlohmann_json": "json",
                  "${backtrace": "backtrace", "GTest::": "gtest", "benchmark::": "benchmark",
                  "Eigen3::": "eigen", "${ZSTD_": "zstd", "Boost::": "boost", "${CMAKE_DL_LIBS}": "dl",
                  "hwy::": "hwy", "CycloneDDS::": "dds", "rave::wire": "wire",
-                 "OpenSSL::": "openssl", "rave::ros2_wire": "wire"}
+                 "OpenSSL::": "openssl", "rave::ros2_wire": "wire", "PkgConfig::LUA": "lua"}
 # The head of the table of the rooms inside a library, in its README.md.
 ROOM_TABLE = "room of `src/`"
 

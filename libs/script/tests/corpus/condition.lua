@@ -1,0 +1,1 @@
+distance("rover", "dock") < 0.5 and t > 10

@@ -1,0 +1,1 @@
+local t = {3,1,2} table.sort(t) x = string.format("%d %s", #t, ("a"):rep(3)) --[[ ^ ]]

@@ -1,0 +1,1 @@
+function on_step() memory.n = (memory.n or 0) + 1 for k, v in pairs({a=1}) do memory[k] = v end end

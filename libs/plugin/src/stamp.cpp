@@ -4,13 +4,19 @@
 #include "rave/plugin/stamp.hpp"
 
 #include <elf.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cerrno>
 #include <cstring>
 #include <optional>
+#include <span>
 #include <type_traits>
 
-#include "rave/base/file.hpp"
+#include "rave/base/descriptor.hpp"
+#include "rave/base/regular_file.hpp"
 
 namespace rave::plugin {
 namespace {
@@ -29,27 +35,55 @@ constexpr Elf64_Half kHostMachine = EM_RISCV;
 
 constexpr std::string_view kSection = ".rave_stamp";
 
-/// The range [offset, offset + size) of `bytes`; empty if it exceeds them.
-std::optional<std::string_view> part(std::string_view bytes, std::uint64_t offset,
-                                     std::uint64_t size) {
-  if (offset > bytes.size() || size > bytes.size() - offset) return std::nullopt;
-  return bytes.substr(offset, size);
-}
+/// The bytes of a plug-in: in memory, or in a file of which only the parts that are asked for are
+/// read. Plug-ins with debug symbols have tens of megabytes, and every run reads all their stamps.
+class Bytes {
+ public:
+  explicit Bytes(std::string_view text) : text_(text), size_(text.size()) {}
+  /// `file` stays open as long as this object is used.
+  Bytes(const Descriptor& file, std::uint64_t size) : file_(file.get()), size_(size) {}
 
-/// A plain struct at an offset without alignment.
-template <class T>
-std::optional<T> value_at(std::string_view bytes, std::uint64_t offset) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  const auto raw = part(bytes, offset, sizeof(T));
-  if (!raw) return std::nullopt;
-  T value;
-  std::memcpy(&value, raw->data(), sizeof(T));
-  return value;
-}
+  [[nodiscard]] bool contain(std::uint64_t offset, std::uint64_t size) const {
+    return offset <= size_ && size <= size_ - offset;
+  }
+  [[nodiscard]] tl::unexpected<Error> beyond_end(std::string_view what) const {
+    return fail(ErrorCode::kParse, "damaged or cut off: {} beyond the end of the file ({} bytes)",
+                what, size_);
+  }
+  /// Fills `out` with what is at `offset`; beyond_end(what) if the file does not contain it.
+  [[nodiscard]] Status read(std::uint64_t offset, std::span<std::byte> out,
+                            std::string_view what) const;
 
-tl::unexpected<Error> damaged(std::string_view bytes, std::string_view what) {
-  return fail(ErrorCode::kParse, "damaged or cut off: {} beyond the end of the file ({} bytes)",
-              what, bytes.size());
+  /// A plain struct at an offset without alignment.
+  template <class T>
+  [[nodiscard]] Result<T> value(std::uint64_t offset, std::string_view what) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    T value;
+    RAVE_TRY(read(offset, std::as_writable_bytes(std::span(&value, 1)), what));
+    return value;
+  }
+
+ private:
+  std::string_view text_;
+  int file_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+Status Bytes::read(std::uint64_t offset, std::span<std::byte> out, std::string_view what) const {
+  if (!contain(offset, out.size())) return beyond_end(what);
+  if (file_ < 0) {
+    std::memcpy(out.data(), text_.data() + offset, out.size());
+    return {};
+  }
+  while (!out.empty()) {
+    const ssize_t count = ::pread(file_, out.data(), out.size(), static_cast<::off_t>(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return fail(ErrorCode::kIo, "cannot be read: {}", std::strerror(errno));
+    if (count == 0) return beyond_end(what);  // Somebody has shortened it since, such as a linker.
+    out = out.subspan(static_cast<std::size_t>(count));
+    offset += static_cast<std::uint64_t>(count);
+  }
+  return {};
 }
 
 tl::unexpected<Error> no_stamp() {
@@ -60,59 +94,62 @@ tl::unexpected<Error> no_stamp() {
 }
 
 // The file may be anything, so each number in it is checked against the size before it is used.
-Result<Elf64_Ehdr> read_header(std::string_view bytes) {
-  if (!bytes.starts_with(std::string_view(ELFMAG, SELFMAG))) {
+Result<Elf64_Ehdr> read_header(const Bytes& bytes) {
+  const auto magic = bytes.value<std::array<char, SELFMAG>>(0, "the ELF header reaches");
+  if (!magic && magic.error().code == ErrorCode::kIo) return tl::unexpected(magic.error());
+  if (!magic || std::string_view(magic->data(), SELFMAG) != ELFMAG) {
     return fail(ErrorCode::kParse, "not a shared library (no ELF file)");
   }
-  const auto header = value_at<Elf64_Ehdr>(bytes, 0);
-  if (!header) return damaged(bytes, "the ELF header reaches");
-  if (header->e_ident[EI_CLASS] != ELFCLASS64 || header->e_ident[EI_DATA] != ELFDATA2LSB) {
+  RAVE_TRY_ASSIGN(const auto header, bytes.value<Elf64_Ehdr>(0, "the ELF header reaches"));
+  if (header.e_ident[EI_CLASS] != ELFCLASS64 || header.e_ident[EI_DATA] != ELFDATA2LSB) {
     return fail(ErrorCode::kParse, "not a 64-bit little-endian ELF file");
   }
-  if (header->e_type != ET_DYN) {
+  if (header.e_type != ET_DYN) {
     return fail(ErrorCode::kParse, "not a shared library (ELF type {}, a shared library has {})",
-                header->e_type, ET_DYN);
+                header.e_type, ET_DYN);
   }
-  if (header->e_machine != kHostMachine) {
+  if (header.e_machine != kHostMachine) {
     return fail(ErrorCode::kIncompatible,
                 "built for another processor (ELF machine {}, this one is {}): rebuild it here",
-                header->e_machine, kHostMachine);
+                header.e_machine, kHostMachine);
   }
-  if (header->e_shoff != 0 && header->e_shnum != 0 && header->e_shentsize != sizeof(Elf64_Shdr)) {
+  if (header.e_shoff != 0 && header.e_shnum != 0 && header.e_shentsize != sizeof(Elf64_Shdr)) {
     return fail(ErrorCode::kParse, "damaged: its section headers have {} bytes, not {}",
-                header->e_shentsize, sizeof(Elf64_Shdr));
+                header.e_shentsize, sizeof(Elf64_Shdr));
   }
-  return *header;
+  return header;
 }
 
 /// Whether the name at `offset` of the table of names is that of the stamp's section. The end of
 /// the table also ends a name, so a missing zero cannot cause reads beyond it.
-bool is_stamp_name(std::string_view names, std::uint64_t offset) {
-  if (offset >= names.size()) return false;
-  const std::string_view rest = names.substr(offset);
-  return rest.substr(0, rest.find('\0')) == kSection;
+Result<bool> is_stamp_name(const Bytes& bytes, const Elf64_Shdr& names, std::uint64_t offset) {
+  if (offset >= names.sh_size) return false;
+  // With the zero behind it, unless the table ends there. The table can be long, a name is not.
+  std::array<char, kSection.size() + 1> name{};
+  const std::size_t size = std::min<std::uint64_t>(name.size(), names.sh_size - offset);
+  RAVE_TRY(bytes.read(names.sh_offset + offset, std::as_writable_bytes(std::span(name).first(size)),
+                      "its section names reach"));
+  return std::string_view(name.data(), std::find(name.begin(), name.end(), '\0')) == kSection;
 }
 
 /// The header of the stamp's section; empty if there is none.
-Result<std::optional<Elf64_Shdr>> find_section(std::string_view bytes, const Elf64_Ehdr& header) {
+Result<std::optional<Elf64_Shdr>> find_section(const Bytes& bytes, const Elf64_Ehdr& header) {
   if (header.e_shoff == 0 || header.e_shnum == 0) return std::optional<Elf64_Shdr>{};
-  // At most 65535 headers of 64 bytes: the product cannot overflow.
-  const auto table = part(bytes, header.e_shoff, header.e_shnum * sizeof(Elf64_Shdr));
-  if (!table) return damaged(bytes, "its table of sections reaches");
-  const auto section = [&](std::uint64_t index) {
-    return value_at<Elf64_Shdr>(*table, index * sizeof(Elf64_Shdr));
-  };
-  const auto names_header = section(header.e_shstrndx);
-  if (!names_header) return damaged(bytes, "its section names lie");
-  const auto names = part(bytes, names_header->sh_offset, names_header->sh_size);
-  if (!names) return damaged(bytes, "its section names reach");
-  for (std::uint64_t i = 0; i < header.e_shnum; ++i) {
-    const auto candidate = section(i);
+  std::vector<Elf64_Shdr> sections(header.e_shnum);
+  RAVE_TRY(bytes.read(header.e_shoff, std::as_writable_bytes(std::span(sections)),
+                      "its table of sections reaches"));
+  if (header.e_shstrndx >= sections.size()) {
+    return bytes.beyond_end("its section names lie");
+  }
+  const Elf64_Shdr& names = sections[header.e_shstrndx];
+  if (!bytes.contain(names.sh_offset, names.sh_size)) {
+    return bytes.beyond_end("its section names reach");
+  }
+  for (const Elf64_Shdr& candidate : sections) {
     // A file with split debug symbols has the section's header without its bytes: SHT_NOBITS.
-    if (candidate && candidate->sh_type == SHT_PROGBITS &&
-        is_stamp_name(*names, candidate->sh_name)) {
-      return candidate;
-    }
+    if (candidate.sh_type != SHT_PROGBITS) continue;
+    RAVE_TRY_ASSIGN(const bool found, is_stamp_name(bytes, names, candidate.sh_name));
+    if (found) return candidate;
   }
   return std::optional<Elf64_Shdr>{};
 }
@@ -148,9 +185,7 @@ std::string virtual_difference(std::uint64_t plugin, std::uint64_t host) {
       plugin, host);
 }
 
-}  // namespace
-
-Result<Stamp> parse_stamp(std::string_view bytes) {
+Result<Stamp> stamp_in(const Bytes& bytes) {
   RAVE_TRY_ASSIGN(const Elf64_Ehdr header, read_header(bytes));
   RAVE_TRY_ASSIGN(const std::optional<Elf64_Shdr> section, find_section(bytes, header));
   if (!section) return no_stamp();
@@ -161,18 +196,24 @@ Result<Stamp> parse_stamp(std::string_view bytes) {
                 "installation",
                 section->sh_size, sizeof(Stamp));
   }
-  const auto stamp = value_at<Stamp>(bytes, section->sh_offset);
-  if (!stamp) return damaged(bytes, "its stamp reaches");
-  if (stamp->magic != Stamp::kMagic) {
+  RAVE_TRY_ASSIGN(const auto stamp, bytes.value<Stamp>(section->sh_offset, "its stamp reaches"));
+  if (stamp.magic != Stamp::kMagic) {
     return fail(ErrorCode::kIncompatible,
                 "its stamp is unknown to this version: rebuild it against this installation");
   }
-  return *stamp;
+  return stamp;
 }
 
+}  // namespace
+
+Result<Stamp> parse_stamp(std::string_view bytes) { return stamp_in(Bytes(bytes)); }
+
 Result<Stamp> read_stamp(const std::filesystem::path& path) {
-  RAVE_TRY_ASSIGN(const std::string bytes, read_file(path));
-  return parse_stamp(bytes);
+  RAVE_TRY_ASSIGN(const int opened, open_regular_file(path));
+  const Descriptor file(opened);
+  const ::off_t size = ::lseek(file.get(), 0, SEEK_END);
+  if (size < 0) return fail(ErrorCode::kIo, "cannot be read: {}", std::strerror(errno));
+  return stamp_in(Bytes(file, static_cast<std::uint64_t>(size)));
 }
 
 std::vector<std::string> parse_provides(const Stamp& stamp) {

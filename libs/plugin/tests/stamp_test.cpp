@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/plugin/stamp.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 
 #include "tiny_elf.hpp"
 
@@ -96,6 +101,31 @@ TEST(ParseStamp, SaysThatThereIsNoUsableStamp) {
   file = TinyElf(sample());
   file.stamp.magic = 0;
   expect_says(problem(file), "its stamp is unknown to this version");
+}
+
+// A file of 1 TiB that takes a few kilobytes on the disk: who reads all of it does not come back.
+TEST(ReadStamp, ReadsOfALargeFileOnlyWhereTheStampStands) {
+  constexpr std::uint64_t kFar = std::uint64_t{1} << 40;
+  const std::filesystem::path path =
+      std::filesystem::path(testing::TempDir()) / fmt::format("far_{}.so", ::getpid());
+  TinyElf file(sample());
+  file.header.e_shoff = kFar;
+  const std::string bytes = file.bytes();
+  {
+    std::ofstream out(path, std::ios::binary);
+    out << bytes;  // The names and the stamp in front, the table of sections behind the gap.
+    out.seekp(static_cast<std::streamoff>(kFar));
+    out.write(bytes.data() + sizeof file.header, sizeof file.sections);
+    ASSERT_TRUE(out.flush());
+  }
+  const auto stamp = read_stamp(path);
+  ASSERT_TRUE(stamp) << stamp.error().text();
+  EXPECT_EQ(parse_provides(*stamp), (std::vector<std::string>{"left", "right", "last"}));
+  std::filesystem::resize_file(path, kFar + sizeof file.sections - 1);
+  const auto cut = read_stamp(path);
+  ASSERT_FALSE(cut);
+  expect_says(cut.error().message, "its table of sections reaches beyond the end");
+  std::filesystem::remove(path);
 }
 
 TEST(ParseProvides, TakesAFieldWithoutATerminatingZero) {

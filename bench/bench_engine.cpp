@@ -11,8 +11,8 @@ using namespace rave;
 using namespace rave::sim;
 using namespace rave::sim::testing;
 
-/// `count` robots with a laser of 16 rays and 3 m that roam a field with one robot on 4 m^2.
-EngineSpec crowd(std::uint32_t count, unsigned threads, bool noisy) {
+/// `count` robots with a laser of 16 rays and 3 m that roam a field, so many metres apart.
+EngineSpec crowd(std::uint32_t count, unsigned threads, bool noisy, double apart_m = 2) {
   static constexpr VirtualActuatorOps kWheels = rave::detail::virtual_actuator_ops<Wheels>();
   static constexpr ControllerOps kPass = rave::detail::controller_ops<Pass>();
   EngineSpec spec;
@@ -48,8 +48,10 @@ EngineSpec crowd(std::uint32_t count, unsigned threads, bool noisy) {
     body.shapes.push_back(world::make_disc({}, 0.15, 0, 0.3).value());
     body.layer = Layer::kSimulatedRobots;
     spec.world.robots.push_back(std::move(body));
-    spec.robots.push_back(
-        {std::to_string(r), "", 0, {2.0 * (r % columns), 2.0 * (r / columns), 0.1 * (r % 60)}});
+    spec.robots.push_back({std::to_string(r),
+                           "",
+                           0,
+                           {apart_m * (r % columns), apart_m * (r / columns), 0.1 * (r % 60)}});
   }
   return spec;
 }
@@ -70,6 +72,24 @@ BENCHMARK(engine_step)
     ->Args({1000, 1, 0})
     ->Args({1000, 1, 1})
     ->Args({1000, 2, 0})
+    ->Unit(benchmark::kMicrosecond)
+    ->UseRealTime();
+
+/// A step of few robots in an empty world: it must not cost more the farther they are apart.
+void far_apart(benchmark::State& state) {
+  const auto count = static_cast<std::uint32_t>(state.range(0));
+  const auto engine =
+      Engine::create(crowd(count, 1, false, static_cast<double>(state.range(1)))).value();
+  for (auto _ : state) {
+    if (!engine->step()) state.SkipWithError("the run ended");
+  }
+}
+// Robots, metres between them.
+BENCHMARK(far_apart)
+    ->Args({3, 10})
+    ->Args({3, 3000})
+    ->Args({1000, 10})
+    ->Args({1000, 300})
     ->Unit(benchmark::kMicrosecond)
     ->UseRealTime();
 

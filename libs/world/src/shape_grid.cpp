@@ -12,6 +12,9 @@ namespace {
 
 /// Limits memory: where things are far apart, cells grow instead.
 constexpr double kMaxCells = 1 << 20;
+/// Building visits every cell, so few pieces get few cells, however far apart they are. With so
+/// many a piece costs at most twice what it costs in a crowd.
+constexpr double kCellsPerPiece = 64;
 constexpr std::size_t kMaxPieces = 4096;
 
 struct Box {
@@ -106,18 +109,21 @@ bool ShapeGrid::lay_cells(std::span<const ShapePiece> pieces, double cell_m) {
   largest_m_ = static_cast<double>(largest_m);
   mean_radius_m_ = 0;
   pieces_per_m2_ = 0;
+  cell_m_ = cell_m;
   if (!(low.x <= high.x)) return false;
   mean_radius_m_ = radii_m / static_cast<double>(count);
   // One metre is added to each extent, because pieces in a row would have no area.
   pieces_per_m2_ = static_cast<double>(count) / ((high.x - low.x + 1) * (high.y - low.y + 1));
   size_ = high - low;
-  const double cell =
-      std::max(cell_m, std::sqrt((high.x - low.x) * (high.y - low.y) / kMaxCells) + 1e-9);
+  // Of these at most so many fit beside each other, and so many in all.
+  const double cells = std::min(kMaxCells, kCellsPerPiece * static_cast<double>(count));
+  const double cell = std::max(
+      {cell_m, size_.x / cells, size_.y / cells, std::sqrt(size_.x * size_.y / cells) + 1e-9});
   origin_ = low;
   cells_per_m_ = 1.0 / cell;
   cell_m_ = cell;
-  width_ = static_cast<int>(std::min((high.x - low.x) * cells_per_m_, kMaxCells)) + 1;
-  height_ = static_cast<int>(std::min((high.y - low.y) * cells_per_m_, kMaxCells)) + 1;
+  width_ = static_cast<int>(std::min(size_.x * cells_per_m_, cells)) + 1;
+  height_ = static_cast<int>(std::min(size_.y * cells_per_m_, cells)) + 1;
   return true;
 }
 

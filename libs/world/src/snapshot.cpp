@@ -322,8 +322,10 @@ double Snapshot::first_part_m() const noexcept {
   // it.
   const double met_per_m = 2 * (fixed_.pieces_per_m2() * fixed_.mean_radius_m() +
                                 moving_.pieces_per_m2() * moving_.mean_radius_m());
-  // A search beside a part extends by the largest piece anyway.
-  return std::max({1 / std::max(met_per_m, 1e-9), fixed_.cell_m(), moving_.cell_m(),
+  // A search beside a part extends by the largest piece anyway. Of the cells the smaller ones
+  // count: those of a few pieces far apart are large, and must not make a part long in the crowd of
+  // others.
+  return std::max({1 / std::max(met_per_m, 1e-9), std::min(fixed_.cell_m(), moving_.cell_m()),
                    fixed_.largest_radius_m(), moving_.largest_radius_m()});
 }
 

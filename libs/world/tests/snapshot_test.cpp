@@ -233,13 +233,50 @@ TEST(ShapeGrid, LeavesOutWhatIsNowhere) {
   grid.for_each_near({0, 0}, 1e13, [&](const ShapePiece&) { FAIL() << "nothing is there"; });
 }
 
+// Building visits all cells, in each step.
+TEST(ShapeGrid, FewPiecesHaveFewCellsHoweverFarApartTheyAre) {
+  const auto cells = [](std::initializer_list<Vec2> places) {
+    std::vector<ShapePiece> pieces;
+    for (const Vec2 p : places) pieces.emplace_back().centre_W = p;
+    ShapeGrid grid;
+    grid.build(pieces, 2);
+    const CellBlock all = grid.cells_near({0, 0}, 1e9);
+    return (all.x1 + 1) * (all.y1 + 1);
+  };
+  EXPECT_LE(cells({{0, 0}, {10, 0}, {10, 10}}), 36);
+  EXPECT_LE(cells({{0, 0}, {3000, 0}, {3000, 3000}}), 3 * 3 * 64);
+  EXPECT_LE(cells({{0, 0}, {1e7, 0}, {-1e7, 0.5}}), 3 * 3 * 64);
+  EXPECT_LE(cells({{0, 0}, {0, 1e7}}), 2 * 3 * 64);
+}
+
+// Few pieces that are far apart give cells much larger than a crowd does; they do not make the
+// parts of a ray in that crowd longer.
+TEST(Snapshot, ARayInACrowdIsInShortPartsHoweverFarTheRobotsAre) {
+  WorldModel model = tube_and_robots();
+  for (int i = 0; i < 2000; ++i) {
+    model.obstacles.push_back(model.obstacles.front());
+    model.obstacles.back().X_WB = {0.5 * (i % 50), 0.5 * (i / 50), 0};
+  }
+  Snapshot world(model);
+  world.set_robot(RobotId(0), {{0, 3, 0}, {}, true});
+  world.set_robot(RobotId(1), {{2, 0, 0}, {}, true});
+  world.rebuild();
+  EXPECT_LT(world.first_part_m(), 3);
+  world.set_robot(RobotId(0), {{-3e4, 0, 0}, {}, true});
+  world.set_robot(RobotId(1), {{0, 3e4, 0}, {}, true});
+  world.rebuild();
+  EXPECT_LT(world.first_part_m(), 3);
+}
+
 TEST(ShapeGrid, FindsWhatALinearSearchFinds) {
   RandomStream random(2, 7, 1, 8);
   for (int world = 0; world < 50; ++world) {
+    // Every second world has its pieces so far apart that the cells grow.
+    const double scale = world % 2 == 0 ? 1 : random.uniform(1, 1000);
     std::vector<ShapePiece> pieces;
     for (std::uint32_t i = 0; i < 200; ++i) {
       ShapePiece piece;
-      piece.centre_W = {random.uniform(-20, 20), random.uniform(-3, 3)};
+      piece.centre_W = scale * Vec2{random.uniform(-20, 20), random.uniform(-3, 3)};
       piece.radius_m = static_cast<float>(random.uniform(0, 2));
       piece.shape = i;
       pieces.push_back(piece);
@@ -247,8 +284,8 @@ TEST(ShapeGrid, FindsWhatALinearSearchFinds) {
     ShapeGrid grid;
     grid.build(pieces, 1.5);
     for (int query = 0; query < 20; ++query) {
-      const Vec2 p{random.uniform(-25, 25), random.uniform(-5, 5)};
-      const double radius = random.uniform(0, 6);
+      const Vec2 p = scale * Vec2{random.uniform(-25, 25), random.uniform(-5, 5)};
+      const double radius = scale * random.uniform(0, 6);
       std::vector<std::uint32_t> expected;
       for (const ShapePiece& piece : pieces) {
         const double reach = radius + static_cast<double>(piece.radius_m);

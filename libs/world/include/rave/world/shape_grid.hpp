@@ -70,7 +70,8 @@ struct CellBlock {
 /// pieces or a larger area than before.
 class ShapeGrid {
  public:
-  /// Cells are `cell_m` wide, or wider if the extent would need more than about 2^20 cells.
+  /// Cells are `cell_m` wide, or wider if the extent would need more than about 64 cells for each
+  /// piece or 2^20 in all.
   void build(std::span<const ShapePiece> pieces, double cell_m);
 
   /// The cells with pieces that may come within `radius_m` of `p`.

@@ -17,6 +17,7 @@ namespace rave::config {
 namespace {
 
 constexpr std::size_t kLineWidth = 100;
+constexpr std::size_t kRowWidth = 200;  ///< Of items of a list, of which there may be many.
 
 /// Characters that other tools may strip, refuse or treat as a line break.
 bool needs_escape(std::uint32_t code) {
@@ -93,6 +94,19 @@ std::string inline_text(const RawNode& node) {
   return out + "]";
 }
 
+/// A mapping as `{a: 1, b: [2, 3]}` if it has no comments, no mappings in it, and fits on a line.
+std::string row_text(const RawNode& node) {
+  std::string out = "{";
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const RawNode& value = node.child(i);
+    const std::string text = value.is_mapping() ? std::string{} : inline_text(value);
+    if (text.empty() || !node.comment(i).empty() || out.size() > kRowWidth) return {};
+    if (i > 0) out += ", ";
+    out += (is_plain_word(node.key(i)) ? node.key(i) : in_quotes(node.key(i))) + ": " + text;
+  }
+  return out.size() > kRowWidth ? std::string{} : out + "}";
+}
+
 std::string one_line(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
@@ -140,7 +154,8 @@ class YamlText {
   void sequence(const RawNode& node, std::size_t indent) {
     const std::string dash = std::string(indent, ' ') + "- ";
     for (const RawNode& item : node.children()) {
-      const std::string text = inline_text(item);
+      const bool row = item.is_mapping() && item.size() > 0;
+      const std::string text = row ? row_text(item) : inline_text(item);
       if (!text.empty()) {
         out_ += dash + text + "\n";
       } else if (item.is_mapping()) {

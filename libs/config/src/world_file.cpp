@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/config/world_file.hpp"
 
+#include "brief_list.hpp"
 #include "world_fields.hpp"
 
 namespace rave::config {
@@ -30,6 +31,10 @@ Result<WorldFile> read_world_file(const std::filesystem::path& path) {
   return read_file<WorldFile>(path);
 }
 
-std::string write_world(const WorldFile& world) { return write_text(world); }
+std::string write_world(const WorldFile& world) {
+  RawNode tree = write_node(WorldFile{world.description, {}, world.maps});
+  tree.set("obstacles", brief_list(world.obstacles));
+  return to_yaml(tree);
+}
 
 }  // namespace rave::config

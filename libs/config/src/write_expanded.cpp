@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // An expanded scenario as one file, which reads back as the same scenario.
+#include <utility>
+
+#include "brief_list.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "scenario_fields.hpp"
 
@@ -44,7 +47,6 @@ RawNode escaped(RawNode node) {
 
 std::string write_expanded(const ExpandedScenario& expanded) {
   ScenarioFile scenario = expanded.scenario;
-  scenario.obstacles = expanded.world.obstacles;
   scenario.maps = expanded.world.maps;
   std::size_t first = 0;
   for (std::size_t group = 0; group < expanded.groups.size(); ++group) {
@@ -55,7 +57,10 @@ std::string write_expanded(const ExpandedScenario& expanded) {
     add_poses(std::span(expanded.robots).subspan(first, end - first), entry);
     first = end;
   }
+  const auto changes = std::exchange(scenario.changes, {});
   RawNode tree = write_node(scenario);
+  tree.set("obstacles", brief_list(expanded.world.obstacles));
+  tree.set("changes", brief_list(changes));
   // `$(` in values must not be taken for a variable when the text is read again.
   RawNode robots = *tree.find("robots");
   for (std::size_t i = 0; i < robots.size(); ++i) {

@@ -94,7 +94,7 @@ class TreeBuilder : public YAML::EventHandler {
     }
     // An alias is a copy. Counting it keeps a small file with nested aliases from growing without
     // limit ("billion laughs").
-    count(found->second.size, mark);
+    count_copies(found->second.size, mark);
     check_depth(static_cast<int>(stack_.size()) + height_of(found->second.node), mark);
     value(found->second.node, mark, 0, 0);
   }
@@ -135,9 +135,16 @@ class TreeBuilder : public YAML::EventHandler {
   void count(std::size_t nodes, const YAML::Mark& mark) {
     nodes_ += nodes;
     if (nodes_ <= kMaxNodes) return;
-    throw Abort{{ErrorCode::kParse,
-                 fmt::format("more than {} values, with aliases expanded", kMaxNodes),
-                 place(mark)}};
+    throw Abort{{ErrorCode::kParse, fmt::format("more than {} values", kMaxNodes), place(mark)}};
+  }
+
+  void count_copies(std::size_t nodes, const YAML::Mark& mark) {
+    copies_ += nodes;
+    if (copies_ > kMaxCopies) {
+      throw Abort{{ErrorCode::kParse,
+                   fmt::format("aliases stand for more than {} values", kMaxCopies), place(mark)}};
+    }
+    count(nodes, mark);
   }
 
   void check_depth(int depth, const YAML::Mark& mark) const {
@@ -177,7 +184,7 @@ class TreeBuilder : public YAML::EventHandler {
   /// Adds a finished node to its parent. `size` is the number of nodes in it.
   void value(RawNode node, const YAML::Mark& mark, YAML::anchor_t anchor, std::size_t size) {
     if (anchor != 0) {
-      count(size, mark);  // the copy kept for aliases
+      count_copies(size, mark);  // the copy kept for aliases
       anchors_[anchor] = Anchored{node, size};
     }
     if (stack_.empty()) {
@@ -229,6 +236,7 @@ class TreeBuilder : public YAML::EventHandler {
   std::vector<Frame> stack_;
   std::map<YAML::anchor_t, Anchored> anchors_;
   std::size_t nodes_ = 0;
+  std::size_t copies_ = 0;
   std::optional<YAML::Mark> last_scalar_;
   std::optional<RawNode> root_;
 };

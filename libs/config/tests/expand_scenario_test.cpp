@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "rave/config/expanded_scenario.hpp"
 
@@ -19,6 +22,8 @@ std::string error_of(std::string_view text) {
   }
   return all;
 }
+
+#define WALKER "robots: [{name: w, file: ../robots/walker.yaml}]\n"
 
 TEST(Expand, PutsFilesTogether) {
   const auto expanded = expand_scenario(kData / "scenarios/mixed.yaml");
@@ -58,14 +63,51 @@ TEST(Expand, WhatIsWrittenExpandsToTheSameAnywhere) {
   }
 }
 
+// With all keys and their comments such a text had 63 MB, and was refused when it was read again.
+TEST(Expand, TheMostObstaclesOfAWorldAreWrittenInATextThatCanBeRead) {
+  std::string text = "name: a\n" WALKER "obstacles:\n";
+  constexpr int kSome = 1000;
+  for (int i = 0; i < kSome; ++i) {
+    text += fmt::format("  - {{name: b{}, box_m: [0.2, 0.3], x_m: {}, y_m: 1}}\n", i, i);
+  }
+  const auto expanded = expand_scenario_text(text, kData / "scenarios/s.yaml");
+  ASSERT_TRUE(expanded.has_value()) << expanded.error().text();
+  const std::string written = write_expanded(*expanded);
+  const auto again = expand_scenario_text(written, "/elsewhere/again.yaml");
+  ASSERT_TRUE(again.has_value()) << again.error().text();
+  EXPECT_TRUE(*again == *expanded);
+  // As large as the largest world file.
+  constexpr std::size_t kMost = 100'000;
+  EXPECT_LT(written.size() * (kMost / kSome), kMaxFileBytes / 4);
+  const auto values = std::ranges::count(written, ',') + 2 * std::ranges::count(written, ':');
+  EXPECT_LT(static_cast<std::size_t>(values) * (kMost / kSome), kMaxNodes);
+}
+
+TEST(Expand, ObstaclesAndChangesKeepAllThatIsSet) {
+  const auto expanded = expand_scenario_text("name: a\n" WALKER R"(obstacles:
+  - {name: tube, disc_radius_m: 0.1, x_m: 1, y_m: 2, yaw_deg: 3, z_m: [0.1, 2], layer: mapped_real,
+     barcode: 72, barcode_z_m: [0.2, 0.9], colour: "#aabbcc"}
+  - {name: wedge, polygon_m: [[0, 0], [1, 0], [0.5, 1]]}
+  - {name: last, box_m: [1, 2]}
+changes:
+  - {at_s: 1, add_obstacle: {name: more, box_m: [1, 1], colour: "#000000"}}
+  - {at_s: 2, move_obstacle: {name: more, x_m: 3}}
+  - {at_s: 3, remove_obstacle: more}
+  - {at_s: 4, robot: w, set: {program.goal: null, program.speed_mps: 0.25}}
+)",
+                                             kData / "scenarios/s.yaml");
+  ASSERT_TRUE(expanded.has_value()) << expanded.error().text();
+  const auto again = expand_scenario_text(write_expanded(*expanded), "/elsewhere/again.yaml");
+  ASSERT_TRUE(again.has_value()) << again.error().text();
+  EXPECT_EQ(*again, *expanded);
+}
+
 TEST(Expand, AnInlineRobotTakesTheVariablesOfItsEntry) {
   const auto expanded = expand_scenario(kData / "scenarios/small.yaml");
   ASSERT_TRUE(expanded.has_value()) << expanded.error().text();
   EXPECT_EQ(expanded->groups.at(0).robot.body->shapes.at(0).outline.disc_radius_m, 0.2);
   EXPECT_EQ(expanded->groups.at(0).file, "");
 }
-
-#define WALKER "robots: [{name: w, file: ../robots/walker.yaml}]\n"
 
 TEST(Expand, AFileOfTheGuiHasRightsAndComponentsOfItsFolder) {
   const auto expanded = expand_scenario_text("name: a\ngui: {file: ../gui/lab.yaml}\n" WALKER,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/config/scenario_file.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace rave::config {
@@ -49,6 +50,17 @@ TEST(RobotFileText, ReadsBackWhatItWrites) {
     ASSERT_TRUE(again.has_value()) << again.error().text();
     EXPECT_EQ(*again, *robot);
   }
+}
+
+TEST(WorldFileText, HasRoomForAsManyObstaclesAsItsReferenceSays) {
+  std::string text = "obstacles:\n";
+  for (int i = 0; i < 100'000; ++i) {
+    text += fmt::format("  - {{name: b{}, box_m: [0.2, 0.3], x_m: {}, y_m: {}}}\n", i, i % 300,
+                        i / 300);
+  }
+  const auto world = read_world_text(text, "w.yaml");
+  ASSERT_TRUE(world.has_value()) << world.error().text();
+  EXPECT_EQ(world->obstacles.size(), 100'000U);
 }
 
 TEST(WorldFileText, DefaultsAndRoundTrip) {

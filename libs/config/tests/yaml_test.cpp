@@ -75,6 +75,13 @@ TEST(Yaml, NestedBlocksReadBack) {
   EXPECT_EQ(to_yaml(tree_of(text)), text);
 }
 
+TEST(Yaml, ShortItemsOfListsHaveOneLine) {
+  RawNode node = tree_of("a: [{b: 1, \"c d\": [2, x], e: ~}, {f: {g: 1}}]\n");
+  EXPECT_EQ(to_yaml(node), "a:\n  - {b: 1, \"c d\": [2, x], e: null}\n  - f:\n      g: 1\n");
+  node.child(0).child(0).append("h", RawNode::integer(1), "said");
+  EXPECT_NE(to_yaml(node).find("\n    h: 1  # said\n"), std::string::npos) << to_yaml(node);
+}
+
 TEST(Yaml, CommentsStandBehindTheLineOrAboveIt) {
   RawNode node = RawNode::mapping();
   node.append("a", RawNode::integer(1), "short");

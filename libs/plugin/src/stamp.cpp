@@ -79,7 +79,7 @@ Status Bytes::read(std::uint64_t offset, std::span<std::byte> out, std::string_v
     const ssize_t count = ::pread(file_, out.data(), out.size(), static_cast<::off_t>(offset));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return fail(ErrorCode::kIo, "cannot be read: {}", std::strerror(errno));
-    if (count == 0) return beyond_end(what);  // Somebody has shortened it since, such as a linker.
+    if (count == 0) return beyond_end(what);  // It was shortened since, by a linker for example.
     out = out.subspan(static_cast<std::size_t>(count));
     offset += static_cast<std::uint64_t>(count);
   }

@@ -12,8 +12,8 @@ namespace {
 
 /// Limits memory: where things are far apart, cells grow instead.
 constexpr double kMaxCells = 1 << 20;
-/// Building visits every cell, so few pieces get few cells, however far apart they are. With so
-/// many a piece costs at most twice what it costs in a crowd.
+/// Building visits every cell, so few pieces get few cells, however far apart they are. With this
+/// number a piece costs at most twice what it costs in a crowd.
 constexpr double kCellsPerPiece = 64;
 constexpr std::size_t kMaxPieces = 4096;
 
@@ -115,7 +115,7 @@ bool ShapeGrid::lay_cells(std::span<const ShapePiece> pieces, double cell_m) {
   // One metre is added to each extent, because pieces in a row would have no area.
   pieces_per_m2_ = static_cast<double>(count) / ((high.x - low.x + 1) * (high.y - low.y + 1));
   size_ = high - low;
-  // Of these at most so many fit beside each other, and so many in all.
+  // The limit of the width and of the height, and about that of their product.
   const double cells = std::min(kMaxCells, kCellsPerPiece * static_cast<double>(count));
   const double cell = std::max(
       {cell_m, size_.x / cells, size_.y / cells, std::sqrt(size_.x * size_.y / cells) + 1e-9});

@@ -98,8 +98,9 @@ struct PlannedHost {
 [[nodiscard]] Result<ExpandedScenario> expand_scenario_file(ScenarioFile scenario,
                                                             const std::filesystem::path& path);
 
-/// The scenario as one self-contained file with all defaults. Expanding it in any folder gives an
-/// equal value as long as the map files exist.
+/// The scenario as one self-contained file with all defaults; of obstacles and changes only what is
+/// set, without comments. Expanding it in any folder gives an equal value as long as the map files
+/// exist.
 [[nodiscard]] std::string write_expanded(const ExpandedScenario& expanded);
 
 }  // namespace rave::config

@@ -86,7 +86,7 @@ struct WorldFile {
 /// Whether an edit that code has put together is one that read_edit() accepts. Errors: kParse.
 [[nodiscard]] Status check_edit(const ObstacleEdit& edit);
 
-/// The world as YAML with all defaults. read_world_text gives an equal value.
+/// The world as YAML, of its obstacles only what is set. read_world_text gives an equal value.
 [[nodiscard]] std::string write_world(const WorldFile& world);
 
 /// The JSON Schema (draft 07) of world files.

@@ -12,9 +12,11 @@
 namespace rave::config {
 
 /// Limits that bound the cost of parsing a malicious file.
-inline constexpr std::size_t kMaxFileBytes = std::size_t{16} << 20;
-inline constexpr std::size_t kMaxNodes = 1'000'000;  ///< Counted after aliases are expanded.
-inline constexpr int kMaxDepth = 64;                 ///< Nesting of lists and mappings.
+inline constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
+/// Enough for 100 000 obstacles with all their keys.
+inline constexpr std::size_t kMaxNodes = 4'000'000;
+inline constexpr std::size_t kMaxCopies = 1'000'000;  ///< Of values that aliases stand for.
+inline constexpr int kMaxDepth = 64;                  ///< Nesting of lists and mappings.
 inline constexpr std::size_t kMaxKeyBytes = 200;
 
 /// Parses one YAML document. Aliases are expanded. Errors: tags, merge keys, keys that are not
@@ -24,7 +26,8 @@ inline constexpr std::size_t kMaxKeyBytes = 200;
 [[nodiscard]] std::optional<RawNode> parse_yaml(std::string_view text, std::string_view file_name,
                                                 Diagnostics& diagnostics);
 
-/// YAML in block style with the comments of the entries. parse_yaml gives an equal node.
+/// YAML in block style with the comments of the entries; items of lists that are short mappings
+/// without comments have one line each. parse_yaml gives an equal node.
 [[nodiscard]] std::string to_yaml(const RawNode& node);
 
 /// JSON with an indent of two, keys in their order, and a final newline. Infinities become null.

@@ -10,6 +10,10 @@ import {PanelWindow} from './panel_window';
 /** The user who was here last. */
 const kUser = 'rave.user';
 const kLeave_ms = 2000;
+/** From this height on two panels find room in a column beside the stick. */
+const kTall_px = 880;
+/** Less would cut the stick, its pedals or the state of the line. */
+const kStickRoom = {minimumWidth: 300, minimumHeight: 384};
 /** Another number makes layouts that were kept void. */
 const kVersion = 2;
 
@@ -50,6 +54,7 @@ export class Dock {
   private leaving = false;
   private user = localStorage.getItem(kUser) ?? '';
   private readonly width = document.documentElement.clientWidth;
+  private readonly height = document.documentElement.clientHeight;
 
   constructor(host: HTMLElement, private readonly kinds: () => readonly PanelKind[], private readonly context: PanelContext, private readonly bindKeys: (document: Document) => void) {
     // Before the dock itself hears of it. A download says the same, and the page stays.
@@ -177,15 +182,15 @@ export class Dock {
     this.add('world');
     if (this.width >= 1280) this.layOutWide(layout);
     else if (this.width >= 900) {
-      this.add('robots', {referencePanel: 'world', direction: 'right'}, {initialWidth: Math.round(0.38 * this.width)});
-      this.add('hosts', {referencePanel: 'robots', direction: 'within'});
-      this.add('sensors', {referencePanel: 'robots', direction: 'below'});
-      this.add('log', {referencePanel: 'sensors', direction: 'within'});
+      this.layOutMiddle(layout);
     } else {
-      this.add('robots', {referencePanel: 'world', direction: 'below'});
-      for (const id of ['sensors', 'log', 'hosts']) this.add(id, {referencePanel: 'robots', direction: 'within'});
+      const first = layout === 'Drive' ? 'joystick' : layout === 'Conduct' ? 'rights' : 'robots';
+      this.add(first, {referencePanel: 'world', direction: 'below'});
+      for (const id of ['robots', 'sensors', 'log', 'hosts']) if (id !== first) this.add(id, {referencePanel: first, direction: 'within'}, {inactive: true});
     }
-    for (const id of layout === 'Drive' ? ['robots', 'joystick', 'world'] : this.width >= 900 ? ['sensors', 'robots', 'world'] : ['robots', 'world']) this.show(id);
+    const first = layout === 'Drive' ? ['robots', 'joystick'] : layout === 'Conduct' ? ['robots', 'rights'] : this.width >= 900 ? ['sensors', 'robots'] : ['robots'];
+    const alone = this.width < 900 && first.length > 1 ? first.slice(1) : first;
+    for (const id of [...alone, 'world']) this.show(id);
     this.restoring = false;
     this.keep();
   }
@@ -197,31 +202,58 @@ export class Dock {
       this.add('sensors', {referencePanel: 'world', direction: 'right'}, {initialWidth: 392});
       this.add('log', {referencePanel: 'sensors', direction: 'below'}, {initialHeight: 340});
     } else if (layout === 'Drive') {
-      this.add('robots', {referencePanel: 'world', direction: 'left'}, {initialWidth: 304});
-      this.add('robot', {referencePanel: 'robots', direction: 'below'}, {initialHeight: 420});
-      this.add('joystick', {referencePanel: 'world', direction: 'right'}, {initialWidth: 376});
-      this.add('chat', {referencePanel: 'joystick', direction: 'below'}, {initialHeight: 360});
-      this.add('log', {referencePanel: 'chat', direction: 'within'});
-      this.add('sensors', {referencePanel: 'robot', direction: 'within'});
-      this.show('robot');
-      this.show('chat');
+      this.layOutDrive();
     } else if (layout === 'Conduct') {
       this.add('robots', {referencePanel: 'world', direction: 'right'}, {initialWidth: 392});
-      this.add('log', {referencePanel: 'robots', direction: 'below'}, {initialHeight: 340});
-      this.add('sensors', {referencePanel: 'log', direction: 'within'});
-      this.add('rights', {referencePanel: 'world', direction: 'above'}, {initialHeight: 380});
+      for (const id of ['log', 'sensors']) this.add(id, {referencePanel: 'robots', direction: 'within'}, {inactive: true});
+      // Over the whole width, which the classes of rights need.
+      this.add('rights', {direction: 'above'}, {initialHeight: this.height < kTall_px ? 300 : 400});
     } else {
       this.add('sensors', {referencePanel: 'world', direction: 'right'}, {initialWidth: Math.round(0.45 * this.width)});
       this.add('log', {referencePanel: 'sensors', direction: 'below'}, {initialHeight: 280});
       this.add('robots', {referencePanel: 'world', direction: 'below'});
     }
-    this.add('hosts', {referencePanel: 'robots', direction: 'within'});
+    this.add('hosts', {referencePanel: layout === 'Drive' && this.height < kTall_px ? 'world' : 'robots', direction: 'within'}, {inactive: true});
     this.add('map', {referencePanel: 'sensors', direction: 'within'}, {inactive: true});
+  }
+
+  /** On a laptop the stick has its column for itself, and what belongs to the robot lies behind it. */
+  private layOutDrive(): void {
+    const tall = this.height >= kTall_px;
+    this.add('robots', {referencePanel: 'world', direction: 'left'}, {initialWidth: tall ? 304 : 220});
+    this.add('joystick', {referencePanel: 'world', direction: 'right'}, {initialWidth: tall ? 376 : 350});
+    if (tall) {
+      this.add('robot', {referencePanel: 'robots', direction: 'below'}, {initialHeight: 420});
+      this.add('chat', {referencePanel: 'joystick', direction: 'below'}, {initialHeight: 340});
+      this.add('log', {referencePanel: 'chat', direction: 'within'});
+      this.add('sensors', {referencePanel: 'robot', direction: 'within'});
+      this.show('robot');
+      this.show('chat');
+      return;
+    }
+    for (const id of ['robot', 'chat']) this.add(id, {referencePanel: 'joystick', direction: 'within'}, {inactive: true});
+    for (const id of ['sensors', 'log']) this.add(id, {referencePanel: 'world', direction: 'within'}, {inactive: true});
+  }
+
+  /** Two columns. */
+  private layOutMiddle(layout: LayoutName): void {
+    const right = layout === 'Drive' ? 'joystick' : 'robots';
+    this.add(right, {referencePanel: 'world', direction: 'right'}, {initialWidth: Math.round(0.38 * this.width)});
+    if (layout === 'Drive') {
+      for (const id of ['robot', 'chat', 'log']) this.add(id, {referencePanel: 'joystick', direction: 'within'}, {inactive: true});
+      this.add('robots', {referencePanel: 'world', direction: 'below'}, {initialHeight: 180});
+      this.add('sensors', {referencePanel: 'robots', direction: 'within'}, {inactive: true});
+    } else {
+      this.add('sensors', {referencePanel: 'robots', direction: 'below'});
+      this.add('log', {referencePanel: 'sensors', direction: 'within'}, {inactive: true});
+    }
+    this.add('hosts', {referencePanel: 'robots', direction: 'within'}, {inactive: true});
+    if (layout === 'Conduct') this.add('rights', {direction: 'above'}, {initialHeight: 300});
   }
 
   private add(id: string, position?: object, size?: object): void {
     const title = this.kinds().find((kind) => kind.id === id)?.title ?? id;
-    this.view.addPanel({id, component: id, title, ...(position ? {position} : {}), ...size} as never);
+    this.view.addPanel({id, component: id, title, ...(position ? {position} : {}), ...(id === 'joystick' ? kStickRoom : {}), ...size} as never);
   }
 
   private keep(): void {
@@ -280,6 +312,8 @@ export class Dock {
     try {
       const kept = JSON.parse(localStorage.getItem(layoutKey(this.about, this.name)) ?? 'null') as {version: number; layout: SerializedDockview; windows?: KeptWindow[]} | null;
       if (kept?.version === kVersion) {
+        // Of before the stick had it.
+        if (kept.layout.panels['joystick'] !== undefined) Object.assign(kept.layout.panels['joystick'], kStickRoom);
         this.view.fromJSON(kept.layout);
         this.away = kept.windows ?? [];
         return true;

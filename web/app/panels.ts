@@ -9,7 +9,7 @@ export const kPanels: readonly PanelKind[] = [
   {id: 'robots', title: 'Robots', icon: 'bot', tag: 'rave-robots', short: 'Robots', count: ({model}) => model.robots.length},
   {id: 'sensors', title: 'Sensor Display', icon: 'radar', tag: 'rave-sensors', short: 'Sensors'},
   {id: 'robot', title: 'Robot', icon: 'activity', tag: 'rave-robot', live: true},
-  {id: 'joystick', title: 'Joystick', icon: 'joystick', tag: 'rave-joystick', needs: 'command', live: true},
+  {id: 'joystick', title: 'Joystick', icon: 'joystick', tag: 'rave-joystick', needs: 'command', live: true, beside: 'robots'},
   {id: 'chat', title: 'Chat', icon: 'message', tag: 'rave-chat', short: 'Chat'},
   {id: 'log', title: 'Log & alerts', icon: 'list', tag: 'rave-log', short: 'Log'},
   {id: 'hosts', title: 'Hosts', icon: 'server', tag: 'rave-hosts', count: ({model}) => model.hosts.length},

@@ -4,7 +4,7 @@ import {Commands} from '../model/commands';
 import {DirectLines} from '../model/direct_lines';
 import {Link} from '../model/link';
 import {RunModel} from '../model/run_model';
-import type {PanelContext, PanelElement, PanelKind} from '../panel_api';
+import type {PanelContext, PanelKind} from '../panel_api';
 import {Kept} from '../panel_api/kept';
 import {Palette} from '../panel_api/palette';
 import {Selection} from '../panel_api/selection';
@@ -18,21 +18,21 @@ import {Dock, type LayoutName} from './dock';
 import './find_box';
 import './foxglove_sheet';
 import './trust_sheet';
-import {icon, type IconName} from './icons';
+import {icon} from './icons';
 import {keySheetStyles, renderKeys} from './key_sheet';
 import {userKey} from './kept_keys';
+import {KeptSelection} from './kept_selection';
 import {bindKeys, panelKey, type KeyAction} from './keys';
-import {nowOf} from './moment';
 import {readMoment, writeMoment} from './moment_link';
 import {addPanelKind, allPanels, panelsFor} from './panels';
-import {penStyles, renderPenBar} from './pen_bar';
+import {Phone, phoneStyles} from './phone';
 import {renderLost, renderNoRun, renderOpening, renderRefused, renderSeenBy, renderWaits, stateStyles} from './page_states';
 import type {RunBar} from './run_bar';
-import './sheet';
 import {controls} from './styles';
 import './top_bar';
 
-const kPhone_px = 600;
+/** From this width on there are layouts to choose from. */
+const kLayouts_px = 700;
 const kTheme = 'rave.theme';
 
 /** The whole page. */
@@ -41,17 +41,21 @@ export class RaveApp extends LitElement {
   private readonly windows = new Windows();
   private readonly link = new Link(this.model, socketUrl(), new DirectLines(new URL('ticket', document.baseURI).href), this.windows);
   private readonly selection = new Selection();
+  private readonly keptSelection = new KeptSelection(this.model, this.selection);
   private readonly palette = new Palette(document.documentElement);
   private dock: Dock | null = null;
   private readonly commands = new Commands(this.model, this.link);
-  private phonePanel = 'world';
-  private phone = matchMedia(`(max-width: ${kPhone_px - 1}px)`);
+  private readonly phone = new Phone({
+    context: () => this.context,
+    update: () => this.requestUpdate(),
+    world: () => this.world,
+    joystick: () => this.joystick,
+    kind: (id) => this.kind(id),
+  });
   /** Addresses of components that were loaded. */
   private readonly brought = new Set<string>();
   /** Components that are on their way. */
   private bringing = 0;
-  /** In the hand and low: tools and STOP at the bottom, nothing else. */
-  private pen = matchMedia(`(max-width: ${kPhone_px - 1}px) and (max-height: 700px)`);
   private finding = false;
   private showingKeys = false;
   private showingFoxglove = false;
@@ -106,6 +110,7 @@ export class RaveApp extends LitElement {
       this.palette.assign(model.robots);
       this.selection.adopt(model.robots.map((robot) => robot.name));
       this.arrive();
+      this.keptSelection.restore();
       this.retitle();
     });
     // A direct line bypasses the rights that the server applies, so not while looking as another
@@ -119,10 +124,9 @@ export class RaveApp extends LitElement {
       update();
     });
     this.windows.changed.on(() => this.link.queueLook());
-    this.addEventListener('tool', update);
+    this.addEventListener('tool', () => this.phone.toolChosen());
     model.linesChanged.on(update);
-    this.pen.addEventListener('change', update);
-    this.phone.addEventListener('change', () => {
+    this.phone.listen(() => {
       // A phone has one panel and no dock; the dock is made anew where there is room again.
       this.dock?.close();
       this.dock = null;
@@ -162,11 +166,12 @@ export class RaveApp extends LitElement {
   override updated(): void {
     const host = this.renderRoot.querySelector<HTMLElement>('.dock');
     if (host && this.dock === null) this.openDock(host);
-    if (this.phone.matches) this.context.kept.belongTo(this.model.user, '');
+    if (this.phone.is) this.context.kept.belongTo(this.model.user, '');
     if (this.model.user !== '') this.dock?.belongTo(this.model.user);
+    this.querySelector(':scope > .dock-host')?.classList.toggle('old', this.link.state === 'lost');
     this.retitle();
     const phone = this.renderRoot.querySelector<HTMLElement>('.phone');
-    if (phone) this.fillPhone(phone);
+    if (phone) this.phone.fill(phone);
   }
 
   private openDock(place: HTMLElement): void {
@@ -189,15 +194,6 @@ export class RaveApp extends LitElement {
     return host;
   }
 
-  private fillPhone(place: HTMLElement): void {
-    if (place.dataset['panel'] === this.phonePanel && place.firstElementChild !== null) return;
-    place.dataset['panel'] = this.phonePanel;
-    const kind = this.kind(this.phonePanel);
-    const panel = kind.make?.() ?? (document.createElement(kind.tag) as PanelElement);
-    panel.context = this.context;
-    place.replaceChildren(panel);
-  }
-
   private kind(id: string): PanelKind {
     return allPanels().find((kind) => kind.id === id) ?? allPanels()[0];
   }
@@ -211,10 +207,8 @@ export class RaveApp extends LitElement {
   }
 
   private showPanel(id: string): void {
-    if (this.phone.matches) {
-      this.phonePanel = id;
-      this.requestUpdate();
-    } else this.dock?.show(id);
+    if (this.phone.is) this.phone.show(id);
+    else this.dock?.show(id);
   }
 
   /** The list of people, which is a part of the panel of super-users. */
@@ -303,6 +297,7 @@ export class RaveApp extends LitElement {
       this.showingTrust = false;
       this.showingKeys = false;
     } else if (this.world?.drop()) return;
+    else if (this.phone.driving) this.phone.drive(false);
     else if (this.selection.following) this.selection.follow(false);
     else this.selection.set([]);
     this.requestUpdate();
@@ -322,7 +317,7 @@ export class RaveApp extends LitElement {
     if (link.state === 'empty') return renderNoRun();
     const old = link.state === 'lost';
     return html`
-      <rave-top-bar .context=${this.context} .layout=${this.phone.matches || innerWidth < 1280 ? '' : (this.dock?.name ?? 'Watch')}
+      <rave-top-bar .context=${this.context} .layout=${this.phone.is || innerWidth < kLayouts_px ? '' : (this.dock?.name ?? 'Watch')}
         @layout=${(event: CustomEvent<LayoutName>) => { this.dock?.choose(event.detail); this.requestUpdate(); }} @resetlayout=${() => { this.dock?.reset(); this.requestUpdate(); }} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()} @foxglove=${() => this.open('showingFoxglove')} @people=${() => this.showPeople()} @trust=${() => this.open('showingTrust')}></rave-top-bar>
       ${old ? renderLost(model, link) : renderWaits(model)}
       ${renderSeenBy(model, () => link.send({type: 'see_as'}))}
@@ -331,39 +326,27 @@ export class RaveApp extends LitElement {
       ${renderAway(this.dock)}
       ${!model.rosterCame && !old ? renderOpening() : nothing}
       <main class=${old ? 'old' : ''}>
-        ${this.phone.matches ? html`<div class="phone"></div>${this.phonePanel === 'world' && !this.pen.matches ? html`<rave-sheet .context=${this.context}></rave-sheet>` : nothing}` : html`<div class="dock"><slot name="dock"></slot></div>`}
+        ${this.phone.is ? this.phone.render() : html`<div class="dock"><slot name="dock"></slot></div>`}
       </main>
-      ${this.pen.matches && model.live && model.may('command')
-        ? renderPenBar(this.context, this.phonePanel, this.world, (id) => this.showPanel(id))
-        : html`<rave-run-bar .context=${this.context}></rave-run-bar>${this.phone.matches ? this.renderTabs() : nothing}`}
+      ${this.phone.is ? this.phone.renderBars() : html`<rave-run-bar .context=${this.context}></rave-run-bar>`}
       ${this.finding ? html`<rave-find .context=${this.context} .panels=${panelsFor(model)} @theme=${() => this.toggleTheme()} @foxglove=${() => this.open('showingFoxglove')} @done=${() => this.open('finding')}></rave-find>` : nothing}
       ${this.showingFoxglove ? html`<rave-foxglove @done=${() => this.open('showingFoxglove')}></rave-foxglove>` : nothing}
       ${this.showingTrust ? html`<rave-trust .context=${this.context} @done=${() => this.open('showingTrust')}></rave-trust>` : nothing}
       ${this.showingKeys ? renderKeys(this.actions(), () => this.escape()) : nothing}`;
   }
 
-  private renderTabs(): TemplateResult {
-    const alerts = this.model.events.filter((event) => event.level !== 'info' && (this.model.live || event.t <= nowOf(this.model))).length;
-    return html`<nav aria-label="Panels">${panelsFor(this.model).filter((kind) => kind.short).map((kind) => html`<button aria-pressed=${this.phonePanel === kind.id} @click=${() => this.showPanel(kind.id)}>
-      ${icon(kind.icon as IconName, 20)}<span>${kind.short}</span>${kind.id === 'log' && alerts > 0 ? html`<i>${alerts}</i>` : nothing}</button>`)}</nav>`;
-  }
-
   static override styles = [
     controls,
     stateStyles,
     keySheetStyles,
-    penStyles,
+    phoneStyles,
     css`
       :host { display: flex !important; flex-direction: column; height: 100%; background: var(--bg-0); }
       main { position: relative; flex: 1; min-height: 0; padding: 0 6px 6px; }
-      main.old { filter: grayscale(1) opacity(.55); }
+      /* What is old has no colour. The stick still drives over a direct line. */
+      main.old .phone, main.old rave-sheet { filter: grayscale(1) opacity(.55); }
       .dock { height: 100%; }
-      .phone { flex: 1; min-height: 0; }
       rave-run-bar { flex: none; margin: 0 6px 6px; }
-      nav { display: flex; flex: none; background: var(--bg-1); border-top: 1px solid var(--line-1); padding-bottom: env(safe-area-inset-bottom); }
-      nav button { position: relative; flex: 1; min-height: 56px; display: flex; flex-direction: column; align-items: center; gap: 3px; padding: 8px 0; color: var(--text-3); font-size: var(--fs-12); }
-      nav button[aria-pressed='true'] { color: var(--text-1); }
-      nav i { position: absolute; left: calc(50% + 6px); top: 5px; min-width: 16px; padding: 0 4px; border-radius: 8px; background: var(--warn); color: var(--bg-1); font: 600 10px/16px var(--font-ui); }
       @media (max-width: 599px) { main { display: flex; flex-direction: column; padding: 0; } rave-run-bar { margin: 0; } }
     `,
   ];

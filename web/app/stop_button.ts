@@ -2,7 +2,7 @@
 import {css, html, nothing, type TemplateResult} from 'lit';
 import {countStopped, Hold, kTwice_ms, lastStop, Twice, type LastStop, type StopCount} from '../model/stop_state';
 import {viewOf} from '../panel_api/windows';
-import {bigClock} from './clock';
+import {shortClock} from './clock';
 import {icon} from './icons';
 import {LiveElement} from './live_element';
 import {namesText} from './words';
@@ -93,7 +93,7 @@ export class StopButton extends LiveElement {
     return html`<div aria-live="polite" class="spoken">${count.stopped.length > 0 ? `${this.who(count.stopped)} stopped.` : nothing}</div>
       ${count.latched && model.may('release') ? this.renderRelease(count, true) : html`
         ${count.stopped.length > 0 && model.may('release') ? this.renderRelease(count, false) : nothing}
-        <button class="stop" ?disabled=${out} title="Stop ${namesText(count.robots.map((slot) => model.robots[slot].name), 8)} (Space Space)" @click=${() => this.stop()}>
+        <button class="stop" ?disabled=${out} title="Stop ${this.meant(count)} (Space Space)" @click=${() => this.stop()}>
           ${icon('octagonX', 28)}<span><b>STOP</b><small>${this.stopText(count, out)}</small></span></button>`}`;
   }
 
@@ -106,6 +106,12 @@ export class StopButton extends LiveElement {
     return count.robots.length === 1 ? `only ${robots[count.robots[0]].name}` : `${count.robots.length} of ${robots.length} robots`;
   }
 
+  /** Whom STOP means, by name unless it is all. */
+  private meant(count: StopCount): string {
+    const {robots} = this.context.model;
+    return count.robots.length === robots.length ? 'all robots' : namesText(count.robots.map((slot) => robots[slot].name), 8);
+  }
+
   /** One robot by its name, several by their number. */
   private who(slots: readonly number[]): string {
     return slots.length === 1 ? this.context.model.robots[slots[0]].name : `${slots.length} robots`;
@@ -116,10 +122,10 @@ export class StopButton extends LiveElement {
     const {model, link} = this.context;
     const last = lastStop(model, (slot) => link.stops?.has(slot) ?? false);
     const you = model.knownAs;
-    if (this.own !== null && (last === null || this.isNewer(this.own.t_s, last))) return this.own.t_s === null ? 'stopped by you' : `stopped by you at ${bigClock(this.own.t_s).slice(0, 5)}`;
+    if (this.own !== null && (last === null || this.isNewer(this.own.t_s, last))) return this.own.t_s === null ? 'stopped by you' : `stopped by you at ${shortClock(this.own.t_s)}`;
     if (last === null) return 'stopped';
     const who = last.who === '' ? '' : ` by ${last.who === you ? 'you' : last.who}`;
-    return `stopped${who} at ${bigClock(last.t_s).slice(0, 5)}`;
+    return `stopped${who} at ${shortClock(last.t_s)}`;
   }
 
   /** Whether one's own stop counts, and not what the log has. */

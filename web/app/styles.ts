@@ -7,9 +7,11 @@ export const controls = css`
     color: var(--text-1);
     font: var(--fw-regular) var(--fs-13) / var(--lh-body) var(--font-ui);
     font-variant-numeric: tabular-nums;
+    scrollbar-width: thin;
   }
   * {
     box-sizing: border-box;
+    scrollbar-width: thin;
   }
   button {
     font: inherit;

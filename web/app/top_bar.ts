@@ -128,9 +128,10 @@ export class TopBar extends LiveElement {
       .face.you { background: var(--intent-fill); color: #fff; }
       .people .face { margin-left: -3px; box-shadow: 0 0 0 1.5px var(--bg-0); }
       .people .rest { background: var(--bg-1); color: var(--text-2); }
-      @media (max-width: 1100px) { .about, .rate em, .wide { display: none; } }
-      @media (max-width: 800px) { .people, .rule { display: none; } .person span { display: none; } }
-      @media (max-width: 900px) { .find { flex-basis: 190px; } .find kbd { display: none; } }
+      @media (max-width: 1279px) { .about, .rate em, .wide, .find kbd, .person span { display: none; } }
+      @media (max-width: 1099px) { .brand b, .find span { display: none; } .find { flex: none; justify-content: center; } }
+      @media (max-width: 899px) and (min-width: 600px) { .rate, .brand + .rule, .segments + .icon-button { display: none; } }
+      @media (max-width: 800px) { .people, .rule { display: none; } }
       @media (max-width: 700px) { h1 { flex: 0 1 auto; } }
       @media (max-width: 599px) {
         :host { padding: 0 10px; height: 52px; } .brand b, .find span, .find kbd, .rate { display: none; }

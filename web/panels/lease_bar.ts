@@ -11,18 +11,29 @@ export class LeaseBar extends LiveElement {
   declare robot: number;
   private note = '';
   private bad = false;
+  /** Who had the lease when that was looked at last. */
+  private known = '';
   /** A lease of another person is taken with a second press. */
   private sure = false;
 
   protected override listen(): (() => void)[] {
     const {model} = this.context;
-    return [...this.renderAfter(model.peopleChanged, model.drivesChanged), model.drivesChanged.on(() => (this.sure = false))];
+    return [...this.renderAfter(model.peopleChanged, model.drivesChanged), model.drivesChanged.on(() => this.look())];
+  }
+
+  /** What was answered is of the lease of before. */
+  private look(): void {
+    const drive = this.context.model.drives.get(this.robot);
+    const now = `${drive?.lease} ${drive?.yours}`;
+    this.sure = false;
+    if (now !== this.known) this.note = '';
+    this.known = now;
   }
 
   override willUpdate(changed: Map<string, unknown>): void {
     if (changed.has('robot')) {
-      this.note = '';
-      this.sure = false;
+      this.known = '';
+      this.look();
     }
   }
 
@@ -50,7 +61,7 @@ export class LeaseBar extends LiveElement {
     const own = other && this.isOwn(drive.lease);
     return html`<div class="bar ${mine ? 'mine' : ''}">
       ${drive === undefined || drive.lease === '' ? html`<i class="face none">${icon('hand', 14)}</i>` : html`<i class="face ${mine ? 'you' : ''}">${initials(mine ? (model.hello?.user.name ?? '') : drive.lease)}</i>`}
-      <span class="who"><b>${mine ? 'You hold the lease' : own ? 'You drive on another page' : other ? `${drive.lease} drives` : 'No person drives'}</b>
+      <span class="who ${this.note === '' ? '' : 'noted'}" title=${this.note !== '' ? this.note : this.about(mine, other)}><b>${mine ? 'You hold the lease' : own ? 'You drive on another page' : other ? `${drive.lease} drives` : 'No person drives'}</b>
         <small>${this.note !== '' ? html`<span class=${this.bad ? 'bad' : ''}>${this.note}</span>` : this.about(mine, other)}</small></span>
       ${model.commands(this.robot) ? this.renderButtons(mine, other, drive?.lease ?? '') : nothing}</div>`;
   }
@@ -84,6 +95,12 @@ export class LeaseBar extends LiveElement {
     controls,
     css`
       :host { display: block; }
+      /* One line, whatever it says. */
+      :host([compact]) .bar { flex-wrap: nowrap; height: 42px; padding: 0 8px; }
+      :host([compact]) .who { flex: 1 1 0; min-width: 0; }
+      :host([compact]) .who > * { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+      :host([compact]) .bar:has(button) .who:not(.noted) small, :host([compact]) .noted b { display: none; }
+      :host([compact]) select { max-width: 84px; }
       .bar { display: flex; align-items: center; flex-wrap: wrap; gap: 8px; padding: 8px 10px; border: 1px solid var(--line-2); border-radius: var(--r-3); background: var(--bg-2); font-size: var(--fs-12); }
       .bar.mine { background: var(--intent-soft); border-color: var(--intent-line); }
       .face { display: grid; place-items: center; width: 26px; height: 26px; border-radius: 50%; background: var(--person-fill); color: var(--on-fill); font: 600 10px var(--font-ui); flex: none; }

@@ -46,7 +46,7 @@ function pad(control: keyof Pedals, name: string, share: number, view: CarView, 
 }
 
 export const carStyles = css`
-  .car { position: absolute; inset: 42px 14px 6px; display: grid; grid-template: minmax(0, 1fr) / auto 1.6fr 1fr 1fr; gap: 10px; border-radius: var(--r-4); }
+  .car { position: absolute; inset: 8px 14px 6px; max-height: 260px; margin: auto 0; display: grid; grid-template: minmax(0, 1fr) / auto 1.6fr 1fr 1fr; gap: 10px; border-radius: var(--r-4); }
   .car[aria-disabled='true'] { opacity: .45; pointer-events: none; }
   .gears { display: grid; grid-template-rows: repeat(3, minmax(20px, 40px)); align-content: center; gap: 4px; min-height: 0; }
   .gears button { width: 36px; border-radius: var(--r-3); background: var(--bg-3); color: var(--text-2); font-weight: var(--fw-strong); }

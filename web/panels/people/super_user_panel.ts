@@ -10,7 +10,7 @@ import {renderWithheld, withheldStyles} from '../withheld';
 
 type Part = 'rights' | 'people' | 'invitations' | 'audit';
 /** From this width on the rights stand beside the others. */
-const kWide_px = 1080;
+const kWide_px = 1340;
 
 /** Rights, people, invitations and the audit log; for super-users. */
 export class SuperUserPanel extends LiveElement {
@@ -77,7 +77,9 @@ export class SuperUserPanel extends LiveElement {
     css`
       :host { display: flex; height: 100%; background: var(--bg-1); font-size: var(--fs-12); }
       section { flex: 1; min-width: 0; display: flex; flex-direction: column; }
-      section.beside { flex: 1.7; border-right: 1px solid var(--line-1); }
+      /* All classes of rights without a scrollbar. */
+      section.beside { flex: 1 0 930px; border-right: 1px solid var(--line-1); }
+      section.beside ~ section { flex: 0 1 420px; }
       .tabs { display: flex; flex: none; gap: 2px; padding: 0 8px; border-bottom: 1px solid var(--line-1); overflow-x: auto; scrollbar-width: none; }
       .tabs button { height: 32px; padding: 0 10px; color: var(--text-2); font-size: var(--fs-12); font-weight: var(--fw-medium); white-space: pre; border-bottom: 2px solid transparent; }
       .tabs button[aria-selected='true'] { color: var(--text-1); border-bottom-color: var(--intent); }

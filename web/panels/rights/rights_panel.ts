@@ -113,14 +113,14 @@ export class RightsPanel extends LiveElement {
       .scroll { flex: 1; overflow: auto; }
       table { border-collapse: collapse; width: 100%; white-space: nowrap; }
       th { font-weight: 400; text-align: left; }
-      thead th { position: sticky; top: 0; z-index: 1; padding: 4px 6px; background: var(--bg-1); color: var(--text-2); text-align: center; }
+      thead th { position: sticky; top: 0; z-index: 1; padding: 4px 2px; background: var(--bg-1); color: var(--text-2); font-size: var(--fs-11); line-height: 1.25; text-align: center; vertical-align: bottom; white-space: normal; }
       .part th { padding: 8px 14px 4px; color: var(--text-2); font-weight: var(--fw-medium); }
       tbody tr:not(.part) { border-top: 1px solid var(--line-1); }
       tbody tr:not(.part):hover { background: var(--bg-2); }
       tr.chosen, tr.chosen:hover { background: var(--intent-soft) !important; }
       tbody th button { padding: 5px 14px; text-align: left; font-weight: var(--fw-strong); }
       small { display: block; color: var(--text-2); font-size: var(--fs-11); font-weight: 400; }
-      td { padding: 3px 6px; text-align: center; }
+      td { padding: 3px 2px; text-align: center; }
       .cell { position: relative; display: inline-grid; place-items: center; width: 32px; height: 24px; border-radius: var(--r-2); font-style: normal; color: var(--text-2); background: var(--bg-3); }
       .cell.all { background: var(--ok-soft); color: var(--ok); }
       .cell.own { background: var(--warn-soft); color: var(--warn); }

@@ -247,9 +247,11 @@ export class RobotsPanel extends LiveElement {
       .row { display: flex; align-items: center; gap: 10px; height: var(--h-row); padding: 0 12px 0 14px; border-left: 3px solid transparent; font-size: var(--fs-12); cursor: pointer; }
       .row:hover, .row.hovered { background: var(--bg-2); }
       .row.selected { background: var(--intent-soft); border-left-color: var(--intent); }
-      .name { flex: 1; min-width: 0; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+      .name { flex: 1 0 min(8ch, 40%); min-width: 0; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
       .value { color: var(--text-2); white-space: nowrap; }
-      .state { color: var(--warn); white-space: nowrap; }
+      .state { flex: 0 1 auto; min-width: 0; overflow: hidden; color: var(--warn); text-overflow: ellipsis; white-space: nowrap; }
+      /* What is left of a row is for the name. */
+      @container (max-width: 260px) { .row svg.spark, .kinds em { display: none; } }
       .driver { display: grid; place-items: center; width: 20px; height: 20px; border-radius: 50%; background: var(--person-fill); color: var(--on-fill); font-size: 10px; font-weight: 600; flex: none; }
       .driver.you { background: var(--intent-fill); color: #fff; }
       .mark { width: 14px; color: var(--text-3); }

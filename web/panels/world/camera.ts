@@ -16,6 +16,8 @@ export class Camera {
   scale = 60;
   width = 1;
   height = 1;
+  /** Pixels at the edges that something else covers: what is fitted or followed stands in the rest. */
+  readonly covered = {left: 0, top: 0, right: 0, bottom: 0};
   private goal: {x: number; y: number; scale: number; begin: number; from: [number, number, number]} | null = null;
 
   toScreenX(x: number): number {
@@ -47,12 +49,17 @@ export class Camera {
   fitted(bounds: Bounds, margin = 36): {x: number; y: number; scale: number} {
     const w = Math.max(bounds.x1 - bounds.x0, 0.5);
     const h = Math.max(bounds.y1 - bounds.y0, 0.5);
-    const scale = Math.min((this.width - 2 * margin) / w, (this.height - 2 * margin) / h);
-    return {
-      x: (bounds.x0 + bounds.x1) / 2,
-      y: (bounds.y0 + bounds.y1) / 2,
-      scale: Math.min(Math.max(scale, 0.05), 400),
-    };
+    const {left, top, right, bottom} = this.covered;
+    const least = Math.min((this.width - left - right - 2 * margin) / w, (this.height - top - bottom - 2 * margin) / h);
+    const scale = Math.min(Math.max(least, 0.05), 400);
+    const [x, y] = this.middleFor((bounds.x0 + bounds.x1) / 2, (bounds.y0 + bounds.y1) / 2, scale);
+    return {x, y, scale};
+  }
+
+  /** Where the camera stands so that a place of the world is in the middle of what is not covered. */
+  middleFor(x: number, y: number, scale = this.scale): [number, number] {
+    const {left, top, right, bottom} = this.covered;
+    return [x - (left - right) / 2 / scale, y + (top - bottom) / 2 / scale];
   }
 
   /** Moves to a place, at once or within `duration_ms` from `now_ms` on. */

@@ -7,6 +7,7 @@ import {Lens} from './lens';
 import {Measure} from './measure';
 import {Minimap, mostAreOutside} from './minimap';
 import {bodyAt, OrderHands} from './orders/order_hands';
+import {kLead_s} from './orders/lead';
 import {OrderLayer} from './orders/order_layer';
 import type {Extent, Fitted, Stage, StageContext} from './stage';
 import {makeSwarm} from './make_swarm';
@@ -19,6 +20,8 @@ const kMinimapBelow_px = 30;
 const kMinimapFrom = 40;
 const kFinger_px = 22;
 const kMouse_px = 8;
+/** Height of what names the driven robot, at the top of the picture. */
+const kChip_px = 56;
 
 /** The world from above: three canvases, of which only those are drawn whose content has changed. */
 export class TopStage implements Stage {
@@ -76,8 +79,7 @@ export class TopStage implements Stage {
     const primary = selection.primary;
     if (selection.following && primary !== null && primary < placed.count) {
       // Each frame anew, and without easing: a robot that is followed stands still in the picture.
-      camera.x = placed.x[primary];
-      camera.y = placed.y[primary];
+      [camera.x, camera.y] = camera.middleFor(placed.x[primary], placed.y[primary]);
     }
     const going = camera.advance(now_ms);
     this.paintBase(now_ms);
@@ -154,6 +156,16 @@ export class TopStage implements Stage {
     const selected = what === 'closer' && there ? boundsOfRobots(this.context.placed, this.radius, this.context.selection.slots) : null;
     camera.go(selected === null ? goal : camera.fitted(selected, 120), performance.now(), animate);
     return selected === null ? 'all' : 'selection';
+  }
+
+  /** Keeps the lower `stick_px` of a picture of this size free of the robot that is followed, and of where it is in two seconds. */
+  cover(stick_px: number, full_mps: number, width: number, height: number): void {
+    const {camera} = this;
+    camera.covered.bottom = stick_px;
+    camera.covered.top = stick_px > 0 ? kChip_px : 0;
+    if (stick_px === 0) return;
+    const room_px = Math.min(width, height - stick_px - kChip_px) / 2;
+    camera.scale = Math.min(Math.max(room_px / Math.max(1.2, kLead_s * full_mps + 0.4), 20), 120);
   }
 
   private readonly radius = (slot: number) => this.view.robots.radius(slot);

@@ -141,6 +141,17 @@ export class WorldPanel extends LiveElement {
     this.orders.choose(tool);
   }
 
+  /** A stick lies over the lower `stick_px` of the picture: the driven robot stays above it, with where it is in two seconds at
+   * full speed. 0: none. */
+  driveOver(stick_px: number, full_mps: number): void {
+    if (stick_px === this.top.camera.covered.bottom) return;
+    this.toggleAttribute('driving', stick_px > 0);
+    this.top.cover(stick_px, full_mps, this.clientWidth, this.clientHeight);
+    if (stick_px > 0) this.autoFit.move();
+    this.context.selection.follow(stick_px > 0);
+    void this.setMode('top');
+  }
+
   /** Enter: sends what is drawn. */
   sendDraft(): void {
     void this.orders.desk.send();

@@ -56,5 +56,6 @@ export const worldPanelStyles = css`
     .mode { display: inline-grid; }
     .menu { right: 64px; max-width: calc(100% - 76px); }
     .note { top: 48px; left: 10px; }
+    :host([driving]) .legend, :host([driving]) .note { display: none; }
   }
 `;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import {kHolds_s} from '../../../model/asked';
 import {placeOf, type Pending} from '../../../model/commands';
 import type {Placed} from '../../../model/pose_history';
 import type {PanelContext} from '../../../panel_api';
@@ -10,6 +11,7 @@ import {kFont} from '../labels';
 import {radiusOf} from '../outlines';
 import {withAlpha} from '../scan_layer';
 import {arrowsAlong} from './arrows';
+import {leadOf} from './lead';
 import type {Draft, OrderDesk} from './order_desk';
 import {outlineOf} from './outline';
 
@@ -39,8 +41,23 @@ export class OrderLayer {
       if (drive.lease !== '') this.drawBadge(slot, drive.yours ? (this.context.model.hello?.user.name ?? '') : drive.lease, drive.yours);
     }
     if (this.desk.draft !== null) this.drawDraft(this.desk.draft);
+    this.drawLead();
     this.drawChosen();
     ctx.restore();
+  }
+
+  /** Where the stick that is held leads in the next seconds. */
+  private drawLead(): void {
+    const {commands, selection} = this.context;
+    const slot = selection.primary;
+    const asked = slot === null ? undefined : commands.asked.of(slot).at(-1);
+    const {placed} = this;
+    if (slot === null || asked === undefined || slot >= placed.count || Math.abs(placed.time_s - asked.t) > kHolds_s || Math.abs(asked.v) < 0.02) return;
+    const points = leadOf(placed.x[slot], placed.y[slot], placed.yaw[slot], asked.v, asked.w);
+    const intent = this.token('intent');
+    this.line(points, intent, 2.5, [6, 5]);
+    const [a, b] = points.slice(-2).map((point) => this.screen(point));
+    this.arrow(...b, Math.atan2(b[1] - a[1], b[0] - a[0]), intent);
   }
 
   private screen([x, y]: readonly [number, number]): [number, number] {
@@ -64,20 +81,22 @@ export class OrderLayer {
 
   /** Which way a path goes. */
   private arrows(points: readonly Point[], colour: string): void {
+    for (const {x, y, angle} of arrowsAlong(points.map((point) => this.screen(point)), kArrows_px, kArrowFree_px)) this.arrow(x, y, angle, colour);
+  }
+
+  private arrow(x: number, y: number, angle: number, colour: string): void {
     const {ctx} = this;
+    ctx.save();
     ctx.fillStyle = colour;
-    for (const {x, y, angle} of arrowsAlong(points.map((point) => this.screen(point)), kArrows_px, kArrowFree_px)) {
-      ctx.save();
-      ctx.translate(x, y);
-      ctx.rotate(angle);
-      ctx.beginPath();
-      ctx.moveTo(6, 0);
-      ctx.lineTo(-4, 4.5);
-      ctx.lineTo(-1.5, 0);
-      ctx.lineTo(-4, -4.5);
-      ctx.fill();
-      ctx.restore();
-    }
+    ctx.translate(x, y);
+    ctx.rotate(angle);
+    ctx.beginPath();
+    ctx.moveTo(6, 0);
+    ctx.lineTo(-4, 4.5);
+    ctx.lineTo(-1.5, 0);
+    ctx.lineTo(-4, -4.5);
+    ctx.fill();
+    ctx.restore();
   }
 
   private ring(point: readonly [number, number], colour: string, filled: boolean): void {

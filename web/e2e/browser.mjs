@@ -2,6 +2,7 @@
 // Debian's Chromium and Firefox for tests, and `rave gui` in a process of its own.
 import {spawn} from 'node:child_process';
 import playwright, {chromium} from 'playwright-core';
+import {kPatience_ms} from './checks.mjs';
 
 /** Headless Chromium as a machine without a graphics card runs it: pages are drawn by the processor, and
  * WebGL by SwiftShader. With `--use-angle=swiftshader` the whole page would go through an emulated card,
@@ -11,8 +12,15 @@ const kChromium = {
   args: ['--no-sandbox', '--enable-unsafe-swiftshader'],
 };
 
-export function launch(...args) {
-  return chromium.launch({...kChromium, args: [...kChromium.args, ...args]});
+export async function launch(...args) {
+  const browser = await chromium.launch({...kChromium, args: [...kChromium.args, ...args]});
+  const make = browser.newContext.bind(browser);
+  browser.newContext = async (options) => {
+    const context = await make(options);
+    context.setDefaultTimeout(kPatience_ms);
+    return context;
+  };
+  return browser;
 }
 
 /** One whose processes, all of one group, can be sent a signal. */

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What tests of the page share.
 
+/** For what comes on any machine, however busy it is: a test waits for the thing itself, and this long only for what never comes. */
+export const kPatience_ms = 120_000;
+
 export const app = 'document.querySelector("rave-app")';
 
 /** Waits until an expression of the page is true. Asked from outside: the page's policy forbids eval. */
-export async function until(page, expression, timeout_ms = 20000) {
+export async function until(page, expression, timeout_ms = kPatience_ms) {
   const end = Date.now() + timeout_ms;
   // A page that loads again, as it does when its server is another one, is asked once it is there.
   const holds = () => page.evaluate(`Boolean(${expression})`).catch((error) => {
@@ -18,7 +21,7 @@ export async function until(page, expression, timeout_ms = 20000) {
 }
 
 /** Waits until `holds()` of this process is true. */
-export async function untilHere(page, holds, what, timeout_ms = 10000) {
+export async function untilHere(page, holds, what, timeout_ms = kPatience_ms) {
   const end = Date.now() + timeout_ms;
   while (!holds()) {
     if (Date.now() > end) throw new Error(`never: ${what}`);

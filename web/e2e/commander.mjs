@@ -11,14 +11,25 @@ export const slotOf = (page, name) => page.evaluate(`${app}.model.robots.findInd
 export const placeOf = (page, slot) => page.evaluate(`[${newest}.x[${slot}], ${newest}.y[${slot}]]`);
 export const choose = (page, slot) => page.evaluate((what) => document.querySelector('rave-app').selection.set([what]), slot);
 /** Waits until a robot is near a place. */
-export const near = (page, slot, x, y, m) => until(page, `Math.hypot(${newest}.x[${slot}] - ${x}, ${newest}.y[${slot}] - ${y}) < ${m}`, 30000);
+export const near = (page, slot, x, y, m) => until(page, `Math.hypot(${newest}.x[${slot}] - ${x}, ${newest}.y[${slot}] - ${y}) < ${m}`);
+
+const world = "document.querySelector('rave-world')";
+
+/** Waits until an expression has been the same in three pictures, one after the other. */
+export async function standsStill(page, expression) {
+  for (let same = 0, last = ''; same < 3;) {
+    const now = await page.evaluate(`new Promise((done) => requestAnimationFrame(() => done(JSON.stringify(${expression}))))`);
+    same = now === last ? same + 1 : 0;
+    last = now;
+  }
+}
 
 /** Sends a robot to a place by a click and waits until it is there. */
 export async function sendByClick(page, name, x, y) {
   const slot = await slotOf(page, name);
   // Before, the picture still fits itself to who comes, and the place would be elsewhere.
   await until(page, `${newest}.flags.every((flags) => flags & 1)`);
-  await page.waitForTimeout(100);
+  await standsStill(page, `[${world}.viewpoint(), ${world}.clientWidth, ${world}.clientHeight]`);
   await choose(page, slot);
   await page.keyboard.press('g');
   await clickAt(page, x, y);
@@ -32,7 +43,8 @@ async function atStick(page, name) {
   const slot = await slotOf(page, name);
   await choose(page, slot);
   await page.getByRole('radio', {name: 'Drive'}).click();
-  await page.waitForTimeout(300);
+  await page.locator('rave-joystick .stick').waitFor();
+  await standsStill(page, `(() => { const {x, y, width} = ${app}.joystick.renderRoot.querySelector('.stick').getBoundingClientRect(); return [x, y, width]; })()`);
   return {slot, before: await placeOf(page, slot), box: await page.locator('rave-joystick .stick').boundingBox()};
 }
 
@@ -51,7 +63,7 @@ export async function driveByMouse(page, name, still_mps = 0.001) {
   await page.mouse.move(x, y - box.height / 4, {steps: 3});
   await goes(page, slot, before);
   await page.mouse.up();
-  await until(page, `${speed(slot)} < ${still_mps}`, 3000);
+  await until(page, `${speed(slot)} < ${still_mps}`);
 }
 
 /** Drives a robot by a finger or a pen on the stick, which stands when it is lifted. */
@@ -62,7 +74,7 @@ export async function driveByHand(page, name, kind) {
   await hand.drag([middle, [middle[0], middle[1] - box.height / 4]], false);
   await goes(page, slot, before);
   await hand.send('up', middle);
-  await until(page, `${speed(slot)} < 0.001`, 3000);
+  await until(page, `${speed(slot)} < 0.001`);
 }
 
 /** Drives a robot by keys on the stick. */
@@ -72,7 +84,7 @@ export async function driveByKeys(page, name, key = 'w') {
   await page.keyboard.down(key);
   await goes(page, slot, before);
   await page.keyboard.up(key);
-  await until(page, `${speed(slot)} < 0.001`, 3000);
+  await until(page, `${speed(slot)} < 0.001`);
 }
 
 /** Holds the stick of a robot by a gamepad that is never quite still: a mouse moves when the browser draws, and that is

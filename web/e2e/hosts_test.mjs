@@ -35,7 +35,7 @@ try {
     const run = await startServer(rave, ['run', scenario, '--gui', '--processes', '3', '--quiet', '--no-picture', '--duration', '30', '--output', join(folder, 'run'), ...tag]);
     servers.push(run);
     await page.goto(run.link);
-    await until(page, `${newest} != null && [...${newest}.flags].every((flags) => flags & 1)`, 60000);
+    await until(page, `${newest} != null && [...${newest}.flags].every((flags) => flags & 1)`);
     // Rights that were changed are kept by the name of the run.
     assert.equal(await page.evaluate(`${app}.model.hello.run.name`), 'flock');
     const before = await page.evaluate(`${newest}.time_s`);
@@ -80,7 +80,7 @@ try {
   });
 
   await check('the run that is over turns into its replay, merged from all recordings', async () => {
-    await until(page, `${app}.model.hello.run.source === 'replay'`, 90000);
+    await until(page, `${app}.model.hello.run.source === 'replay'`);
     assert.match(await page.evaluate(`${app}.model.hello.run.hash`), /^[0-9a-f]{16}$/);
     await until(page, `${newest} !== null && [...${newest}.flags].every((flags) => flags & 1)`);
     // Obstacles come, move and go again as they did.
@@ -126,7 +126,7 @@ try {
       const [command, ...more] = words;
       children.push(spawn(rave, [command, scenario, ...more, ...shared, '--output', join(folder, words.join('-'))], {stdio: 'ignore'}));
     }
-    await until(other, `${app}.model.time.state === 'running' && ${newest} != null && ${newest}.time_s > 1`, 60000);
+    await until(other, `${app}.model.time.state === 'running' && ${newest} != null && ${newest}.time_s > 1`);
     assert.equal(await other.evaluate(`${app}.model.may('play')`), false);
     await say(other, {type: 'halt', do: 'stop', slots: []});
     await until(other, `${stopped} === ${app}.model.robots.length`);
@@ -147,7 +147,7 @@ try {
     await until(other, `${app}.model.events.some((event) => event.kind === 'process lost' && event.level === 'alert')`);
     const at = await other.evaluate(`${newest}.time_s`);
     children.push(spawn(rave, ['env', scenario, '--resume', ...shared, '--output', join(folder, 'env-again')], {stdio: 'ignore'}));
-    await until(other, `${app}.model.time.state === 'running' && ${newest}.time_s > ${at} + 1 && ${scan} > ${at} + 1`, 60000);
+    await until(other, `${app}.model.time.state === 'running' && ${newest}.time_s > ${at} + 1 && ${scan} > ${at} + 1`);
     await until(other, `${app}.model.events.some((event) => event.kind === 'process back')`);
   });
 
@@ -162,8 +162,8 @@ try {
     servers.push(again);
     const third = await context.newPage();
     await third.goto(again.link);
-    await until(third, `${app}?.model?.time?.state === 'running' && ${newest} != null && [...${newest}.flags].every((flags) => flags & 1)`, 60000);
-    await until(third, `${app}.model.drives.get(7)?.values?.['${key}'] === ${set}`, 10000);
+    await until(third, `${app}?.model?.time?.state === 'running' && ${newest} != null && [...${newest}.flags].every((flags) => flags & 1)`);
+    await until(third, `${app}.model.drives.get(7)?.values?.['${key}'] === ${set}`);
     assert.deepEqual(children.slice(1).map((child) => child.exitCode), [null, null, null]);
     await again.end();
   });
@@ -199,7 +199,7 @@ try {
       const [command, ...more] = words;
       children.push(spawn(rave, [command, scenario, ...more, '--processes', '2', '--quiet', '--no-picture', '--duration', '8', ...name, '--output', join(folder, `ends-${words.join('-')}`)], {stdio: 'ignore'}));
     }
-    await until(last, `${app}.model.hello.run.source === 'replay'`, 90000);
+    await until(last, `${app}.model.hello.run.source === 'replay'`);
     // The hash needs the recordings of both hosts and of the manager.
     assert.match(await last.evaluate(`${app}.model.hello.run.hash`), /^[0-9a-f]{16}$/);
     await until(last, `${newest} !== null && [...${newest}.flags].every((flags) => flags & 1)`);
@@ -214,7 +214,7 @@ try {
     await last.goto(beside.link);
     await until(last, `${app}?.model?.time?.state === 'waiting'`);
     children.push(spawn(rave, ['run', scenario, '--processes', '2', '--quiet', '--no-picture', '--no-record', '--duration', '5', ...name, '--output', join(folder, 'bare')], {stdio: 'ignore'}));
-    await until(last, `${app}.model.time.state === 'ended' && ${app}.model.time.reason === 'The run left no recording.'`, 60000);
+    await until(last, `${app}.model.time.state === 'ended' && ${app}.model.time.reason === 'The run left no recording.'`);
     await last.getByText('The run left no recording.').first().waitFor();
     await beside.end();
   });
@@ -230,7 +230,7 @@ try {
       await knowsHosts(live.link, 2);
       const real = await context.newPage();
       await real.goto(live.link);
-      await until(real, `${app}?.model?.hello?.run.clock === 'real_time' && ${newest} != null && [...${newest}.flags].every((flags) => flags & 1)`, 60000);
+      await until(real, `${app}?.model?.hello?.run.clock === 'real_time' && ${newest} != null && [...${newest}.flags].every((flags) => flags & 1)`);
       for (const slot of [0, 9]) {
         const name = await real.evaluate(`${app}.model.robots[${slot}].name`);
         await real.locator('rave-robots .row', {hasText: name}).first().click();
@@ -245,7 +245,7 @@ try {
       execFileSync(rave, ['edit', String(live.child.pid), 'add', 'box', '--name', 'parcel', '--at', '9,9', '--size', '0.3x0.3'], {stdio: ['ignore', 'ignore', 'inherit']});
       await until(real, `[...${app}.model.bodies.values()].some((body) => body.name === 'parcel')`);
       await until(real, `${app}.model.events.filter((event) => event.kind === 'obstacle added').length === 1`);
-      await until(real, `${app}.model.time.state === 'running' && Math.abs(${app}.model.time.speed - 1) < 0.5`);
+      await until(real, `${app}.model.time.state === 'running' && ${app}.model.time.speed > 0`);
       await live.end();
     } finally {
       rmSync(room, {recursive: true, force: true});

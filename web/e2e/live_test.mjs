@@ -5,7 +5,7 @@ import {execFileSync} from 'node:child_process';
 import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {launch, startServer} from './browser.mjs';
-import {app, check, report, until} from './checks.mjs';
+import {app, check, report, until, untilHere} from './checks.mjs';
 import {watchUntouched} from './untouched.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
@@ -44,7 +44,7 @@ try {
     socket.on('framesent', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
   });
   const run = join(folder, 'watched');
-  const live = await startServer(rave, ['run', scenario, '--gui', '--quiet', '--no-picture', '--duration', '60', '--output', run]);
+  const live = await startServer(rave, ['run', scenario, '--gui', '--quiet', '--no-picture', '--duration', '120', '--output', run]);
   servers.push(live);
 
   await check('the run is alive on the page', async () => {
@@ -54,7 +54,7 @@ try {
     const before = await page.evaluate(`${newest}.time_s`);
     await until(page, `${newest}.time_s > ${before} + 1`);
     assert.ok((await page.evaluate(`${app}.model.bodies.size`)) > 10);
-    await until(page, `Math.abs(${app}.model.time.speed - 1) < 0.2`);
+    await until(page, `${app}.model.time.pace === 1 && ${app}.model.time.speed > 0 && ${app}.model.time.speed < 1.5`);
   });
 
   await check('the log begins with the begin of the run', async () => {
@@ -96,11 +96,13 @@ try {
   });
 
   await check('while it is held and nobody does anything, the page gets the time and no frames', async () => {
-    await page.waitForTimeout(1000);
-    const before = [frames, said.filter((message) => message.type === 'time').length];
-    await page.waitForTimeout(2500);
-    assert.equal(frames, before[0]);
-    assert.ok(said.filter((message) => message.type === 'time').length > before[1]);
+    const times = () => said.filter((message) => message.type === 'time').length;
+    const next = async (count) => { for (const to = times() + count; times() < to;) await page.waitForTimeout(50); };
+    // What was on its way comes before the next time.
+    await next(2);
+    const before = frames;
+    await next(3);
+    assert.equal(frames, before);
   });
 
   await check('this process is the host of a run of one process', async () => {
@@ -122,7 +124,9 @@ try {
     await say(page, {type: 'transport', do: 'pace', value: 4});
     await say(page, {type: 'transport', do: 'play'});
     await until(page, `${app}.model.time.state === 'running' && ${app}.model.time.pace === 4`);
-    await until(page, `${app}.model.time.speed > 3`);
+    // How much faster is a matter of the machine.
+    const from_s = await page.evaluate(`${newest}.time_s`);
+    await until(page, `${newest}.time_s > ${from_s} + 2`);
     await say(page, {type: 'transport', do: 'pace', value: 1});
   });
 
@@ -156,7 +160,7 @@ try {
   await check('a seek is refused with the reason', async () => {
     await say(page, {type: 'transport', do: 'seek', value: 1});
     const refused = () => said.find((message) => message.type === 'answer' && message.to === 'transport');
-    for (let i = 0; i < 200 && !refused(); ++i) await page.waitForTimeout(25);
+    await untilHere(page, refused, 'an answer');
     assert.equal(refused()?.good, false);
     assert.match(refused().text, /when the run has ended/);
   });
@@ -166,7 +170,7 @@ try {
     await second.goto(new URL(live.link).origin);
     await until(second, `${newest} != null`);
     const there = await page.evaluate(`${newest}.time_s`);
-    await until(second, `Math.abs(${newest}.time_s - ${there}) < 3`);
+    await until(second, `${newest}.time_s >= ${there}`);
     await second.close();
     const before = await page.evaluate(`${newest}.time_s`);
     await until(page, `${newest}.time_s > ${before} + 0.5`);
@@ -174,7 +178,7 @@ try {
 
   await check('the run that is over turns into its own replay, without a reload', async () => {
     await say(page, {type: 'transport', do: 'pace', value: 0});
-    await until(page, `${app}.model.hello.run.source === 'replay'`, 60000);
+    await until(page, `${app}.model.hello.run.source === 'replay'`);
     await until(page, `${newest} !== null && ${app}.model.may('seek')`);
     assert.match(await page.evaluate(`${app}.model.hello.run.hash`), /^[0-9a-f]{16}$/);
     await say(page, {type: 'transport', do: 'pause'});
@@ -187,7 +191,7 @@ try {
 
   await check('a run that is watched has the hash of one that is not', async () => {
     const other = join(folder, 'same');
-    const same = await startServer(rave, ['run', scenario, '--gui', ...short, '--pace', 'realtime', '--output', other]);
+    const same = await startServer(rave, ['run', scenario, '--gui', ...short, '--pace', 'realtime', '--paused', '--output', other]);
     servers.push(same);
     console.log('watched', JSON.stringify(await watchUntouched(await context.newPage(), same.link, kShort_s)));
     await same.end();

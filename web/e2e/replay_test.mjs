@@ -7,6 +7,7 @@ import http from 'node:http';
 import {join} from 'node:path';
 import WebSocket from 'ws';
 import {launch, startServer} from './browser.mjs';
+import {standsStill} from './commander.mjs';
 import {app, check, report, showFailures, until, watch} from './checks.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
@@ -123,7 +124,7 @@ try {
   await check('a click in the World View selects the robot that is there', async () => {
     await page.keyboard.press('Escape');
     await page.keyboard.press('f');
-    await page.waitForTimeout(600);
+    await standsStill(page, `document.querySelector('rave-world').viewpoint()`);
     const at = await page.evaluate(() => {
       const world = document.querySelector('rave-world');
       const box = world.renderRoot.querySelector('.canvas').getBoundingClientRect();
@@ -137,8 +138,10 @@ try {
 
   await check('the link to this moment brings time, robot and camera', async () => {
     await page.mouse.move(700, 450);
+    const unzoomed = await page.evaluate(`document.querySelector('rave-world').viewpoint()`);
     await page.mouse.wheel(0, -400);
-    await page.waitForTimeout(200);
+    await until(page, `document.querySelector('rave-world').viewpoint() !== '${unzoomed}'`);
+    await standsStill(page, `document.querySelector('rave-world').viewpoint()`);
     await page.getByText('Link to this moment').click();
     const view = await page.evaluate(`document.querySelector('rave-world').viewpoint()`);
     const other = await context.newPage();
@@ -217,7 +220,7 @@ try {
     await page.getByText(/Link lost/).first().waitFor();
     const next = await startServer(rave, ['gui', run, '--port', port]);
     // Sessions end with the server that began them; the page says that it needs another link.
-    await page.getByText('You are not signed in').waitFor({timeout: 20000});
+    await page.getByText('You are not signed in').waitFor();
     await page.goto(next.link);
     await until(page, `${app}?.model?.robots?.length === 16`);
     assert.equal(await next.end(), 0);
@@ -239,9 +242,13 @@ try {
       there.link.send({type: 'transport', do: 'pause'});
     }, slot);
     const varianceAt = async (time_s) => {
-      await replay.evaluate((value) => document.querySelector('rave-app').link.send({type: 'transport', do: 'seek', value}), time_s);
+      await replay.evaluate((value) => {
+        const there = document.querySelector('rave-app');
+        globalThis.variancesBefore = there.model.variances;
+        there.link.send({type: 'transport', do: 'seek', value});
+      }, time_s);
       await until(replay, `Math.abs(${app}.model.poses.newest.time_s - ${time_s}) < 0.011`);
-      await replay.waitForTimeout(300);
+      await until(replay, `${app}.model.variances !== globalThis.variancesBefore && ${app}.model.variances.has(${slot})`);
       return replay.evaluate(`${app}.model.variances.get(${slot})?.xy_m2 ?? 0`);
     };
     const [late, early, later] = [await varianceAt(3), await varianceAt(1), await varianceAt(3.8)];

@@ -54,7 +54,9 @@ def load_words(options):
 def load(options):
     [got] = lines_of(load_words(options))
     return got, [row("thread of the server, percent of a core", got["server_core_pct"], 10),
-                 row("age of frames, 99 %, ms", got["prompt"]["age_ms_p99"], 20)]
+                 row("age of frames, 99 %, ms", got["prompt"]["age_ms_p99"], 20),
+                 row("frames for a client and second, of 30", got["prompt"]["frames_per_client_s"], least=29.5),
+                 row("steps of the run that are late, percent", got["run_missed_pct"], 0.5)]
 
 
 def tls(options):

@@ -12,7 +12,9 @@ Prints one JSON object, of medians of the rounds. `server_core_pct` is the share
 of the server, `run_core_pct` that of all other threads of the run; `_alone`: without clients. `prompt`
 and `slow` have, for clients of that kind, frames per client and second, and how old frames are: from
 the moment the server takes the state from the run to the end of reading it. `stalled_mb_each` is what
-one stalled client costs in resident memory. `load` is the load of the machine before each round."""
+one stalled client costs in resident memory. `run_missed_pct` is the share of the steps of the run that ended after
+their deadline, and `run_worst_ms` how late the worst one was, from the start of the run to its end. `load` is the load
+of the machine before each round."""
 
 import argparse
 import json
@@ -90,6 +92,12 @@ def load(server, options):
             **json.loads(told[0])}
 
 
+def lateness(folder):
+    """How late the steps of a run were that has ended."""
+    late = json.loads((folder / "run" / "result.json").read_text())["lateness"]
+    return {"run_missed_pct": late["missed_pct"], "run_worst_ms": round(1e3 * late["worst_s"], 1)}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--build", default="build/release")
@@ -110,9 +118,10 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             server = start(options, pathlib.Path(folder))
             try:
-                rounds.append(load(server, options))
+                figures = load(server, options)
             finally:
                 server.end()
+            rounds.append({**figures, **lateness(pathlib.Path(folder))})
     about = {key: getattr(options, key) for key in ("robots", "clients", "tls", "stalled", "rate", "rounds")}
     print(json.dumps({**about, **medians(rounds), "load": loads}))
     return 0

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "rave/ros2/convert.hpp"
@@ -100,14 +102,18 @@ class Ros2TfPose final : public TwoTopicSensor<ros2::TfMessage, ros2::TfMessage>
   Status prepare(const Params& params, HardwareDeclaration& declaration) override;
   void drain() override;
   [[nodiscard]] std::string explain_silence() const override;
-  void add(ros2::Reader<ros2::TfMessage>& reader, bool is_static);
+  /// False: an error of it is noted, or no transform of it counts.
+  bool add(ros2::Reader<ros2::TfMessage>& reader, const ros2::TfMessage& message,
+           dds_instance_handle_t writer, bool is_static);
+  void add_static();
   [[nodiscard]] Status await_chain();
 
   std::string map_frame_;
   std::string base_frame_;
   Doubt doubt_;
   TfTree tree_;
-  std::int64_t last_ns_ = 0;  // stamp of the last pose
+  std::map<std::string, WriterChoice, std::less<>> writers_;  ///< By child, of the robot's chain.
+  std::int64_t last_ns_ = 0;                                  // stamp of the last pose
 };
 
 }  // namespace rave::ros2_driver

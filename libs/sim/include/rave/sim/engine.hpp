@@ -186,6 +186,9 @@ class Engine {
   [[nodiscard]] bool stopped(RobotId robot) const noexcept;
   /// False: the robot does not move until it is armed.
   [[nodiscard]] bool armed(RobotId robot) const noexcept;
+  /// Why hardware of the robot takes no commands, as its driver says; empty: it takes them, or
+  /// there is none here.
+  [[nodiscard]] std::string drive_trouble(RobotId robot) const;
   /// Changes parameters of one robot, all or none. Errors: kInvalidArgument and kNotFound (unknown,
   /// out of range, refused by the driver or program, a body that would overlap something), kState
   /// (its program has failed; the authority changes bodies). After an error nothing has changed.

@@ -49,7 +49,14 @@ inline constexpr ParamSpec kPositionSigma = pose_doubt::position_sigma(0.02, kPo
 inline constexpr ParamSpec kHeadingSigma = pose_doubt::heading_sigma(
     1, "Standard deviation of the heading where messages do not have it.");
 
-inline constexpr std::array<ParamSpec, 1> kLaserParams{topic_param("scan")};
+inline constexpr std::array<const char*, 2> kZeroMeanings{"no_reading", "no_return"};
+inline constexpr std::array<ParamSpec, 2> kLaserParams{
+    topic_param("scan"),
+    choice_param(
+        "zero", "no_reading", kZeroMeanings,
+        "Meaning of a range of exactly 0: not measured, or, for scanners that are known to "
+        "write it for that alone, nothing in range."),
+};
 inline constexpr std::array<ParamSpec, 1> kRangeParams{topic_param("range")};
 inline constexpr std::array<ParamSpec, 1> kImuParams{topic_param("imu")};
 inline constexpr std::array<ParamSpec, 1> kBatteryParams{topic_param("battery_state")};

@@ -14,6 +14,7 @@ Status Ros2Laser::prepare(const Params& params, HardwareDeclaration& declaration
     fan_ = fan_of(scan);
     return true;
   }));
+  zero_ = params.text("zero") == "no_return" ? Zero::kNoReturn : Zero::kNoReading;
   bearings_rad_ = bearings_of(fan_);
   ranges_m_.resize(fan_.rays);
   declaration.capacity = fan_.rays;
@@ -24,7 +25,7 @@ Status Ros2Laser::prepare(const Params& params, HardwareDeclaration& declaration
 }
 
 Status Ros2Laser::take(const ros2::LaserScan& message) {
-  RAVE_TRY(ranges_of(message, fan_, ranges_m_));
+  RAVE_TRY(ranges_of(message, fan_, ranges_m_, zero_));
   publish(ros2::nanoseconds(message.header.stamp), ranges_m_.data(), fan_.rays);
   return {};
 }

@@ -13,7 +13,7 @@
 /// One class per kind of message for sensors of a robot.
 namespace rave::ros2_driver {
 
-/// The first scan defines the rays; scans with other rays are refused.
+/// The first scan defines the rays, on which later ones are put.
 class Ros2Laser final : public OneTopicSensor<ros2::LaserScan> {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kRanges;
@@ -23,6 +23,7 @@ class Ros2Laser final : public OneTopicSensor<ros2::LaserScan> {
   Status take(const ros2::LaserScan& message) override;
 
   Fan fan_;
+  Zero zero_ = Zero::kNoReading;
   std::vector<double> bearings_rad_;
   std::vector<float> ranges_m_;
 };

@@ -107,7 +107,7 @@ Status ranges_of(const ros2::LaserScan& scan, const Fan& fan, std::span<float> r
   std::uint32_t met = 0;
   for (std::uint32_t i = 0; i < fan.rays; ++i) {
     const auto ray = rays.at(fan.first_rad + fan.step_rad * i);
-    met += ray ? 1 : 0;
+    met += ray ? 1U : 0U;
     if (!ray) {
       ranges_m[i] = kNoReading;
       continue;

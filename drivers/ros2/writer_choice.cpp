@@ -4,6 +4,17 @@
 #include <algorithm>
 
 namespace rave::ros2_driver {
+namespace {
+
+std::string two_writers(std::string_view what, const ros2::RemoteId& first,
+                        const ros2::RemoteId& second) {
+  return fmt::format(
+      "two writers of {}, {} and {}: only the first counts. Two robots with the "
+      "same topics need a `namespace` each",
+      what, text_of(first), text_of(second));
+}
+
+}  // namespace
 
 WriterChoice::Ruling WriterChoice::judge(Ros2Device& device, const ros2::End& reader,
                                          dds_instance_handle_t writer, double patience_s,
@@ -25,19 +36,13 @@ WriterChoice::Ruling WriterChoice::judge(Ros2Device& device, const ros2::End& re
   if (!verdict.counts && !verdict.new_rival) return {};
   const std::string what = frame.empty() ? fmt::format("`{}`", reader.topic())
                                          : fmt::format("`{}` to `{}`", reader.topic(), frame);
-  if (!verdict.counts) {
-    return {false, false,
-            fmt::format("two writers of {}, {} and {}: only the first counts. Two robots with the "
-                        "same topics need a `namespace` each",
-                        what, text_of(present_), text_of(id))};
-  }
+  if (!verdict.counts) return {false, false, two_writers(what, present_, id)};
   Ruling ruling{true, verdict.changed, ""};
-  if (verdict.changed) {
-    const char* const why = gone     ? "is gone"
-                            : nearer ? "is another process than that of the robot's other topics"
-                                     : "is silent";
-    ruling.news = fmt::format("from now on {} is that of {}, since {} {}", what, text_of(id),
-                              text_of(present_), why);
+  if (nearer) {
+    ruling.news = two_writers(what, id, present_);
+  } else if (verdict.changed) {
+    ruling.news = fmt::format("from now on {} is that of {}, since {} is {}", what, text_of(id),
+                              text_of(present_), gone ? "gone" : "silent");
   }
   present_ = id;
   device.add_process(id.participant);

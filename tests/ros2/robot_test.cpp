@@ -172,7 +172,6 @@ TEST(Ros2Robot, IsNotArmedWhileASecondRobotHearsItsCommands) {
                          "readers, `cart` (GID "),
             std::string::npos)
       << refused;
-  second->tell("quit");
   second.reset();
   run.await_console("works again", 1);
   EXPECT_NE(CartRun::arm().find("armed cart"), std::string::npos);

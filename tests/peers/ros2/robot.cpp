@@ -73,7 +73,7 @@ Ros2Robot::Ros2Robot(const Arguments& given)
     : plant_(given),
       random_(static_cast<std::uint64_t>(given.number("seed", 1))),
       watchdog_ns_(std::llround(given.number("watchdog-ms", 500) * 1e6)),
-      rays_(given.numbers("rays", {181})),
+      rays_(parse_numbers(given.text("rays", "181"))),
       moved_ns_(true_ns()),
       plain_ear_([this](const Twist_& m, const auto& /*writer*/) {
         hear(m.linear().x(), m.angular().z());

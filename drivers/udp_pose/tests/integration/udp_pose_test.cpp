@@ -8,6 +8,7 @@
 #include "rave/base_testing/no_threads.hpp"
 #include "rave/live_testing/live_driver.hpp"
 #include "rave/live_testing/live_sink.hpp"
+#include "rave/live_testing/scratch.hpp"
 #include "rave/math/scalar.hpp"
 
 namespace rave::udp_pose {

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "rave/bus/sequence.hpp"
+#include "rave/math/scalar.hpp"
 #include "rave/ros2/convert.hpp"
 
 namespace rave::ros2_driver {
@@ -32,6 +34,38 @@ PoseReading reading(const Pose2& pose, const Doubt& doubt) {
   return {pose.x, pose.y, pose.yaw, doubt.variance_xy_m2, doubt.variance_yaw_rad2};
 }
 
+/// The rays of one message, found by their directions.
+class Rays {
+ public:
+  Rays(const Fan& here, const Fan& wanted) noexcept : fan_(here) {
+    const double wanted_rad = wanted.rays > 1 ? std::abs(wanted.step_rad) : kLeastSpacing_rad;
+    const double here_rad = here.rays > 1 ? std::abs(here.step_rad) : wanted_rad;
+    step_rad_ = here.rays > 1 ? here.step_rad : 2 * kPi;
+    half_rad_ = 0.5 * std::clamp(here_rad, wanted_rad, 2 * wanted_rad) * (1 + kRounding);
+  }
+  /// The one nearest to a direction, if it is near enough.
+  [[nodiscard]] std::optional<std::size_t> at(double bearing_rad) const noexcept {
+    const double last = fan_.rays - 1;
+    const double turn = 2 * kPi / std::abs(step_rad_);
+    double place = (bearing_rad - fan_.first_rad) / step_rad_;
+    // Scanners that turn write the same direction as -pi and as pi.
+    place -= turn * std::round((place - last / 2) / turn);
+    const double nearest = std::clamp(std::round(place), 0.0, last);
+    if (std::abs(place - nearest) * std::abs(step_rad_) > half_rad_) return std::nullopt;
+    return static_cast<std::size_t>(nearest);
+  }
+
+ private:
+  /// Of a fan with a single ray.
+  static constexpr double kLeastSpacing_rad = 1e-3;
+  /// Angles of messages have single precision.
+  static constexpr double kRounding = 1e-3;
+
+  Fan fan_;
+  double step_rad_ = 0;
+  double half_rad_ = 0;
+};
+
 }  // namespace
 
 Fan fan_of(const ros2::LaserScan& scan) noexcept {
@@ -47,11 +81,11 @@ std::vector<double> bearings_of(const Fan& fan) {
   return bearings_rad;
 }
 
-float range_of(float range, double min_m, double max_m) noexcept {
+float range_of(float range, double min_m, double max_m, Zero zero) noexcept {
+  if (range == 0) return zero == Zero::kNoReturn ? kNothing : kNoReading;
   // REP-117: -infinity is "too close", +infinity "no return", NaN an invalid measurement.
   if (std::isnan(range) || (range < 0 && range != -kNothing)) return kNoReading;
-  // Many scanners report 0 for no return.
-  if ((range == 0 && min_m > 0) || range > max_m) return kNothing;
+  if (range > max_m) return kNothing;
   return range < min_m ? static_cast<float>(min_m) : range;
 }
 
@@ -61,23 +95,33 @@ bool says_something(std::span<const float> ranges) noexcept {
   return std::ranges::any_of(ranges, [](float range) { return range > 0 || range == -kNothing; });
 }
 
-Status ranges_of(const ros2::LaserScan& scan, const Fan& fan, std::span<float> ranges_m) {
-  const Fan here = fan_of(scan);
-  if (!(here == fan)) {
-    return fail(ErrorCode::kInvalidArgument,
-                "the scanner has changed: {} rays from {:.4f} rad with spacing {:.5f} rad, instead "
-                "of {} from {:.4f} rad with spacing {:.5f} rad; restart the run",
-                here.rays, here.first_rad, here.step_rad, fan.rays, fan.first_rad, fan.step_rad);
-  }
-  if (!says_something(bus::elements(scan.ranges))) {
+Status ranges_of(const ros2::LaserScan& scan, const Fan& fan, std::span<float> ranges_m,
+                 Zero zero) {
+  const std::span<const float> said = bus::elements(scan.ranges);
+  if (!says_something(said)) {
     return fail(ErrorCode::kInvalidArgument,
                 "no ray has a valid reading: all are NaN, 0 or negative, as if the scanner did not "
                 "turn; no return is +infinity (REP-117)");
   }
-  std::ranges::transform(bus::elements(scan.ranges), ranges_m.begin(), [&](float range) {
-    return range_of(range, fan.range_min_m, fan.range_max_m);
-  });
-  return {};
+  const Rays rays(fan_of(scan), fan);
+  std::uint32_t met = 0;
+  for (std::uint32_t i = 0; i < fan.rays; ++i) {
+    const auto ray = rays.at(fan.first_rad + fan.step_rad * i);
+    met += ray ? 1U : 0U;
+    if (!ray) {
+      ranges_m[i] = kNoReading;
+      continue;
+    }
+    const float range_m = range_of(said[*ray], scan.range_min, scan.range_max, zero);
+    // Some scanners change their limits, but the first ones are what everybody was told.
+    ranges_m[i] = range_of(range_m, fan.range_min_m, fan.range_max_m);
+  }
+  if (2 * met >= fan.rays) return {};
+  const Fan here = fan_of(scan);
+  return fail(ErrorCode::kInvalidArgument,
+              "the scanner has changed: {} rays from {:.4f} rad with spacing {:.5f} rad, instead "
+              "of {} from {:.4f} rad with spacing {:.5f} rad; restart the run",
+              here.rays, here.first_rad, here.step_rad, fan.rays, fan.first_rad, fan.step_rad);
 }
 
 Result<OdometryReading> odometry_of(const ros2::Odometry& message, const Doubt& doubt) {

@@ -50,6 +50,21 @@ void Ros2Device::detach(TopicUser& user) {
   std::erase(users_, &user);
 }
 
+std::size_t Ros2Device::rank(const ros2::RemoteId::Guid& participant) const {
+  const std::lock_guard lock(processes_mutex_);
+  return static_cast<std::size_t>(std::ranges::find(processes_, participant) - processes_.begin());
+}
+
+void Ros2Device::add_process(const ros2::RemoteId::Guid& participant) {
+  const std::lock_guard lock(processes_mutex_);
+  // Bounds the memory where processes come and go.
+  constexpr std::size_t kMost = 1000;
+  if (processes_.size() == kMost) return;
+  if (std::ranges::find(processes_, participant) == processes_.end()) {
+    processes_.push_back(participant);
+  }
+}
+
 void Ros2Device::log(LogLevel level, std::string_view text) const { host_.write(level, text); }
 
 Status Ros2Device::no_message(std::string_view topic, std::string_view why,

@@ -57,10 +57,14 @@ class Ros2Device final : public HardwareDevice {
   /// Whether all sensors of the robot are silent, so that it may not receive commands either. A
   /// single silent sensor is faulty by itself; the guard handles that.
   [[nodiscard]] bool away() const noexcept { return silent_ > 0 && silent_ >= listening_; }
+  /// The place of a process, by its participant, among those in which topics of the robot were
+  /// found; a large number: in none. Any thread.
+  [[nodiscard]] std::size_t rank(const ros2::RemoteId::Guid& participant) const;
+  void add_process(const ros2::RemoteId::Guid& participant);
   void log(LogLevel level, std::string_view text) const;
 
-  /// Waits for a message of `reader` for which `suits(const Message&)` is true, at most for the
-  /// start timeout. Error kTimeout gives the reason. Host's thread.
+  /// Waits for a message of `reader` for which `suits(const Message&, writer)` is true, at most for
+  /// the start timeout. Error kTimeout gives the reason. Host's thread.
   template <class Message, class Suits>
   [[nodiscard]] Status await(ros2::Reader<Message>& reader, Suits&& suits) const {
     RAVE_TRY_ASSIGN(const ros2::Waiter waiter, ros2::Waiter::create(participant()));
@@ -70,7 +74,9 @@ class Ros2Device final : public HardwareDevice {
     std::optional<std::string> mismatch;
     while (true) {
       bool found = false;
-      reader.take([&](const Message& message) { found = found || suits(message); });
+      reader.take([&](const Message& message, dds_instance_handle_t writer) {
+        found = found || suits(message, writer);
+      });
       if (found) return {};
       if (auto text = reader.take_mismatch()) mismatch = std::move(text);
       const line::Wait left = line::until(end);
@@ -96,6 +102,9 @@ class Ros2Device final : public HardwareDevice {
   std::optional<ros2::Waiter> waiter_;
   std::atomic<int> silent_{0};
   std::atomic<int> listening_{0};
+
+  mutable std::mutex processes_mutex_;  // guards processes_
+  std::vector<ros2::RemoteId::Guid> processes_;
 
   std::mutex users_mutex_;  // guards users_; held while they are called
   std::vector<TopicUser*> users_;

@@ -16,13 +16,15 @@ Status Ros2Gps::prepare(const Params& params, HardwareDeclaration& /*declaration
   RAVE_TRY(make_reader(params.text("topic"), main_));
   if (options.has_imu) {
     RAVE_TRY(make_reader(params.text("imu_topic"), beside_));
-    RAVE_TRY(device().await(*beside_, [this](const ros2::Imu& message) { return hear(message); }));
+    RAVE_TRY(device().await(*beside_, [this](const ros2::Imu& message, std::uint64_t writer) {
+      return counts_beside(writer) && hear(message);
+    }));
   }
   // The run starts only when there is a usable fix, since a robot without a pose cannot be in the
   // world.
-  return device().await(*main_, [this](const ros2::NavSatFix& fix) {
+  return device().await(*main_, [this](const ros2::NavSatFix& fix, std::uint64_t writer) {
     hear_imu();
-    return pose_of(fix).has_value();
+    return counts(writer) && pose_of(fix).has_value();
   });
 }
 
@@ -34,7 +36,16 @@ bool Ros2Gps::hear(const ros2::Imu& message) {
 }
 
 void Ros2Gps::hear_imu() {
-  if (beside_) beside_->take([this](const ros2::Imu& message) { hear(message); });
+  if (!beside_) return;
+  beside_->take([this](const ros2::Imu& message, std::uint64_t writer) {
+    if (counts_beside(writer)) hear(message);
+  });
+}
+
+bool Ros2Gps::counts(std::uint64_t writer) { return admits(fixes_, main_->end(), writer); }
+
+bool Ros2Gps::counts_beside(std::uint64_t writer) {
+  return admits(orientations_, beside_->end(), writer);
 }
 
 std::optional<PoseReading> Ros2Gps::pose_of(const ros2::NavSatFix& fix) {
@@ -46,7 +57,8 @@ std::optional<PoseReading> Ros2Gps::pose_of(const ros2::NavSatFix& fix) {
 
 void Ros2Gps::drain() {
   hear_imu();
-  main_->take([this](const ros2::NavSatFix& fix) {
+  main_->take([this](const ros2::NavSatFix& fix, std::uint64_t writer) {
+    if (!counts(writer)) return;
     const auto reading = pose_of(fix);
     if (reading) {
       publish(track_->stamp_ns(fix), &*reading, 1);

@@ -15,11 +15,15 @@ class Ros2Gps final : public TwoTopicSensor<ros2::NavSatFix, ros2::Imu> {
  private:
   Status prepare(const Params& params, HardwareDeclaration& declaration) override;
   void drain() override;
+  bool counts(std::uint64_t writer);
+  bool counts_beside(std::uint64_t writer);
   bool hear(const ros2::Imu& message);
   void hear_imu();
   [[nodiscard]] std::optional<PoseReading> pose_of(const ros2::NavSatFix& fix);
 
   std::optional<GpsTrack> track_;
+  WriterChoice fixes_;
+  WriterChoice orientations_;
 };
 
 }  // namespace rave::ros2_driver

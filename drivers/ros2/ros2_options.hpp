@@ -49,7 +49,14 @@ inline constexpr ParamSpec kPositionSigma = pose_doubt::position_sigma(0.02, kPo
 inline constexpr ParamSpec kHeadingSigma = pose_doubt::heading_sigma(
     1, "Standard deviation of the heading where messages do not have it.");
 
-inline constexpr std::array<ParamSpec, 1> kLaserParams{topic_param("scan")};
+inline constexpr std::array<const char*, 2> kZeroMeanings{"no_reading", "no_return"};
+inline constexpr std::array<ParamSpec, 2> kLaserParams{
+    topic_param("scan"),
+    choice_param(
+        "zero", "no_reading", kZeroMeanings,
+        "Meaning of a range of exactly 0: not measured, or, for scanners that are known to "
+        "write it for that alone, nothing in range."),
+};
 inline constexpr std::array<ParamSpec, 1> kRangeParams{topic_param("range")};
 inline constexpr std::array<ParamSpec, 1> kImuParams{topic_param("imu")};
 inline constexpr std::array<ParamSpec, 1> kBatteryParams{topic_param("battery_state")};
@@ -86,7 +93,7 @@ inline constexpr std::array<ParamSpec, 6> kTfPoseParams{
     kPositionSigma,
     kHeadingSigma,
 };
-inline constexpr std::array<ParamSpec, 7> kVelocityParams{
+inline constexpr std::array<ParamSpec, 8> kVelocityParams{
     text_param("topic", "cmd_vel",
                "Topic to write, in the device's namespace unless it begins with a slash."),
     choice_param("message", "auto", kVelocityMessages,
@@ -97,6 +104,10 @@ inline constexpr std::array<ParamSpec, 7> kVelocityParams{
                  "Timeout after which the robot stops by itself, according to its manufacturer "
                  "(`cmd_vel_timeout`); 0: none."),
     number_param("refresh_s", "s", 0.05, 0.01, 1, "Time between repetitions of the command."),
+    integer_param(
+        "most_readers", 1, 1, 100,
+        "Number of readers of the topic up to which the robot is driven. A second one may "
+        "be a second robot; allow recorders and monitors here."),
     number_param("max_v_mps", "m/s", 1, 0.01, 50, "Largest speed, forward and backward."),
     number_param("max_w_radps", "rad/s", 3, 0.01, 50, "Largest turning rate."),
 };

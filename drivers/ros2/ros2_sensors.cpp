@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "rave/bus/sequence.hpp"
 #include "rave/ros2/convert.hpp"
 
 namespace rave::ros2_driver {
@@ -13,6 +14,7 @@ Status Ros2Laser::prepare(const Params& params, HardwareDeclaration& declaration
     fan_ = fan_of(scan);
     return true;
   }));
+  zero_ = params.text("zero") == "no_return" ? Zero::kNoReturn : Zero::kNoReading;
   bearings_rad_ = bearings_of(fan_);
   ranges_m_.resize(fan_.rays);
   declaration.capacity = fan_.rays;
@@ -23,7 +25,7 @@ Status Ros2Laser::prepare(const Params& params, HardwareDeclaration& declaration
 }
 
 Status Ros2Laser::take(const ros2::LaserScan& message) {
-  RAVE_TRY(ranges_of(message, fan_, ranges_m_));
+  RAVE_TRY(ranges_of(message, fan_, ranges_m_, zero_));
   publish(ros2::nanoseconds(message.header.stamp), ranges_m_.data(), fan_.rays);
   return {};
 }
@@ -64,32 +66,53 @@ Status Ros2TfPose::prepare(const Params& params, HardwareDeclaration& /*declarat
 
 Status Ros2TfPose::await_chain() {
   std::string missing;
-  Status heard = device().await(*main_, [this, &missing](const ros2::TfMessage& message) {
-    add(*beside_, true);
-    if (!tree_.add(message, false)) return false;
-    const auto found = tree_.find(map_frame_, base_frame_);
-    missing = found ? "" : found.error().message;
-    return found.has_value();
-  });
+  Status heard = device().await(
+      *main_, [this, &missing](const ros2::TfMessage& message, dds_instance_handle_t writer) {
+        add_static();
+        if (!add(*main_, message, writer, false)) return false;
+        const auto found = tree_.find(map_frame_, base_frame_);
+        missing = found ? "" : found.error().message;
+        return found.has_value();
+      });
   if (heard || missing.empty()) return heard;
   return fail(ErrorCode::kTimeout, "`{}` has no pose of the robot: {}", topic(), missing);
 }
 
-void Ros2TfPose::add(ros2::Reader<ros2::TfMessage>& reader, bool is_static) {
-  reader.take([&](const ros2::TfMessage& message) {
-    Status added = tree_.add(message, is_static);
-    if (!added) reader.refuse(std::move(added).error());
+bool Ros2TfPose::add(ros2::Reader<ros2::TfMessage>& reader, const ros2::TfMessage& message,
+                     dds_instance_handle_t writer, bool is_static) {
+  bool any = false;
+  for (const ros2::TransformStamped& each : bus::elements(message.transforms)) {
+    const std::string_view child = TfTree::frame(each.child_frame_id);
+    // Many nodes write other frames, which may be anybody's.
+    if (tree_.needs(child, base_frame_)) {
+      auto choice = writers_.find(child);
+      if (choice == writers_.end()) choice = writers_.try_emplace(std::string(child)).first;
+      if (!admits(choice->second, reader.end(), writer, child, is_static)) continue;
+    }
+    Status added = tree_.add(each, is_static);
+    if (!added) {
+      reader.refuse(std::move(added).error());
+      return false;
+    }
+    any = true;
+  }
+  return any;
+}
+
+void Ros2TfPose::add_static() {
+  beside_->take([this](const ros2::TfMessage& message, dds_instance_handle_t writer) {
+    add(*beside_, message, writer, true);
   });
 }
 
 void Ros2TfPose::drain() {
-  add(*beside_, true);
+  add_static();
   // After each message, so that every pose of a burst is published.
-  main_->take([this](const ros2::TfMessage& message) {
-    Status added = tree_.add(message, false);
+  main_->take([this](const ros2::TfMessage& message, dds_instance_handle_t writer) {
+    if (!add(*main_, message, writer, false)) return;
     auto found = tree_.find(map_frame_, base_frame_);
-    if (!added || !found) {
-      main_->refuse(added ? std::move(found).error() : std::move(added).error());
+    if (!found) {
+      main_->refuse(std::move(found).error());
       return;
     }
     // Most messages contain other frames only, or only one of the transforms that the pose needs.

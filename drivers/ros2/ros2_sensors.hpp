@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "rave/ros2/convert.hpp"
@@ -11,7 +13,7 @@
 /// One class per kind of message for sensors of a robot.
 namespace rave::ros2_driver {
 
-/// The first scan defines the rays; scans with other rays are refused.
+/// The first scan defines the rays, on which later ones are put.
 class Ros2Laser final : public OneTopicSensor<ros2::LaserScan> {
  public:
   static constexpr ReadingKind kReading = ReadingKind::kRanges;
@@ -21,6 +23,7 @@ class Ros2Laser final : public OneTopicSensor<ros2::LaserScan> {
   Status take(const ros2::LaserScan& message) override;
 
   Fan fan_;
+  Zero zero_ = Zero::kNoReading;
   std::vector<double> bearings_rad_;
   std::vector<float> ranges_m_;
 };
@@ -100,14 +103,18 @@ class Ros2TfPose final : public TwoTopicSensor<ros2::TfMessage, ros2::TfMessage>
   Status prepare(const Params& params, HardwareDeclaration& declaration) override;
   void drain() override;
   [[nodiscard]] std::string explain_silence() const override;
-  void add(ros2::Reader<ros2::TfMessage>& reader, bool is_static);
+  /// False: an error of it is noted, or no transform of it counts.
+  bool add(ros2::Reader<ros2::TfMessage>& reader, const ros2::TfMessage& message,
+           dds_instance_handle_t writer, bool is_static);
+  void add_static();
   [[nodiscard]] Status await_chain();
 
   std::string map_frame_;
   std::string base_frame_;
   Doubt doubt_;
   TfTree tree_;
-  std::int64_t last_ns_ = 0;  // stamp of the last pose
+  std::map<std::string, WriterChoice, std::less<>> writers_;  ///< By child, of the robot's chain.
+  std::int64_t last_ns_ = 0;                                  // stamp of the last pose
 };
 
 }  // namespace rave::ros2_driver

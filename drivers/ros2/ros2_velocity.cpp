@@ -43,6 +43,7 @@ Status Ros2Velocity::open(const DeviceSetup& setup) {
   refresh_s_ = params.number("refresh_s");
   max_v_mps_ = params.number("max_v_mps");
   max_w_radps_ = params.number("max_w_radps");
+  most_readers_ = static_cast<std::size_t>(params.integer("most_readers"));
   RAVE_TRY_ASSIGN(topic_, device_->topic(params.text("topic")));
   // Twist and TwistStamped are both in use on cmd_vel, and a writer of the wrong type is never
   // heard. So the type is that of the robot's reader.
@@ -96,27 +97,48 @@ Status Ros2Velocity::write(const Command& command, SimTime /*now*/) {
                 to_string(command.kind));
   }
   // A command without values means stop.
-  const double v_mps = command.count >= 1 ? held(command.value[0], max_v_mps_) : 0;
-  const double w_radps = command.count >= 2 ? held(command.value[1], max_w_radps_) : 0;
+  double v_mps = command.count >= 1 ? held(command.value[0], max_v_mps_) : 0;
+  double w_radps = command.count >= 2 ? held(command.value[1], max_w_radps_) : 0;
   bool changed = false;
-  std::size_t there = 0;
+  std::string why_not;
   {
     const std::lock_guard lock(mutex_);
+    why_not = objection();
+    // Whoever hears it is told to stand.
+    if (!why_not.empty()) v_mps = w_radps = 0;
     // A changed command is sent at once; an unchanged one only extends its validity, and the thread
     // repeats it at its own rate.
     changed = !order_.given || v_mps != order_.v_mps || w_radps != order_.w_radps;
     order_ = {v_mps, w_radps, line::after_seconds(line::host_now(), watchdog_s_), true,
               order_.fresh || changed};
-    there = readers();
   }
   if (changed) device_->ring();
-  if (there == 0) {
-    return fail(ErrorCode::kIo, "`{}` has no reader any more; the robot cannot be commanded",
-                topic_);
+  if (!why_not.empty()) return fail(ErrorCode::kIo, "{}", why_not);
+  return {};
+}
+
+std::string Ros2Velocity::objection() {
+  const ros2::End* const end = this->end();
+  auto readers = end != nullptr ? end->matched() : std::vector<dds_instance_handle_t>();
+  if (readers.empty()) {
+    return fmt::format("`{}` has no reader any more; the robot cannot be commanded", topic_);
+  }
+  if (readers.size() > most_readers_) {
+    if (readers != readers_) {
+      crowd_ = fmt::format("`{}` has {} readers", topic_, readers.size());
+      for (const dds_instance_handle_t reader : readers) {
+        crowd_ += ", " + text_of(end->identify(reader).value_or(ros2::RemoteId{}));
+      }
+      crowd_ +=
+          "; each may be a robot: give robots a `namespace` each, or allow recorders and "
+          "monitors by `most_readers`";
+      readers_ = std::move(readers);
+    }
+    return crowd_;
   }
   if (device_->away()) {
-    return fail(ErrorCode::kIo,
-                "the robot behind `{}` is silent; it may not receive commands either", topic_);
+    return fmt::format("the robot behind `{}` is silent; it may not receive commands either",
+                       topic_);
   }
   return {};
 }
@@ -152,7 +174,7 @@ line::HostTime Ros2Velocity::attend(line::HostTime now) {
 }
 
 void Ros2Velocity::send(double v_mps, double w_radps) {
-  // readers() reveals a failure, or the robot's own watchdog stops it.
+  // objection() reveals a failure, or the robot's own watchdog stops it.
   if (auto* const plain = std::get_if<Plain>(&writer_)) {
     (void)plain->write(twist(v_mps, w_radps));
   } else if (auto* const stamped = std::get_if<Stamped>(&writer_)) {
@@ -170,10 +192,10 @@ void Ros2Velocity::look_after() {
   if (mismatch) device_->log(LogLevel::kWarning, fmt::format("`{}`: {}", topic_, *mismatch));
 }
 
-std::size_t Ros2Velocity::readers() const {
-  if (const auto* const plain = std::get_if<Plain>(&writer_)) return plain->readers();
-  if (const auto* const stamped = std::get_if<Stamped>(&writer_)) return stamped->readers();
-  return 0;
+const ros2::End* Ros2Velocity::end() const {
+  if (const auto* const plain = std::get_if<Plain>(&writer_)) return &plain->end();
+  if (const auto* const stamped = std::get_if<Stamped>(&writer_)) return &stamped->end();
+  return nullptr;
 }
 
 void Ros2Velocity::close() {

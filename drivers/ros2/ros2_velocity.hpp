@@ -4,6 +4,7 @@
 #include <mutex>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "rave/robot/actuator.hpp"
 #include "rave/ros2/writer.hpp"
@@ -45,7 +46,10 @@ class Ros2Velocity final : public HardwareActuator, public TopicUser {
   [[nodiscard]] Result<bool> find_stamped(const std::string& topic, std::string_view wanted) const;
   [[nodiscard]] Status make_writer(const std::string& topic, bool stamped);
   void send(double v_mps, double w_radps);
-  [[nodiscard]] std::size_t readers() const;
+  /// For those who drive: why a command may not be sent; empty: it may.
+  [[nodiscard]] std::string objection();
+  /// Null before open().
+  [[nodiscard]] const ros2::End* end() const;
   /// Logs readers with incompatible QoS, and the reason.
   void look_after();
 
@@ -55,10 +59,13 @@ class Ros2Velocity final : public HardwareActuator, public TopicUser {
   double refresh_s_ = 0;
   double max_v_mps_ = 0;
   double max_w_radps_ = 0;
+  std::size_t most_readers_ = 1;
   bool attached_ = false;
 
   std::mutex mutex_;  // guards what follows
   std::variant<std::monostate, Plain, Stamped> writer_;
+  std::vector<dds_instance_handle_t> readers_;  // those that `crowd_` is about
+  std::string crowd_;
   Order order_;
   line::HostTime due_{};       // time of the next repetition
   line::HostTime quiet_at_{};  // until then stop commands are sent without an order

@@ -8,35 +8,38 @@
 #include "rave/ros2/convert.hpp"
 
 namespace rave::ros2_driver {
-namespace {
-
-/// Frame names had a leading slash before tf2, and some nodes still write it.
-std::string_view frame(const char* text) {
+// Some nodes still write it.
+std::string_view TfTree::frame(const char* text) noexcept {
   std::string_view name(text == nullptr ? "" : text);
   if (name.starts_with('/')) name.remove_prefix(1);
   return name;
 }
 
-}  // namespace
-
 // Each frame has one parent (REP-105), so the newest transform by child describes the whole tree.
 // It keeps no history: a pose may be newer than its stamp by a period of the fastest link.
-Status TfTree::add(const ros2::TfMessage& message, bool is_static) {
-  for (const ros2::TransformStamped& each : bus::elements(message.transforms)) {
-    const std::string_view child = frame(each.child_frame_id);
-    const std::string_view parent = frame(each.header.frame_id);
-    const std::int64_t stamp_ns = ros2::nanoseconds(each.header.stamp);
-    auto found = links_.find(child);
-    if (found == links_.end()) {
-      // Bounds the memory for a node that invents frame names.
-      if (links_.size() >= kMostFrames) {
-        return fail(ErrorCode::kInvalidArgument, "more than {} frames", kMostFrames);
-      }
-      found = links_.emplace(std::string(child), Link{}).first;
+Status TfTree::add(const ros2::TransformStamped& transform, bool is_static) {
+  const std::string_view child = frame(transform.child_frame_id);
+  auto found = links_.find(child);
+  if (found == links_.end()) {
+    // Bounds the memory for a node that invents frame names.
+    if (links_.size() >= kMostFrames) {
+      return fail(ErrorCode::kInvalidArgument, "more than {} frames", kMostFrames);
     }
-    found->second = {std::string(parent), ros2::planar(each), stamp_ns, is_static};
+    found = links_.emplace(std::string(child), Link{}).first;
   }
+  found->second = {std::string(frame(transform.header.frame_id)), ros2::planar(transform),
+                   ros2::nanoseconds(transform.header.stamp), is_static};
   return {};
+}
+
+bool TfTree::needs(std::string_view child, std::string_view leaf) const noexcept {
+  for (int steps = 0; steps < kLongestChain; ++steps) {
+    if (leaf == child) return true;
+    const auto link = links_.find(leaf);
+    if (link == links_.end()) return false;
+    leaf = link->second.parent;
+  }
+  return false;
 }
 
 Result<TfTree::Found> TfTree::find(std::string_view root, std::string_view leaf) const {

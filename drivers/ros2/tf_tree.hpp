@@ -20,9 +20,14 @@ class TfTree {
   /// A longer chain is taken for a cycle.
   static constexpr int kLongestChain = 64;
 
-  /// Adds all transforms of a message that has passed validate(). Static ones have no time. Tilted
+  /// Adds a transform of a message that has passed validate(). Static ones have no time. Tilted
   /// ones are errors only for find() across them. Error kInvalidArgument: more than kMostFrames.
-  [[nodiscard]] Status add(const ros2::TfMessage& message, bool is_static);
+  [[nodiscard]] Status add(const ros2::TransformStamped& transform, bool is_static);
+  /// Whether the pose of frame `leaf` depends on the transform to `child`, as far as is known.
+  [[nodiscard]] bool needs(std::string_view child, std::string_view leaf) const noexcept;
+
+  /// The name of a frame without the leading slash that it had before tf2.
+  [[nodiscard]] static std::string_view frame(const char* text) noexcept;
 
   struct Found {
     Pose2 X_AB;

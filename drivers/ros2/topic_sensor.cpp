@@ -104,6 +104,17 @@ void TopicSensor::publish(std::int64_t stamp_ns, const void* records, std::uint3
   (void)sink_->publish(SimTime{last_stamp_ns_}, records, count);
 }
 
+bool TopicSensor::admits(WriterChoice& choice, const ros2::End& reader,
+                         dds_instance_handle_t writer, std::string_view frame, bool is_static) {
+  const double patience_s =
+      is_static ? std::numeric_limits<double>::infinity() : device_->options().timing.lost_after_s;
+  auto ruling = choice.judge(*device_, reader, writer, patience_s, frame);
+  if (!ruling.counts) ++state_.passed_over;
+  if (ruling.changed) clock_.restart();
+  if (!ruling.news.empty()) warn(std::move(ruling.news), state_);
+  return ruling.counts;
+}
+
 void TopicSensor::note_alive() {
   last_ = line::host_now();
   alive_ = true;
@@ -125,6 +136,7 @@ std::string TopicSensor::report() const {
   json["old"] = clock_.old();
   json["restarts"] = clock_.restarts();
   json["losses"] = state_.losses;
+  json["passed_over"] = state_.passed_over;
   json["clock_drift_ppm"] = clock_.drift_ppm();
   json["trouble"] = state_.trouble;
   // Texts of other nodes may not be UTF-8, which JSON requires.

@@ -8,16 +8,18 @@
 
 #include "ros2/ros2_device.hpp"
 #include "ros2/stream_clock.hpp"
+#include "ros2/writer_choice.hpp"
 
 namespace rave::ros2_driver {
 
 /// Statistics of one sensor's stream, for the report. A plain value.
 struct TopicState {
   std::uint64_t samples = 0;
-  std::uint64_t refused = 0;  ///< Unusable messages.
-  std::uint64_t losses = 0;   ///< Times of silence beyond the limit.
-  double rate_hz = 0;         ///< Rate of samples, by the host's clock.
-  std::string trouble;        ///< The last problem; empty if there was none.
+  std::uint64_t refused = 0;      ///< Unusable messages.
+  std::uint64_t losses = 0;       ///< Times of silence beyond the limit.
+  std::uint64_t passed_over = 0;  ///< Messages of writers that are not those of the robot.
+  double rate_hz = 0;             ///< Rate of samples, by the host's clock.
+  std::string trouble;            ///< The last problem; empty if there was none.
 };
 
 /// The common part of the sensors of this plug-in. The host's thread calls configure(), open(),
@@ -49,9 +51,14 @@ class TopicSensor : public HardwareSensor, public TopicUser {
 
   /// Permits silence, for topics without a regular rate.
   void allow_silence() noexcept { may_be_silent_ = true; }
+  [[nodiscard]] bool may_be_silent() const noexcept { return may_be_silent_; }
   [[nodiscard]] Ros2Device& device() const noexcept { return *device_; }
   /// For drain(): publishes records of a message with this stamp. Old ones are dropped.
   void publish(std::int64_t stamp_ns, const void* records, std::uint32_t count);
+  /// For drain() and prepare(): whether a message of `writer` counts, or its transform to `frame`.
+  /// The writer of a static one may be silent for ever.
+  bool admits(WriterChoice& choice, const ros2::End& reader, dds_instance_handle_t writer,
+              std::string_view frame = "", bool is_static = false);
   /// For drain(): notes a message without a reading, so that the sensor does not count as lost.
   void note_alive();
   /// Creates a reader of a topic in the device's namespace. Errors: those of Ros2Device::topic()
@@ -106,7 +113,9 @@ class OneTopicSensor : public TopicSensor {
   template <class Suits>
   Status begin_reading(const Params& params, Suits&& suits) {
     RAVE_TRY(make_reader(params));
-    return device().await(*reader_, suits);
+    return device().await(*reader_, [&](const Message& message, dds_instance_handle_t writer) {
+      return counts(writer) && suits(message);
+    });
   }
   /// Like the above, for sensors that accept any first message.
   Status begin_reading(const Params& params) {
@@ -117,7 +126,8 @@ class OneTopicSensor : public TopicSensor {
   virtual Status take(const Message& message) = 0;
 
   void drain() final {
-    reader_->take([this](const Message& message) {
+    reader_->take([this](const Message& message, dds_instance_handle_t writer) {
+      if (!counts(writer)) return;
       Status taken = take(message);
       if (!taken) reader_->refuse(std::move(taken).error());
     });
@@ -128,7 +138,13 @@ class OneTopicSensor : public TopicSensor {
   [[nodiscard]] std::vector<dds_entity_t> readers() const final { return {reader_->handle()}; }
 
  private:
+  // Several nodes may command, such as two of rviz.
+  bool counts(dds_instance_handle_t writer) {
+    return may_be_silent() || admits(choice_, reader_->end(), writer);
+  }
+
   std::optional<ros2::Reader<Message>> reader_;
+  WriterChoice choice_;
 };
 
 /// A sensor that reads two topics, or one of them. prepare() creates `main_`, `beside_`, or both.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "udp_pose/pose_stream.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace rave::udp_pose {
@@ -22,6 +24,27 @@ void PoseStream::restart() {
   newest_seq_ = -1;
   since_restart_ = 0;
   old_in_a_row_ = 0;
+}
+
+bool PoseStream::admit(std::string_view sender, double host_s, std::string& news) {
+  const std::string before = sender_.present().value_or("");
+  // Simple senders open a socket for each datagram, which then has a port of its own.
+  const bool gives_way = sender_.heard_once();
+  const auto verdict = sender_.take(std::string(sender), host_s, lost_after_s_, gives_way);
+  if (verdict.counts) state_.sender = sender;
+  if (verdict.changed && !gives_way) {
+    news = fmt::format("the poses of `{}` come from {} now; {} has been silent for {} s", body_,
+                       sender, before, lost_after_s_);
+    restart();
+  }
+  if (verdict.counts) return true;
+  ++state_.other_senders;
+  if (verdict.new_rival) {
+    news = fmt::format("two senders of poses of `{}`, {} and {}: only the first counts", body_,
+                       before, sender);
+    state_.trouble = news;
+  }
+  return false;
 }
 
 PoseStream::Verdict PoseStream::order(const PoseDatagram& datagram) {
@@ -47,21 +70,24 @@ PoseStream::Verdict PoseStream::order(const PoseDatagram& datagram) {
   return Verdict::kAccepted;
 }
 
-PoseStream::Taken PoseStream::take(std::string_view bytes, double host_s, PoseDatagram& datagram) {
+PoseStream::Taken PoseStream::take(std::string_view bytes, std::string_view sender, double host_s,
+                                   PoseDatagram& datagram) {
   auto parsed = parse_datagram(bytes);
   if (!parsed) {
     ++state_.refused;
     state_.trouble = parsed.error().message;
-    return {Verdict::kRefused, 0};
+    return {Verdict::kRefused, 0, ""};
   }
   if (parsed->body != body_) {
     ++state_.other_bodies;
-    return {Verdict::kOtherBody, 0};
+    return {Verdict::kOtherBody, 0, ""};
   }
+  std::string news;
+  if (!admit(sender, host_s, news)) return {Verdict::kOtherSender, 0, std::move(news)};
   const Verdict verdict = order(*parsed);
   if (verdict != Verdict::kAccepted) {
     ++(verdict == Verdict::kDuplicate ? state_.duplicates : state_.out_of_order);
-    return {verdict, 0};
+    return {verdict, 0, std::move(news)};
   }
   datagram = std::move(*parsed);
   clock_.add(datagram.t_s, host_s);
@@ -75,13 +101,13 @@ PoseStream::Taken PoseStream::take(std::string_view bytes, double host_s, PoseDa
   // Late samples still count for the clock and the order above; only the program does not get them.
   if (delay_s > max_delay_s_) {
     ++state_.late;
-    return {Verdict::kLate, true_s};
+    return {Verdict::kLate, true_s, std::move(news)};
   }
   ++state_.samples;
   if (++since_restart_ > 1 && newest_t_s_ > first_t_s_) {
     state_.rate_hz = static_cast<double>(since_restart_ - 1) / (newest_t_s_ - first_t_s_);
   }
-  return {Verdict::kAccepted, true_s};
+  return {Verdict::kAccepted, true_s, std::move(news)};
 }
 
 }  // namespace rave::udp_pose

@@ -5,15 +5,17 @@
 #include <string>
 
 #include "rave/line/clock_offset.hpp"
+#include "rave/line/one_sender.hpp"
 #include "udp_pose/pose_datagram.hpp"
 
 namespace rave::udp_pose {
 
 /// Statistics of the stream, for the report. A plain value.
 struct StreamState {
-  std::uint64_t samples = 0;       ///< Accepted.
-  std::uint64_t refused = 0;       ///< Invalid datagrams.
-  std::uint64_t other_bodies = 0;  ///< Datagrams of other bodies.
+  std::uint64_t samples = 0;        ///< Accepted.
+  std::uint64_t refused = 0;        ///< Invalid datagrams.
+  std::uint64_t other_bodies = 0;   ///< Datagrams of other bodies.
+  std::uint64_t other_senders = 0;  ///< Poses of the body by another sender than the present one.
   std::uint64_t duplicates = 0;
   std::uint64_t out_of_order = 0;
   std::uint64_t late = 0;
@@ -26,7 +28,8 @@ struct StreamState {
   double clock_drift_ppm = 0;
   double mean_delay_s = 0;  ///< Mean delay beyond the least one, of all samples in order.
   double max_delay_s = 0;
-  std::string trouble;  ///< Why the last datagram was refused; empty if none was.
+  std::string sender;   ///< Address of the present sender.
+  std::string trouble;  ///< Why the last datagram was refused, or whose were; empty if none was.
 };
 
 /// Orders the samples of one body and estimates the sender's clock. Pure: reads no clock, opens no
@@ -34,26 +37,42 @@ struct StreamState {
 class PoseStream {
  public:
   /// A sample counts as late if its delay exceeds the least delay by more than `max_delay_s`.
-  PoseStream(std::string body, double max_delay_s)
-      : body_(std::move(body)), max_delay_s_(max_delay_s) {}
+  /// Another sender takes the place of one that has been silent for `lost_after_s`.
+  PoseStream(std::string body, double max_delay_s, double lost_after_s)
+      : body_(std::move(body)), max_delay_s_(max_delay_s), lost_after_s_(lost_after_s) {}
 
-  enum class Verdict { kAccepted, kRefused, kOtherBody, kDuplicate, kOutOfOrder, kLate };
+  enum class Verdict {
+    kAccepted,
+    kRefused,
+    kOtherBody,
+    kOtherSender,
+    kDuplicate,
+    kOutOfOrder,
+    kLate
+  };
   struct Taken {
     Verdict verdict = Verdict::kRefused;
     /// Time at which the pose was true, in the host's clock, least delay included.
     double host_s = 0;
+    std::string news;  ///< For users: there is a second sender, or another one than before.
   };
-  /// Processes one datagram that arrived at `host_s`. Sets `datagram` if it is accepted.
-  Taken take(std::string_view bytes, double host_s, PoseDatagram& datagram);
+  /// Processes one datagram of `sender` that arrived at `host_s`. Sets `datagram` if it is
+  /// accepted.
+  Taken take(std::string_view bytes, std::string_view sender, double host_s,
+             PoseDatagram& datagram);
 
   [[nodiscard]] const StreamState& state() const noexcept { return state_; }
 
  private:
+  /// Whether a pose of this sender counts.
+  [[nodiscard]] bool admit(std::string_view sender, double host_s, std::string& news);
   [[nodiscard]] Verdict order(const PoseDatagram& datagram);
   void restart();
 
   std::string body_;
   double max_delay_s_;
+  double lost_after_s_;
+  line::OneSender<std::string> sender_;
   line::ClockOffset clock_;
   StreamState state_;
   bool any_ = false;

@@ -52,6 +52,7 @@ class UdpPose final : public HardwareSensor {
   [[nodiscard]] bool publish(const PoseDatagram& datagram, double host_s, SampleSink& sink);
   void report_silence(SampleSink& sink) const;
 
+  HostServices host_;
   std::string body_;
   std::string listen_;
   pose_doubt::Doubt doubt_;
@@ -69,6 +70,7 @@ class UdpPose final : public HardwareSensor {
 
 Status UdpPose::configure(const HardwareSetup& setup, HardwareDeclaration& declaration) {
   const Params params = setup.parameters();
+  host_ = setup.host;
   body_ = params.text("body");
   if (body_.empty()) return fail(ErrorCode::kInvalidArgument, "`body` is empty");
   listen_ = params.text("listen");
@@ -102,7 +104,8 @@ Status UdpPose::open(SampleSink& sink) {
 void UdpPose::close() { wake_.end(thread_); }
 
 void UdpPose::run(SampleSink& sink, const std::stop_token& stop) {
-  PoseStream stream(body_, max_delay_s_);
+  PoseStream stream(body_, max_delay_s_, lost_after_s_);
+  line::Peer sender;
   PoseDatagram datagram;
   std::array<char, kMaxDatagram + 1> text{};  // one byte more, to detect longer datagrams
   const auto room = std::as_writable_bytes(std::span(text));
@@ -115,11 +118,12 @@ void UdpPose::run(SampleSink& sink, const std::stop_token& stop) {
   }
   while (!stop.stop_requested()) {
     const auto wait = silence_reported ? line::Wait(60'000) : line::until(silent_at);
-    const auto got = socket_->receive(room, wait, wake_);
+    const auto got = socket_->receive(room, wait, wake_, &sender);
     if (got.end == line::ReadEnd::kWoken) return;
     if (got.end == line::ReadEnd::kBytes) {
       const double now_s = line::host_seconds(line::host_now());
-      const auto taken = stream.take({text.data(), got.size}, now_s, datagram);
+      const auto taken = stream.take({text.data(), got.size}, sender.text, now_s, datagram);
+      if (!taken.news.empty()) host_.write(LogLevel::kWarning, taken.news);
       if (taken.verdict == PoseStream::Verdict::kAccepted) {
         if (!publish(datagram, taken.host_s, sink)) ++held_back;
         silent_at = line::after_seconds(line::host_now(), lost_after_s_);
@@ -174,6 +178,8 @@ std::string UdpPose::report() const {
   json["held_back"] = state_.held_back;
   json["refused"] = state_.refused;
   json["other_bodies"] = state_.other_bodies;
+  json["sender"] = state_.sender;
+  json["other_senders"] = state_.other_senders;
   json["restarts"] = state_.restarts;
   json["mean_delay_s"] = state_.mean_delay_s;
   json["max_delay_s"] = state_.max_delay_s;

@@ -12,8 +12,8 @@ using Json = nlohmann::json;
 /// that is virtual.
 class CartRun : public Ros2Run {
  public:
-  /// `limits` are further lines of its guard.
-  void start(double duration_s, const std::string& limits = "") {
+  /// `limits` are further lines of its guard. With `arm` it waits until somebody arms it.
+  void start(double duration_s, const std::string& limits = "", bool arm = false) {
     write("room", "3 1.5 0 6 3\n");
     start_peer("peer_ros2", {"--room", file("room"), "--pose", "1,1.5,0"});
     std::ifstream stream(RAVE_SOURCE_DIR "/robots/ros2-cart.yaml");
@@ -23,14 +23,32 @@ class CartRun : public Ros2Run {
     const std::string guard = "guard:\n";
     const auto at = robot.find(guard);
     ASSERT_NE(at, std::string::npos);
-    robot.insert(at + guard.size(), "  arm: false\n" + limits);
+    robot.insert(at + guard.size(), (arm ? "  arm: true\n" : "  arm: false\n") + limits);
     write("cart.yaml", robot);
     Ros2Run::start(
-        "name: cart\nduration_s: " + std::to_string(duration_s) +
+        "name: " + name() + "\nduration_s: " + std::to_string(duration_s) +
         "\nhistory_s: 1\nobstacles:\n  - {name: wall, box_m: [0.1, 3], x_m: 3.05, y_m: 1.5}\n"
         "robots:\n  - name: cart\n    file: cart.yaml\n    variables: {domain: " +
         std::to_string(ros2_domain()) + ", namespace: /cart}\n");
   }
+  /// Another robot with the same topics.
+  [[nodiscard]] std::unique_ptr<testing::PeerProcess> start_double() const {
+    return std::make_unique<testing::PeerProcess>(
+        "peer_ros2", std::vector<std::string>{"--room", file("room"), "--pose", "4,1.5,0",
+                                              "--domain", std::to_string(ros2_domain())});
+  }
+  /// What `rave arm` says.
+  [[nodiscard]] static std::string arm() {
+    const std::string command = RAVE_BINARY_DIR "/bin/rave arm " + name() + " 2>&1";
+    std::string said;
+    FILE* const pipe = ::popen(command.c_str(), "r");
+    if (pipe == nullptr) return said;
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) said += static_cast<char>(c);
+    ::pclose(pipe);
+    return said;
+  }
+  /// Of the run; tests of several processes must not arm one another's.
+  [[nodiscard]] static std::string name() { return "cart-" + std::to_string(::getpid()); }
 };
 
 TEST(Ros2Robot, DrivesByItsProgramAndFeelsAVirtualWall) {
@@ -140,6 +158,34 @@ TEST(Ros2Robot, ARobotWhoseHostIsKilledStopsByItself) {
   run.rave->kill();
   const Json now = run.await_state(testing::wheels_stand);
   EXPECT_GE(now["watchdog_stops"], 1);
+}
+
+TEST(Ros2Robot, IsNotArmedWhileASecondRobotHearsItsCommands) {
+  CartRun run;
+  ASSERT_NO_FATAL_FAILURE(run.start(600, "", true));
+  auto second = run.start_double();
+  run.await_console("`/cart/cmd_vel` has 2 readers", 1);
+  run.await_console("two writers of `/tf` to `odom`", 1);
+  run.await_console("two writers of `/cart/scan`", 1);
+  const std::string refused = CartRun::arm();
+  EXPECT_NE(refused.find("robot `cart` cannot be driven: actuator `wheels`: `/cart/cmd_vel` has 2 "
+                         "readers, `cart` (GID "),
+            std::string::npos)
+      << refused;
+  second.reset();
+  run.await_console("works again", 1);
+  EXPECT_NE(CartRun::arm().find("armed cart"), std::string::npos);
+  run.await_state(testing::wheels_turn);
+  // Whoever comes while it drives makes both stand.
+  second = run.start_double();
+  run.await_console("`/cart/cmd_vel` has 2 readers", 2);
+  run.await_state(testing::wheels_stand);
+  EXPECT_TRUE(testing::wheels_stand(testing::state_of(*second)));
+  run.rave->interrupt();
+  (void)run.rave->wait();
+  const Json result = run.result();
+  ASSERT_TRUE(result.is_object());
+  EXPECT_LT(result["robots"][0]["final_pose"]["x_m"], 3) << "the pose is never that of the other";
 }
 
 TEST(Ros2Robot, ARobotThatIsNotThereIsAnErrorOfTheStart) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "rave/bus/sequence.hpp"
+#include "rave/math/scalar.hpp"
 #include "rave/ros2/convert.hpp"
 
 namespace rave::ros2_driver {
@@ -27,19 +28,23 @@ ros2::LaserScan scan_of(std::vector<float>& ranges) {
 }
 
 TEST(Ros2Readings, RangesAsRep117HasThem) {
-  std::vector<float> sent{kInf, 0, -kInf, 0.1F, 2};
+  std::vector<float> sent{kInf, 2.5F, -kInf, 0.1F, 2};
   const ros2::LaserScan scan = scan_of(sent);
   const Fan fan = fan_of(scan);
   EXPECT_EQ(bearings_of(fan), (std::vector<double>{-0.5, -0.25, 0, 0.25, 0.5}));
   std::vector<float> got(5);
   ASSERT_TRUE(ranges_of(scan, fan, got));
-  EXPECT_EQ(got, (std::vector<float>{kInf, kInf, 0.25F, 0.25F, 2}));
+  EXPECT_EQ(got, (std::vector<float>{kInf, 2.5F, 0.25F, 0.25F, 2}));
   EXPECT_EQ(range_of(8.5F, 0.25, 8), kInf) << "beyond what it can measure";
-  EXPECT_EQ(range_of(0, 0, 8), 0) << "it can measure that";
-  for (const float bad : {kNan, -0.1F, -1.0F, -1e30F}) {
+  for (const float bad : {kNan, -0.1F, -1.0F, -1e30F, 0.0F, -0.0F}) {
     EXPECT_TRUE(std::isnan(range_of(bad, 0.25, 8))) << bad << " is not free space";
     EXPECT_TRUE(std::isnan(range_of(bad, 0, 8))) << bad;
   }
+  EXPECT_EQ(range_of(0, 0.25, 8, Zero::kNoReturn), kInf) << "who says so";
+  EXPECT_TRUE(std::isnan(range_of(kNan, 0.25, 8, Zero::kNoReturn)));
+  sent[1] = 0;
+  ASSERT_TRUE(ranges_of(scan, fan, got));
+  EXPECT_TRUE(std::isnan(got[1]));
 }
 
 TEST(Ros2Readings, AScanWithoutAnyReadingIsRefused) {
@@ -56,16 +61,90 @@ TEST(Ros2Readings, AScanWithoutAnyReadingIsRefused) {
   }
 }
 
-TEST(Ros2Readings, AnotherScannerIsRefused) {
+/// A scan whose ranges are its bearings, plus 10.
+struct Turn {
+  Turn(std::size_t rays, double first_rad, double step_rad) : ranges(rays) {
+    scan.angle_min = static_cast<float>(first_rad);
+    scan.angle_increment = static_cast<float>(step_rad);
+    scan.angle_max = static_cast<float>(first_rad + step_rad * static_cast<double>(rays - 1));
+    scan.range_max = 100;
+    for (std::size_t i = 0; i < rays; ++i) {
+      ranges[i] = static_cast<float>(10 + first_rad + step_rad * static_cast<double>(i));
+    }
+    bus::borrow(scan.ranges, ranges);
+  }
+  std::vector<float> ranges;
+  ros2::LaserScan scan{};
+};
+
+/// A whole turn in so many rays, from `first_rad` on.
+Turn turn_of(std::size_t rays, double first_rad = -kPi) {
+  return {rays, first_rad, 2 * kPi / static_cast<double>(rays)};
+}
+
+TEST(Ros2Readings, AScanWithAnotherNumberOfRaysIsPutOnTheFirstOnes) {
+  for (const std::size_t first : {450U, 457U, 720U, 721U}) {
+    const Turn one = turn_of(first);
+    const Fan fan = fan_of(one.scan);
+    for (const std::size_t rays : {450U, 451U, 455U, 457U, 720U, 721U, 1073U}) {
+      for (const double turned : {0.0, 1e-7, 0.003, 1.0, kPi}) {
+        const Turn other = turn_of(rays, -kPi + turned);
+        std::vector<float> got(first);
+        ASSERT_TRUE(ranges_of(other.scan, fan, got));
+        for (std::size_t i = 0; i < first; ++i) {
+          const double off = wrap_angle(got[i] - 10 - bearings_of(fan)[i]);
+          EXPECT_LE(std::abs(off), kPi / static_cast<double>(rays) + 1e-5)
+              << rays << " on " << first << ", ray " << i;
+        }
+      }
+    }
+  }
+}
+
+TEST(Ros2Readings, WhereAScanHasNoRayNearThereIsNoReading) {
+  const Turn one(101, -0.5, 0.01);
+  const Fan fan = fan_of(one.scan);
+  std::vector<float> got(101);
+  // It ends earlier, and its rays lie between those of the first.
+  const Turn shorter(60, -0.504, 0.01);
+  ASSERT_TRUE(ranges_of(shorter.scan, fan, got));
+  for (std::size_t i = 0; i < 101; ++i) {
+    EXPECT_EQ(std::isnan(got[i]), i >= 60) << i;
+  }
+  // Rays at four times the spacing: each covers the directions within one spacing.
+  const Turn coarse(26, -0.5, 0.04);
+  ASSERT_TRUE(ranges_of(coarse.scan, fan, got));
+  for (std::size_t i = 0; i < 101; ++i) EXPECT_EQ(std::isnan(got[i]), i % 4 == 2) << i;
+}
+
+TEST(Ros2Readings, LimitsThatAScannerChangesAreNoOtherScanner) {
+  Turn one(11, -0.5, 0.1);
+  const Fan fan = fan_of(one.scan);
+  one.scan.range_max = 10.2F;
+  one.scan.range_min = 9.7F;
+  std::vector<float> got(11);
+  ASSERT_TRUE(ranges_of(one.scan, fan, got));
+  EXPECT_EQ(got[0], 9.7F);
+  EXPECT_EQ(got[5], 10);
+  EXPECT_EQ(got[10], kInf);
+}
+
+TEST(Ros2Readings, AScannerThatLooksElsewhereIsRefused) {
   std::vector<float> five(5, 1);
   const Fan fan = fan_of(scan_of(five));
-  std::vector<float> nine(9, 1);
-  ros2::LaserScan scan = scan_of(nine);
-  scan.angle_increment = 0.125F;
   std::vector<float> got(5);
+  ros2::LaserScan scan = scan_of(five);
+  scan.angle_min = 0.25F;
   EXPECT_EQ(ranges_of(scan, fan, got).error().message,
-            "the scanner has changed: 9 rays from -0.5000 rad with spacing 0.12500 rad, instead of "
+            "the scanner has changed: 5 rays from 0.2500 rad with spacing 0.25000 rad, instead of "
             "5 from -0.5000 rad with spacing 0.25000 rad; restart the run");
+  std::vector<float> one(1, 1);
+  scan = scan_of(one);
+  const Fan single = fan_of(scan);
+  ASSERT_TRUE(ranges_of(scan, single, std::span(got).first(1)));
+  EXPECT_EQ(got[0], 1);
+  scan.angle_min = 0.1F;
+  EXPECT_FALSE(ranges_of(scan, single, std::span(got).first(1)));
 }
 
 TEST(Ros2Readings, OdometryBringsItsDoubtOrIsGivenOne) {

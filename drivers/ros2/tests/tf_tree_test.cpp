@@ -5,31 +5,27 @@
 
 #include <cmath>
 #include <string>
-#include <vector>
 
-#include "rave/bus/sequence.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/ros2/convert.hpp"
 
 namespace rave::ros2_driver {
 namespace {
 
-/// Messages of one transform each, whose texts live here.
+/// Transforms, whose texts live here.
 class Transforms {
  public:
   explicit Transforms(TfTree& tree) : tree_(tree) {}
   Status put(std::string parent, std::string child, const Pose2& pose, std::int32_t sec,
              bool is_static = false) {
-    std::vector<ros2::TransformStamped> one(1);
-    one[0].header.frame_id = parent.data();
-    one[0].header.stamp.sec = sec;
-    one[0].child_frame_id = child.data();
-    one[0].transform.translation = {pose.x, pose.y, 0};
-    one[0].transform.rotation = leaning ? ros2::Quaternion{std::sqrt(0.5), 0, 0, std::sqrt(0.5)}
-                                        : ros2::quaternion_of(pose.yaw);
-    ros2::TfMessage message{};
-    bus::borrow(message.transforms, one);
-    return tree_.add(message, is_static);
+    ros2::TransformStamped one{};
+    one.header.frame_id = parent.data();
+    one.header.stamp.sec = sec;
+    one.child_frame_id = child.data();
+    one.transform.translation = {pose.x, pose.y, 0};
+    one.transform.rotation = leaning ? ros2::Quaternion{std::sqrt(0.5), 0, 0, std::sqrt(0.5)}
+                                     : ros2::quaternion_of(pose.yaw);
+    return tree_.add(one, is_static);
   }
   bool leaning = false;
 
@@ -49,6 +45,11 @@ TEST(Ros2TfTree, ComposesTheChain) {
   EXPECT_NEAR(found->X_AB.y, 5, 1e-12);
   EXPECT_NEAR(found->X_AB.yaw, kPi / 2, 1e-12);
   EXPECT_EQ(found->stamp_ns, 5'000'000'000) << "the oldest; a static transform has no time";
+  for (const char* const child : {"odom", "base_footprint", "base_link"}) {
+    EXPECT_TRUE(tree.needs(child, "base_link")) << child;
+  }
+  EXPECT_FALSE(tree.needs("laser", "base_link"));
+  EXPECT_FALSE(tree.needs("base_link", "odom"));
   ASSERT_TRUE(tf.put("odom", "base_footprint", {4, 0, 0}, 8));
   EXPECT_NEAR(tree.find("map", "base_link")->X_AB.y, 6, 1e-12) << "the newest counts";
 }

@@ -10,14 +10,14 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using rave::udp_pose::PoseStream;
-  PoseStream stream("robot", 0.2);
+  PoseStream stream("robot", 0.2, 2);
   rave::udp_pose::PoseDatagram pose;
   std::string_view rest(reinterpret_cast<const char*>(data), size);
   double newest_s = -1e300;
   for (double now_s = 1; !rest.empty(); now_s += 0.01) {
     const auto end = rest.find('\n');
     const auto restarts = stream.state().restarts;
-    const auto taken = stream.take(rest.substr(0, end), now_s, pose);
+    const auto taken = stream.take(rest.substr(0, end), "here", now_s, pose);
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     if (stream.state().restarts != restarts) newest_s = -1e300;
     if (taken.verdict != PoseStream::Verdict::kAccepted) continue;

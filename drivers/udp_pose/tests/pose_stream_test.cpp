@@ -14,10 +14,10 @@ std::string text(double t_s, int seq, const char* body = "cart") {
 }
 
 TEST(PoseStream, OrdersCountsAndDrops) {
-  PoseStream stream("cart", 0.2);
+  PoseStream stream("cart", 0.2, 2);
   PoseDatagram pose;
   const auto take = [&](const std::string& bytes, double host_s) {
-    return stream.take(bytes, host_s, pose).verdict;
+    return stream.take(bytes, "a", host_s, pose).verdict;
   };
   EXPECT_EQ(take(text(10.00, 1), 3.00), Verdict::kAccepted);
   EXPECT_EQ(take(text(10.01, 2), 3.01), Verdict::kAccepted);
@@ -43,12 +43,12 @@ TEST(PoseStream, OrdersCountsAndDrops) {
 }
 
 TEST(PoseStream, ASenderThatBeginsAnewIsFollowed) {
-  PoseStream stream("cart", 0.2);
+  PoseStream stream("cart", 0.2, 2);
   PoseDatagram pose;
-  for (int i = 0; i < 100; ++i) (void)stream.take(text(50 + 0.01 * i, i), 0.01 * i, pose);
+  for (int i = 0; i < 100; ++i) (void)stream.take(text(50 + 0.01 * i, i), "a", 0.01 * i, pose);
   int accepted = 0;
   for (int i = 0; i < 100; ++i) {
-    const auto taken = stream.take(text(0.01 * i, i), 2 + 0.01 * i, pose);
+    const auto taken = stream.take(text(0.01 * i, i), "a", 2 + 0.01 * i, pose);
     accepted += taken.verdict == Verdict::kAccepted ? 1 : 0;
     if (taken.verdict == Verdict::kAccepted) {
       EXPECT_NEAR(taken.host_s, 2 + 0.01 * i, 1e-6);
@@ -56,6 +56,40 @@ TEST(PoseStream, ASenderThatBeginsAnewIsFollowed) {
   }
   EXPECT_EQ(accepted, 91);
   EXPECT_EQ(stream.state().restarts, 1U);
+}
+
+TEST(PoseStream, OfTwoSendersTheFirstCountsUntilItIsSilent) {
+  PoseStream stream("cart", 0.2, 2);
+  PoseDatagram pose;
+  std::string news;
+  const auto take = [&](const char* sender, double host_s) {
+    auto taken = stream.take(text(host_s, static_cast<int>(host_s * 100)), sender, host_s, pose);
+    if (!taken.news.empty()) news += taken.news + "\n";
+    return taken.verdict;
+  };
+  EXPECT_EQ(take("a:1", 1), Verdict::kAccepted);
+  EXPECT_EQ(take("a:1", 1.01), Verdict::kAccepted);
+  for (int i = 2; i < 50; ++i) {
+    EXPECT_EQ(take("b:2", 1.005 + 0.01 * i), Verdict::kOtherSender);
+    EXPECT_EQ(take("a:1", 1.01 + 0.01 * i), Verdict::kAccepted);
+  }
+  EXPECT_EQ(news, "two senders of poses of `cart`, a:1 and b:2: only the first counts\n");
+  EXPECT_EQ(stream.state().other_senders, 48U);
+  EXPECT_EQ(stream.state().sender, "a:1");
+  news.clear();
+  EXPECT_EQ(take("b:2", 3.51), Verdict::kAccepted);
+  EXPECT_EQ(news, "the poses of `cart` come from b:2 now; a:1 has been silent for 2 s\n");
+}
+
+TEST(PoseStream, ASenderMayOpenASocketForEachDatagram) {
+  PoseStream stream("cart", 0.2, 2);
+  PoseDatagram pose;
+  for (int i = 0; i < 50; ++i) {
+    const auto taken = stream.take(text(0.01 * i, i), fmt::format("a:{}", i), 0.01 * i, pose);
+    EXPECT_EQ(taken.verdict, Verdict::kAccepted) << i;
+    EXPECT_EQ(taken.news, "");
+  }
+  EXPECT_EQ(stream.state().restarts, 0U);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // A reader or writer of a topic.
 #include "rave/ros2/end.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "rave/bus/endpoint.hpp"
@@ -46,7 +47,29 @@ bool End::wait_until_there(Duration limit) const {
   return dds_wait_for_acks(entity_, limit.ns) == DDS_RETCODE_OK;
 }
 
-std::size_t End::matched() const { return bus::matched_ends(entity_, reads_); }
+std::vector<dds_instance_handle_t> End::matched() const {
+  std::vector<dds_instance_handle_t> ends(bus::matched_ends(entity_, reads_));
+  if (ends.empty()) return ends;
+  const dds_return_t count = reads_
+                                 ? dds_get_matched_publications(entity_, ends.data(), ends.size())
+                                 : dds_get_matched_subscriptions(entity_, ends.data(), ends.size());
+  // Others may have come or gone since they were counted.
+  ends.resize(std::min(ends.size(), static_cast<std::size_t>(std::max(count, 0))));
+  return ends;
+}
+
+std::optional<RemoteId> End::identify(dds_instance_handle_t other) const {
+  dds_builtintopic_endpoint_t* const found =
+      reads_ ? dds_get_matched_publication_data(entity_, other)
+             : dds_get_matched_subscription_data(entity_, other);
+  if (found == nullptr) return std::nullopt;
+  RemoteId id;
+  std::ranges::copy(found->key.v, id.guid.begin());
+  std::ranges::copy(found->participant_key.v, id.participant.begin());
+  dds_builtintopic_free_endpoint(found);
+  id.name = participant_->name_of(id.participant);
+  return id;
+}
 
 std::optional<std::string> End::take_mismatch() const {
   return bus::take_mismatch(entity_, reads_);

@@ -4,6 +4,7 @@
 #include "rave/ros2/participant.hpp"
 
 #include <arpa/inet.h>
+#include <fmt/ranges.h>
 #include <ifaddrs.h>
 
 #include <algorithm>
@@ -101,6 +102,11 @@ std::string named(const std::vector<std::string>& names) {
 
 }  // namespace
 
+std::string text_of(const RemoteId& id) {
+  const std::string gid = fmt::format("GID {:02x}", fmt::join(id.guid, "."));
+  return id.name.empty() ? gid : fmt::format("`{}` ({})", id.name, gid);
+}
+
 Result<std::unique_ptr<Participant>> Participant::open(const Network& network) {
   RAVE_TRY(check_interface(network));
   RAVE_TRY(bus::validate(config_of(network)));
@@ -184,6 +190,21 @@ std::vector<RemoteEnd> Participant::others(bool writers) const {
         ends.push_back({topic_of_wire(end.topic_name), type_of_wire(end.type_name)});
       });
   return ends;
+}
+
+std::string Participant::name_of(const RemoteId::Guid& participant) const {
+  std::string found;
+  look_at<dds_builtintopic_participant_t>(seen_participants_,
+                                          [&](const dds_builtintopic_participant_t& other) {
+                                            char* name = nullptr;
+                                            if (!std::ranges::equal(other.key.v, participant))
+                                              return;
+                                            if (dds_qget_entity_name(other.qos, &name))
+                                              found = name;
+                                            dds_free(name);
+                                          });
+  // That of every process of ROS 2 on Fast DDS.
+  return found == "/" ? std::string() : found;
 }
 
 std::size_t Participant::others_here() const {

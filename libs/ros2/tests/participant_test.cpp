@@ -47,8 +47,9 @@ TEST(Ros2Participant, AMessageCrosses) {
   auto waiter = Waiter::create(*robot);
   ASSERT_TRUE(writer && reader && waiter);
   ASSERT_TRUE(waiter->watch(reader->handle()));
-  ASSERT_TRUE(
-      eventually(*waiter, [&] { return writer->readers() == 1 && reader->writers() == 1; }));
+  ASSERT_TRUE(eventually(*waiter, [&] {
+    return writer->end().matched().size() == 1 && reader->end().matched().size() == 1;
+  }));
   ASSERT_TRUE(writer->write({{0.5, 0, 0}, {0, 0, 0.25}}));
   Twist got{};
   ASSERT_TRUE(eventually(

@@ -88,6 +88,7 @@ void Engine::Impl::note_written(const RobotGroup& group, ActuatorSlots& slots, s
                                 bool failed, std::string_view text) {
   if (failed == (slots.failed[member] != 0)) return;
   slots.failed[member] = failed ? 1 : 0;
+  slots.trouble[member] = failed ? text : "";
   note({step, group.members[member], failed ? EventKind::kDriverFailed : EventKind::kDriverBack,
         BodyId(),
         fmt::format("actuator `{}`: {}", slots.spec->name, failed ? text : "works again")});

@@ -134,6 +134,17 @@ bool Engine::armed(RobotId robot) const noexcept {
   return impl_->robot_guards[robot.value()].holds().armed;
 }
 
+std::string Engine::drive_trouble(RobotId robot) const {
+  if (!is_local(robot)) return {};
+  const std::size_t member = impl_->roster.member_of(robot);
+  for (const ActuatorSlots& slots : impl_->roster.group_of(robot).actuators) {
+    if (!slots.trouble[member].empty()) {
+      return fmt::format("actuator `{}`: {}", slots.spec->name, slots.trouble[member]);
+    }
+  }
+  return {};
+}
+
 Status Engine::set_parameters(RobotId robot, std::span<const ParameterChange> changes,
                               const Author& author) {
   RAVE_CHECK(robot.value() < impl_->spec.robots.size());

@@ -165,6 +165,7 @@ Status start_actuators(const GroupContext& context, RobotGroup& group) {
     slots.changed.resize(count);
     slots.commands.assign(count, Command{});
     slots.failed.assign(count, 0);
+    slots.trouble.assign(count, {});
     // Virtual actuators obey. A real one says after it was opened, and a recorded one never does.
     slots.obeys.assign(count, 1);
     slots.open.assign(count, 0);

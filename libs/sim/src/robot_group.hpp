@@ -88,6 +88,7 @@ struct ActuatorSlots {
   std::vector<Command> commands;
   std::vector<std::unique_ptr<plugin::ParamSet>> changed;  ///< Null: as in the spec.
   std::vector<std::uint8_t> failed;
+  std::vector<std::string> trouble;  ///< Of hardware that failed: what its driver says.
   std::vector<std::uint8_t> obeys;
   std::vector<std::uint8_t> open;
 };

@@ -282,6 +282,7 @@ TEST_F(EngineLiveGuard, WhatTheDriverSaysIsAnEventOnce) {
   const auto failed = of_kind(events, EventKind::kDriverFailed);
   ASSERT_EQ(failed.size(), 1U);
   EXPECT_EQ(failed[0].text, "actuator `wheels`: no power");
+  EXPECT_EQ(engine->drive_trouble(robot_), "actuator `wheels`: no power");
   EXPECT_EQ(engine->actuator_command(robot_, 0), velocity_command(0.3, 0));
   cart_.hand.fail_with("");
   const std::size_t count = cart_.hand.told().size();
@@ -289,6 +290,7 @@ TEST_F(EngineLiveGuard, WhatTheDriverSaysIsAnEventOnce) {
   const auto back = of_kind(run(*engine, 5), EventKind::kDriverBack);
   ASSERT_EQ(back.size(), 1U);
   EXPECT_EQ(back[0].text, "actuator `wheels`: works again");
+  EXPECT_EQ(engine->drive_trouble(robot_), "");
 }
 
 /// Whether a thread of this process may have priority in real time.

@@ -40,6 +40,13 @@ Result<std::string> arm(sim::Engine& engine, RobotId robot, const sim::Author& a
                 stopped);
   }
   if (waiting.empty()) return std::string("nothing to arm: no robot waits to be armed");
+  for (std::uint32_t r = 0; r < robot_count(engine); ++r) {
+    if ((robot.valid() && robot.value() != r) || engine.armed(RobotId(r))) continue;
+    const std::string trouble = engine.drive_trouble(RobotId(r));
+    if (trouble.empty()) continue;
+    return fail(ErrorCode::kState, "robot `{}` cannot be driven: {}", engine.spec().robots[r].name,
+                trouble);
+  }
   engine.arm(robot, author);
   return "armed " + waiting;
 }

@@ -73,7 +73,7 @@ Ros2Robot::Ros2Robot(const Arguments& given)
     : plant_(given),
       random_(static_cast<std::uint64_t>(given.number("seed", 1))),
       watchdog_ns_(std::llround(given.number("watchdog-ms", 500) * 1e6)),
-      rays_(static_cast<std::size_t>(given.number("rays", 181))),
+      rays_(parse_numbers(given.text("rays", "181"))),
       moved_ns_(true_ns()),
       plain_ear_([this](const Twist_& m, const auto& /*writer*/) {
         hear(m.linear().x(), m.angular().z());
@@ -203,7 +203,8 @@ sensor_msgs::msg::dds_::LaserScan_ Ros2Robot::scan(std::int64_t stamp_ns) const 
   sensor_msgs::msg::dds_::LaserScan_ message;
   message.header(header(stamp_ns, "laser"));
   const double field = std::numbers::pi;
-  const double step = field / static_cast<double>(rays_ - 1);
+  const auto rays = static_cast<std::size_t>(rays_[scans_ % rays_.size()]);
+  const double step = field / static_cast<double>(rays - 1);
   message.angle_min(static_cast<float>(-field / 2));
   message.angle_max(static_cast<float>(field / 2));
   message.angle_increment(static_cast<float>(step));
@@ -212,7 +213,7 @@ sensor_msgs::msg::dds_::LaserScan_ Ros2Robot::scan(std::int64_t stamp_ns) const 
   message.range_max(static_cast<float>(kRangeMax_m));
   const double x = plant_.x() + kLaserAhead_m * std::cos(plant_.yaw());
   const double y = plant_.y() + kLaserAhead_m * std::sin(plant_.yaw());
-  for (std::size_t i = 0; i < rays_; ++i) {
+  for (std::size_t i = 0; i < rays; ++i) {
     const auto place = static_cast<double>(i);
     double range = plant_.room().distance(x, y, plant_.yaw() - field / 2 + step * place);
     if (range > kRangeMax_m) range = std::numeric_limits<double>::infinity();
@@ -227,7 +228,8 @@ void Ros2Robot::write_scan(std::int64_t stamp_ns) {
   if (laser_ == Laser::kSilent) return;
   ++written_;
   auto message = scan(stamp_ns);
-  if (laser_ == Laser::kNegative) message.ranges().assign(rays_, -1.0F);
+  ++scans_;
+  if (laser_ == Laser::kNegative) message.ranges().assign(message.ranges().size(), -1.0F);
   scan_->write(&message);
 }
 

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "arguments.hpp"
 #include "plant.hpp"
@@ -75,7 +76,8 @@ class Ros2Robot {
   std::array<double, 3> start_{};  ///< Where its odometry began, in the map.
   std::mt19937_64 random_;
   std::int64_t watchdog_ns_;
-  std::size_t rays_;
+  std::vector<double> rays_;  ///< Numbers of rays of its scans, one after the other.
+  std::size_t scans_ = 0;
   bool mute_ = false;
   Laser laser_ = Laser::kWorks;
   Wheels wheels_ = Wheels::kWork;

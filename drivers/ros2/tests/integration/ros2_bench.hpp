@@ -39,6 +39,7 @@ class Ros2Bench : public testing::RobotBench {
     ASSERT_EQ(laser.configure({}, device.base()), "");
     open();
   }
+  [[nodiscard]] std::string room() const { return file("room"); }
   void open() {
     ASSERT_EQ(device.open(), "");
     ASSERT_EQ(drive.open(driving, device.base()), "");

@@ -21,6 +21,25 @@ TEST(Ros2Sensors, TheLaserSeesTheRoom) {
   EXPECT_NEAR(scan.records[180], 1.5, 1e-5);
 }
 
+/// As small lidars that spin have it: each turn has another number of rays.
+TEST(Ros2Sensors, ALaserWhoseNumberOfRaysVariesIsReadWhole) {
+  Ros2Bench bench({"--rays", "450,457,451,455,720,721", "--scan-hz", "100"});
+  ASSERT_NO_FATAL_FAILURE(bench.start());
+  bench.scans->await_more(60);
+  EXPECT_EQ(bench.laser.report()["refused"], 0);
+  const HardwareDeclaration& declared = bench.laser.declaration();
+  for (const auto& scan : bench.scans->samples()) {
+    ASSERT_EQ(scan.records.size(), declared.capacity);
+    for (std::size_t i = 0; i < scan.records.size(); ++i) {
+      // The room is 3 m wide and ends 4.95 m ahead of the laser.
+      const double bearing = declared.bearings_rad[i];
+      const double wall = std::min(4.95 / std::max(std::cos(bearing), 1e-9),
+                                   1.5 / std::max(std::abs(std::sin(bearing)), 1e-9));
+      EXPECT_NEAR(scan.records[i], wall, 0.03 * wall + 1e-3) << bearing;
+    }
+  }
+}
+
 /// What comes is what was sent: in its pattern, each message of the peer follows from one number.
 TEST(Ros2Sensors, TenThousandSamplesWithoutABadOne) {
   Ros2Bench bench({"--odom-hz", "500", "--scan-hz", "250", "--rays", "361"});

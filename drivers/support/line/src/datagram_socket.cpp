@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <memory>
@@ -62,6 +63,18 @@ bool join(int fd, const Peer& group, const addrinfo& own) {
   return set(fd, IPPROTO_IPV6, IPV6_ADD_MEMBERSHIP, request) &&
          set(fd, IPPROTO_IPV6, IPV6_MULTICAST_IF, interface) &&
          set(fd, IPPROTO_IPV6, IPV6_MULTICAST_LOOP, one);
+}
+
+std::string text_of(const sockaddr_storage& address) {
+  std::array<char, INET6_ADDRSTRLEN> host{};
+  if (address.ss_family == AF_INET6) {
+    const auto six = as<sockaddr_in6>(address);
+    ::inet_ntop(AF_INET6, &six.sin6_addr, host.data(), host.size());
+    return fmt::format("[{}]:{}", host.data(), ntohs(six.sin6_port));
+  }
+  const auto four = as<sockaddr_in>(address);
+  ::inet_ntop(AF_INET, &four.sin_addr, host.data(), host.size());
+  return fmt::format("{}:{}", host.data(), ntohs(four.sin_port));
 }
 
 bool is_passing(int error) {
@@ -138,14 +151,18 @@ Result<DatagramSocket> DatagramSocket::open(const std::string& host, std::uint16
   return opened;
 }
 
-ReadResult DatagramSocket::receive(std::span<std::byte> room, Wait limit,
-                                   const Wake& wake) const noexcept {
+ReadResult DatagramSocket::receive(std::span<std::byte> room, Wait limit, const Wake& wake,
+                                   Peer* from) const {
   const HostTime end = host_now() + limit;
   while (true) {
     const int ready = detail::wait_ready(fd_.get(), POLLIN, end, &wake);
     if (ready < 0) return {ReadEnd::kWoken, 0};
     if (ready == 0) return {ReadEnd::kTimeout, 0};
-    const ssize_t size = ::recv(fd_.get(), room.data(), room.size(), 0);
+    sockaddr_storage address{};
+    socklen_t address_size = sizeof address;
+    const ssize_t size = ::recvfrom(fd_.get(), room.data(), room.size(), 0,
+                                    reinterpret_cast<sockaddr*>(&address), &address_size);
+    if (size >= 0 && from != nullptr) *from = {address, address_size, text_of(address)};
     if (size >= 0) return {ReadEnd::kBytes, static_cast<std::size_t>(size)};
     if (!is_passing(errno)) return {ReadEnd::kLost, 0};
   }

@@ -44,7 +44,9 @@ TEST(DatagramSocket, CarriesDatagramsAndCutsThemOffAtTheRoomThereIs) {
   ASSERT_TRUE(from->send(bytes_of("hello"), *peer));
   ASSERT_TRUE(from->send(bytes_of(""), *peer));
   std::array<std::byte, 4> room{};
-  ReadResult got = to->receive(room, kHangGuard, wake);
+  Peer sender;
+  ReadResult got = to->receive(room, kHangGuard, wake, &sender);
+  EXPECT_EQ(sender.text, "127.0.0.1:" + std::to_string(from->port()));
   EXPECT_EQ(got.end, ReadEnd::kBytes);
   EXPECT_EQ(got.size, 4U);
   EXPECT_EQ(room[3], std::byte{'l'});

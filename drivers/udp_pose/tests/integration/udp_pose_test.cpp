@@ -8,6 +8,7 @@
 #include "rave/base_testing/no_threads.hpp"
 #include "rave/live_testing/live_driver.hpp"
 #include "rave/live_testing/live_sink.hpp"
+#include "rave/live_testing/scratch.hpp"
 #include "rave/math/scalar.hpp"
 
 namespace rave::udp_pose {
@@ -137,6 +138,22 @@ TEST(UdpPose, ForeignDatagramsAreCounted) {
   EXPECT_EQ(bench.driver.report()["trouble"], "not JSON");
   EXPECT_EQ(bench.driver.report()["other_bodies"], 1);
   EXPECT_EQ(bench.match().size(), bench.sink.samples().size());
+}
+
+TEST(UdpPose, ASecondSenderOfTheBodyDoesNotCountAndIsNamed) {
+  PoseBench bench({"--circle", "1,2,0.5,8"});
+  bench.sink.await_more(3);
+  const int port = bench.driver.report()["port"].get<int>();
+  testing::PeerProcess second("peer_mocap",
+                              {"--port", std::to_string(port), "--circle", "50,2,0.5,8"});
+  const auto asked = [&] { return bench.driver.report(); };
+  const auto report = testing::await_answer(
+      asked, [](const nlohmann::json& now) { return now["other_senders"] > 20; });
+  bench.driver.close();
+  EXPECT_EQ(bench.match().size(), bench.sink.samples().size()) << "none of the second";
+  EXPECT_EQ(
+      report["trouble"].get<std::string>().find("two senders of poses of `robot`, 127.0.0.1:"), 0U)
+      << report;
 }
 
 TEST(UdpPose, SilenceIsReportedAndEnds) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "rave/base/time.hpp"
 #include "rave/ros2/participant.hpp"
@@ -25,8 +26,10 @@ class End {
   /// Writers only. Error: kIo.
   [[nodiscard]] Status write(const void* sample) const;
   [[nodiscard]] bool wait_until_there(Duration limit) const;
-  /// The number of matched writers of a reader, or readers of a writer.
-  [[nodiscard]] std::size_t matched() const;
+  /// The matched writers of a reader, or readers of a writer.
+  [[nodiscard]] std::vector<dds_instance_handle_t> matched() const;
+  /// Who one of them is; nothing if it is matched no more.
+  [[nodiscard]] std::optional<RemoteId> identify(dds_instance_handle_t other) const;
   /// See bus::take_mismatch().
   [[nodiscard]] std::optional<std::string> take_mismatch() const;
   /// See Participant::explain_silence().

@@ -3,6 +3,7 @@
 
 #include <dds/dds.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -36,6 +37,16 @@ struct RemoteEnd {
   std::string topic;
   std::string type;
 };
+
+/// Who a reader or writer of another process is.
+struct RemoteId {
+  using Guid = std::array<std::uint8_t, 16>;
+  Guid guid{};
+  Guid participant{};
+  std::string name;  ///< Of its participant; empty if that has none.
+};
+/// For users: `cart` (GID 01.0f.37...), as `ros2 topic info --verbose` lists it.
+[[nodiscard]] std::string text_of(const RemoteId& id);
 
 /// The QoS of readers and writers. Readers of sensor data are best effort, so they match every
 /// writer. Writers are reliable, so they match every reader that does not require old samples.
@@ -80,6 +91,8 @@ class Participant {
   [[nodiscard]] dds_entity_t news(bool writers) const noexcept {
     return writers ? seen_writers_ : seen_readers_;
   }
+  /// The name of a participant; empty if it has none or is gone.
+  [[nodiscard]] std::string name_of(const RemoteId::Guid& participant) const;
   /// The number of other participants.
   [[nodiscard]] std::size_t others_here() const;
   /// A message for users: why nothing comes from a topic (or, with `writers` false, no participant

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "rave/bus/endpoint.hpp"
@@ -29,9 +30,10 @@ class Reader {
     return Reader(std::move(end));
   }
 
-  /// Calls `visit(const Message&)` for every received sample, oldest first. Samples are loans:
-  /// valid during the call only. Samples that validate() refuses are dropped and counted. Returns
-  /// the number of visited samples. The callback must not throw.
+  /// Calls `visit(const Message&)`, or `visit(const Message&, dds_instance_handle_t writer)`, for
+  /// every received sample, oldest first. Samples are loans: valid during the call only. Samples
+  /// that validate() refuses are dropped and counted. Returns the number of visited samples. The
+  /// callback must not throw.
   template <class Visit>
   std::size_t take(Visit&& visit) {
     std::size_t visited = 0;
@@ -47,7 +49,11 @@ class Reader {
           refuse(std::move(status).error());
           continue;
         }
-        visit(sample);
+        if constexpr (std::is_invocable_v<Visit, const Message&, dds_instance_handle_t>) {
+          visit(sample, loan.infos[i].publication_handle);
+        } else {
+          visit(sample);
+        }
         ++visited;
       }
       const bool more = loan.size == bus::Loan::kBatch;
@@ -65,8 +71,8 @@ class Reader {
   /// The number of refused samples, and the reason of the last one.
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_; }
   [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
-  /// The number of matched writers.
-  [[nodiscard]] std::size_t writers() const { return end_.matched(); }
+  /// For questions about its writers.
+  [[nodiscard]] const End& end() const noexcept { return end_; }
   /// See bus::take_mismatch().
   [[nodiscard]] std::optional<std::string> take_mismatch() { return end_.take_mismatch(); }
   /// See Participant::explain_silence().

@@ -28,8 +28,8 @@ class Writer {
   [[nodiscard]] Status write(const Message& sample) { return end_.write(&sample); }
   /// Waits until all reliable readers have acknowledged the samples; false: not within `limit`.
   [[nodiscard]] bool wait_until_there(Duration limit) const { return end_.wait_until_there(limit); }
-  /// The number of matched readers.
-  [[nodiscard]] std::size_t readers() const { return end_.matched(); }
+  /// For questions about its readers.
+  [[nodiscard]] const End& end() const noexcept { return end_; }
   /// See bus::take_mismatch().
   [[nodiscard]] std::optional<std::string> take_mismatch() { return end_.take_mismatch(); }
   /// See Participant::explain_silence().

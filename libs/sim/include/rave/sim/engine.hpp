@@ -189,6 +189,9 @@ class Engine {
   /// What else keeps a robot of this process from moving, for people: a sensor without samples, a
   /// lost pose, a failed driver or program. Empty: nothing.
   [[nodiscard]] std::string lacks(RobotId robot) const;
+  /// Why hardware of the robot takes no commands, as its driver says; empty: it takes them, or
+  /// there is none here.
+  [[nodiscard]] std::string drive_trouble(RobotId robot) const;
   /// Changes parameters of one robot, all or none. Errors: kInvalidArgument and kNotFound (unknown,
   /// out of range, refused by the driver or program, a body that would overlap something), kState
   /// (its program has failed; the authority changes bodies). After an error nothing has changed.

@@ -15,11 +15,11 @@
 
 namespace rave::line {
 
-/// The destination of datagrams: a numeric IPv4 or IPv6 address with port.
+/// The destination or sender of datagrams: a numeric IPv4 or IPv6 address with port.
 struct Peer {
   sockaddr_storage address{};
   socklen_t size = 0;
-  std::string text;  ///< As it was given.
+  std::string text;  ///< As it was given, or `127.0.0.1:4711`.
 };
 
 /// Parses `host:port`, an IPv6 host in brackets; numeric only, without name resolution. Error:
@@ -38,9 +38,10 @@ class DatagramSocket {
   /// `port`. Errors: kInvalidArgument, kIo.
   [[nodiscard]] static Result<DatagramSocket> open(const std::string& host, std::uint16_t port,
                                                    const Peer* group);
-  /// Receives the next datagram, truncated to the buffer; results as in ByteLine::read().
-  [[nodiscard]] ReadResult receive(std::span<std::byte> room, Wait limit,
-                                   const Wake& wake) const noexcept;
+  /// Receives the next datagram, truncated to the buffer; results as in ByteLine::read(). `from`,
+  /// if given, becomes its sender.
+  [[nodiscard]] ReadResult receive(std::span<std::byte> room, Wait limit, const Wake& wake,
+                                   Peer* from = nullptr) const;
   /// Sends a datagram. Error: kIo. A missing receiver or a full buffer is no error: datagrams may
   /// be lost.
   [[nodiscard]] Status send(std::span<const std::byte> bytes, const Peer& to) const;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "expansion_checks.hpp"
+#include "rave/base/named_path.hpp"
 #include "rave/base/names.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/config/gui_of_scenario.hpp"
@@ -72,7 +73,7 @@ class Expansion {
     }
   }
   static fs::path beside(const fs::path& folder, const std::string& name) {
-    return (folder / name).lexically_normal();
+    return named_path(folder, name).lexically_normal();
   }
 
   /// Resolves against the current folder, which may not exist any more; no other access to the

@@ -50,7 +50,17 @@ Status Console::open_file(const std::filesystem::path& path) {
   file_->set_level(spdlog::level::debug);
   // A process that is killed leaves what it said; only details may be lost.
   file_->flush_on(spdlog::level::info);
+  file_->set_error_handler([this](const std::string& error) {
+    const std::lock_guard lock(lost_mutex_);
+    if (lost_.empty()) lost_ = error;
+  });
   return {};
+}
+
+std::string Console::lost_messages() {
+  if (file_) file_->flush();
+  const std::lock_guard lock(lost_mutex_);
+  return lost_.empty() ? std::string() : fmt::format("messages are not written: {}", lost_);
 }
 
 void Console::write(LogLevel level, std::string_view source, std::string_view message) {

@@ -37,6 +37,8 @@ class Console final : public LogSink {
   /// On a terminal the line is redrawn at most ten times a second; elsewhere a plain line appears
   /// about every ten seconds.
   void show(const report::Progress& progress);
+  /// Why messages are missing in the file, as on a full disk; empty: all are there.
+  [[nodiscard]] std::string lost_messages();
   /// Removes the progress line, for what comes after the run.
   void clear();
 
@@ -52,6 +54,8 @@ class Console final : public LogSink {
   std::mutex mutex_;  // over the terminal: whose line it is
   std::string line_;  // what stands at the bottom; empty: nothing
   Clock::time_point next_;
+  std::mutex lost_mutex_;                   // over the next one, which any thread may set
+  std::string lost_;                        // the first error of the file
   std::shared_ptr<spdlog::logger> screen_;  // owned with spdlog, which hands out shared pointers
   std::shared_ptr<spdlog::logger> file_;    // the same
 };

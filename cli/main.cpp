@@ -27,7 +27,11 @@ int main(int argc, char** argv) {
   rave::install_crash_note();
   rave::cli::limit_heaps();
   try {
-    return rave::cli::run_command_line(argc, argv);
+    const int code = rave::cli::run_command_line(argc, argv);
+    // Output that did not arrive, as on a full disk, is no success.
+    if (code != rave::cli::kGood || std::ferror(stdout) == 0) return code;
+    std::fprintf(stderr, "rave: cannot write to the standard output\n");
+    return rave::cli::kNotGood;
   } catch (const std::exception& e) {
     // Out of memory, or a defect: say so rather than abort without a word.
     std::fprintf(stderr, "rave: unexpected failure: %s\n", e.what());

@@ -127,6 +127,7 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, runtime::BuiltScenario bu
   end.end.steps = outcome.steps;
   end.end.wall_s = outcome.wall_s;
   end.end.lateness = std::move(outcome.lateness);
+  end.end.ended_by_hand = outcome.ended_by_hand;
   end.end.problems = std::move(outcome.problems);
   // A run that never began left nothing to wait for.
   for (runtime::SharedHost& host : end.end.hosts) host.awaited = outcome.steps > 0;
@@ -165,6 +166,7 @@ void note_outcome(LiveManagerOutcome outcome, ManagedEnd& end) {
   end.end.edits = runtime::SharedEdits{outcome.edits.made, outcome.edits.confirmed,
                                        outcome.edits.slowest_s, outcome.edits.sum_s};
   end.end.wall_s = outcome.end.seconds();
+  end.end.ended_by_hand = outcome.ended_by_hand;
   end.end.events = std::move(outcome.refused);
   end.end.problems = std::move(outcome.problems);
 }
@@ -186,7 +188,10 @@ Result<ManagedEnd> wait_for_hosts(const ManagedRun& run, const runtime::BuiltSce
   while (!run.stopping() && !run.hosts_ended()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  if (!run.hosts_ended()) outcome.problems.emplace_back("stopped before the hosts had ended");
+  outcome.ended_by_hand = !run.hosts_ended() && run.control.stopping();
+  if (!run.hosts_ended() && !outcome.ended_by_hand) {
+    outcome.problems.emplace_back("stopped before the hosts had ended");
+  }
   outcome.end = SimTime{
       std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - began)
           .count()};

@@ -54,8 +54,19 @@ std::string how_to_reach(const std::string& link, const std::string& foxglove, s
 
 }  // namespace
 
+namespace {
+
+void tell_notes(const gui_server::Source& source) {
+  for (const std::string& note : source.about().notes) {
+    put_note(terminal_of(stderr).yellow("note:"), note);
+  }
+}
+
+}  // namespace
+
 Result<std::unique_ptr<gui_server::GuiServer>> serve_page(
     const PageOptions& options, std::shared_ptr<gui_server::Source> source) {
+  if (source) tell_notes(*source);
   PageOptions whole = options;
   if (whole.page.empty()) whole.page = share_folder() / "web";
   if (whole.accounts.empty() && whole.listen != gui_server::GuiOptions().listen) {
@@ -89,7 +100,10 @@ void replay_on_page(gui_server::GuiServer& page, bool quiet, const std::filesyst
                     : fmt::format("the page cannot show the recording: {}; press Ctrl-C to quit\n",
                                   source.error().text()));
   }
-  if (source) page.show(*std::move(source));
+  if (source) {
+    tell_notes(**source);
+    page.show(*std::move(source));
+  }
   std::fflush(stdout);
   while (!control.stopping()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "played_maps.hpp"
 #include "played_obstacles.hpp"
 #include "rave/base/file.hpp"
 #include "rave/base/names.hpp"
@@ -12,6 +13,7 @@
 #include "rave/config/yaml.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/record/run_reader.hpp"
+#include "rave/recording/recorded_scenario.hpp"
 #include "rave/robot/command.hpp"
 #include "rave/robot/reading.hpp"
 #include "seen_obstacles.hpp"
@@ -61,8 +63,7 @@ class Playing {
     }
     RAVE_TRY_ASSIGN(const std::string scenario, scenario_text(std::move(robots)));
     played_.files.push_back({"scenario.yaml", scenario});
-    if (!arguments_.world)
-      played_.files.push_back({"world.yaml", config::write_world(original_.world)});
+    if (!arguments_.world) RAVE_TRY(write_world());
     return std::move(played_);
   }
 
@@ -184,6 +185,14 @@ class Playing {
                   sensor.name.value, sensor.driver.value);
     }
     used_anew_.push_back(sensor.name.value);
+    return {};
+  }
+
+  /// The world and its maps, as the recorded run had them.
+  Status write_world() {
+    RAVE_TRY_ASSIGN(auto maps, take_maps(original_));
+    std::ranges::move(maps, std::back_inserter(played_.files));
+    played_.files.push_back({"world.yaml", config::write_world(original_.world)});
     return {};
   }
 
@@ -354,13 +363,14 @@ Result<PlayedScenario> played_scenario(const PlayArguments& arguments,
   RAVE_TRY_ASSIGN(const auto reader, record::McapReader::open(arguments.record));
   RAVE_TRY_ASSIGN(auto run, record::read_run_info(reader));
   if (arguments.world) RAVE_TRY(config::read_world_file(*arguments.world));
-  auto original = config::expand_scenario_text(run.expanded_scenario,
-                                               arguments.record.parent_path() / "scenario.yaml");
-  if (!original) {
-    return tl::unexpected(std::move(original).error().with_context(
-        fmt::format("the scenario inside `{}`", arguments.record.string())));
-  }
-  return Playing(arguments, catalogue, reader, std::move(run), *std::move(original)).make();
+  RAVE_TRY_ASSIGN(auto recorded, runtime::recorded_scenario(reader, run, arguments.record));
+  // With another world the maps of the recorded one do not matter.
+  if (arguments.world) recorded.notes.clear();
+  RAVE_TRY_ASSIGN(
+      auto played,
+      Playing(arguments, catalogue, reader, std::move(run), std::move(recorded.scenario)).make());
+  played.notes.insert(played.notes.begin(), recorded.notes.begin(), recorded.notes.end());
+  return played;
 }
 
 Status write_played(const PlayedScenario& played, const fs::path& folder) {

@@ -17,7 +17,8 @@ void add_info(CLI::App& root, Command& chosen) {
                "Read the complete file and verify every checksum [only index, start and end]");
   app.add_flag("--json", c.json, "Print JSON");
   app.footer(
-      "Exit code: 0 if the recording is good, 1 if it is damaged, 2 if it is not a recording.\n\n"
+      "Exit code: 0 if the recording is good, 1 if it is damaged or incomplete, 2 if it is not a\n"
+      "recording.\n\n"
       "Examples:\n"
       "  rave info runs/20260101-120000-mixed-reality\n"
       "  rave info runs/20260101-120000-mixed-reality --check");
@@ -31,8 +32,11 @@ void add_verify(CLI::App& root, Command& chosen) {
   app.add_flag("--quiet", c.quiet, "Print errors and differences only");
   add_plugins(app, c.plugins);
   app.footer(
-      "Exit code: 0 if every step is equal; 1 if not, with the first step, robot and channel that\n"
-      "differ; 2 if the run cannot be repeated (a live run, or missing input files).\n\n"
+      "Maps are taken from the recording. Exit code: 0 if every step is equal; 1 if not, with the\n"
+      "first step, robot and channel that differ, or if the recording is incomplete, with the "
+      "time\n"
+      "to which it is equal; 2 if the run cannot be repeated (a live run, or missing input "
+      "files).\n\n"
       "Example:\n"
       "  rave verify runs/20260101-120000-mixed-reality");
 }

@@ -42,7 +42,8 @@ void add_run(CLI::App& root, Command& chosen) {
   });
   app.footer(
       "Exit code: 0 if the run completed and all checks hold, 1 if not, 2 for bad input.\n"
-      "Ctrl-C ends the run early and writes its results; a second Ctrl-C kills it.\n"
+      "Ctrl-C and `rave end` end the run early and write its results: exit code 0 unless a check\n"
+      "fails that had its time. A second Ctrl-C kills it.\n"
       "To control the run from another terminal, use `rave ps`, `stop`, `arm`, `set`, `edit` or\n"
       "`pause`.\n\n"
       "Examples:\n"
@@ -67,7 +68,8 @@ void add_robot(CLI::App& root, Command& chosen) {
       "same\n"
       "scenario). If the manager is lost, the host continues with the next one; in real time it\n"
       "also continues without one.\n"
-      "Exit code: 0 if the host took part in all steps, 1 if not, 2 for bad input.\n\n"
+      "Exit code: 0 if the host took part in all steps, or until it was ended by hand, 1 if not,\n"
+      "2 for bad input.\n\n"
       "Examples:\n"
       "  rave robot lab --host left\n"
       "  rave robot lab --host left --interface 192.168.1.7 --peer 192.168.1.2");
@@ -89,7 +91,7 @@ void add_env(CLI::App& root, Command& chosen) {
       "Start the hosts with `rave robot`, before or after. If the manager dies, start another one\n"
       "with --resume to continue the run. Without --resume the new manager ignores hosts of a run\n"
       "that has begun; `rave end` ends them.\n"
-      "Exit code: 0 if the run completed, 1 if not, 2 for bad input.\n\n"
+      "Exit code: 0 if the run completed or was ended by hand, 1 if not, 2 for bad input.\n\n"
       "Examples:\n"
       "  rave env lab\n"
       "  rave env lab --resume");

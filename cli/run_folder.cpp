@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "rave/base/file.hpp"
+#include "rave/results/facts_file.hpp"
 
 namespace rave::cli {
 namespace {
@@ -22,19 +23,26 @@ std::string local_time() {
 namespace fs = std::filesystem;
 
 /// What a run leaves, beside the folder `hosts` with the same of each host.
-constexpr std::array<std::string_view, 9> kRunFiles = {
-    "run.mcap",    "world.mcap",  "result.json", "summary.txt",  "events.log",
-    "picture.svg", "picture.png", "console.log", "scenario.yaml"};
+constexpr std::array<std::string_view, 10> kRunFiles = {
+    "run.mcap",    "world.mcap",  "result.json", "summary.txt",   "events.log",
+    "picture.svg", "picture.png", "console.log", "scenario.yaml", runtime::kFactsFile};
+
+/// The keys of its direct lines, which a run of several processes makes.
+constexpr std::array<std::string_view, 2> kLineKeys = {"line_key", "line_key.pub"};
 
 /// A file of an earlier run, or the records of its hosts, which would be taken for those of the
 /// new.
-std::optional<std::string_view> trace_of_run(const fs::path& folder) {
+std::optional<std::string> trace_of_run(const fs::path& folder) {
   std::error_code error;
   for (const std::string_view file : kRunFiles) {
-    if (fs::exists(folder / file, error)) return file;
+    if (fs::exists(folder / file, error)) return std::string(file);
   }
-  if (fs::exists(folder / "hosts", error)) return "hosts";
-  return std::nullopt;
+  if (!fs::exists(folder / "hosts", error)) return std::nullopt;
+  // What keeps it there says more.
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "hosts", error)) {
+    if (!entry.is_directory(error)) return entry.path().lexically_relative(folder).string();
+  }
+  return "hosts";
 }
 
 /// Removes what a run left, and the reports on it; what else lies there stays.
@@ -44,6 +52,11 @@ void remove_run(const fs::path& folder, std::error_code& error) {
     if (error) return;
   }
   std::error_code ended;
+  const bool shared = fs::exists(folder / "hosts", ended);
+  for (const std::string_view key : kLineKeys) {
+    if (shared) fs::remove(folder / key, error);
+    if (error) return;
+  }
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ended)) {
     if (entry.path().filename().string().starts_with("gap-")) fs::remove(entry.path(), error);
     if (error) return;

@@ -28,9 +28,13 @@ std::string files_of(const std::filesystem::path& folder) {
 
 }  // namespace
 
-int report_outcome(const RunCommand& options, const runtime::RunOutcome& outcome,
-                   const std::filesystem::path& folder) {
-  const bool good = outcome.whole && outcome.checks_hold;
+int report_outcome(const RunCommand& options, runtime::RunOutcome outcome,
+                   const std::filesystem::path& folder, Console& console) {
+  if (std::string lost = console.lost_messages(); !lost.empty()) {
+    outcome.whole = false;
+    outcome.problems.push_back(std::move(lost));
+  }
+  const bool good = outcome.good();
   if (!options.quiet) {
     put(stdout, outcome.summary);
     if (!outcome.summary.empty() && outcome.summary.back() != '\n') put(stdout, "\n");
@@ -46,7 +50,10 @@ int report_outcome(const RunCommand& options, const runtime::RunOutcome& outcome
         outcome.whole ? "a check of the scenario does not hold" : "the run did not complete";
     put_note(errors.red("FAILED:"), what);
   } else if (!options.quiet) {
-    put(stdout, terminal_of(stdout).green("done") + "\n");
+    const std::string how = outcome.ended_by_hand_s
+                                ? fmt::format("ended by hand at {:.2f} s", *outcome.ended_by_hand_s)
+                                : std::string("done");
+    put(stdout, terminal_of(stdout).green(how) + "\n");
   }
   return good ? kGood : kNotGood;
 }

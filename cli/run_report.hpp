@@ -4,12 +4,14 @@
 #include <filesystem>
 
 #include "commands/run.hpp"
+#include "console.hpp"
 #include "rave/host/run.hpp"
 
 namespace rave::cli {
 
-/// Tells how a run ended; the exit code of the run.
-[[nodiscard]] int report_outcome(const RunCommand& options, const runtime::RunOutcome& outcome,
-                                 const std::filesystem::path& folder);
+/// Prints how a run ended, also what is missing in the file of the console; the exit code of the
+/// run.
+[[nodiscard]] int report_outcome(const RunCommand& options, runtime::RunOutcome outcome,
+                                 const std::filesystem::path& folder, Console& console);
 
 }  // namespace rave::cli

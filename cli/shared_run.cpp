@@ -248,7 +248,7 @@ Result<int> run_shared(const RunCommand& asked, const config::ExpandedScenario& 
   console.clear();
   if (!managed) return tl::unexpected(managed.error());
   RAVE_TRY_ASSIGN(const auto outcome, put_together(*managed, crew, problems));
-  const int code = report_outcome(options, outcome, start.path());
+  const int code = report_outcome(options, outcome, start.path(), console);
   if (page) replay_on_page(*page, options.quiet, start.path(), control);
   return code;
 }

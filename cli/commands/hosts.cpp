@@ -21,9 +21,13 @@ namespace {
 
 /// What `rave robot` and `rave env` end with; the exit code.
 int tell(const RunCommand& options, bool whole, const std::string& summary,
-         const std::vector<std::string>& problems, const std::filesystem::path& folder) {
+         std::vector<std::string> problems, RunStart& start) {
+  if (std::string lost = start.console().lost_messages(); !lost.empty()) {
+    whole = false;
+    problems.push_back(std::move(lost));
+  }
   const Terminal errors = terminal_of(stderr);
-  if (!options.quiet) put(stdout, summary + fmt::format("{}\n", folder.string()));
+  if (!options.quiet) put(stdout, summary + fmt::format("{}\n", start.path().string()));
   for (const std::string& problem : problems) {
     put_note(errors.red("problem:"), without_control_characters(problem, " "));
   }
@@ -62,8 +66,10 @@ Result<int> robot(const RobotCommand& options) {
   std::error_code error;
   if (!outcome && !std::filesystem::exists(start.path() / "run.mcap", error)) start.discard();
   if (!outcome) return tl::unexpected(outcome.error());
-  return tell(run, outcome->whole, fmt::format("host {}: {} steps\n", options.host, outcome->steps),
-              outcome->problems, start.path());
+  const std::string ending = outcome->ending.empty() ? "" : ", " + outcome->ending;
+  return tell(run, outcome->whole,
+              fmt::format("host {}: {} steps{}\n", options.host, outcome->steps, ending),
+              outcome->problems, start);
 }
 
 Result<int> env(const EnvCommand& options) {
@@ -94,8 +100,7 @@ Result<int> env(const EnvCommand& options) {
   if (!managed) return tl::unexpected(managed.error());
   RAVE_TRY_ASSIGN(const auto outcome, managed->results->write(managed->end));
   // A host that sent nothing is a problem; a check that could not be made has not failed.
-  return tell(run, outcome.whole && !outcome.checks_fail, outcome.summary, outcome.problems,
-              start.path());
+  return tell(run, outcome.whole && !outcome.checks_fail, outcome.summary, outcome.problems, start);
 }
 
 }  // namespace rave::cli

@@ -22,16 +22,21 @@ std::string size_text(std::uint64_t bytes) {
   return fmt::format("{:.2f} GB", static_cast<double>(bytes) / 1e9);
 }
 
+/// A file may be closed in order by a run that broke off.
+bool has_end(const record::RecordSummary& summary) { return !summary.run || summary.end; }
+
 /// Whether nothing is wrong as far as was looked.
 bool is_good(const record::RecordSummary& summary) {
-  return summary.ended && summary.damages.empty() && summary.unsummed.empty() &&
-         summary.missing.empty();
+  return summary.ended && has_end(summary) && summary.damages.empty() && summary.unsummed.empty() &&
+         summary.missing.empty() && summary.lost.empty();
 }
 
 /// Only of a record of which every byte was looked at it is said that it is whole.
 std::string state_text(const record::RecordSummary& summary) {
   if (!summary.ended) return "truncated; the part that exists is readable";
   if (!summary.damages.empty()) return "damaged";
+  if (!summary.lost.empty()) return "not as RAVE wrote it";
+  if (!has_end(summary)) return "without the end of its run";
   if (!summary.unsummed.empty()) return "partly checked: some parts have no checksum";
   return summary.checked ? "complete: all checksums are correct"
                          : "complete according to its index; --check verifies the checksums";
@@ -39,8 +44,9 @@ std::string state_text(const record::RecordSummary& summary) {
 
 std::string run_text(const record::RecordSummary& summary) {
   if (!summary.run) {
-    return summary.damages.empty() ? "not written by RAVE\n"
-                                   : "the description of the run is not readable\n";
+    return summary.damages.empty() && summary.lost.empty()
+               ? "not written by RAVE\n"
+               : "the description of the run is not readable\n";
   }
   const record::RunInfo& run = *summary.run;
   const auto real = static_cast<std::size_t>(
@@ -91,6 +97,7 @@ nlohmann::ordered_json info_json(const std::filesystem::path& file,
                                  {"chunks", summary.chunks},
                                  {"parts", summary.parts},
                                  {"missing", summary.missing},
+                                 {"lost", summary.lost},
                                  {"checked", summary.checked},
                                  {"whole", nullptr},
                                  {"damages", summary.damages},
@@ -98,7 +105,8 @@ nlohmann::ordered_json info_json(const std::filesystem::path& file,
                                  {"run", summary.run ? run_json(*summary.run) : nullptr},
                                  {"steps", nullptr},
                                  {"hash", nullptr}};
-  if (!summary.ended || !summary.damages.empty() || !summary.missing.empty()) {
+  if (!summary.ended || !summary.damages.empty() || !summary.missing.empty() ||
+      !summary.lost.empty() || !has_end(summary)) {
     // Null, as above, for what was not checked: neither word would be true.
     json["whole"] = false;
   } else if (summary.checked && summary.unsummed.empty()) {
@@ -134,6 +142,7 @@ std::string info_text(const record::RecordSummary& summary) {
   if (!summary.parts.empty()) {
     text += fmt::format("merged from the recordings of {} processes\n", summary.parts.size());
   }
+  for (const std::string& part : summary.lost) text += fmt::format("lost: {}\n", part);
   for (const std::string& damage : summary.damages) text += fmt::format("damaged: {}\n", damage);
   for (const std::string& piece : summary.unsummed) text += fmt::format("not checked: {}\n", piece);
   Table table;

@@ -56,7 +56,7 @@ Result<int> run_alone(const RunCommand& options, const config::ExpandedScenario&
   const auto outcome = runtime::run(scenario, *catalogue, run_options);
   console.clear();
   if (outcome) {
-    const int code = report_outcome(options, *outcome, start.path());
+    const int code = report_outcome(options, *outcome, start.path(), console);
     live.end("The run has ended.");
     if (page) replay_on_page(*page, options.quiet, start.path(), control);
     return code;

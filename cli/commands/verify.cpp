@@ -2,6 +2,7 @@
 #include "commands/verify.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "console.hpp"
 #include "error_text.hpp"
@@ -40,6 +41,12 @@ Result<int> tell(const VerifyCommand& options, const runtime::VerifyOutcome& out
   }
   if (outcome.difference) {
     tell_difference(*outcome.difference, errors);
+    return kNotGood;
+  }
+  if (!outcome.partial.empty()) {
+    put(stderr, fmt::format("{} {} steps, {} messages compared and equal, to {:.3f} s: {}\n",
+                            errors.red("incomplete:"), outcome.steps, outcome.messages,
+                            outcome.time_s, fmt::join(outcome.partial, "; ")));
     return kNotGood;
   }
   if (options.quiet) return kGood;

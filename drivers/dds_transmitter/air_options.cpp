@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dds_transmitter/air_options.hpp"
 
-#include <filesystem>
-
 #include "dds_network/network_words.hpp"
+#include "rave/base/named_path.hpp"
 
 namespace rave::dds_transmitter {
 namespace {
@@ -27,7 +26,7 @@ Result<AirOptions> read_options(const HardwareSetup& setup) {
   }
   dds_network::read_network(params, options);
   if (const std::string_view folder = params.text("security"); !folder.empty()) {
-    options.security = (std::filesystem::path(setup.folder) / folder).string();
+    options.security = named_path(setup.folder, folder).string();
   }
   options.max_packet_bytes = static_cast<std::size_t>(params.integer("max_packet_bytes"));
   options.queue_bytes = static_cast<std::size_t>(params.integer("queue_bytes"));

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "rave/base/named_path.hpp"
 #include "rave/record/run_reader.hpp"
 
 namespace rave::playback {
@@ -139,8 +140,7 @@ Source source_of(const Params& params, ReadingKind kind) {
 }
 
 Result<Timeline> load_timeline(const Source& source, const std::string& folder, ReadingKind kind) {
-  // operator/ ignores the folder if the path is absolute.
-  const std::filesystem::path path = std::filesystem::path(folder) / source.file;
+  const std::filesystem::path path = named_path(folder, source.file);
   const auto load = [&]() -> Result<Timeline> {
     RAVE_TRY_ASSIGN(const auto reader, record::McapReader::open(path));
     RAVE_TRY_ASSIGN(const record::RunInfo run, record::read_run_info(reader));

@@ -46,7 +46,7 @@ class PacedRun : public ::testing::Test {
   }
   void end() {
     ASSERT_EQ(::kill(process_, SIGINT), 0);
-    EXPECT_EQ(wait_for(process_), 1);
+    EXPECT_EQ(wait_for(process_), 0);
     process_ = -1;
   }
   [[nodiscard]] std::string output() const { return folder_.path() / "results"; }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <thread>
 
@@ -210,8 +212,121 @@ TEST(Run, FirstSignalEndsItEarlyWithItsResults) {
     std::this_thread::yield();
   }
   ASSERT_EQ(::kill(process, SIGINT), 0);
-  EXPECT_EQ(wait_for(process), 1);
-  EXPECT_TRUE(fs::exists(output + "/result.json"));
+  EXPECT_EQ(wait_for(process), 0) << "an end by hand is an end";
+  const std::string result = content_of(output + "/result.json");
+  EXPECT_NE(result.find("\"whole\": true"), std::string::npos) << result;
+  EXPECT_EQ(result.find("\"ended_by_hand_s\": null"), std::string::npos) << result;
+}
+
+/// Until it goes, no file of this process and of those it starts may be larger.
+class SmallFiles {
+ public:
+  explicit SmallFiles(rlim_t bytes) {
+    // Inherited by a program that is started, which then gets an error as from a full disk.
+    before_handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    EXPECT_EQ(::getrlimit(RLIMIT_FSIZE, &before_), 0);
+    const rlimit small{bytes, before_.rlim_max};
+    EXPECT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  }
+  SmallFiles(const SmallFiles&) = delete;
+  SmallFiles& operator=(const SmallFiles&) = delete;
+  ~SmallFiles() {
+    EXPECT_EQ(::setrlimit(RLIMIT_FSIZE, &before_), 0);
+    std::signal(SIGXFSZ, before_handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*before_handler_)(int) = SIG_DFL;
+};
+
+TEST(Run, OnAFullDiskOnlyWhatDoesNotFitIsLostAndNamed) {
+  const TemporaryFolder folder;
+  const std::string whole = folder.path() / "whole";
+  ASSERT_EQ(run_rave({"run", "good_scenario.yaml", "--output", whole, "--duration", "4"}).exit_code,
+            0);
+  const std::string output = folder.path() / "full";
+  // The small texts fit, recording and pictures do not.
+  constexpr std::uintmax_t kRoom = 60'000;
+  for (const char* const file : {"result.json", "summary.txt", "events.log", "scenario.yaml"}) {
+    ASSERT_LT(fs::file_size(fs::path(whole) / file), kRoom - 2000) << file;
+  }
+  for (const char* const file : {"run.mcap", "picture.svg", "picture.png"}) {
+    ASSERT_GT(fs::file_size(fs::path(whole) / file), kRoom) << file;
+  }
+  Ended ended;
+  {
+    const SmallFiles full(kRoom);
+    ended = run_rave({"run", "good_scenario.yaml", "--output", output, "--duration", "4"});
+  }
+  EXPECT_EQ(ended.exit_code, 1) << ended.err;
+  for (const char* const file : {"result.json", "summary.txt", "events.log", "scenario.yaml"}) {
+    EXPECT_TRUE(fs::exists(fs::path(output) / file)) << file;
+  }
+  const std::string result = content_of(output + "/result.json");
+  EXPECT_NE(result.find("\"whole\": false"), std::string::npos) << result;
+  for (const char* const lost : {"the recording is incomplete: ", "picture.svg` is not written: ",
+                                 "picture.png` is not written: "}) {
+    EXPECT_NE(result.find(lost), std::string::npos) << lost << ": " << result;
+    EXPECT_NE(ended.err.find(lost), std::string::npos) << lost << ": " << ended.err;
+  }
+  EXPECT_FALSE(fs::exists(output + "/picture.svg") || fs::exists(output + "/picture.png"));
+  EXPECT_NE(ended.out.find("run hash"), std::string::npos) << "the table: " << ended.out;
+  EXPECT_EQ(run_rave({"info", output}).exit_code, 1) << "no recording is called whole";
+  EXPECT_NE(run_rave({"verify", output}).exit_code, 0);
+}
+
+/// The disk is full long before the end, but its last room is for the results.
+TEST(Run, ARecordingThatFillsTheDiskLeavesRoomForTheResults) {
+  const TemporaryFolder folder;
+  const std::string disk = folder.path() / "disk";
+  const std::string kept = folder.path() / "kept";
+  fs::create_directory(disk);
+  fs::create_directory(kept);
+  // The disk goes with its mount, and that with the shell.
+  const std::string inside = fmt::format(
+      "mount -t tmpfs -o size=1800k tmpfs {0} && cd {2} && touch {1}/mounted; {3}/bin/rave run "
+      "good_scenario.yaml --duration 100 --pace max --output {0}/run > {1}/out 2> {1}/err; "
+      "echo $? > {1}/code; cp {0}/run/*.json {0}/run/*.txt {0}/run/events.log {1}",
+      disk, kept, RAVE_SOURCE_DIR "/tests/cli/data", RAVE_BINARY_DIR);
+  static_cast<void>(std::system(
+      fmt::format("unshare --user --map-root-user --mount sh -c '{}' 2> /dev/null", inside)
+          .c_str()));
+  if (!fs::exists(kept + "/mounted")) GTEST_SKIP() << "no disk of its own may be mounted here";
+  EXPECT_EQ(content_of(kept + "/code"), "1\n") << content_of(kept + "/err");
+  EXPECT_NE(content_of(kept + "/err").find("the recording is incomplete: "), std::string::npos)
+      << content_of(kept + "/err");
+  const std::string result = content_of(kept + "/result.json");
+  EXPECT_NE(result.find("the recording is incomplete: "), std::string::npos) << result;
+  EXPECT_NE(content_of(kept + "/summary.txt").find("run hash"), std::string::npos);
+  EXPECT_TRUE(fs::exists(kept + "/events.log"));
+}
+
+TEST(Run, ReplaceWorksOnAFolderOfSeveralProcesses) {
+  const TemporaryFolder folder;
+  const std::string output = folder.path() / "results";
+  std::vector<std::string> words = {"run",     "good_scenario.yaml", "--output",
+                                    output,    "--processes",        "2",
+                                    "--quiet", "--no-picture"};
+  const Ended first = run_rave(words);
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  ASSERT_EQ(run_rave({"info", output}).exit_code, 0) << "merged";
+  words.emplace_back("--replace");
+  const Ended second = run_rave(words);
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_TRUE(fs::exists(output + "/hosts/host-2/run.mcap"));
+  // The same of a run of one process, which has none of it.
+  const Ended alone = run_rave(
+      {"run", "good_scenario.yaml", "--output", output, "--quiet", "--no-picture", "--replace"});
+  EXPECT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_FALSE(fs::exists(output + "/hosts") || fs::exists(output + "/world.mcap"));
+  // What is somebody's own stays, and is named.
+  fs::create_directories(output + "/hosts/host-1");
+  std::ofstream(output + "/hosts/host-1/notes.txt") << "mine";
+  const Ended kept = run_rave(words);
+  EXPECT_EQ(kept.exit_code, 2);
+  EXPECT_NE(kept.err.find("results of another run (`hosts/host-1/notes.txt`)"), std::string::npos)
+      << kept.err;
 }
 
 }  // namespace

@@ -119,19 +119,31 @@ TEST_F(Verify, InputFilesThatAreMissingOrDifferAreNamed) {
   ASSERT_EQ(run_rave({"play", record_, "--output", played, "--no-picture", "--quiet"}).exit_code,
             0);
   EXPECT_EQ(run_rave({"verify", played}).exit_code, 0);
+  // As an earlier version left it: without the content of its inputs.
+  const std::filesystem::path old = folder_.path() / "old.mcap";
+  Changes without;
+  without.drops_attachment = [](const std::string& name) { return name.starts_with("inputs/"); };
+  copy_record(std::filesystem::path(played) / "run.mcap", old, without);
 
   // Another file in its place, of the same readings: named, and the run is still the same.
   copy_record(record_, changed_, changes);
   std::filesystem::copy_file(changed_, record_, std::filesystem::copy_options::overwrite_existing);
-  const Ended other = run_rave({"verify", played});
+  const Ended other = run_rave({"verify", old});
   EXPECT_EQ(other.exit_code, 0) << other.err;
   EXPECT_NE(
       other.err.find("the input file `" + record_.string() + "` has changed since the recording"),
       std::string::npos)
       << other.err;
+  const Ended own = run_rave({"verify", played});
+  EXPECT_EQ(own.exit_code, 0) << own.err;
+  EXPECT_NE(own.err.find("`" + record_.string() +
+                         "` has changed since the recording; the one in the recording is used"),
+            std::string::npos)
+      << own.err;
 
   std::filesystem::remove(record_);
-  const Ended missing = run_rave({"verify", played});
+  EXPECT_EQ(run_rave({"verify", played}).exit_code, 0) << "its own copy is enough";
+  const Ended missing = run_rave({"verify", old});
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_NE(missing.err.find("missing: cannot open `" + record_.string() + "`"), std::string::npos)
       << missing.err;
@@ -194,13 +206,50 @@ TEST_F(Verify, ARecordThatBrokeOffIsComparedAsFarAsItGoes) {
   const std::string whole = content_of(changed_);
   std::ofstream(changed_, std::ios::binary) << whole.substr(0, whole.size() * 3 / 4);
   const Ended ended = run_rave({"verify", changed_});
-  EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  const std::size_t at = ended.err.find("did not complete; its ");
+  EXPECT_EQ(ended.exit_code, 1) << ended.out;
+  EXPECT_EQ(ended.out.find("equal:"), std::string::npos) << ended.out;
+  const std::size_t at = ended.err.find("incomplete: ");
   ASSERT_NE(at, std::string::npos) << ended.err;
-  const int steps =
-      std::stoi(ended.err.substr(at + std::string_view("did not complete; its ").size()));
+  const int steps = std::stoi(ended.err.substr(at + std::string_view("incomplete: ").size()));
   EXPECT_GT(steps, 50);
   EXPECT_LT(steps, 200);
+  EXPECT_NE(ended.err.find(fmt::format(" compared and equal, to {:.3f} s: the recording breaks off "
+                                       "there",
+                                       steps * 0.01)),
+            std::string::npos)
+      << ended.err;
+}
+
+/// As a tool that filters topics leaves it.
+TEST_F(Verify, ARecordThatLacksAStreamIsNotWhole) {
+  Changes changes;
+  changes.drops_channel = [](const std::string& topic) { return topic == record::topic::kEvents; };
+  const Ended ended = verify_changed(changes);
+  EXPECT_EQ(ended.exit_code, 1) << ended.out;
+  EXPECT_NE(ended.err.find("incomplete: 200 steps, "), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("the recording has no stream `/rave/events`"), std::string::npos)
+      << ended.err;
+}
+
+/// As a tool leaves it that copies messages only.
+TEST_F(Verify, ARecordWithoutItsAttachmentsIsNamedByEachCommand) {
+  Changes changes;
+  changes.drops_attachment = [](const std::string&) { return true; };
+  copy_record(record_, changed_, changes);
+  const std::string said = "`" + changed_.string() +
+                           "` has no scenario: its attachment `scenario.yaml` is missing or "
+                           "damaged";
+  for (const char* const command : {"verify", "play", "gui"}) {
+    std::vector<std::string> words = {command, changed_};
+    if (std::string_view(command) == "gui") words.emplace_back("--no-open");
+    const Ended ended = run_rave(words);
+    EXPECT_EQ(ended.exit_code, 2) << command;
+    EXPECT_NE(ended.err.find(said), std::string::npos) << command << ": " << ended.err;
+  }
+  const Ended info = run_rave({"info", changed_});
+  EXPECT_EQ(info.exit_code, 1) << info.out;
+  EXPECT_NE(info.out.find("lost: its scenario"), std::string::npos) << info.out;
+  EXPECT_EQ(info.out.find("complete"), std::string::npos) << info.out;
 }
 
 TEST_F(Verify, ADamagedRecordIsRefusedAndTheDamageIsNamed) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "carmen/plugins/play.hpp"
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "rave/base/named_path.hpp"
 #include "recording/report_json.hpp"
 
 namespace rave::carmen {
@@ -18,8 +18,7 @@ Result<LogPlay> load_play(const HardwareSetup& setup, double range_max_m) {
   options.clock_offset_s = play.options.clock_offset_s;
   options.accept_cut = play.options.accept_cut;
   options.range_max_m = range_max_m;
-  // operator/ ignores the folder if the path is absolute.
-  RAVE_TRY_ASSIGN(play.log, load(std::filesystem::path(setup.folder) / play.path, options));
+  RAVE_TRY_ASSIGN(play.log, load(named_path(setup.folder, play.path), options));
   return play;
 }
 

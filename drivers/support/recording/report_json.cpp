@@ -63,6 +63,7 @@ void add_file(Json& json, const StreamReport& report) {
   json["file"] = report.file;
   json["sha256"] = report.sha256;
   json["unchanged"] = report.unchanged ? Json(*report.unchanged) : Json();
+  json["beside"] = report.beside;
 }
 
 void add_timing(Json& json, const StreamReport& report, const Window& window) {

@@ -17,7 +17,7 @@ struct Window {
   double clock_offset_s = 0;
 };
 
-/// Appends `file`, `sha256` and `unchanged`.
+/// Appends `file`, `sha256`, `unchanged` and `beside`.
 void add_file(nlohmann::ordered_json& json, const StreamReport& report);
 /// Appends `start_s`, `end_s`, `clock_offset_s`, `first_stamp_s`, `last_stamp_s`, `rows`, `stamps`,
 /// `rate_hz`, `gap_limit_s`, `gaps`, `largest_age_s`, `repairs` and `dropped`; README.md describes

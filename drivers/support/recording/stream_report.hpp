@@ -51,6 +51,8 @@ struct LogIdentity {
   std::string sha256;
   /// Whether the digest equals the one in `stretch.txt`; empty if that does not list the file.
   std::optional<bool> unchanged;
+  /// Other files of its folder that decide on how it is read.
+  std::vector<std::string> beside;
 };
 
 /// The content of one stream of a recording within the requested window. Times are from the origin

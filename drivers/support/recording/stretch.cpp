@@ -97,8 +97,9 @@ Result<std::optional<Stretch>> read_stretch(const std::filesystem::path& folder)
 Result<LogIdentity> identify(const std::filesystem::path& path, std::string_view bytes,
                              const std::vector<Repair>& repairs,
                              const std::optional<Stretch>& stretch) {
-  LogIdentity log{path.filename().string(), sha256_hex(bytes), std::nullopt};
+  LogIdentity log{path.filename().string(), sha256_hex(bytes), std::nullopt, {}};
   if (!stretch) return log;
+  log.beside.emplace_back(kStretchFile);
   const auto listed = stretch->sha256.find(log.file);
   if (listed == stretch->sha256.end()) return log;
   log.unchanged = listed->second == log.sha256;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "utias/plugins/playback.hpp"
 
-#include <filesystem>
 #include <utility>
+
+#include "rave/base/named_path.hpp"
 
 namespace rave::utias {
 const StreamReport& Playback::report() const noexcept {
@@ -32,9 +33,7 @@ Result<Playback> load_playback(const HardwareSetup& setup, StreamKind kind,
   options.state_clock_offset_s = playback.clock_offset_s;
   options.code_meaning = code_meaning;
   options.accept_cut = play.accept_cut;
-  // operator/ ignores the folder of the robot file if the path is absolute.
-  RAVE_TRY_ASSIGN(playback.data,
-                  load(std::filesystem::path(setup.folder) / playback.folder, options));
+  RAVE_TRY_ASSIGN(playback.data, load(named_path(setup.folder, playback.folder), options));
   return playback;
 }
 

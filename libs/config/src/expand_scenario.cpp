@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a scenario with its files to one complete description. Whatever reads an expanded scenario
-// needs no other file except those of maps and of components of the page.
+// needs no other file except components of the page and what drivers play.
 #include <algorithm>
 #include <set>
 #include <utility>
 
 #include "expansion_checks.hpp"
+#include "rave/base/named_path.hpp"
 #include "rave/base/names.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/config/gui_of_scenario.hpp"
+#include "rave/config/map_image.hpp"
 #include "scenario_fields.hpp"
 
 namespace rave::config {
@@ -18,8 +20,10 @@ namespace fs = std::filesystem;
 
 class Expansion {
  public:
-  Expansion(ScenarioFile scenario, const fs::path& path) : folder_(path.parent_path()) {
+  Expansion(ScenarioFile scenario, const fs::path& path, InputFiles files = {})
+      : folder_(path.parent_path()) {
     expanded_.scenario = std::move(scenario);
+    expanded_.files = std::move(files);
   }
 
   // All files are read before anything is refused, so that a user sees all errors at once. What
@@ -72,7 +76,7 @@ class Expansion {
     }
   }
   static fs::path beside(const fs::path& folder, const std::string& name) {
-    return (folder / name).lexically_normal();
+    return named_path(folder, name).lexically_normal();
   }
 
   /// Resolves against the current folder, which may not exist any more; no other access to the
@@ -120,8 +124,15 @@ class Expansion {
   void resolve_maps(std::vector<MapFile>& maps, const fs::path& folder) {
     for (MapFile& map : maps) {
       const fs::path path = beside(folder, *map.file);
-      // Only to report a missing file at its line; the image is read when the world is made.
-      (void)read(path, map.file.where);
+      if (auto yaml = expanded_.files.read(path, kMaxFileBytes)) {
+        expanded_.files.add(path, *std::move(yaml));
+      } else {
+        report(map.file.where, yaml.error().message, yaml.error().code);
+      }
+      // What is wrong in it is reported when the world is made.
+      if (auto all = read_map_files(path, expanded_.files)) {
+        expanded_.files.add(all->image_path, std::move(all->image));
+      }
       map.file.value = absolute(path);
     }
   }
@@ -219,9 +230,9 @@ Result<ExpandedScenario> expand_scenario_file(ScenarioFile scenario,
 }
 
 Result<ExpandedScenario> expand_scenario_text(std::string_view text,
-                                              const std::filesystem::path& path) {
+                                              const std::filesystem::path& path, InputFiles files) {
   RAVE_TRY_ASSIGN(ScenarioFile scenario, read_scenario_text(text, path.string()));
-  return expand_scenario_file(std::move(scenario), path);
+  return Expansion(std::move(scenario), path, std::move(files)).run();
 }
 
 Result<GuiOfScenario> read_gui_of(const std::filesystem::path& scenario) {

@@ -2,6 +2,10 @@
 // Maps in the format of map_server of ROS: a YAML file that names an image.
 #include "rave/config/map_image.hpp"
 
+#include <algorithm>
+
+#include "rave/base/named_path.hpp"
+#include "rave/base/names.hpp"
 #include "rave/config/fields.hpp"
 
 namespace rave::config {
@@ -84,6 +88,39 @@ CellState state_of(std::uint8_t shade, bool opaque, const MapServerFile& file) {
   return p < file.free_thresh ? CellState::kFree : CellState::kUnknown;
 }
 
+constexpr std::array<std::string_view, 7> kMapKeys = {
+    "image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"};
+
+/// Other programs put keys of their own into such files, which ROS ignores. One that is nearly a
+/// key which is missing stays, and is refused as a typing error.
+void leave_out_others(RawNode& tree) {
+  if (!tree.is_mapping()) return;
+  const std::vector<std::string_view> keys = tree.keys();
+  for (const std::string& key : std::vector<std::string>(keys.begin(), keys.end())) {
+    if (std::ranges::find(kMapKeys, key) != kMapKeys.end()) continue;
+    const bool near = std::ranges::any_of(kMapKeys, [&](std::string_view known) {
+      return tree.find(known) == nullptr && edit_distance(key, known) <= 1;
+    });
+    if (!near) tree.erase(key);
+  }
+}
+
+Result<MapServerFile> read_map_yaml(std::string_view yaml, const std::filesystem::path& path) {
+  return read_text<MapServerFile>(
+      yaml, path.string(),
+      [](RawNode& tree, Diagnostics& /*diagnostics*/) { leave_out_others(tree); });
+}
+
+std::filesystem::path image_path(const MapServerFile& file,
+                                 const std::filesystem::path& yaml_path) {
+  return named_path(yaml_path.parent_path(), file.image.value);
+}
+
+Result<InputFiles::Content> read_image(const std::filesystem::path& path, const InputFiles& files) {
+  constexpr std::size_t kMaxImageBytes = std::size_t{512} << 20;
+  return files.read(path, kMaxImageBytes);
+}
+
 }  // namespace
 
 Result<GreyImage> decode_image(std::string_view bytes, std::string_view file_name) {
@@ -93,24 +130,26 @@ Result<GreyImage> decode_image(std::string_view bytes, std::string_view file_nam
   return fail(ErrorCode::kParse, "`{}`: neither a PGM (P2, P5) nor a PNG image", file_name);
 }
 
-Result<MapImage> read_map(const std::filesystem::path& yaml_path) {
-  RAVE_TRY_ASSIGN(const std::string yaml, rave::read_file(yaml_path, kMaxFileBytes));
-  return read_map_text(yaml, yaml_path);
+Result<MapFiles> read_map_files(const std::filesystem::path& yaml_path, const InputFiles& files) {
+  RAVE_TRY_ASSIGN(auto yaml, files.read(yaml_path, kMaxFileBytes));
+  RAVE_TRY_ASSIGN(const MapServerFile file, read_map_yaml(*yaml, yaml_path));
+  std::filesystem::path path = image_path(file, yaml_path);
+  RAVE_TRY_ASSIGN(auto image, read_image(path, files));
+  return MapFiles{std::move(yaml), std::move(path), std::move(image)};
 }
 
-Result<MapImage> read_map_text(std::string_view yaml, const std::filesystem::path& yaml_path) {
-  constexpr std::size_t kMaxImageBytes = std::size_t{512} << 20;
-  RAVE_TRY_ASSIGN(const MapServerFile file, read_text<MapServerFile>(yaml, yaml_path.string()));
-  const std::filesystem::path path = yaml_path.parent_path() / file.image.value;
-  const auto decode = [&path]() -> Result<GreyImage> {
-    // Reading a pipe or a terminal would block.
-    std::error_code ignored;
-    if (std::filesystem::exists(path, ignored) &&
-        !std::filesystem::is_regular_file(path, ignored)) {
-      return fail(ErrorCode::kIo, "cannot read `{}`: it is not a regular file", path.string());
-    }
-    RAVE_TRY_ASSIGN(const std::string bytes, rave::read_file(path, kMaxImageBytes));
-    return decode_image(bytes, path.string());
+Result<MapImage> read_map(const std::filesystem::path& yaml_path, const InputFiles& files) {
+  RAVE_TRY_ASSIGN(const auto yaml, files.read(yaml_path, kMaxFileBytes));
+  return read_map_text(*yaml, yaml_path, files);
+}
+
+Result<MapImage> read_map_text(std::string_view yaml, const std::filesystem::path& yaml_path,
+                               const InputFiles& files) {
+  RAVE_TRY_ASSIGN(const MapServerFile file, read_map_yaml(yaml, yaml_path));
+  const std::filesystem::path path = image_path(file, yaml_path);
+  const auto decode = [&]() -> Result<GreyImage> {
+    RAVE_TRY_ASSIGN(const auto bytes, read_image(path, files));
+    return decode_image(*bytes, path.string());
   };
   Result<GreyImage> image = decode();
   if (!image) {
@@ -126,6 +165,7 @@ Result<MapImage> read_map_text(std::string_view yaml, const std::filesystem::pat
   map.origin_x_m = file.origin[0];
   map.origin_y_m = file.origin[1];
   map.origin_yaw_rad = file.origin[2];
+  map.raw = file.mode == MapMode::kRaw;
   map.cells.reserve(image->shade.size());
   for (std::size_t i = 0; i < image->shade.size(); ++i) {
     map.cells.push_back(state_of(image->shade[i], image->opaque[i] != 0, file));

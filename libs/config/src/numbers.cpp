@@ -50,7 +50,9 @@ PlainType plain_type(std::string_view text) noexcept {
   for (const std::string_view null : {"", "~", "null", "Null", "NULL"}) {
     if (text == null) return PlainType::kNull;
   }
-  if (text == "true" || text == "false") return PlainType::kBool;
+  for (const std::string_view flag : {"true", "True", "TRUE", "false", "False", "FALSE"}) {
+    if (text == flag) return PlainType::kBool;
+  }
   return number_type(text);
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <utility>
@@ -90,7 +91,7 @@ bool RawNode::is_whole_number() const noexcept {
 
 std::optional<bool> RawNode::as_bool() const {
   if (!is_scalar() || quoted_ || plain_type(scalar_) != PlainType::kBool) return std::nullopt;
-  return scalar_ == "true";
+  return scalar_.front() == 't' || scalar_.front() == 'T';
 }
 
 std::optional<std::int64_t> RawNode::as_int() const {

@@ -181,7 +181,7 @@ class YamlText {
 std::string json_scalar(const RawNode& node) {
   if (node.is_null()) return "null";
   if (node.is_text()) return in_quotes(node.scalar());
-  if (node.as_bool()) return node.scalar();
+  if (const auto flag = node.as_bool()) return *flag ? "true" : "false";
   // A zero with a sign is no integer: its sign would be lost.
   const auto whole_number = node.as_int();
   if (whole_number == 0 && node.scalar().starts_with('-')) return "-0.0";

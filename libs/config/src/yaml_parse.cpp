@@ -249,6 +249,21 @@ SourceLocation place_of(std::string_view text, std::size_t offset, std::string_v
           static_cast<int>(offset - line_start) + 1};
 }
 
+/// The place of a tab in the indent of this line, counted from 0.
+std::optional<SourceLocation> tab_in_indent(std::string_view text, int line,
+                                            std::string_view file_name) {
+  std::size_t start = 0;
+  for (int i = 0; i < line; ++i) {
+    start = text.find('\n', start);
+    if (start == std::string_view::npos) return std::nullopt;
+    ++start;
+  }
+  const std::size_t end = text.find_first_not_of(" \t", start);
+  const std::size_t tab = text.find('\t', start);
+  if (end == std::string_view::npos || tab > end) return std::nullopt;
+  return place_of(text, tab, file_name);
+}
+
 /// Checks the characters before parsing.
 std::optional<Error> check_characters(std::string_view text, std::string_view file_name) {
   if (text.size() > kMaxFileBytes) {
@@ -342,8 +357,12 @@ std::optional<RawNode> parse_yaml(std::string_view text, std::string_view file_n
     diagnostics.add(abort.error);
     return std::nullopt;
   } catch (const YAML::Exception& e) {
-    diagnostics.add(builder.place(e.mark),
-                    fmt::format("YAML syntax: {}{}", e.msg, place_hint(e.msg)));
+    if (auto tab = tab_in_indent(text, e.mark.line, file_name)) {
+      diagnostics.add(*std::move(tab), "YAML syntax: found a tab in the indent, expected spaces");
+    } else {
+      diagnostics.add(builder.place(e.mark),
+                      fmt::format("YAML syntax: {}{}", e.msg, place_hint(e.msg)));
+    }
     return std::nullopt;
   } catch (const std::exception& e) {
     // yaml-cpp lets exceptions of the standard library through for some numeric escapes.

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "rave/config/expanded_scenario.hpp"
+#include "rave/config/map_image.hpp"
 
 namespace rave::config {
 namespace {
@@ -49,6 +51,41 @@ TEST(Expand, PutsFilesTogether) {
   EXPECT_EQ(*expanded->world.maps.at(0).file, (kData / "maps/lab.yaml").string());
   EXPECT_EQ(expanded->scenario.pace.factor, 10);
   EXPECT_FALSE(expanded->scenario.world.has_value());
+}
+
+TEST(Expand, MapsAreReadOnceAndThoseGivenAreNotLookedForOnTheDisk) {
+  const auto expanded = expand_scenario(kData / "scenarios/mixed.yaml");
+  ASSERT_TRUE(expanded.has_value()) << expanded.error().text();
+  const std::string yaml = (kData / "maps/lab.yaml").string();
+  const std::string image = (kData / "maps/lab.pgm").string();
+  ASSERT_TRUE(expanded->files.all().contains(yaml));
+  ASSERT_TRUE(expanded->files.all().contains(image));
+
+  std::string text = write_expanded(*expanded);
+  for (auto at = text.find(yaml); at != std::string::npos; at = text.find(yaml)) {
+    text.replace(at, yaml.size(), "/nowhere/lab.yaml");
+  }
+  EXPECT_FALSE(expand_scenario_text(text, "/again.yaml"));
+  InputFiles given;
+  given.add("/nowhere/lab.yaml", expanded->files.all().at(yaml));
+  given.add("/nowhere/x/../lab.pgm", expanded->files.all().at(image));
+  const auto again = expand_scenario_text(text, "/again.yaml", given);
+  ASSERT_TRUE(again.has_value()) << again.error().text();
+  EXPECT_EQ(again->files, given);
+  EXPECT_TRUE(read_map("/nowhere/lab.yaml", again->files));
+}
+
+TEST(Expand, ATildeIsTheHomeFolder) {
+  const std::string before = std::getenv("HOME") == nullptr ? "" : std::getenv("HOME");
+  ::setenv("HOME", kData.c_str(), 1);
+  const auto expanded = expand_scenario_text(
+      "name: a\nmaps: [{file: ~/maps/lab.yaml, z_m: [0, 1]}]\nrobots:\n"
+      "  - {name: w, file: ~/robots/walker.yaml}\n",
+      "/elsewhere/s.yaml");
+  ::setenv("HOME", before.c_str(), 1);
+  ASSERT_TRUE(expanded.has_value()) << expanded.error().text();
+  EXPECT_EQ(*expanded->world.maps.at(0).file, (kData / "maps/lab.yaml").string());
+  EXPECT_EQ(expanded->groups.at(0).file, (kData / "robots/walker.yaml").string());
 }
 
 TEST(Expand, WhatIsWrittenExpandsToTheSameAnywhere) {

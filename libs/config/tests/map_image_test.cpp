@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include <cstdlib>
 #include <fstream>
 
 #include "rave/base/random.hpp"
@@ -121,6 +122,34 @@ TEST_F(MapFolder, RectanglesAreInMetresWithYUp) {
   EXPECT_EQ(all[1].min_y_m, 0);
 }
 
+TEST_F(MapFolder, KeysThatRosIgnoresAreIgnoredAndTypingErrorsAreNot) {
+  write("m.pgm", "P2\n2 1\n255\n0 255\n");
+  write("m.yaml", std::string(kYaml) + "width: 2\nname: lab\nlayers: [a, {b: 1}]\nnote: x\n");
+  EXPECT_EQ(error(), "none");
+  EXPECT_EQ(states(read_map(path("m.yaml")).value()), "#./");
+  write("m.yaml", with("negate", "negat"));
+  EXPECT_NE(error().find("unknown key `negat`; did you mean `negate`?"), std::string::npos)
+      << error();
+  write("m.yaml", std::string(kYaml) + "moed: raw\n");
+  EXPECT_NE(error().find("unknown key `moed`; did you mean `mode`?"), std::string::npos) << error();
+}
+
+TEST_F(MapFolder, FlagsAsPythonWritesThemAndAnImageAtHome) {
+  write("m.pgm", "P2\n2 1\n255\n0 255\n");
+  for (const auto& [word, expected] :
+       {std::pair("False", "#./"), {"FALSE", "#./"}, {"True", ".#/"}, {"true", ".#/"}}) {
+    write("m.yaml", with("negate: 0", std::string("negate: ") + word));
+    EXPECT_EQ(error(), "none") << word;
+    EXPECT_EQ(states(read_map(path("m.yaml")).value()), expected) << word;
+  }
+  const std::string before = std::getenv("HOME") == nullptr ? "" : std::getenv("HOME");
+  ::setenv("HOME", path("").c_str(), 1);
+  std::filesystem::create_directory(path("elsewhere"));
+  write("elsewhere/m.yaml", with("m.pgm", "~/m.pgm"));
+  EXPECT_TRUE(read_map(path("elsewhere/m.yaml")));
+  ::setenv("HOME", before.c_str(), 1);
+}
+
 TEST_F(MapFolder, ErrorsNameFileAndReason) {
   EXPECT_EQ(error(), "cannot open `m.yaml`: No such file or directory");
   write("m.yaml", kYaml);
@@ -145,7 +174,7 @@ TEST_F(MapFolder, ErrorsNameFileAndReason) {
     EXPECT_EQ(error(), "m.yaml:1:8: " + message);
   }
   write("m.yaml", with("m.pgm", "."));
-  EXPECT_EQ(error(), "m.yaml:1:8: cannot read `.`: it is not a regular file");
+  EXPECT_EQ(error(), "m.yaml:1:8: cannot read `.`: it is a folder");
 }
 
 TEST_F(MapFolder, TheYamlIsStrict) {

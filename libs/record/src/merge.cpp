@@ -102,6 +102,8 @@ RunInfo Merger::joined_info() const {
     info.started = std::min(info.started, part->info.started);
     info.versions.insert(part->info.versions.begin(), part->info.versions.end());
     info.inputs.insert(part->info.inputs.begin(), part->info.inputs.end());
+    // What all have is there once.
+    info.files.merge(read_attached_files(part->reader).files);
     if (&part == &parts_.front()) continue;
     info.sensors.insert(info.sensors.end(), part->info.sensors.begin(), part->info.sensors.end());
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "rave/record/merge.hpp"
+#include "rave/record/run_info.hpp"
 
 namespace rave::record {
 

@@ -73,6 +73,26 @@ void read_ends(const McapReader& reader, RecordSummary& summary) {
   }
 }
 
+void note_lost(const McapReader& reader, RecordSummary& summary) {
+  // While a file is damaged or truncated, that is the reason.
+  if (!summary.ended || !summary.damages.empty()) return;
+  if (!summary.run) {
+    // The disk may have been full from the beginning.
+    if (reader.channel(topic::kRun) == nullptr) return;
+    summary.lost.push_back(fmt::format("the description of the run (`{}`)", topic::kRun));
+    return;
+  }
+  if (summary.run->expanded_scenario.empty()) {
+    summary.lost.emplace_back(
+        "its scenario (attachment `scenario.yaml`): it cannot be shown, played or verified");
+  }
+  for (const char* const topic :
+       {topic::kPoses, topic::kPercepts, topic::kCommands, topic::kActuators, topic::kEvents}) {
+    if (reader.channel(topic) == nullptr)
+      summary.lost.push_back(fmt::format("the stream `{}`", topic));
+  }
+}
+
 }  // namespace
 
 Result<CheckedFile> check_record(const fs::path& path) {
@@ -111,6 +131,7 @@ Result<RecordSummary> describe_record(const fs::path& path, RecordLook look) {
   }
   std::ranges::sort(summary.channels, {}, &ChannelSummary::topic);
   read_ends(reader, summary);
+  note_lost(reader, summary);
   return summary;
 }
 

@@ -134,9 +134,10 @@ Status RunRecorder::Impl::begin(const RunInfo& info, const ViewOptions& views) {
   RAVE_TRY(add(console_, topic::kConsole, kLogSchema));
   RAVE_TRY(views_.open(file_, info, views));
   const std::string_view yaml = info.expanded_scenario;
-  // With the expanded scenario a recording can be replayed without any file of the run.
+  // With the expanded scenario and its maps a recording can be shown on any machine.
   RAVE_TRY(file_.add_attachment("scenario.yaml", "application/yaml",
                                 std::as_bytes(std::span(yaml.data(), yaml.size()))));
+  RAVE_TRY(attach_files(info.files, file_));
   StringMap about = {{"scenario", info.scenario},
                      {"started", info.started},
                      {"seed", std::to_string(info.seed)},

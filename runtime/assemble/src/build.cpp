@@ -20,9 +20,20 @@
 namespace rave::runtime {
 namespace {
 
+/// What a person should know of a map that gives no obstacle.
+std::string no_walls_text(const config::MapFile& file, const config::MapImage& map) {
+  const std::string text = fmt::format(
+      "map `{}`: none of its {} x {} cells is occupied, so it gives no obstacle; {}",
+      file.file.value, map.width, map.height,
+      map.raw ? "`mode: raw` takes grey values of 0 to 100 as per cent of occupancy and others as "
+                "unknown; most images need `mode: trinary`"
+              : "look at `negate`, `mode` and `occupied_thresh`");
+  return Error{ErrorCode::kInvalidArgument, text, file.file.where}.text();
+}
+
 /// The walls of a map: one box for each rectangle of occupied cells.
-Status add_map(const config::MapFile& file, world::WorldModel& world) {
-  auto map = config::read_map(file.file.value);
+Status add_map(const config::MapFile& file, const config::InputFiles& files, BuiltScenario& built) {
+  auto map = config::read_map(file.file.value, files);
   if (!map) {
     Error error = std::move(map).error();
     error.message = fmt::format("map `{}`: {}", file.file.value, error.text());
@@ -34,6 +45,8 @@ Status add_map(const config::MapFile& file, world::WorldModel& world) {
   const Pose2 X_WMap{map->origin_x_m, map->origin_y_m, wrap_angle(map->origin_yaw_rad)};
   const std::string stem = std::filesystem::path(file.file.value).stem().string();
   std::size_t number = 0;
+  world::WorldModel& world = built.spec.world;
+  const std::size_t before = world.obstacles.size();
   for (const config::MapRectangle& r : config::rectangles_of(*map)) {
     world::Obstacle wall;
     wall.body.name = fmt::format("{}-{}", stem, ++number);
@@ -49,6 +62,7 @@ Status add_map(const config::MapFile& file, world::WorldModel& world) {
                                        file.z_m[0], file.z_m[1]));
     world.obstacles.push_back(std::move(wall));
   }
+  if (world.obstacles.size() == before) built.notes.push_back(no_walls_text(file, *map));
   return {};
 }
 
@@ -186,7 +200,9 @@ Result<BuiltScenario> build(const config::ExpandedScenario& scenario, plugin::Ca
     RAVE_TRY_ASSIGN(auto obstacle, make_obstacle(file));
     spec.world.obstacles.push_back(std::move(obstacle));
   }
-  for (const config::MapFile& map : scenario.world.maps) RAVE_TRY(add_map(map, spec.world));
+  for (const config::MapFile& map : scenario.world.maps) {
+    RAVE_TRY(add_map(map, scenario.files, built));
+  }
   std::vector<world::Body> bodies;
   RAVE_TRY(add_groups(scenario, catalogue, options, built, bodies));
   if (built.live_reason.empty() && scenario.scenario.clock == config::RunClockMode::kRealTime) {

@@ -10,6 +10,7 @@
 #include "rave/protocol/agreement.hpp"
 #include "rave/results/event_log.hpp"
 #include "rave/results/facts_file.hpp"
+#include "rave/results/outcome.hpp"
 #include "rave/results/result_parts.hpp"
 
 namespace rave::runtime {
@@ -25,7 +26,11 @@ HostOutcome judge(const RunSession& run, const HostSetup& host, const HostExchan
   outcome.steps = run.engine.steps_done() - std::min(run.first, run.engine.steps_done());
   outcome.problems = run.losses;
   outcome.problems.insert(outcome.problems.end(), run.problems.begin(), run.problems.end());
-  if (run.stopped) outcome.problems.emplace_back("stopped before the end of the run");
+  if (run.stopped && outcome.steps == 0) {
+    outcome.problems.emplace_back("stopped before the run began");
+  } else if (run.stopped) {
+    outcome.ending = fmt::format("ended by hand at {:.2f} s", run.engine.time().seconds());
+  }
   if (const auto& ending = exchange.ending(); run.ended && ending) {
     outcome.ending = ending->text;
     if (!ending->good) outcome.problems.push_back("the run ended: " + ending->text);
@@ -45,12 +50,13 @@ Status write_results(const RunSession& run, const std::string& host, const HostE
   if (!facts.shadows.empty()) json["shadows"] = shadows_json(facts.shadows);
   json["ending"] = outcome.ending;
   json["problems"] = outcome.problems;
-  RAVE_TRY(write_file_atomically(
-      folder / "events.log",
-      events_log(run.engine.spec(), run.observers.results().kinds, run.events)));
-  return write_file_atomically(
+  Status written = write_file_atomically(
       folder / "result.json",
       json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  const Status events = write_file_atomically(
+      folder / "events.log",
+      events_log(run.engine.spec(), run.observers.results().kinds, run.events));
+  return written ? events : written;
 }
 
 /// Leaves what this host knows in its folder, and sends it to the environment manager; the log
@@ -155,6 +161,7 @@ Result<HostOutcome> run_session(const HostSetup& host, sim::Engine& engine, bus:
       const auto face,
       BusFace::open(bus, host.part.number, !live || !needs_manager(host.built), &host.catalogue));
   const std::vector<RunObserver*> own = {face.get()};
+  Descriptor room = take_room_for_results(options.output, engine.spec());
   RAVE_TRY_ASSIGN(const auto observers,
                   ObserverList::open({host.scenario, host.expanded, host.built.robot_kinds, engine,
                                       host.catalogue, options, host.console, host.options.host,
@@ -171,11 +178,13 @@ Result<HostOutcome> run_session(const HostSetup& host, sim::Engine& engine, bus:
   RunFacts facts = end_run(run);
   exchange->complete(facts);
   const HostOutcome outcome = judge(run, host, *exchange);
+  room.reset();
   // A full disk here is no reason to keep from others what this host knows.
   const Status written = write_results(run, host.options.host, *exchange, facts, outcome);
-  RAVE_TRY(leave_facts(run, host, *exchange, std::move(facts)));
-  RAVE_TRY(written);
+  const Status left = leave_facts(run, host, *exchange, std::move(facts));
   if (!went) return tl::unexpected(went.error());
+  RAVE_TRY(left);
+  RAVE_TRY(written);
   return outcome;
 }
 

@@ -53,7 +53,8 @@ Status ObserverList::open_all(const Parts& parts) {
   // The recording is opened last, so that a run which an observer refuses leaves none.
   info.expanded_scenario = parts.expanded;
   info.versions = versions_of(parts.engine.spec(), parts.catalogue);
-  info.inputs = input_files(parts.scenario, parts.engine);
+  add_maps(parts.scenario, info);
+  add_played_files(parts.engine, info);
   RecordKeeper::About about{hybrids, !parts.live, parts.host};
   if (!parts.host.empty()) {
     RAVE_TRY_ASSIGN(about.hosts, hosts_for_record(parts.scenario));

@@ -111,6 +111,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   }
   RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
 
+  Descriptor room = take_room_for_results(options.output, engine->spec());
   RAVE_TRY_ASSIGN(const auto observers,
                   ObserverList::open({adjusted, expanded, built.robot_kinds, *engine, catalogue,
                                       options, console, "", live, true}));
@@ -124,8 +125,9 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
   RunResults results{adjusted, engine->spec(), observers->results().kinds, built.live_reason,
                      facts};
   results.wall_s = session.wall_s;
-  results.ended_early = session.stopped;
+  results.ended_by_hand = session.stopped;
   if (!live) results.hash = engine->hash().value();
+  room.reset();
   return write_results(results, options.output, options.picture);
 }
 

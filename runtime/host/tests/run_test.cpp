@@ -180,6 +180,108 @@ TEST(Run, ContactsOfBeforeAManagerTookOverAreNotTakenForNone) {
             "not evaluated: contacts before step 5 are known only to the previous manager");
 }
 
+/// Asks for the end of the run after so many steps, as a signal does.
+class EndsAfter final : public RunObserver {
+ public:
+  EndsAfter(std::uint64_t steps, RunControl& control) : steps_(steps), control_(control) {}
+  void after_step(const StepView& step) override {
+    if (step.engine.steps_done() == steps_) control_.stop();
+  }
+
+ private:
+  std::uint64_t steps_;
+  RunControl& control_;
+};
+
+/// A run of a second that is ended at 0.3 s, with these checks of a robot that stands.
+RunOutcome ended_by_hand(const std::string& checks, Json& result) {
+  Host host;
+  const auto scenario = host.expand(
+      fmt::format("name: ended\nduration_s: 1\nstep_s: 0.01\npace: max\nchecks: {{{}}}\nrobots:\n"
+                  "  - {{name: anna, pose: {{x_m: 0, y_m: 0}}, robot: {{{}, {}}}}}\n",
+                  checks, kBody, kWheels));
+  EXPECT_TRUE(scenario) << scenario.error().text();
+  RunControl control;
+  EndsAfter ends(30, control);
+  RunOptions options;
+  options.output = std::filesystem::path(::testing::TempDir()) / "rave_run_ended";
+  options.picture = false;
+  options.control = &control;
+  options.observers = {&ends};
+  const auto outcome = run(*scenario, host.catalogue(), options);
+  EXPECT_TRUE(outcome) << outcome.error().text();
+  result = Json::parse(read_file(options.output / "result.json").value_or("{}"));
+  std::filesystem::remove_all(options.output);
+  return outcome.value_or(RunOutcome());
+}
+
+TEST(Run, AnEndByHandIsAnEndAndChecksThatHadTimeLeftHaveNotFailed) {
+  Json result;
+  const RunOutcome outcome = ended_by_hand(
+      "arrivals: [{robot: anna, x_m: 5, y_m: 0, within_m: 1}, {robot: anna, x_m: 5, y_m: 0, "
+      "within_m: 1, before_s: 0.9}], touches: [{robots: [anna]}]",
+      result);
+  EXPECT_TRUE(outcome.whole && outcome.good()) << outcome.summary;
+  EXPECT_FALSE(outcome.checks_hold || outcome.checks_fail);
+  ASSERT_TRUE(outcome.ended_by_hand_s);
+  EXPECT_NEAR(*outcome.ended_by_hand_s, 0.3, 1e-9);
+  EXPECT_EQ(result.at("whole"), true);
+  EXPECT_NEAR(result.at("ended_by_hand_s").get<double>(), 0.3, 1e-9);
+  EXPECT_EQ(outcome.hash.size(), 16U);
+  EXPECT_NE(outcome.summary.find("at 0.30 s"), std::string::npos) << outcome.summary;
+  const Json checks = result.at("checks");
+  ASSERT_EQ(checks.size(), 3U);
+  EXPECT_EQ(checks[0].at("holds"), true) << "no touch so far: " << checks.dump();
+  for (const std::size_t i : {1U, 2U}) {
+    EXPECT_TRUE(checks[i].at("holds").is_null()) << checks.dump();
+    EXPECT_NE(
+        checks[i].at("text").dump().find("not evaluated: the run was ended by hand at 0.30 s"),
+        std::string::npos)
+        << checks.dump();
+  }
+}
+
+TEST(Run, AnEndByHandHidesNoCheckThatFails) {
+  Json result;
+  const RunOutcome outcome = ended_by_hand(
+      "arrivals: [{robot: anna, x_m: 5, y_m: 0, within_m: 1, before_s: 0.2}]", result);
+  EXPECT_TRUE(outcome.whole && outcome.ended_by_hand_s);
+  EXPECT_TRUE(outcome.checks_fail);
+  EXPECT_FALSE(outcome.good());
+}
+
+TEST(Run, AResultThatCannotBeWrittenCostsNoOtherAndIsNamed) {
+  Host host;
+  const auto scenario =
+      host.expand(fmt::format("name: full\nduration_s: 0.1\nstep_s: 0.01\npace: max\nrobots:\n"
+                              "  - {{name: anna, pose: {{x_m: 0, y_m: 0}}, robot: {{{}, {}}}}}\n",
+                              kBody, kWheels));
+  ASSERT_TRUE(scenario) << scenario.error().text();
+  RunOptions options;
+  options.output = std::filesystem::path(::testing::TempDir()) / "rave_run_full";
+  std::filesystem::remove_all(options.output);
+  // No file can take the place of a folder.
+  for (const char* const file : {"summary.txt", "events.log", "picture.svg"}) {
+    std::filesystem::create_directories(options.output / file);
+  }
+  const auto outcome = run(*scenario, host.catalogue(), options);
+  ASSERT_TRUE(outcome) << outcome.error().text();
+  EXPECT_FALSE(outcome->whole || outcome->good());
+  const Json result = Json::parse(read_file(options.output / "result.json").value_or("{}"));
+  EXPECT_EQ(result.at("whole"), false);
+  ASSERT_EQ(outcome->problems.size(), 3U);
+  EXPECT_EQ(result.at("problems"), Json(outcome->problems));
+  for (const char* const file : {"summary.txt", "events.log", "picture.svg"}) {
+    EXPECT_NE(result.at("problems").dump().find(std::string(file) + "` is not written: cannot "),
+              std::string::npos)
+        << result.at("problems");
+  }
+  EXPECT_NE(outcome->summary.find("is not written: "), std::string::npos) << outcome->summary;
+  EXPECT_TRUE(std::filesystem::is_regular_file(options.output / "picture.png"));
+  EXPECT_EQ(outcome->hash.size(), 16U);
+  std::filesystem::remove_all(options.output);
+}
+
 TEST(Run, IsNotWholeWhenARecordingHasNoPoseOfItsRobot) {
   RunOutcome outcome;
   // Nothing of the first step is known yet of a robot whose first pose comes later.

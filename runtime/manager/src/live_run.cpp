@@ -199,11 +199,19 @@ Result<LiveManagerOutcome> LiveRun::go() {
     next_ask = Clock::now() + kLook;
     tell_progress();
     if (!stopping()) continue;
-    problems_.push_back(begun_ ? fmt::format("stopped at {:.2f} s", now().seconds())
-                               : fmt::format("stopped while waiting for {}", missing()));
+    ended_by_hand_ = begun_ && by_hand() && ends_hosts();
+    if (!ended_by_hand_) {
+      problems_.push_back(begun_ ? fmt::format("stopped at {:.2f} s", now().seconds())
+                                 : fmt::format("stopped while waiting for {}", missing()));
+    }
     break;
   }
   return outcome();
+}
+
+// A manager that only stops managing leaves the hosts running.
+bool LiveRun::ends_hosts() const {
+  return options_.ends_hosts || (options_.control != nullptr && options_.control->ends_everybody());
 }
 
 LiveManagerOutcome LiveRun::outcome() {
@@ -237,17 +245,17 @@ LiveManagerOutcome LiveRun::outcome() {
   // The run is judged before the farewell, during which time passes, too.
   const bool over = begun_ && now().ns >= options_.duration.ns;
   outcome.problems = problems_;
-  outcome.whole = over && problems_.empty() && outcome.refused.empty();
-  // A manager that only stops managing leaves the hosts running.
-  const bool ends =
-      options_.ends_hosts || (options_.control != nullptr && options_.control->ends_everybody());
-  if (!over && !ends) {
+  outcome.ended_by_hand = ended_by_hand_;
+  outcome.whole = (over || ended_by_hand_) && problems_.empty() && outcome.refused.empty();
+  if (!over && !ends_hosts()) {
     take_host_results(hosts_->slots());
     outcome.host_results = hand_out_host_results(hosts_->slots());
     return outcome;
   }
-  tell_state(over ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
-             over || problems_.empty() ? std::string() : problems_.front());
+  const bool good = over || ended_by_hand_;
+  std::string why = good || problems_.empty() ? std::string() : problems_.front();
+  if (ended_by_hand_) why = by_hand_text(outcome.end.seconds());
+  tell_state(good ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED, why);
   // Hosts learn of the end before this process leaves.
   drain_hosts(hosts_->slots(), begun_, [this] {
     hosts_->wait(Duration{std::chrono::nanoseconds(kLook).count()});

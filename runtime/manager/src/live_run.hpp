@@ -43,6 +43,7 @@ class LiveRun final : ManagerRun {
   void tell_silence(const std::vector<std::string_view>& names, std::string_view what);
   void tell_state(rave_wire_RunPhase phase, const std::string& text);
   void tell_progress();
+  [[nodiscard]] bool ends_hosts() const;
   LiveManagerOutcome outcome();
   [[nodiscard]] SimTime now() const;
   [[nodiscard]] std::string missing() const;
@@ -58,6 +59,7 @@ class LiveRun final : ManagerRun {
   std::uint64_t worlds_ = 0;
   std::vector<std::uint8_t> stale_;  ///< By robot.
   bool ended_ = false;
+  bool ended_by_hand_ = false;
   std::optional<Error>
       left_alone_;  ///< Hosts are in another run, which this manager does not continue.
 };

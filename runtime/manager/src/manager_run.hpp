@@ -27,6 +27,13 @@ class ManagerRun {
   ~ManagerRun() = default;
 
   [[nodiscard]] bool stopping() const { return common_.stopping && common_.stopping(); }
+  /// Whether a person or a signal asked for that, and not the loss of all processes.
+  [[nodiscard]] bool by_hand() const {
+    return common_.control != nullptr && common_.control->stopping();
+  }
+  [[nodiscard]] static std::string by_hand_text(double at_s) {
+    return fmt::format("ended by hand at {:.2f} s", at_s);
+  }
   /// Wakes from a wait when a request arrives.
   [[nodiscard]] std::stop_token asked() const {
     return common_.control != nullptr ? common_.control->asked() : std::stop_token();

@@ -246,7 +246,10 @@ Result<ManagerOutcome> SteppedRun::go() {
     if (failure_) return tl::unexpected(*failure_);
     if (stopping() && !ending_) {
       ending_ = true;
-      if (step_ < options_.steps) problems_.push_back(fmt::format("stopped in step {}", step_));
+      ended_by_hand_ = step_ < options_.steps && by_hand();
+      if (step_ < options_.steps && !ended_by_hand_) {
+        problems_.push_back(fmt::format("stopped in step {}", step_));
+      }
     }
     RAVE_TRY(make_step());
     lateness_.done(Clock::now());
@@ -263,6 +266,12 @@ void SteppedRun::give_up(const Error& error) {
   if (endpoint_.is_second() || left_alone_) return;
   tell_state(rave_wire_RUN_FAILED, error.message);
   see_end(false);
+}
+
+std::string SteppedRun::why_ended() const {
+  if (!ended_by_hand_) return {};
+  return by_hand_text(static_cast<double>(authority_->steps_done()) *
+                      authority_->spec().step.seconds());
 }
 
 ManagerOutcome SteppedRun::outcome() {
@@ -282,6 +291,7 @@ ManagerOutcome SteppedRun::outcome() {
   }
   outcome.problems = problems_;
   outcome.whole = begun_ && world_.last && problems_.empty();
+  outcome.ended_by_hand = ended_by_hand_;
   // Each item of the run hash was added by one process, so the sum over all is that of a single
   // process. If a host has missed a step the sum would be of another run.
   if (begun_ && world_.last && !lost_any_) {
@@ -291,7 +301,7 @@ ManagerOutcome SteppedRun::outcome() {
   }
   over_ = true;
   tell_state(outcome.whole ? rave_wire_RUN_ENDED : rave_wire_RUN_FAILED,
-             problems_.empty() ? std::string() : problems_.back());
+             problems_.empty() ? why_ended() : problems_.back());
   see_end(begun_);
   outcome.host_results = hand_out_host_results(slots_);
   return outcome;

@@ -61,6 +61,7 @@ class SteppedRun final : ManagerRun {
   void note_waiting(std::string hosts);
   [[nodiscard]] std::string waited_for() const;
   [[nodiscard]] bool complete() const;
+  [[nodiscard]] std::string why_ended() const;
   ManagerOutcome outcome();
 
   const ManagerOptions& options_;
@@ -74,6 +75,7 @@ class SteppedRun final : ManagerRun {
   std::uint64_t step_ = 0;  ///< The step whose reports are gathered.
   bool lost_any_ = false;
   bool ending_ = false;
+  bool ended_by_hand_ = false;
   bool over_ = false;  ///< The run has ended or was given up; later messages do not matter.
   bool left_alone_ =
       false;  ///< The hosts are in another run, which this manager does not continue.

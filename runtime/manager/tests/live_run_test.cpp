@@ -156,6 +156,36 @@ TEST_F(LiveRunTest, WhoOwnsItsHostsEndsThemWhenItIsStopped) {
   EXPECT_EQ(bus_->endpoint().phases.back(), rave_wire_RUN_FAILED);
 }
 
+TEST_F(LiveRunTest, AnEndOfTheRunByHandIsAnEnd) {
+  runtime::RunControl control;
+  options_.control = &control;
+  options_.stopping = [&control] { return control.stopping(); };
+  bus_->meanwhile = [&] {
+    bus_->ping(kOne, 0);
+    bus_->ping(kTwo, 1);
+    if (begun()) control.end_run();
+  };
+  const LiveManagerOutcome outcome = go();
+  EXPECT_TRUE(outcome.ended_by_hand && outcome.whole);
+  EXPECT_TRUE(outcome.problems.empty()) << outcome.problems[0];
+  EXPECT_EQ(bus_->endpoint().phases.back(), rave_wire_RUN_ENDED);
+}
+
+TEST_F(LiveRunTest, AnEndOfItsManagerAloneIsNotThatOfTheRun) {
+  runtime::RunControl control;
+  options_.control = &control;
+  options_.stopping = [&control] { return control.stopping(); };
+  bus_->meanwhile = [&] {
+    bus_->ping(kOne, 0);
+    bus_->ping(kTwo, 1);
+    if (begun()) control.stop();
+  };
+  const LiveManagerOutcome outcome = go();
+  EXPECT_FALSE(outcome.ended_by_hand || outcome.whole);
+  ASSERT_EQ(outcome.problems.size(), 1U);
+  EXPECT_FALSE(bus_->endpoint().over()) << "hosts continue";
+}
+
 TEST_F(LiveRunTest, WorldsThatCouldNotBeSentAreLeftOut) {
   // The process stands for most of the run.
   bool stood = false;

@@ -167,6 +167,26 @@ TEST_F(SteppedRunTest, SomebodyStopsItAndHostsGetALastWorld) {
   EXPECT_EQ(bus_->common.phases.back(), rave_wire_RUN_FAILED);
 }
 
+TEST_F(SteppedRunTest, AnEndByHandIsAnEnd) {
+  runtime::RunControl control;
+  options_.control = &control;
+  options_.stopping = [&control] { return control.stopping(); };
+  options_.on_world = [&control](const sim::WorldAuthority& authority) {
+    if (authority.steps_done() >= kMoment) control.stop();
+    return false;
+  };
+  auto endpoint = std::make_unique<FakeSteppedEndpoint>(hosts_);
+  bus_ = endpoint.get();
+  run_.emplace(options_, authority_of_pair(), std::move(endpoint));
+  const ManagerOutcome outcome = go();
+  EXPECT_TRUE(outcome.whole && outcome.ended_by_hand);
+  EXPECT_LT(outcome.steps, kMoment + 3);
+  EXPECT_TRUE(outcome.problems.empty()) << outcome.problems[0];
+  EXPECT_TRUE(outcome.hash) << "of the steps that were made";
+  EXPECT_TRUE(hosts_[0].done && hosts_[1].done);
+  EXPECT_EQ(bus_->common.phases.back(), rave_wire_RUN_ENDED);
+}
+
 TEST_F(SteppedRunTest, SomebodyStopsItBeforeAHostHasCome) {
   hosts_[1].says = [](std::uint64_t) { return false; };
   bus_->meanwhile = [this] { stop_ = true; };

@@ -13,13 +13,12 @@
 
 #include "rave/base/descriptor.hpp"
 #include "rave/base/file.hpp"
+#include "rave/base/named_path.hpp"
 #include "rave/base/regular_file.hpp"
-#include "rave/config/diagnostics.hpp"
-#include "rave/config/yaml.hpp"
 
 namespace rave::runtime {
-// A recording repeats only with the same inputs. So it has the SHA-256 of each file that sensors or
-// maps read, and the versions of all drivers; `rave verify` compares both before it runs.
+// A recording repeats only with the same inputs. So it has the maps, the SHA-256 of each file that
+// sensors read, and the versions of all drivers; `rave verify` compares both before it runs.
 namespace {
 
 namespace fs = std::filesystem;
@@ -29,36 +28,53 @@ struct CloseFile {
   void operator()(std::FILE* file) const noexcept { std::fclose(file); }
 };
 
-void add_file(const fs::path& path, Files& files) {
+/// Files up to this size go into the recording, as long as it does not become large by them.
+constexpr std::uintmax_t kSmall = std::uintmax_t{4} << 20U;
+constexpr std::uintmax_t kSmallTogether = std::uintmax_t{16} << 20U;
+
+std::uintmax_t bytes_of(const record::AttachedFiles& files) {
+  std::uintmax_t bytes = 0;
+  for (const auto& [digest, file] : files) bytes += file.content->size();
+  return bytes;
+}
+
+/// `alone`: a driver needs only files that it has named, so copies elsewhere do as well.
+void add_file(const fs::path& path, bool alone, record::RunInfo& info) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return;
   const std::string name = fs::absolute(path, error).lexically_normal().string();
-  if (error || files.contains(name)) return;
+  if (error || info.inputs.contains(name)) return;
+  const std::uintmax_t size = fs::file_size(path, error);
   // A file that cannot be read is left out.
-  if (auto hash = sha256_of_file(path)) files.emplace(name, *std::move(hash));
+  if (alone && !error && size <= kSmall && bytes_of(info.files) + size <= kSmallTogether) {
+    if (auto content = read_file(path, kSmall)) {
+      const std::string digest = sha256_of(*content);
+      info.inputs[name] = digest;
+      info.files.try_emplace(digest, path.filename().string(),
+                             std::make_shared<const std::string>(*std::move(content)));
+    }
+  } else if (auto digest = sha256_of_file(path)) {
+    info.inputs[name] = *std::move(digest);
+  }
 }
 
-void add_map(const fs::path& yaml, Files& files) {
-  add_file(yaml, files);
-  // The image of a map is an input of its own, which the YAML file only names.
-  const auto text = read_file(yaml, config::kMaxFileBytes);
-  if (!text) return;
-  config::Diagnostics diagnostics;
-  const auto root = config::parse_yaml(*text, yaml.string(), diagnostics);
-  if (!root || !root->is_mapping()) return;
-  const config::RawNode* const image = root->find("image");
-  if (image != nullptr) add_file(yaml.parent_path() / image->scalar(), files);
-}
-
-void add_recording(const std::string& report, const fs::path& folder, Files& files) {
+void add_recording(const std::string& report, const fs::path& folder, record::RunInfo& info) {
   // Drivers that play a file name it in their report, so no list of such drivers is needed here.
   const auto json = nlohmann::json::parse(report, nullptr, false);
   if (!json.is_object() || !json.contains("file") || !json["file"].is_string()) return;
-  fs::path path = folder;
-  if (json.contains("folder") && json["folder"].is_string()) {
-    path /= json["folder"].get<std::string>();
+  // A log is one file, whose path they were given as such; `file` is only its name.
+  if (json.contains("log") && json["log"].is_string()) {
+    const fs::path log = named_path(folder, json["log"].get<std::string>());
+    add_file(log, true, info);
+    for (const auto& name : json.value("beside", nlohmann::json::array())) {
+      if (name.is_string()) add_file(log.parent_path() / name.get<std::string>(), true, info);
+    }
+    return;
   }
-  add_file(path / json["file"].get<std::string>(), files);
+  fs::path path = folder;
+  const bool of_folder = json.contains("folder") && json["folder"].is_string();
+  if (of_folder) path = named_path(path, json["folder"].get<std::string>());
+  add_file(named_path(path, json["file"].get<std::string>()), !of_folder, info);
 }
 
 void add_version(plugin::Catalogue& catalogue, std::span<const DriverKind> kinds,
@@ -94,19 +110,31 @@ Result<std::string> sha256_of_file(const fs::path& path) {
   return fmt::format("{:02x}", fmt::join(digest, ""));
 }
 
-Files input_files(const config::ExpandedScenario& scenario, const sim::Engine& engine) {
-  Files files;
-  for (const config::MapFile& map : scenario.world.maps) add_map(map.file.value, files);
+std::string sha256_of(std::string_view bytes) {
+  std::array<unsigned char, crypto_hash_sha256_BYTES> digest;
+  crypto_hash_sha256(digest.data(), reinterpret_cast<const unsigned char*>(bytes.data()),
+                     bytes.size());
+  return fmt::format("{:02x}", fmt::join(digest, ""));
+}
+
+void add_maps(const config::ExpandedScenario& scenario, record::RunInfo& info) {
+  for (const auto& [path, content] : scenario.files.all()) {
+    const std::string digest = sha256_of(*content);
+    info.inputs[path] = digest;
+    info.files.try_emplace(digest, fs::path(path).filename().string(), content);
+  }
+}
+
+void add_played_files(const sim::Engine& engine, record::RunInfo& info) {
   const sim::EngineSpec& spec = engine.spec();
   for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
     if (!engine.is_local(RobotId(r))) continue;
     const sim::RobotType& type = spec.types[spec.robots[r].type];
     for (std::uint32_t s = 0; s < type.sensors.size(); ++s) {
       if (type.sensors[s].virtual_ops != nullptr) continue;
-      add_recording(engine.sensor_report(RobotId(r), s), type.folder, files);
+      add_recording(engine.sensor_report(RobotId(r), s), type.folder, info);
     }
   }
-  return files;
 }
 
 Files versions_of(const sim::EngineSpec& spec, plugin::Catalogue& catalogue) {

@@ -2,6 +2,7 @@
 #include "rave/recording/world_record.hpp"
 
 #include "rave/record/robot_ranges.hpp"
+#include "rave/recording/provenance.hpp"
 #include "rave/recording/record_keeper.hpp"
 
 namespace rave::runtime {
@@ -23,6 +24,7 @@ Result<std::unique_ptr<WorldRecord>> WorldRecord::begin(const std::filesystem::p
   record::RunInfo info = info_of(spec, kinds);
   info.scenario = scenario.scenario.name.value;
   info.expanded_scenario = config::write_expanded(scenario);
+  add_maps(scenario, info);
   RAVE_TRY_ASSIGN(auto recorder, record::RunRecorder::open(path, info, {}, log));
   // Tells the merge that this part is that of the manager.
   RAVE_TRY(recorder.describe(record::kHostMetadata, {{"world", "all"}}));

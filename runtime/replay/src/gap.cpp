@@ -8,6 +8,7 @@
 #include "gap_source.hpp"
 #include "gap_twin.hpp"
 #include "rave/math/transform.hpp"
+#include "rave/recording/recorded_scenario.hpp"
 
 namespace rave::runtime {
 // The comparison has two views. follow() integrates the twin from the first pose to the end: errors
@@ -176,16 +177,12 @@ Result<GapReport> measure_gap(const std::filesystem::path& record, plugin::Catal
   RAVE_TRY_ASSIGN(const auto reader, record::McapReader::open(record));
   RAVE_TRY_ASSIGN(const record::RunInfo run, record::read_run_info(reader));
   RAVE_TRY_ASSIGN(const auto* const robot, chosen_robot(run, options.robot));
-  auto scenario =
-      config::expand_scenario_text(run.expanded_scenario, record.parent_path() / "scenario.yaml");
-  if (!scenario) {
-    return tl::unexpected(std::move(scenario).error().with_context(
-        fmt::format("the scenario inside `{}`", record.string())));
-  }
-  if (robot->id.value() >= scenario->robots.size() || from_seconds(run.step_s).ns <= 0) {
+  RAVE_TRY_ASSIGN(const RecordedScenario recorded, recorded_scenario(reader, run, record));
+  const config::ExpandedScenario& scenario = recorded.scenario;
+  if (robot->id.value() >= scenario.robots.size() || from_seconds(run.step_s).ns <= 0) {
     return fail(ErrorCode::kParse, "the scenario in the recording does not match its robots");
   }
-  const GapSource source{reader, run, *robot, *scenario};
+  const GapSource source{reader, run, *robot, scenario};
   RAVE_TRY_ASSIGN(GapTwin twin, make_twin(source, options, catalogue));
   GapReport report;
   report.robot = robot->name;

@@ -6,8 +6,8 @@
 #include <chrono>
 
 #include "host_again.hpp"
+#include "played_files.hpp"
 #include "rave/assemble/build.hpp"
-#include "rave/config/expanded_scenario.hpp"
 #include "rave/control/obstacle_edits.hpp"
 #include "rave/control/order_words.hpp"
 #include "rave/control/requests.hpp"
@@ -18,6 +18,7 @@
 #include "rave/record/run_reader.hpp"
 #include "rave/recording/provenance.hpp"
 #include "rave/recording/record_keeper.hpp"
+#include "rave/recording/recorded_scenario.hpp"
 #include "rave/results/capture_watch.hpp"
 #include "record_match.hpp"
 
@@ -46,6 +47,7 @@ class Scratch {
     std::error_code ignored;
     if (!path_.empty()) fs::remove_all(path_, ignored);
   }
+  [[nodiscard]] const fs::path& folder() const { return path_; }
   [[nodiscard]] fs::path file() const { return path_ / "again.mcap"; }
 
  private:
@@ -157,8 +159,13 @@ class InputReplay {
   std::size_t next_ = 0;
 };
 
-void compare_inputs(const record::RunInfo& run, VerifyOutcome& outcome) {
+/// Compares the inputs that are not in the recording itself.
+void compare_inputs(const record::RunInfo& run, const RecordedScenario& known,
+                    VerifyOutcome& outcome) {
+  outcome.notes.insert(outcome.notes.end(), known.notes.begin(), known.notes.end());
   for (const auto& [path, recorded] : run.inputs) {
+    // Those that the recording has itself, and maps: the notes above tell of them.
+    if (known.scenario.files.all().contains(path)) continue;
     const auto now = sha256_of_file(path);
     if (!now) {
       outcome.missing.push_back(now.error().text());
@@ -194,8 +201,7 @@ Status note_length(const record::McapReader& reader, const record::RunInfo& run,
   if (step_ns <= 0) return fail(ErrorCode::kParse, "the recording does not state the step");
   outcome.recorded_steps = static_cast<std::uint64_t>(
       reader.statistics().end_ns / static_cast<std::uint64_t>(step_ns) + 1);
-  outcome.notes.push_back(fmt::format(
-      "the recorded run did not complete; its {} steps are compared", outcome.recorded_steps));
+  outcome.partial.emplace_back("the recording breaks off there, before the end of the run");
   return {};
 }
 
@@ -214,21 +220,6 @@ Status check_record(const fs::path& record, VerifyOutcome& outcome) {
     outcome.notes.insert(outcome.notes.end(), texts->begin(), texts->end());
   }
   return {};
-}
-
-Result<config::ExpandedScenario> scenario_of(const record::RunInfo& run, const fs::path& record,
-                                             const VerifyOptions& options) {
-  if (run.expanded_scenario.empty()) {
-    return fail(ErrorCode::kParse, "`{}` contains no scenario to repeat", record.string());
-  }
-  auto scenario =
-      config::expand_scenario_text(run.expanded_scenario, record.parent_path() / "scenario.yaml");
-  if (!scenario) {
-    return tl::unexpected(std::move(scenario).error().with_context(
-        fmt::format("the scenario inside `{}` cannot be run here", record.string())));
-  }
-  if (options.threads > 0) scenario->scenario.threads = static_cast<int>(options.threads);
-  return *std::move(scenario);
 }
 
 /// The second run and the writers of its recording.
@@ -306,8 +297,7 @@ Status note_match(const RecordMatch& match, const fs::path& record, VerifyOutcom
                 "`{}` cannot be verified: it contains nothing to compare", record.string());
   }
   for (const std::string& topic : match.absent) {
-    outcome.notes.push_back(
-        fmt::format("the recording has no stream `{}`, so that was not compared", topic));
+    outcome.partial.push_back(fmt::format("the recording has no stream `{}`", topic));
   }
   outcome.messages = match.messages;
   outcome.difference = match.difference;
@@ -327,9 +317,13 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
                 "`{}` cannot be verified, because a part of the run is missing: {}",
                 record.string(), missing.front());
   }
-  compare_inputs(run, outcome);
+  RAVE_TRY_ASSIGN(RecordedScenario recorded, recorded_scenario(reader, run, record));
+  compare_inputs(run, recorded, outcome);
   if (!outcome.missing.empty()) return outcome;
-  RAVE_TRY_ASSIGN(const config::ExpandedScenario scenario, scenario_of(run, record, options));
+  RAVE_TRY_ASSIGN(const Scratch scratch, Scratch::create());
+  RAVE_TRY(put_played_files(run, scratch.folder(), recorded));
+  config::ExpandedScenario& scenario = recorded.scenario;
+  if (options.threads > 0) scenario.scenario.threads = static_cast<int>(options.threads);
   WallPace pace(0);
   RAVE_TRY_ASSIGN(BuiltScenario built,
                   build(scenario, catalogue, {options.program_runner, options.log, &pace}));
@@ -355,7 +349,6 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   // Other versions are a note and not an error: the comparison shows whether they matter.
   compare_versions(run, versions_of(engine.spec(), catalogue), outcome);
   RAVE_TRY_ASSIGN(const auto hashes, read_hashes(reader));
-  RAVE_TRY_ASSIGN(const Scratch scratch, Scratch::create());
   RAVE_TRY_ASSIGN(const auto keeper, RecordKeeper::open(scratch.file(), engine, kinds,
                                                         info_of(engine, kinds), {}, options.log));
   RAVE_TRY_ASSIGN(auto inputs, read_inputs(reader));
@@ -365,6 +358,7 @@ Result<VerifyOutcome> verify(const fs::path& record, plugin::Catalogue& catalogu
   if (checks.capture && !of_host) second.capture.emplace(*checks.capture, scenario);
   if (of_host) of_host->look = [&second] { second.look_back(); };
   RAVE_TRY(run_again(second, InputReplay(std::move(inputs)), hashes, options, outcome));
+  outcome.time_s = static_cast<double>(outcome.steps) * engine.spec().step.seconds();
   RAVE_TRY(keeper->end(engine.hash().value()));
   RAVE_TRY_ASSIGN(const auto written, record::McapReader::open(scratch.file()));
   RAVE_TRY_ASSIGN(const RecordMatch match,

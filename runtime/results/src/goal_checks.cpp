@@ -158,6 +158,13 @@ void not_evaluated(std::string_view reason, CheckResult& result) {
   result.text = fmt::format("not evaluated: {}", reason);
 }
 
+/// Marks a goal that was not reached when the run was ended as not evaluated, if time was left.
+void note_early(const std::optional<double>& before_s, double done_s, CheckResult& result) {
+  if (result.holds || done_s > before_s.value_or(done_s + 1)) return;
+  not_evaluated(fmt::format("the run was ended by hand at {:.2f} s; {}", done_s, result.text),
+                result);
+}
+
 /// Marks a result as not evaluated if nothing is known of a robot that it needs.
 void note_lost(const std::vector<RobotId>& robots, const sim::EngineSpec& spec,
                const std::vector<std::uint8_t>& lost, CheckResult& result) {
@@ -201,8 +208,9 @@ void note_unknown(const RunFacts& facts, CheckResult& result) {
 
 std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
                                       const sim::EngineSpec& spec, const RunFacts& facts,
-                                      const std::vector<std::uint8_t>& lost) {
+                                      const std::vector<std::uint8_t>& lost, bool ended_early) {
   std::vector<CheckResult> results;
+  const double done_s = static_cast<double>(facts.steps) * spec.step.seconds();
   const auto& checks = scenario.scenario.checks;
   for (std::size_t i = 0; i < checks.touches.size(); ++i) {
     const config::TouchesCheckFile& file = checks.touches[i];
@@ -214,6 +222,7 @@ std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
     results.push_back(touches_result(file, count));
     // A count that is too high already shows that the check fails, whatever is missing besides.
     const bool exceeds = static_cast<std::int64_t>(count) > file.most;
+    if (ended_early && !exceeds) note_early({}, done_s, results.back());
     if (!exceeds) {
       static const std::vector<std::uint32_t> kNone;
       const auto& silent = i < facts.goals.silent.size() ? facts.goals.silent[i] : kNone;
@@ -230,6 +239,7 @@ std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
       const bool there = next < facts.goals.arrivals.size();
       results.push_back(arrival_result(file, spec.robots[robot.value()].name,
                                        there ? facts.goals.arrivals[next] : ArrivalFacts()));
+      if (ended_early) note_early(file.before_s, done_s, results.back());
       note_lost({robot}, spec, lost, results.back());
       ++next;
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "rave/base/disk_room.hpp"
 #include "rave/base/file.hpp"
 #include "rave/results/capture_watch.hpp"
 #include "rave/results/event_log.hpp"
@@ -42,6 +43,13 @@ void judge_capture(const RunResults& results, RunOutcome& outcome) {
                            facts.world_from));
     return;
   }
+  if (results.ended_by_hand && results.done_s() < *check->before_s) {
+    fail_check(outcome, false,
+               fmt::format("the capture check was not evaluated: no robot was captured before the "
+                           "run was ended by hand at {:.2f} s",
+                           results.done_s()));
+    return;
+  }
   fail_check(
       outcome, true,
       fmt::format("the capture check fails: no robot was captured before {} s", *check->before_s));
@@ -56,10 +64,13 @@ void judge_sightings(const RunResults& results, RunOutcome& outcome) {
     fail_check(outcome, false,
                "the sighting check was not evaluated: the results of a host are missing");
   } else if (tally.total < static_cast<std::uint64_t>(limits->min_compared)) {
-    fail_check(outcome, true,
-               fmt::format("the sighting check fails: {} real sightings had a code that a body "
+    // With more time there might have been enough.
+    const bool made = !results.ended_by_hand;
+    fail_check(outcome, made,
+               fmt::format("the sighting check {}: {} real sightings had a code that a body "
                            "carries, {} had none; expected at least {} to compare",
-                           tally.total, tally.unknown, limits->min_compared));
+                           made ? "fails" : "was not evaluated", tally.total, tally.unknown,
+                           limits->min_compared));
   } else if (!holds(*limits, tally)) {
     const std::uint64_t unknown = counted(*limits, tally) - tally.total;
     fail_check(
@@ -77,8 +88,8 @@ void judge_sightings(const RunResults& results, RunOutcome& outcome) {
 void judge_checks(const RunResults& results, RunOutcome& outcome) {
   judge_capture(results, outcome);
   judge_sightings(results, outcome);
-  for (const CheckResult& check :
-       goal_results(results.scenario, results.spec, results.facts, results.lost)) {
+  for (const CheckResult& check : goal_results(results.scenario, results.spec, results.facts,
+                                               results.lost, results.ended_by_hand)) {
     if (check.holds) continue;
     fail_check(outcome, check.made,
                fmt::format("a check {}: {}: {}", check.made ? "fails" : "was not evaluated",
@@ -126,7 +137,7 @@ GuardCounts guard_counts(const RunResults& results) {
 
 RunOutcome judge(const RunResults& results) {
   RunOutcome outcome;
-  if (results.ended_early) outcome.problems.emplace_back("the run was ended early");
+  if (results.ended_by_hand) outcome.ended_by_hand_s = results.done_s();
   const RunFacts& facts = results.facts;
   outcome.problems.insert(outcome.problems.end(), facts.problems.begin(), facts.problems.end());
   const sim::EngineSpec& spec = results.spec;
@@ -173,20 +184,47 @@ std::string why_no_hash(const RunResults& results, const RunOutcome& outcome) {
                                   : "the run did not complete: " + outcome.problems.front();
 }
 
-Result<RunOutcome> write_results(const RunResults& results, const std::filesystem::path& folder,
-                                 bool picture) {
+Descriptor take_room_for_results(const std::filesystem::path& folder, const sim::EngineSpec& spec) {
+  // Some kilobytes of text, and a kilobyte for each robot, twice because files are replaced
+  // atomically; the rest is for events.
+  constexpr std::size_t kForEvents = std::size_t{1} << 20U;
+  constexpr std::size_t kForRobot = std::size_t{2} << 10U;
+  return take_disk_room(folder, kForEvents + kForRobot * spec.robots.size());
+}
+
+RunOutcome write_results(const RunResults& results, const std::filesystem::path& folder,
+                         bool picture) {
   RunOutcome outcome = judge(results);
+  bool all = true;
+  const auto note = [&](const char* file, const Status& written) {
+    if (written) return;
+    all = outcome.whole = false;
+    outcome.problems.push_back(
+        fmt::format("`{}` is not written: {}", (folder / file).string(), written.error().message));
+  };
+  const auto write_summary = [&] {
+    outcome.summary = summary_text(results, outcome);
+    return write_file_atomically(folder / "summary.txt", outcome.summary);
+  };
+  const auto write_json = [&] {
+    return write_file_atomically(folder / "result.json", result_json(results, outcome));
+  };
+  // On a disk with little room the small ones first: numbers cannot be had again from a picture.
+  // A program that waits for `result.json` finds the other texts complete.
+  note("summary.txt", write_summary());
+  note("events.log",
+       write_file_atomically(folder / "events.log",
+                             events_log(results.spec, results.kinds, results.facts.events)));
+  note("result.json", write_json());
   if (picture) {
     const report::Picture drawn = make_picture(results, outcome);
-    RAVE_TRY(report::write_svg(drawn, folder / "picture.svg"));
-    RAVE_TRY(report::write_png(drawn, folder / "picture.png"));
+    note("picture.svg", report::write_svg(drawn, folder / "picture.svg"));
+    note("picture.png", report::write_png(drawn, folder / "picture.png"));
   }
-  // `result.json` is written last, so a program that waits for it finds the other files complete.
-  outcome.summary = summary_text(results, outcome);
-  RAVE_TRY(write_file_atomically(folder / "summary.txt", outcome.summary));
-  RAVE_TRY(write_file_atomically(folder / "events.log",
-                                 events_log(results.spec, results.kinds, results.facts.events)));
-  RAVE_TRY(write_file_atomically(folder / "result.json", result_json(results, outcome)));
+  if (all) return outcome;
+  // Again, with what is missing. Where there is no room for that, either, the terminal has it.
+  static_cast<void>(write_summary());
+  static_cast<void>(write_json());
   return outcome;
 }
 

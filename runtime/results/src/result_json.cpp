@@ -230,6 +230,8 @@ std::string result_json(const RunResults& results, const RunOutcome& outcome) {
   // Contacts, changes of the world and captures before this step are unknown.
   if (results.facts.world_from > 0) json["world_from_step"] = results.facts.world_from;
   json["simulated_s"] = results.done_s();
+  json["ended_by_hand_s"] =
+      outcome.ended_by_hand_s ? Json(*outcome.ended_by_hand_s) : Json(nullptr);
   json["wall_s"] = rounded(results.wall_s, 3);
   json["lateness"] = lateness_json(results.facts.lateness);
   json["threads"] = results.spec.threads;
@@ -241,8 +243,8 @@ std::string result_json(const RunResults& results, const RunOutcome& outcome) {
                        results.facts.sightings.value_or(SightingFacts()), !results.any_lost());
   }
   json["checks"] = Json::array();
-  for (const CheckResult& check :
-       goal_results(results.scenario, results.spec, results.facts, results.lost)) {
+  for (const CheckResult& check : goal_results(results.scenario, results.spec, results.facts,
+                                               results.lost, results.ended_by_hand)) {
     json["checks"].push_back({{"check", check.name},
                               {"holds", check.made ? Json(check.holds) : Json()},
                               {"text", check.text}});

@@ -4,6 +4,7 @@
 
 #include "rave/base/names.hpp"
 #include "rave/base/table.hpp"
+#include "rave/results/capture_watch.hpp"
 #include "rave/results/outcome.hpp"
 #include "rave/results/result_parts.hpp"
 #include "rave/results/sighting_check.hpp"
@@ -133,11 +134,15 @@ std::string summary_text(const RunResults& results, const RunOutcome& outcome) {
   table.rows.push_back(
       {"time", fmt::format("{:.2f} s simulated in {:.2f} s ({:.1f}x)", simulated_s, results.wall_s,
                            simulated_s / std::max(results.wall_s, 1e-9))});
+  if (outcome.ended_by_hand_s) {
+    table.rows.push_back({"ended by hand", fmt::format("at {:.2f} s", *outcome.ended_by_hand_s)});
+  }
   if (const LatenessFacts& late = results.facts.lateness; late.deadlines > 0) {
     table.rows.push_back({"deadlines", lateness_text(late)});
   }
   add_sighting_row(results, table);
-  const auto goals = goal_results(results.scenario, results.spec, results.facts, results.lost);
+  const auto goals = goal_results(results.scenario, results.spec, results.facts, results.lost,
+                                  results.ended_by_hand);
   for (const CheckResult& check : goals) {
     table.rows.push_back(
         {check.name, fmt::format("{}: {}", check.holds ? "holds" : "FAILS", check.text)});

@@ -55,9 +55,12 @@ struct SharedResults::Impl {
 
   void note_step(const sim::WorldAuthority& authority);
   void note_take_over(const sim::WorldAuthority& authority, std::uint64_t from);
-  Status add(const SharedHost& host, std::string bytes, std::vector<std::string>& added);
+  /// `steps`: the most that the processes of the host have done.
+  Status add(const SharedHost& host, std::string bytes, std::vector<std::string>& added,
+             std::uint64_t& steps);
   void fill_in_before(std::uint64_t steps);
   void take(const SharedHost& host, const std::vector<std::size_t>& robots, RunResults& results);
+  void note_early(const SharedHost& host, std::uint64_t steps, const RunResults& results);
 
   const config::ExpandedScenario& scenario;
   Options options;
@@ -65,6 +68,7 @@ struct SharedResults::Impl {
   std::string live_reason;
   BodyKinds kinds;
   std::optional<CaptureWatch> capture;
+  Descriptor room;  ///< For the results.
   std::unique_ptr<WorldRecord> record;
   RunFacts facts;
   std::vector<sim::Event> seen;  ///< The captures of the step in progress.
@@ -110,7 +114,7 @@ void SharedResults::Impl::note_step(const sim::WorldAuthority& authority) {
 /// Adds the results of one process of a host; a repeated copy, by whichever way it came, is
 /// ignored.
 Status SharedResults::Impl::add(const SharedHost& host, std::string bytes,
-                                std::vector<std::string>& added) {
+                                std::vector<std::string>& added, std::uint64_t& steps) {
   if (std::ranges::find(added, bytes) != added.end()) return {};
   RAVE_TRY_ASSIGN(
       RunFacts found,
@@ -118,6 +122,7 @@ Status SharedResults::Impl::add(const SharedHost& host, std::string bytes,
                    {static_cast<std::uint32_t>(spec.robots.size()), kinds.count()}));
   // A host that joined late lacks its part of the hash.
   missed_steps = missed_steps || found.first_step > 0;
+  steps = std::max(steps, found.steps);
   merge(std::move(found), facts);
   added.push_back(std::move(bytes));
   return {};
@@ -127,12 +132,13 @@ void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::si
                                RunResults& results) {
   HostShare share{static_cast<const HostState&>(host), {}, false};
   std::vector<std::string> added;
+  std::uint64_t steps = 0;
   for (const auto& folder : host.folders) {
     share.folders.push_back(folder.lexically_proximate(options.folder).generic_string());
     auto text = read_file(folder / kFactsFile);
     if (!text && text.error().code == ErrorCode::kNotFound) continue;
     const Status status =
-        text ? add(host, *std::move(text), added) : Status(tl::unexpected(text.error()));
+        text ? add(host, *std::move(text), added, steps) : Status(tl::unexpected(text.error()));
     if (status) continue;
     facts.problems.push_back(fmt::format("host `{}`: `{}`: {}", host.name,
                                          (folder / kFactsFile).string(), status.error().message));
@@ -141,7 +147,7 @@ void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::si
   // may have them.
   for (const std::vector<std::byte>& bytes : host.results) {
     const Status status =
-        add(host, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, added);
+        add(host, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, added, steps);
     if (status) continue;
     facts.problems.push_back(
         fmt::format("host `{}`: its results: {}", host.name, status.error().message));
@@ -157,7 +163,20 @@ void SharedResults::Impl::take(const SharedHost& host, const std::vector<std::si
                       host.folders.empty() ? "did not send its results" : "left no results"));
     }
   }
+  if (share.found) note_early(host, steps, results);
   results.hosts.push_back(std::move(share));
+}
+
+/// In real time the run continues without a host that was ended alone.
+void SharedResults::Impl::note_early(const SharedHost& host, std::uint64_t steps,
+                                     const RunResults& results) {
+  // Of a run that is late, the last steps may be missing; its deadlines say so.
+  constexpr double kNear_s = 1;
+  const double end_s = static_cast<double>(steps) * spec.step.seconds();
+  const double planned_s = scenario.scenario.duration_s;
+  if (live_reason.empty() || results.ended_by_hand || end_s > planned_s - kNear_s) return;
+  facts.problems.push_back(
+      fmt::format("host `{}` ended at {:.2f} s of {:.2f} s", host.name, end_s, planned_s));
 }
 
 /// If a host saw the whole run, the time before this manager is known as well. `steps` is the
@@ -198,6 +217,7 @@ SharedResults::~SharedResults() = default;
 Result<std::unique_ptr<SharedResults>> SharedResults::begin(
     const config::ExpandedScenario& scenario, const BuiltScenario& built, Options options) {
   auto impl = std::make_unique<Impl>(scenario, built, std::move(options));
+  impl->room = take_room_for_results(impl->options.folder, impl->spec);
   if (impl->live_reason.empty() && impl->options.record) {
     RAVE_TRY_ASSIGN(impl->record, WorldRecord::begin(impl->options.folder / "world.mcap", scenario,
                                                      impl->spec, impl->kinds, impl->options.log));
@@ -249,6 +269,7 @@ Result<RunOutcome> SharedResults::write(const SharedEnd& end) {
   facts.events.insert(facts.events.end(), end.events.begin(), end.events.end());
   facts.lateness += end.lateness;
   RunResults results{impl.scenario, impl.spec, impl.kinds, impl.live_reason, facts};
+  results.ended_by_hand = end.ended_by_hand;
   for (std::size_t h = 0; h < planned.size() && h < end.hosts.size(); ++h) {
     impl.take(end.hosts[h], planned[h].robots, results);
   }
@@ -259,6 +280,7 @@ Result<RunOutcome> SharedResults::write(const SharedEnd& end) {
   results.edits = end.edits;
   results.wall_s = end.wall_s;
   if (!impl.missed_steps) results.hash = end.hash;
+  impl.room.reset();
   return write_results(results, impl.options.folder, impl.options.picture);
 }
 

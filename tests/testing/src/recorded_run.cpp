@@ -50,13 +50,16 @@ void copy_record(const std::filesystem::path& from, const std::filesystem::path&
   for (const auto& schema : reader->schemas()) {
     ASSERT_TRUE(writer->add_schema(schema.name, schema.encoding, schema.data));
   }
+  std::map<std::uint16_t, std::uint16_t> ids;
   for (const auto& channel : reader->channels()) {
+    if (changes.drops_channel && changes.drops_channel(channel.topic)) continue;
     const auto id = writer->add_channel(channel.topic, channel.message_encoding, channel.schema_id,
                                         channel.metadata);
     ASSERT_TRUE(id);
-    ASSERT_EQ(*id, channel.id);
+    ids[channel.id] = *id;
   }
   for (const auto& attachment : reader->attachments()) {
+    if (changes.drops_attachment && changes.drops_attachment(attachment.name)) continue;
     auto text = reader->read_attachment(attachment);
     ASSERT_TRUE(text);
     if (changes.attachment) *text = changes.attachment(attachment.name, *text);
@@ -77,9 +80,10 @@ void copy_record(const std::filesystem::path& from, const std::filesystem::path&
     std::vector<std::byte> bytes((*message)->bytes.begin(), (*message)->bytes.end());
     const auto& channels = reader->channels();
     const auto channel = std::ranges::find(channels, (*message)->channel, &record::ChannelInfo::id);
+    if (!ids.contains(channel->id)) continue;
     if (changes.drops && changes.drops(channel->topic, (*message)->log_time_ns)) continue;
     if (changes.message) changes.message(channel->topic, bytes);
-    ASSERT_TRUE(writer->write((*message)->channel, (*message)->sequence, (*message)->log_time_ns,
+    ASSERT_TRUE(writer->write(ids[channel->id], (*message)->sequence, (*message)->log_time_ns,
                               (*message)->publish_time_ns, bytes));
   }
   ASSERT_TRUE(writer->close());

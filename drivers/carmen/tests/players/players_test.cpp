@@ -150,6 +150,7 @@ TEST(CarmenPlayers, ReportWhatTheyMended) {
   EXPECT_EQ(report["stream"], "odometry");
   EXPECT_EQ(report["file"], "freiburg-079.log.gz");
   EXPECT_EQ(report["unchanged"], true);
+  EXPECT_EQ(report["beside"].dump(), "[\"stretch.txt\"]");
   EXPECT_EQ(report["beams"], 360);
   EXPECT_EQ(report["start_s"], 104.0);
   bool junk = false;

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "rave/config/expanded_scenario.hpp"
 #include "rave/gui_server/source.hpp"
 #include "rave/record/run_reader.hpp"
+#include "rave/recording/recorded_scenario.hpp"
 #include "replay/recording_cursor.hpp"
 #include "replay/replay_playhead.hpp"
 #include "rights/scenario_rights.hpp"
@@ -85,8 +85,10 @@ class Recording final : public Source {
 
 Status Recording::read(const std::filesystem::path& file) {
   RAVE_TRY_ASSIGN(const record::RunInfo run, record::read_run_info(reader_));
-  RAVE_TRY_ASSIGN(const config::ExpandedScenario scenario,
-                  config::expand_scenario_text(run.expanded_scenario, file));
+  RAVE_TRY_ASSIGN(const runtime::RecordedScenario recorded,
+                  runtime::recorded_scenario(reader_, run, file));
+  const config::ExpandedScenario& scenario = recorded.scenario;
+  about_.notes = recorded.notes;
   // Slots index both lists. A file in which they differ was not written by one run.
   if (scenario.robots.size() != run.robots.size()) {
     return fail(ErrorCode::kParse, "`{}`: its scenario has {} robots, its recording {}",

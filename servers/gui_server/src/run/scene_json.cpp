@@ -56,8 +56,8 @@ Json file_json(std::size_t id, const config::ObstacleFile& obstacle) {
   return body;
 }
 
-Status add_map(const config::MapFile& file, Json& bodies) {
-  RAVE_TRY_ASSIGN(const config::MapImage map, config::read_map(file.file.value));
+Status add_map(const config::MapFile& file, const config::InputFiles& files, Json& bodies) {
+  RAVE_TRY_ASSIGN(const config::MapImage map, config::read_map(file.file.value, files));
   const Pose2 X_WMap{map.origin_x_m, map.origin_y_m, map.origin_yaw_rad};
   Json body = {{"id", bodies.size()},
                {"name", std::filesystem::path(file.file.value).stem().string()},
@@ -138,7 +138,9 @@ Result<std::string> bodies_of(const config::ExpandedScenario& scenario) {
   for (const config::ObstacleFile& obstacle : scenario.world.obstacles) {
     bodies.push_back(file_json(bodies.size(), obstacle));
   }
-  for (const config::MapFile& map : scenario.world.maps) RAVE_TRY(add_map(map, bodies));
+  for (const config::MapFile& map : scenario.world.maps) {
+    RAVE_TRY(add_map(map, scenario.files, bodies));
+  }
   return bodies.dump();
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/config/input_files.hpp"
 #include "rave/config/scenario_file.hpp"
 
 namespace rave::config {
@@ -55,6 +56,8 @@ struct ExpandedScenario {
   /// Obstacles of the world file and the scenario; names are unique, map files exist and have
   /// absolute paths.
   WorldFile world;
+  /// The maps of the world and their images, read once. Not in write_expanded().
+  InputFiles files;
 
   [[nodiscard]] const RobotGroup& group_of(const ExpandedRobot& robot) const {
     return groups[robot.group];
@@ -90,9 +93,11 @@ struct PlannedHost {
 /// names, periods that must be multiples of the step, sensors that checks and picture name, missing
 /// files (error at the line that names them). Errors: kNotFound, kIo, kParse.
 [[nodiscard]] Result<ExpandedScenario> expand_scenario(const std::filesystem::path& path);
-/// Like expand_scenario(), for a text instead of the content of file `path`.
+/// Like expand_scenario(), for a text instead of the content of file `path`. Maps that `files` has
+/// are not looked for on the disk.
 [[nodiscard]] Result<ExpandedScenario> expand_scenario_text(std::string_view text,
-                                                            const std::filesystem::path& path);
+                                                            const std::filesystem::path& path,
+                                                            InputFiles files = {});
 
 /// Like expand_scenario(), for a scenario made by code; `path` is the base of relative paths.
 [[nodiscard]] Result<ExpandedScenario> expand_scenario_file(ScenarioFile scenario,
@@ -100,7 +105,7 @@ struct PlannedHost {
 
 /// The scenario as one self-contained file with all defaults; of obstacles and changes only what is
 /// set, without comments. Expanding it in any folder gives an equal value as long as the map files
-/// exist.
+/// exist and did not change.
 [[nodiscard]] std::string write_expanded(const ExpandedScenario& expanded);
 
 }  // namespace rave::config

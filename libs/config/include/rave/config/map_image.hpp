@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/config/input_files.hpp"
 
 namespace rave::config {
 
@@ -35,6 +36,7 @@ struct MapImage {
   double origin_x_m = 0;
   double origin_y_m = 0;
   double origin_yaw_rad = 0;
+  bool raw = false;  ///< Its grey values are per cent of occupancy (`mode: raw`).
   /// Row by row from the top (largest y); size width * height.
   std::vector<CellState> cells;
 
@@ -55,12 +57,26 @@ struct MapImage {
 /// that transparent pixels are unknown (the gradient between the thresholds is unknown here as
 /// well); in mode `raw` x itself is the occupancy in percent and above 100 unknown. Transparency is
 /// ignored in the other modes.
-[[nodiscard]] Result<MapImage> read_map(const std::filesystem::path& yaml_path);
+/// Both are taken from `files` if they are there.
+[[nodiscard]] Result<MapImage> read_map(const std::filesystem::path& yaml_path,
+                                        const InputFiles& files = {});
 
 /// Like read_map(), for YAML text that was already loaded; `yaml_path` is the base of the image
 /// path.
 [[nodiscard]] Result<MapImage> read_map_text(std::string_view yaml,
-                                             const std::filesystem::path& yaml_path);
+                                             const std::filesystem::path& yaml_path,
+                                             const InputFiles& files = {});
+
+/// A map as it is in its two files.
+struct MapFiles {
+  InputFiles::Content yaml;
+  std::filesystem::path image_path;
+  InputFiles::Content image;  ///< Not decoded.
+};
+/// Reads both from `files` or, if they are not there, from the disk. Errors: as read_map(), except
+/// those of the image's format.
+[[nodiscard]] Result<MapFiles> read_map_files(const std::filesystem::path& yaml_path,
+                                              const InputFiles& files);
 
 /// Decodes PGM (P2 or P5, comments, up to 16 bits) or PNG (grey, RGB, palette, alpha; 16 bits are
 /// reduced to 8); the magic bytes select the format. `file_name` is used in messages. Errors:

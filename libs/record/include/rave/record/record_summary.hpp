@@ -41,8 +41,11 @@ struct RecordSummary {
                       ///< of the parts.
   StringMap parts;    ///< The files that were merged into it, with their sizes.
   std::vector<std::string> missing;  ///< Missing or truncated files among them.
-  std::optional<RunInfo> run;        ///< None: not written by RAVE.
-  std::optional<RunEnd> end;         ///< Empty: the run did not end.
+  /// What a run always records and this recording has lost, such as in a tool that copied it; one
+  /// sentence each.
+  std::vector<std::string> lost;
+  std::optional<RunInfo> run;  ///< None: not written by RAVE.
+  std::optional<RunEnd> end;   ///< Empty: the run did not end.
 };
 
 /// How much of a recording is read.

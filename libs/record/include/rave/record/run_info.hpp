@@ -7,6 +7,7 @@
 
 #include "rave/base/ids.hpp"
 #include "rave/math/pose.hpp"
+#include "rave/record/attached_files.hpp"
 #include "rave/record/mcap_types.hpp"
 
 namespace rave::record {
@@ -64,6 +65,9 @@ struct RunInfo {
   /// Files outside of the scenario that the run depends on (maps, recordings): absolute path to
   /// SHA-256 in hexadecimal. Stored as the metadata `rave.inputs`.
   StringMap inputs;
+  /// Those of them that are inside the recording. Empty when it is read: see
+  /// read_attached_files().
+  AttachedFiles files;
 };
 
 }  // namespace rave::record

@@ -39,10 +39,12 @@ struct HostOptions {
 /// which SharedResults makes the results of the whole run) and run.mcap, with the percepts and
 /// commands of its robots and the poses of all.
 struct HostOutcome {
-  bool whole = false;       ///< It took part from the first step to the last, and lost no driver.
+  bool whole =
+      false;  ///< It took part to the end, or until it was ended by hand, and lost nothing.
   std::string live_reason;  ///< Why the run was in real time; empty in lock-step.
   std::uint64_t steps = 0;
-  std::string ending;                 ///< The end of the run according to the environment manager.
+  /// The end of the run according to the environment manager, or to who ended this host by hand.
+  std::string ending;
   std::vector<std::string> problems;  ///< One sentence each.
 };
 

@@ -42,8 +42,9 @@ struct LiveManagerOptions : ManagerRunOptions {
 /// The outcome of a run.
 struct LiveManagerOutcome {
   bool whole =
-      false;    ///< It reached its end under this manager, with all hosts and all of its changes.
-  SimTime end;  ///< Time of the run when this manager ended.
+      false;  ///< It reached its end under this manager, with all hosts and all of its changes.
+  bool ended_by_hand = false;  ///< The run, not only this manager.
+  SimTime end;                 ///< Time of the run when this manager ended.
   std::uint64_t worlds = 0;
   std::uint64_t states = 0;  ///< Number of reports received from hosts.
   struct Host {

@@ -37,7 +37,8 @@ struct ManagerOptions : ManagerRunOptions {
 
 /// The outcome of a run.
 struct ManagerOutcome {
-  bool whole = false;  ///< It reached its end, and no host was lost.
+  bool whole = false;  ///< It reached its end, or was ended by hand, and no host was lost.
+  bool ended_by_hand = false;
   std::uint64_t steps = 0;
   /// The run hash, equal to that of the run in one process; empty if a host was lost.
   std::optional<std::uint64_t> hash;

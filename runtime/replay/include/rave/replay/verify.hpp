@@ -39,17 +39,21 @@ struct VerifyOutcome {
   /// Why the recording cannot be verified: it is of a live run. Otherwise empty.
   std::string live_reason;
   std::vector<std::string> missing;  ///< Missing input files; if there are any, nothing was run.
-  std::vector<std::string> notes;  ///< Changed input files and versions, or a truncated recording.
-  std::uint64_t steps = 0;         ///< Number of repeated steps.
+  std::vector<std::string> notes;    ///< Changed input files and versions.
+  std::uint64_t steps = 0;           ///< Number of repeated steps.
+  double time_s = 0;                 ///< Simulated time of them.
   std::uint64_t recorded_steps = 0;
   std::uint64_t messages = 0;  ///< Number of compared messages.
   std::optional<std::uint64_t> recorded_hash;
   std::optional<std::uint64_t> hash;  ///< Set if all recorded steps were repeated.
   std::optional<RunDifference> difference;
   bool ended_early = false;  ///< Stopped through `control`.
+  /// Why not the whole run was compared, one sentence each: the recording breaks off, or lacks a
+  /// stream. Empty: all of it was.
+  std::vector<std::string> partial;
 
   [[nodiscard]] bool same() const noexcept {
-    return live_reason.empty() && missing.empty() && !difference && !ended_early;
+    return live_reason.empty() && missing.empty() && !difference && !ended_early && partial.empty();
   }
 };
 

@@ -59,10 +59,12 @@ class GoalChecks final : public RunObserver {
 };
 
 /// The results for each entry of `checks: touches:`, then for each robot of each entry of `checks:
-/// arrivals:`. `lost`: by robot, 1 if its facts are missing; empty: none is missing.
+/// arrivals:`. `lost`: by robot, 1 if its facts are missing; empty: none is missing. `ended_early`:
+/// a goal that was not reached, but could have been later, is not evaluated.
 [[nodiscard]] std::vector<CheckResult> goal_results(const config::ExpandedScenario& scenario,
                                                     const sim::EngineSpec& spec,
                                                     const RunFacts& facts,
-                                                    const std::vector<std::uint8_t>& lost);
+                                                    const std::vector<std::uint8_t>& lost,
+                                                    bool ended_early = false);
 
 }  // namespace rave::runtime

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "rave/base/descriptor.hpp"
 #include "rave/observe/kinds.hpp"
 #include "rave/results/facts.hpp"
 #include "rave/results/goal_checks.hpp"
@@ -29,7 +30,7 @@ struct RunResults {
   const RunFacts& facts;
   double wall_s = 0;
   std::optional<std::uint64_t> hash{};
-  bool ended_early = false;
+  bool ended_by_hand = false;  ///< By a person or a signal, before its duration.
   /// By robot, 1: no facts. Empty: facts of all robots are known.
   std::vector<std::uint8_t> lost{};
   std::vector<HostShare> hosts{};         ///< For a run with several hosts.
@@ -65,9 +66,14 @@ using GuardCounts = std::map<std::string, std::map<std::string, std::size_t>>;
 /// The picture of the run.
 [[nodiscard]] report::Picture make_picture(const RunResults& results, const RunOutcome& outcome);
 
-/// Evaluates the run and writes result.json, summary.txt, events.log and, if requested, the
-/// pictures.
-[[nodiscard]] Result<RunOutcome> write_results(const RunResults& results,
-                                               const std::filesystem::path& folder, bool picture);
+/// Room on the disk for the results, taken before a recording may fill it; see take_disk_room().
+[[nodiscard]] Descriptor take_room_for_results(const std::filesystem::path& folder,
+                                               const sim::EngineSpec& spec);
+
+/// Evaluates the run and writes summary.txt, events.log, result.json and, if requested, the
+/// pictures, in this order. Each is written by itself: one that cannot be written, such as on a
+/// full disk, is a problem of the outcome, which then is not whole.
+[[nodiscard]] RunOutcome write_results(const RunResults& results,
+                                       const std::filesystem::path& folder, bool picture);
 
 }  // namespace rave::runtime

@@ -53,6 +53,7 @@ struct SharedEnd {
   std::optional<std::uint64_t> hash;
   std::uint64_t steps = 0;
   double wall_s = 0;
+  bool ended_by_hand = false;  ///< The run, not only one of its hosts.
   std::vector<std::string> problems;
   LatenessFacts lateness;         ///< Of the manager, in lock-step.
   std::vector<SharedHost> hosts;  ///< All planned hosts, in order.
@@ -93,7 +94,8 @@ class SharedResults {
   /// In real time: sets the manager's world at the end.
   void learn(const world::WorldModel& world);
 
-  /// Writes the results. Call it once, when all hosts have ended or are given up. Errors: kIo.
+  /// Writes the results. Call it once, when all hosts have ended or are given up. Errors: those of
+  /// config::plan_hosts().
   [[nodiscard]] Result<RunOutcome> write(const SharedEnd& end);
 
  private:

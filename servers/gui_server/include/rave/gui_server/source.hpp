@@ -52,6 +52,7 @@ struct RunAbout {
   std::filesystem::path recording;  ///< Empty: none.
   std::uint64_t recording_bytes = 0;
   bool recording_whole = false;
+  std::vector<std::string> notes;  ///< What differs from the recorded run, for who opens it.
   double begin_s = 0;
   double end_s = 0;
   double duration_s = 0;

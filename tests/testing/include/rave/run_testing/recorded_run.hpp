@@ -27,6 +27,10 @@ struct Changes {
   /// Whether a message is left out, with its topic and time.
   std::function<bool(const std::string& topic, std::uint64_t time_ns)> drops;
   std::function<std::string(const std::string& name, std::string text)> attachment;
+  /// Whether a channel is left out with its messages; the ids of others stay.
+  std::function<bool(const std::string& topic)> drops_channel;
+  /// Whether an attachment is left out.
+  std::function<bool(const std::string& name)> drops_attachment;
   std::function<void(const std::string& name, record::StringMap& entries)> metadata;
   std::size_t chunk_bytes = std::size_t{1} << 20;
 };

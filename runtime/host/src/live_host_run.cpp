@@ -64,7 +64,10 @@ class LiveExchange final : public HostExchange {
     keep_roster(link_.roster(), run_.engine, run_.observers, run_.console);
   }
   const std::optional<lock_step::RunEnding>& ending() const override { return link_.ending(); }
-  void complete(RunFacts& /*facts*/) override {}
+  void complete(RunFacts& facts) override {
+    const real_time::PoseDelays& delays = live_.pose_delays();
+    facts.poses = {delays.count, delays.slowest.ns, delays.sum.ns};
+  }
   void describe(nlohmann::ordered_json& json, const HostOutcome& outcome,
                 const RunFacts& facts) const override;
   Status deliver(std::span<const std::byte> host_results) override {

@@ -204,7 +204,10 @@ void LiveWorld::adopt(const ObstacleSight& sight, bool is_new) {
 void LiveWorld::clock_changed() {
   // Otherwise stamps by a clock that is behind the old one would be refused until they had caught
   // up.
-  for (Other& other : others_) other.any_stamp = true;
+  for (Other& other : others_) {
+    other.any_stamp = true;
+    other.shown = SimTime{INT64_MAX};
+  }
 }
 
 // Two limits: one for the step, which protects this host from many robots, and one per robot, which

@@ -10,6 +10,16 @@
 
 namespace rave::real_time {
 
+void LiveWorld::note_delay(Other& other, Duration age) {
+  if (other.last.stamp > other.shown) {
+    const Duration delay{std::max<std::int64_t>(age.ns, 0)};
+    ++pose_delays_.count;
+    pose_delays_.slowest = std::max(pose_delays_.slowest, delay);
+    pose_delays_.sum = pose_delays_.sum + delay;
+  }
+  other.shown = other.last.stamp;
+}
+
 void LiveWorld::report_place(Other& other, std::uint64_t step) {
   const SimTime now = time_of(step);
   const RobotSight& last = other.last;
@@ -29,6 +39,7 @@ void LiveWorld::report_place(Other& other, std::uint64_t step) {
   sim::PoseReport& report = others_report_.poses.emplace_back();
   report.robot = last.robot;
   if (!other.known) return;
+  note_delay(other, age);
   // Clocks agree only approximately, so a pose may have a stamp that is still in the future here.
   // The pose is extrapolated for the limit of staleness at most. After that the robot stands where
   // it would have been then.

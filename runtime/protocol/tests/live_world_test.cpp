@@ -149,6 +149,26 @@ TEST_F(LiveWorlds, NewerSightsCountWhateverTheirOrder) {
   EXPECT_FALSE(live_->see({kSimulated, at(2), {2, 0, 0}, {}}));
 }
 
+TEST_F(LiveWorlds, MeasuresHowOldAPoseIsInTheFirstStepThatShowsIt) {
+  ASSERT_TRUE(live_->see({kSimulated, at(0), {0, 0, 0}, {}}));
+  steps(0, 8);
+  EXPECT_EQ(live_->pose_delays().count, 0U) << "by this one it became known";
+  ASSERT_TRUE(live_->see({kSimulated, at(6), {6, 0, 0}, {}}));
+  steps(9, 12);
+  ASSERT_TRUE(live_->see({kSimulated, at(12), {12, 0, 0}, {}}));
+  step(13);
+  // From a clock that is ahead.
+  ASSERT_TRUE(live_->see({kSimulated, at(20), {20, 0, 0}, {}}));
+  step(14);
+  EXPECT_EQ(live_->pose_delays().count, 3U);
+  EXPECT_EQ(live_->pose_delays().slowest, at(9) - at(6));
+  EXPECT_EQ(live_->pose_delays().sum, at(10) - at(6));
+  live_->clock_changed();
+  ASSERT_TRUE(live_->see({kSimulated, at(2), {2, 0, 0}, {}}));
+  step(15);
+  EXPECT_EQ(live_->pose_delays().count, 3U) << "its stamp is by the clock of another manager";
+}
+
 TEST_F(LiveWorlds, ASightFromAClockThatIsAheadIsNotCarriedBack) {
   ASSERT_TRUE(live_->see({kSimulated, at(30), {4, 0, 0}, {1, 0, 0}}));
   steps(0, 3);

@@ -241,6 +241,9 @@ void merge(RunFacts from, RunFacts& into) {
   into.radio += from.radio;
   into.inputs_by_hand += from.inputs_by_hand;
   into.lateness += from.lateness;
+  into.poses.count += from.poses.count;
+  into.poses.slowest_ns = std::max(into.poses.slowest_ns, from.poses.slowest_ns);
+  into.poses.sum_ns += from.poses.sum_ns;
   for (const auto& [who, counts] : from.hits) {
     for (const auto& [what, count] : counts) into.hits[who][what] += count;
   }

@@ -10,7 +10,7 @@ namespace rave::runtime {
 namespace {
 
 constexpr const char* kMark = "rave findings";
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 /// The list of members and their order. A change of it needs another kVersion.
 template <class Archive>
@@ -41,6 +41,7 @@ struct Members {
   void of(GoalFacts& v) { archive(v.touches, v.silent, v.arrivals); }
   void of(CaptureFacts& v) { archive(v.captures, v.closest_m); }
   void of(LatenessFacts& v) { archive(v.deadlines, v.missed, v.worst_ns, v.stops, v.blame); }
+  void of(PoseDelayFacts& v) { archive(v.count, v.slowest_ns, v.sum_ns); }
   void of(RobotFacts& v) {
     archive(v.robot, v.program, v.commands, v.obeys, v.known, v.stale, v.x_m, v.y_m, v.yaw_rad,
             v.stamp_ns, v.way_m);
@@ -54,8 +55,8 @@ struct Members {
   void of(WorldFacts& v) { archive(v.first_step, v.next_step, v.events, v.capture); }
   void of(RunFacts& v) {
     archive(v.first_step, v.steps, v.has_world, v.problems, v.events, v.robots, v.devices,
-            v.streams, v.transmitters, v.radio, v.inputs_by_hand, v.lateness, v.hits, v.closest,
-            v.sightings, v.goals, v.capture, v.tracks, v.instant, v.shadows, v.world);
+            v.streams, v.transmitters, v.radio, v.inputs_by_hand, v.lateness, v.poses, v.hits,
+            v.closest, v.sightings, v.goals, v.capture, v.tracks, v.instant, v.shadows, v.world);
   }
 };
 
@@ -109,6 +110,14 @@ bool fits(const LatenessFacts& facts) {
          std::ranges::all_of(facts.blame, [](const auto& one) { return is_late_phase(one.first); });
 }
 
+bool fits(const PoseDelayFacts& facts) {
+  // A bound of an hour keeps sums of many hosts from overflowing.
+  constexpr std::int64_t kMost_ns = 3'600'000'000'000;
+  constexpr std::uint64_t kMostPoses = 1'000'000'000'000;
+  return facts.count <= kMostPoses && facts.slowest_ns >= 0 && facts.slowest_ns <= kMost_ns &&
+         facts.sum_ns >= facts.slowest_ns && facts.sum_ns <= INT64_MAX / 1024;
+}
+
 bool fits(const WorldFacts& facts, const FactsLimits& limits) {
   return std::ranges::all_of(facts.events,
                              [&](const sim::Event& event) { return fits(event, limits); }) &&
@@ -129,7 +138,8 @@ bool fits(const RunFacts& facts, const FactsLimits& limits) {
                              [&](const TrackFacts& track) {
                                return track.robot < limits.robots && is_kind(track.track.kind);
                              }) &&
-         fits(facts.lateness) && (!facts.capture || fits(*facts.capture, limits)) &&
+         fits(facts.lateness) && fits(facts.poses) &&
+         (!facts.capture || fits(*facts.capture, limits)) &&
          (!facts.instant || fits(*facts.instant, limits));
 }
 

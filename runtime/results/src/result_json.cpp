@@ -215,6 +215,15 @@ void add_edits(const SharedEdits& edits, Json& json) {
   json["edit_mean_s"] = measured ? Json(edits.sum_s / confirmed) : Json();
 }
 
+void add_poses(const PoseDelayFacts& poses, Json& json) {
+  const bool measured = poses.count > 0;
+  json["poses_of_others"] = poses.count;
+  json["pose_slowest_s"] = measured ? Json(1e-9 * static_cast<double>(poses.slowest_ns)) : Json();
+  json["pose_mean_s"] =
+      measured ? Json(1e-9 * static_cast<double>(poses.sum_ns) / static_cast<double>(poses.count))
+               : Json();
+}
+
 }  // namespace
 
 std::string result_json(const RunResults& results, const RunOutcome& outcome) {
@@ -263,7 +272,10 @@ std::string result_json(const RunResults& results, const RunOutcome& outcome) {
   json["streams"] = instruments_json(results, results.facts.streams, "sensor");
   if (results.worlds) json["worlds"] = *results.worlds;
   if (results.states) json["states"] = *results.states;
-  if (results.edits) add_edits(*results.edits, json);
+  if (results.edits) {
+    add_edits(*results.edits, json);
+    add_poses(results.facts.poses, json);
+  }
   if (!results.hosts.empty()) json["hosts"] = hosts_json(results);
   // Text from other processes may be invalid UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -102,6 +102,21 @@ void add_hit_rows(const RunResults& results, Table& table) {
   }
 }
 
+/// How long changes of the world took to the robots of all hosts, in real time.
+void add_delay_rows(const RunResults& results, Table& table) {
+  if (!results.edits) return;
+  const auto add = [&table](const char* what, std::uint64_t count, double sum_s, double slowest_s) {
+    if (count == 0) return;
+    table.rows.push_back({fmt::format("{} to other hosts", what),
+                          fmt::format("{} after {:.3f} s, the slowest after {:.3f} s", count,
+                                      sum_s / static_cast<double>(count), slowest_s)});
+  };
+  const PoseDelayFacts& poses = results.facts.poses;
+  add("poses", poses.count, 1e-9 * static_cast<double>(poses.sum_ns),
+      1e-9 * static_cast<double>(poses.slowest_ns));
+  add("edits", results.edits->confirmed, results.edits->sum_s, results.edits->slowest_s);
+}
+
 /// What users have to know beside the results, the hash and the problems.
 void add_notes(const RunResults& results, const RunOutcome& outcome, Table& table) {
   const std::string deaf = disobedient(results);
@@ -162,6 +177,7 @@ std::string summary_text(const RunResults& results, const RunOutcome& outcome) {
              "and captures, from step {} on: the earlier ones were lost with the previous manager",
              results.facts.world_from)});
   }
+  add_delay_rows(results, table);
   if (has_radio(results.spec)) {
     table.rows.push_back({"messages", radio_line(results.facts.radio)});
   }

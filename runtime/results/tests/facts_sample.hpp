@@ -22,6 +22,7 @@ inline RunFacts sample_facts(std::uint32_t robot) {
   facts.radio.overrun = 2;
   facts.inputs_by_hand = 1;
   facts.lateness = {300, 4 + robot, 25'000'000, 1, {{"decide", 3}, {"machine", 1 + robot}}};
+  facts.poses = {10 + robot, 20'000'000 + robot, 150'000'000};
   facts.hits = {{"simulated", {{"nothing", 5}, {"real", robot}}}};
   facts.closest = {{"real-simulated", {0.5 - 0.1 * robot, 0.75, 1.25, 4 + robot, 1}}};
   facts.sightings = SightingFacts{{{"anna", {5, 4, 1}}}, {{77, 1}}};

@@ -29,6 +29,13 @@ struct ObstacleSight {
   bool removed = false;         ///< It was added and removed again.
 };
 
+/// How old reports of poses of robots of other hosts were in the step that first showed them.
+struct PoseDelays {
+  std::uint64_t count = 0;
+  Duration slowest{};
+  Duration sum{};
+};
+
 /// Checks that an obstacle of a run that began with `start` can have this state: its id is that of
 /// an initial obstacle or of one that a run may add, and sim::check_obstacle_change() accepts it.
 /// Error kInvalidArgument.
@@ -92,6 +99,8 @@ class LiveWorld {
   /// Events of the last step: contacts, pins and body changes of local robots, obstacle changes,
   /// and other robots that became stale (kPoseStale) or were received again (kPoseBack).
   [[nodiscard]] std::span<const sim::Event> events() const noexcept { return events_; }
+  /// Without those by which a robot became known, which may be old.
+  [[nodiscard]] const PoseDelays& pose_delays() const noexcept { return pose_delays_; }
   /// The number of received messages dropped because there were too many in one step.
   [[nodiscard]] std::uint64_t dropped_packets() const noexcept { return dropped_packets_; }
   /// Robots that exceeded their TalkLimit since the last call; each once per run.
@@ -110,6 +119,7 @@ class LiveWorld {
     bool known = false;
     bool stale = false;
     bool any_stamp = true;       ///< The next sight is accepted whatever its stamp.
+    SimTime shown{INT64_MAX};    ///< Stamp of the pose in the last step; INT64_MAX: none.
     std::int64_t sample_ns = 0;  ///< Stamp of the last sample that was passed on.
     TalkLimit talk{TalkLimit::kOnReception};
   };
@@ -129,6 +139,7 @@ class LiveWorld {
   [[nodiscard]] SimTime time_of(std::uint64_t step) const noexcept;
   void report_others(std::uint64_t step);
   void report_place(Other& other, std::uint64_t step);
+  void note_delay(Other& other, Duration age);
   void report_samples(SimTime now);
   void report_packets(std::uint64_t step);
   void adopt_obstacles(std::uint64_t step);
@@ -146,6 +157,7 @@ class LiveWorld {
   sim::HostReport others_report_;
   std::vector<std::uint32_t> order_;  ///< Order of `heard_`.
   std::vector<sim::Event> events_;
+  PoseDelays pose_delays_;
   std::uint64_t dropped_packets_ = 0;
   std::vector<RobotId> flooders_;                ///< For the next take_flooders().
   std::map<std::uint32_t, ObstacleSight> news_;  ///< Received states of obstacles, by id.

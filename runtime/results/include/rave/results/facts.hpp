@@ -152,6 +152,13 @@ struct WorldFacts {
   std::optional<CaptureFacts> capture;  ///< Empty: the scenario has no such check.
 };
 
+/// In real time with several hosts: how long poses took until another host had them in a step.
+struct PoseDelayFacts {
+  std::uint64_t count = 0;
+  std::int64_t slowest_ns = 0;
+  std::int64_t sum_ns = 0;
+};
+
 struct RunFacts {
   std::uint64_t first_step = 0;  ///< Above 0 for a host that joined late.
   std::uint64_t steps = 0;       ///< The number of the next step.
@@ -169,6 +176,7 @@ struct RunFacts {
   sim::RadioCounts radio;
   std::uint64_t inputs_by_hand = 0;
   LatenessFacts lateness;  ///< For a run with a pace; with several processes the sum.
+  PoseDelayFacts poses;
   std::map<std::string, std::map<std::string, std::uint64_t>> hits;
   std::map<std::string, Encounter> closest;
   std::optional<SightingFacts> sightings;

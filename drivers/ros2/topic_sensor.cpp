@@ -87,7 +87,6 @@ void TopicSensor::publish(std::int64_t stamp_ns, const void* records, std::uint3
   if (sink_ == nullptr) return;
   const line::HostTime now = line::host_now();
   const StreamClock::Taken taken = clock_.take(stamp_ns, line::host_seconds(now));
-  // Not newer than the message before.
   if (!taken.good) return;
   last_ = now;
   alive_ = true;
@@ -123,6 +122,7 @@ std::string TopicSensor::report() const {
   json["rate_hz"] = state_.rate_hz;
   json["refused"] = state_.refused;
   json["old"] = clock_.old();
+  json["early"] = clock_.early();
   json["restarts"] = clock_.restarts();
   json["losses"] = state_.losses;
   json["clock_drift_ppm"] = clock_.drift_ppm();

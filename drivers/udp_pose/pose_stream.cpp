@@ -2,6 +2,7 @@
 #include "udp_pose/pose_stream.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rave::udp_pose {
 namespace {
@@ -17,7 +18,7 @@ constexpr std::int64_t kLargestLoss = 1'000'000;
 
 void PoseStream::restart() {
   ++state_.restarts;
-  clock_.reset();
+  anew_ = true;
   any_ = false;
   newest_seq_ = -1;
   since_restart_ = 0;
@@ -33,8 +34,13 @@ PoseStream::Verdict PoseStream::order(const PoseDatagram& datagram) {
     old_in_a_row_ = rising ? old_in_a_row_ + 1 : 0;
     previous_old_t_s_ = datagram.t_s;
     if (old_in_a_row_ < kRestartAfter) return Verdict::kOutOfOrder;
+    clock_.reset();
     restart();
   }
+  return Verdict::kAccepted;
+}
+
+void PoseStream::keep(const PoseDatagram& datagram) {
   old_in_a_row_ = 0;
   if (datagram.seq && newest_seq_ >= 0) {
     const std::int64_t missing = *datagram.seq - newest_seq_ - 1;
@@ -44,7 +50,6 @@ PoseStream::Verdict PoseStream::order(const PoseDatagram& datagram) {
   if (!any_) first_t_s_ = datagram.t_s;
   any_ = true;
   newest_t_s_ = datagram.t_s;
-  return Verdict::kAccepted;
 }
 
 PoseStream::Taken PoseStream::take(std::string_view bytes, double host_s, PoseDatagram& datagram) {
@@ -52,19 +57,25 @@ PoseStream::Taken PoseStream::take(std::string_view bytes, double host_s, PoseDa
   if (!parsed) {
     ++state_.refused;
     state_.trouble = parsed.error().message;
-    return {Verdict::kRefused, 0};
+    return {Verdict::kRefused};
   }
   if (parsed->body != body_) {
     ++state_.other_bodies;
-    return {Verdict::kOtherBody, 0};
+    return {Verdict::kOtherBody};
   }
   const Verdict verdict = order(*parsed);
   if (verdict != Verdict::kAccepted) {
     ++(verdict == Verdict::kDuplicate ? state_.duplicates : state_.out_of_order);
-    return {verdict, 0};
+    return {verdict};
   }
+  const auto sample = clock_.add(parsed->t_s, host_s);
+  if (sample == line::ClockOffset::Sample::kEarly) {
+    ++state_.early;
+    return {Verdict::kEarly};
+  }
+  if (sample == line::ClockOffset::Sample::kSet) restart();
+  keep(*parsed);
   datagram = std::move(*parsed);
-  clock_.add(datagram.t_s, host_s);
   const double true_s = datagram.t_s + clock_.offset_s(datagram.t_s);
   const double delay_s = host_s - true_s;
   sum_delay_s_ += delay_s;
@@ -75,13 +86,13 @@ PoseStream::Taken PoseStream::take(std::string_view bytes, double host_s, PoseDa
   // Late samples still count for the clock and the order above; only the program does not get them.
   if (delay_s > max_delay_s_) {
     ++state_.late;
-    return {Verdict::kLate, true_s};
+    return {Verdict::kLate, false, true_s};
   }
   ++state_.samples;
   if (++since_restart_ > 1 && newest_t_s_ > first_t_s_) {
     state_.rate_hz = static_cast<double>(since_restart_ - 1) / (newest_t_s_ - first_t_s_);
   }
-  return {Verdict::kAccepted, true_s};
+  return {Verdict::kAccepted, std::exchange(anew_, false), true_s};
 }
 
 }  // namespace rave::udp_pose

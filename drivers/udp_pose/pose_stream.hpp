@@ -17,8 +17,9 @@ struct StreamState {
   std::uint64_t duplicates = 0;
   std::uint64_t out_of_order = 0;
   std::uint64_t late = 0;
+  std::uint64_t early = 0;     ///< They seemed to arrive before they were sent.
   std::uint64_t lost = 0;      ///< Sequence numbers that never arrived, or arrived too late.
-  std::uint64_t restarts = 0;  ///< Restarts of the sender.
+  std::uint64_t restarts = 0;  ///< Restarts of the sender, or of its clock when it was set.
   /// Dropped: a better clock estimate moved them before the previous one.
   std::uint64_t held_back = 0;
   double rate_hz = 0;         ///< Rate of accepted samples by the sender's clock.
@@ -37,9 +38,12 @@ class PoseStream {
   PoseStream(std::string body, double max_delay_s)
       : body_(std::move(body)), max_delay_s_(max_delay_s) {}
 
-  enum class Verdict { kAccepted, kRefused, kOtherBody, kDuplicate, kOutOfOrder, kLate };
+  enum class Verdict { kAccepted, kRefused, kOtherBody, kDuplicate, kOutOfOrder, kLate, kEarly };
   struct Taken {
     Verdict verdict = Verdict::kRefused;
+    /// The sender began anew, or its clock was set: what was known of its clock does not count any
+    /// more, so poses that are late from now on may look fresh.
+    bool anew = false;
     /// Time at which the pose was true, in the host's clock, least delay included.
     double host_s = 0;
   };
@@ -50,6 +54,7 @@ class PoseStream {
 
  private:
   [[nodiscard]] Verdict order(const PoseDatagram& datagram);
+  void keep(const PoseDatagram& datagram);
   void restart();
 
   std::string body_;
@@ -57,6 +62,7 @@ class PoseStream {
   line::ClockOffset clock_;
   StreamState state_;
   bool any_ = false;
+  bool anew_ = false;  // since the last accepted one
   double first_t_s_ = 0;
   double newest_t_s_ = 0;
   std::int64_t newest_seq_ = -1;

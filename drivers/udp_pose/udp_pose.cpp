@@ -171,6 +171,7 @@ std::string UdpPose::report() const {
   json["duplicates"] = state_.duplicates;
   json["out_of_order"] = state_.out_of_order;
   json["late"] = state_.late;
+  json["early"] = state_.early;
   json["held_back"] = state_.held_back;
   json["refused"] = state_.refused;
   json["other_bodies"] = state_.other_bodies;

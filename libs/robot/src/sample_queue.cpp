@@ -75,6 +75,14 @@ bool SampleQueue::refused(SimTime stamp, std::uint32_t count) {
   return true;
 }
 
+// The wall clock goes on while the run is paused, so the moment is kept by that one. A stamp that
+// lies ahead makes no sample younger than its arrival.
+void SampleQueue::note_moment(SimTime stamp) {
+  const std::int64_t lag_ns = std::max<std::int64_t>((live_->now() - stamp).ns, 0);
+  moment_ns_ = steady_ns(std::chrono::steady_clock::now()) - lag_ns;
+  lag_ns_ = lag_ns;
+}
+
 void SampleQueue::lose_oldest() {
   ++dropped_;
   dropped_since_next_ += headers_[first_].count;
@@ -98,8 +106,7 @@ bool SampleQueue::publish(SimTime stamp, const void* records, std::uint32_t coun
   const std::size_t slot = (first_ + count_) % depth_;
   ++count_;
   newest_ns_ = stamp.ns;
-  // Guards judge silence by arrival, since stamps may come from the clock of the device.
-  if (live_ != nullptr) arrival_ns_ = steady_ns(std::chrono::steady_clock::now());
+  if (live_ != nullptr) note_moment(stamp);
   headers_[slot] = {stamp.ns, ++sequence_, count, 0, 0};
   if (count > 0) std::memcpy(records_of(slot), records, std::size_t{count} * record_size_);
   if (consumer_waits_) to_consumer_.notify_one();
@@ -198,7 +205,8 @@ void SampleQueue::reopen() {
   closed_ = false;
   failed_ = false;
   newest_ns_ = INT64_MIN;
-  arrival_ns_ = kNever;
+  moment_ns_ = kNever;
+  lag_ns_ = 0;
   complete_ns_ = INT64_MIN;
   sequence_ = 0;
   dropped_since_next_ = 0;
@@ -222,8 +230,8 @@ bool SampleQueue::failed() const {
   return failed_;
 }
 
-std::optional<std::chrono::steady_clock::time_point> SampleQueue::newest_arrival() const noexcept {
-  const std::int64_t ns = arrival_ns_;
+std::optional<std::chrono::steady_clock::time_point> SampleQueue::newest_moment() const noexcept {
+  const std::int64_t ns = moment_ns_;
   if (ns == kNever) return std::nullopt;
   return std::chrono::steady_clock::time_point(std::chrono::nanoseconds(ns));
 }

@@ -13,11 +13,12 @@ namespace {
 
 class StillClock final : public RunClock {
  public:
-  [[nodiscard]] SimTime now() const noexcept override { return {}; }
+  [[nodiscard]] SimTime now() const noexcept override { return {now_ns}; }
   [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(
       SimTime) const noexcept override {
     return {};
   }
+  std::int64_t now_ns = 0;
 };
 
 TEST(SampleQueue, DropsStampsThatStepBackAndRemembersTheFirst) {
@@ -60,25 +61,39 @@ TEST(SampleQueue, AStreamThatIsLiveCanRecoverAndAnotherCannot) {
   EXPECT_EQ(live.failure(), "gone again");
 }
 
-TEST(SampleQueue, TellsWhenTheNewestSampleArrivedWhateverItsStamp) {
+TEST(SampleQueue, TellsWhenTheNewestSampleWasTrue) {
   const StillClock clock{};
   SampleQueue queue(ReadingKind::kValues, 1, 4, &clock);
-  EXPECT_EQ(queue.newest_arrival(), std::nullopt);
+  EXPECT_EQ(queue.newest_moment(), std::nullopt);
   const double value = 1;
   const auto before = std::chrono::steady_clock::now();
+  // From the future by its stamp: not younger than its arrival.
   ASSERT_TRUE(queue.publish({5}, &value, 1));
-  const auto first = queue.newest_arrival();
+  EXPECT_EQ(queue.newest_lag().ns, 0);
+  const auto first = queue.newest_moment();
   ASSERT_TRUE(first);
   EXPECT_GE(*first, before);
   EXPECT_LE(*first, std::chrono::steady_clock::now());
   ASSERT_TRUE(queue.publish({4}, &value, 1));
-  EXPECT_EQ(queue.newest_arrival(), first) << "one that is dropped is no sign of life";
+  EXPECT_EQ(queue.newest_moment(), first) << "one that is dropped is no sign of life";
   EXPECT_FALSE(queue.failed());
   queue.fail("gone", 4);
   EXPECT_TRUE(queue.failed());
   queue.reopen();
-  EXPECT_EQ(queue.newest_arrival(), std::nullopt);
+  EXPECT_EQ(queue.newest_moment(), std::nullopt);
   EXPECT_FALSE(queue.failed());
+}
+
+TEST(SampleQueue, WhatComesLateIsOldWhenItComes) {
+  StillClock clock{};
+  clock.now_ns = 5'000'000'000;
+  SampleQueue queue(ReadingKind::kValues, 1, 4, &clock);
+  const double value = 1;
+  const auto before = std::chrono::steady_clock::now();
+  ASSERT_TRUE(queue.publish({2'000'000'000}, &value, 1));
+  EXPECT_EQ(queue.newest_lag().seconds(), 3);
+  EXPECT_GE(*queue.newest_moment(), before - std::chrono::seconds(3));
+  EXPECT_LE(*queue.newest_moment(), std::chrono::steady_clock::now() - std::chrono::seconds(3));
 }
 
 TEST(SampleQueue, DropsSamplesThatDoNotFit) {

@@ -260,6 +260,24 @@ TEST_F(LiveGuardTest, ASensorThatFallsSilentStopsIt) {
   EXPECT_EQ(ask(), 0.2);
 }
 
+TEST_F(LiveGuardTest, ASensorWhoseSamplesComeLateStopsIt) {
+  SampleQueue laser(ReadingKind::kValues, 1, 4, &clock_);
+  // So long that no machine is slow enough to matter.
+  begin(fence_alone(), {{3, &laser, 1000, false}});
+  clock_.set(5000);
+  publish();
+  order(0.2);
+  const double value = 1;
+  for (const double lag_s : {1100.0, 500.0, 900.0, 1003.0}) {
+    clock_.advance(1000);
+    publish();
+    order(0.2);
+    ASSERT_TRUE(laser.publish(clock_.now() - from_seconds(lag_s), &value, 1));
+    EXPECT_EQ(ask(), lag_s > 1000 ? 0 : 0.2) << lag_s;
+  }
+  EXPECT_TRUE(begun(GuardLimit::kSensorLost));
+}
+
 TEST_F(LiveGuardTest, WhoKeepsADistanceStandsWhileNobodyKnowsItsNeighbours) {
   GuardSpec limits = fence_alone();
   limits.separation_m = 0.3;

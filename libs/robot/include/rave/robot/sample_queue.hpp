@@ -90,16 +90,19 @@ class SampleQueue final : public SampleSink {
   [[nodiscard]] std::string complaint() const;
   /// Whether the driver has failed and not recovered. Any thread.
   [[nodiscard]] bool failed() const;
-  /// Wall time at which the newest sample was published; empty if there was none since the queue
-  /// was opened. Live runs. Any thread, without a lock.
-  [[nodiscard]] std::optional<std::chrono::steady_clock::time_point> newest_arrival()
-      const noexcept;
+  /// Wall time at which the newest sample was true, which is before it arrived if its stamp says
+  /// so; empty if there was none since the queue was opened. Live runs. Any thread, without a lock.
+  [[nodiscard]] std::optional<std::chrono::steady_clock::time_point> newest_moment() const noexcept;
+  /// How old the newest sample was when it arrived, by its stamp; at least 0. Live runs. Any
+  /// thread, without a lock.
+  [[nodiscard]] Duration newest_lag() const noexcept { return {lag_ns_}; }
   /// The number of samples lost since the queue was opened. Any thread.
   [[nodiscard]] std::uint64_t dropped() const;
 
  private:
   [[nodiscard]] std::byte* records_of(std::size_t slot) noexcept;
   [[nodiscard]] bool refused(SimTime stamp, std::uint32_t count);
+  void note_moment(SimTime stamp);
   void lose_oldest();
 
   const std::uint32_t max_records_;
@@ -107,7 +110,8 @@ class SampleQueue final : public SampleSink {
   const std::size_t depth_;
   const RunClock* const live_;
   static constexpr std::int64_t kNever = INT64_MIN;
-  std::atomic<std::int64_t> arrival_ns_{kNever};  // publication of the newest sample, steady clock
+  std::atomic<std::int64_t> moment_ns_{kNever};  // of the newest sample, steady clock
+  std::atomic<std::int64_t> lag_ns_{0};          // how much later it arrived
 
   mutable std::mutex mutex_;             // guards all members below
   std::condition_variable to_producer_;  // room, clock or close

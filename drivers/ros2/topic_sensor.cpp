@@ -88,6 +88,13 @@ void TopicSensor::publish(std::int64_t stamp_ns, const void* records, std::uint3
   const line::HostTime now = line::host_now();
   const StreamClock::Taken taken = clock_.take(stamp_ns, line::host_seconds(now));
   if (!taken.good) return;
+  if (taken.anew) {
+    const std::string text = fmt::format(
+        "the clock of the sender of `{}` was set, or it began anew; how late its messages are is "
+        "not known",
+        topic());
+    sink_->begin_anew(text.data(), text.size());
+  }
   last_ = now;
   alive_ = true;
   if (state_.samples++ == 0) {

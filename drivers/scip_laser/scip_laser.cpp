@@ -28,6 +28,8 @@ using line::Wait;
 constexpr double kSilentPeriods = 5;
 constexpr double kSilence_s = 0.5;
 constexpr Wait kConnect{1000};
+constexpr std::string_view kAnew =
+    "the clock of the laser was set forward; how late its scans are is not known";
 
 /// A SCIP 2.0 laser. The host's thread calls configure(), open(), close() and report(); the
 /// driver's thread runs run() and what it calls. They share `state_`, under its mutex.
@@ -252,6 +254,7 @@ bool ScipLaser::take(const ScipSession::Next& next, Stretch& stretch, SampleSink
     note([](LaserState& state) { ++state.early; });
     return false;
   }
+  if (sample == line::ClockOffset::Sample::kSet) sink.begin_anew(kAnew.data(), kAnew.size());
   if (stretch.scans++ == 0) stretch.first_device_s = device_s;
   stretch.last_device_s = device_s;
   const double host_s = device_s + stretch.clock.offset_s(device_s) - options_.timing.latency_s;

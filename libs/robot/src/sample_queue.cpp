@@ -25,13 +25,15 @@ std::string text_of(std::int64_t ns) { return fmt::format("{:.9f} s", SimTime{ns
 
 // All memory for samples is taken here, so publish() only copies.
 SampleQueue::SampleQueue(ReadingKind kind, std::uint32_t max_records, std::size_t depth,
-                         const RunClock* live)
+                         const RunClock* live, std::unique_ptr<SampleGate> gate)
     : max_records_(max_records),
       record_size_(record_size(kind)),
       depth_(depth),
       live_(live),
       headers_(depth),
-      records_(depth * max_records * record_size_) {
+      records_(depth * max_records * record_size_),
+      before_(depth),
+      gate_(std::move(gate)) {
   RAVE_CHECK(record_size_ > 0 && max_records > 0 && depth > 0);
 }
 
@@ -83,6 +85,21 @@ void SampleQueue::note_moment(SimTime stamp) {
   lag_ns_ = lag_ns;
 }
 
+bool SampleQueue::passes(SimTime stamp, const void* records, std::uint32_t count) {
+  if (!gate_ || count == 0) return true;
+  const SampleGate::Verdict verdict = gate_->judge(stamp, records);
+  if (verdict == SampleGate::Verdict::kRefuse) {
+    ++gated_;
+    refusal_ = gate_->reason();
+    return false;
+  }
+  if (verdict == SampleGate::Verdict::kAnew) {
+    break_reason_ = gate_->reason();
+    ++breaks_;
+  }
+  return true;
+}
+
 void SampleQueue::lose_oldest() {
   ++dropped_;
   dropped_since_next_ += headers_[first_].count;
@@ -93,7 +110,7 @@ void SampleQueue::lose_oldest() {
 bool SampleQueue::publish(SimTime stamp, const void* records, std::uint32_t count) noexcept {
   Lock lock(mutex_);
   if (closed_) return false;
-  if (refused(stamp, count)) return true;
+  if (refused(stamp, count) || !passes(stamp, records, count)) return true;
   if (live_ != nullptr) {
     // Live: the newest is worth most, and a driver must not be blocked by a slow run.
     if (count_ == depth_) lose_oldest();
@@ -107,6 +124,7 @@ bool SampleQueue::publish(SimTime stamp, const void* records, std::uint32_t coun
   ++count_;
   newest_ns_ = stamp.ns;
   if (live_ != nullptr) note_moment(stamp);
+  before_[slot] = {breaks_, gated_};
   headers_[slot] = {stamp.ns, ++sequence_, count, 0, 0};
   if (count > 0) std::memcpy(records_of(slot), records, std::size_t{count} * record_size_);
   if (consumer_waits_) to_consumer_.notify_one();
@@ -139,6 +157,13 @@ void SampleQueue::recover() noexcept {
   failure_.clear();
 }
 
+void SampleQueue::begin_anew(const char* text, std::uint64_t size) noexcept {
+  const Lock lock(mutex_);
+  if (live_ == nullptr) return;
+  break_reason_.assign(text, std::min<std::size_t>(size, kLongestText));
+  ++breaks_;
+}
+
 SimTime SampleQueue::now() const noexcept {
   return live_ == nullptr ? SimTime{INT64_MIN} : live_->now();
 }
@@ -168,6 +193,7 @@ bool SampleQueue::next(SimTime up_to, SampleHeader* header, void* records) {
   *header = headers_[first_];
   header->dropped = dropped_since_next_;
   dropped_since_next_ = 0;
+  taken_ = before_[first_];
   if (header->count > 0) {
     std::memcpy(records, records_of(first_), std::size_t{header->count} * record_size_);
   }
@@ -213,6 +239,12 @@ void SampleQueue::reopen() {
   dropped_ = 0;
   failure_.clear();
   complaint_.clear();
+  taken_ = {};
+  breaks_ = 0;
+  gated_ = 0;
+  refusal_.clear();
+  break_reason_.clear();
+  if (gate_) gate_->reset();
 }
 
 void SampleQueue::clock_changed() {
@@ -239,6 +271,16 @@ std::optional<std::chrono::steady_clock::time_point> SampleQueue::newest_moment(
 std::string SampleQueue::complaint() const {
   const Lock lock(mutex_);
   return complaint_;
+}
+
+std::string SampleQueue::refusal() const {
+  const Lock lock(mutex_);
+  return refusal_;
+}
+
+std::string SampleQueue::break_reason() const {
+  const Lock lock(mutex_);
+  return break_reason_;
 }
 
 std::uint64_t SampleQueue::dropped() const {

@@ -40,6 +40,14 @@ void LiveGuard::note_gap(SimTime now) {
   last_call_ = now;
 }
 
+void LiveGuard::look_for_breaks() {
+  std::uint32_t breaks = pose_.queue != nullptr ? pose_.queue->latest().breaks : 0;
+  for (const LiveSensor& sensor : sensors_) breaks += sensor.queue->latest().breaks;
+  // The velocity would otherwise be estimated across the break.
+  if (breaks != breaks_) track_.clear();
+  breaks_ = breaks;
+}
+
 void LiveGuard::look_where(const GuardOrder& order, SimTime now) {
   if (pose_.queue == nullptr) {
     const ReportedPose& told = order.reported;
@@ -91,6 +99,7 @@ void LiveGuard::look_around(const GuardOrder& order, double world_age_s) {
 
 void LiveGuard::limit(const GuardOrder& order, SimTime now, std::span<Command> allowed) {
   note_gap(now);
+  look_for_breaks();
   look_where(order, now);
   look_at_sensors();
   // Without a pose in the step, the engine could not say who is near: as good as no pose here.
@@ -100,7 +109,10 @@ void LiveGuard::limit(const GuardOrder& order, SimTime now, std::span<Command> a
   input_.dt_s = std::max(period_s_, gap_s_);
   input_.radius_m = order.radius_m;
   input_.body = order.body.get();
-  guard_.set_holds(order.holds);
+  GuardHolds holds = order.holds;
+  // The engine disarms it as soon as it comes to these samples.
+  holds.armed = holds.armed && breaks_ == order.breaks;
+  guard_.set_holds(holds);
   for (std::size_t a = 0; a < order.demands.size(); ++a) {
     const ActuatorDemand& demand = order.demands[a];
     // A copy for each actuator; the spans point to what all share.

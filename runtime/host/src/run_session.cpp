@@ -38,7 +38,8 @@ bool changes_status(std::span<const sim::Event> events) {
   return std::ranges::any_of(events, [](const sim::Event& event) {
     using enum sim::EventKind;
     return event.kind == kStopped || event.kind == kReleased || event.kind == kArmed ||
-           event.kind == kHandedOver || event.kind == kOrdered || event.kind == kSaid;
+           event.kind == kDisarmed || event.kind == kHandedOver || event.kind == kOrdered ||
+           event.kind == kSaid;
   });
 }
 

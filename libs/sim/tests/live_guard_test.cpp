@@ -306,6 +306,10 @@ TEST_F(LiveGuardTest, SamplesThatBeginAnewStopItUntilTheEngineKnows) {
   EXPECT_TRUE(begun(GuardLimit::kUnarmed));
   // The engine has come to it, and somebody has armed the robot again.
   order_.breaks = 1;
+  // Where it is now says nothing of its speed.
+  clock_.advance(kPeriod_s);
+  x_m_ = 1;
+  publish();
   EXPECT_EQ(ask(), 0.2);
 }
 

@@ -47,7 +47,7 @@ TEST_F(PoseGateTest, OnePoseFarAwayIsRefusedAndSaysWhy) {
   ASSERT_EQ(say(), Verdict::kPass);
   EXPECT_EQ(say(500), Verdict::kRefuse);
   EXPECT_EQ(gate.reason(),
-            "it says (500.10, 0.00) m, 0 deg, but was at (0.07, 0.00) m, 0 deg 0.10 s before, "
+            "it says (500.11, 0.00) m, 0 deg, but was at (0.07, 0.00) m, 0 deg 0.10 s before, "
             "which 0.35 m/s and 115 deg/s do not explain (`pose_max_speed_mps`, "
             "`pose_max_turn_dps`)");
   EXPECT_EQ(say(), Verdict::kPass);

@@ -24,7 +24,7 @@ TEST(SensorAge, ThreePeriodsAndAtLeastAFifthOfASecondAreTheLargest) {
   HardwareDeclaration declaration;
   for (const auto& [period_s, largest_s] : {std::pair(0.02, 0.2), std::pair(0.1, 0.3)}) {
     declaration.period_s = period_s;
-    const auto found = max_age_s(spec, declaration, false);
+    const auto found = max_age_s(spec, declaration, std::nullopt);
     ASSERT_TRUE(found);
     ASSERT_TRUE(found->has_value());
     EXPECT_DOUBLE_EQ(**found, largest_s);

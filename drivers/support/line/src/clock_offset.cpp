@@ -34,6 +34,11 @@ ClockOffset::Sample ClockOffset::add(double device_s, double host_s) {
   }
   early_in_a_row_ = 0;
   newest_s_ = device_s;
+  if (known() && point.y - offset_s(device_s) > options_.jump_s) {
+    // So late that it says nothing of the clock, which goes on as it did.
+    floor_ = {device_s, floor_.y + drift_ * (device_s - floor_.x)};
+    return sample;
+  }
   keep(point);
   fit();
   return sample;
@@ -54,10 +59,9 @@ ClockOffset::Sample ClockOffset::judge(Point point) {
 
 void ClockOffset::keep(Point point) {
   // What the window forgets is not forgotten here. Otherwise a lag that grows slowly would become
-  // part of the offset. Samples that are late beyond doubt say nothing of the drift, either.
-  const bool late = known() && point.y - offset_s(point.x) > options_.jump_s;
-  const double drifted_s = late ? 0 : options_.max_drift * (point.x - floor_.x);
-  floor_ = {point.x, std::min(floor_.y + drifted_s, point.y)};
+  // part of the offset.
+  const double raised_s = floor_.y + options_.max_drift * (point.x - floor_.x);
+  floor_ = {point.x, std::min(raised_s, point.y)};
   // Only the least delayed sample of each interval can touch the line, so memory and time do not
   // grow with the rate of samples.
   if (buckets_.empty() || point.x >= bucket_end_s_) {
@@ -87,15 +91,15 @@ double ClockOffset::hull_slope() {
   std::size_t i = 1;
   while (i + 1 < hull_.size() && hull_[i].x < mean_x) ++i;
   const double slope = (hull_[i].y - hull_[i - 1].y) / (hull_[i].x - hull_[i - 1].x);
-  // A quartz clock cannot drift more, so a steeper slope comes from delays.
-  return std::clamp(slope, -options_.max_drift, options_.max_drift);
+  // A quartz clock cannot drift more, so a steeper slope comes from delays that grow or shrink.
+  return std::abs(slope) <= options_.max_drift ? slope : drift_;
 }
 
 void ClockOffset::fit() {
   origin_s_ = buckets_.back().x;
   const bool long_enough = origin_s_ - buckets_.front().x >= options_.slope_after_s;
-  drift_ = long_enough ? hull_slope() : 0;
-  // With a clamped slope, or none, every sample must still be above the line.
+  if (long_enough) drift_ = hull_slope();
+  // With another slope than theirs, or none, every sample must still be above the line.
   offset_s_ = floor_.y - drift_ * (floor_.x - origin_s_);
   for (const Point& p : buckets_) {
     offset_s_ = std::min(offset_s_, p.y - drift_ * (p.x - origin_s_));

@@ -205,12 +205,13 @@ bool SampleQueue::next(SimTime up_to, SampleHeader* header, void* records) {
   return true;
 }
 
-bool SampleQueue::newest(SampleHeader* header, void* record) const {
+bool SampleQueue::newest(SampleHeader* header, void* record, Before* before) const {
   const Lock lock(mutex_);
   if (newest_ns_ == INT64_MIN) return false;
   // next() leaves a sample in its slot until the slot is reused, depth_ samples later.
   const std::size_t slot = (first_ + count_ + depth_ - 1) % depth_;
   *header = headers_[slot];
+  if (before != nullptr) *before = before_[slot];
   if (header->count > 0) {
     std::memcpy(record, records_.data() + slot * max_records_ * record_size_, record_size_);
   }

@@ -41,11 +41,8 @@ void LiveGuard::note_gap(SimTime now) {
 }
 
 void LiveGuard::look_for_breaks() {
-  std::uint32_t breaks = pose_.queue != nullptr ? pose_.queue->latest().breaks : 0;
-  for (const LiveSensor& sensor : sensors_) breaks += sensor.queue->latest().breaks;
-  // The velocity would otherwise be estimated across the break.
-  if (breaks != breaks_) track_.clear();
-  breaks_ = breaks;
+  breaks_ = pose_.queue != nullptr ? pose_.queue->latest().breaks : 0;
+  for (const LiveSensor& sensor : sensors_) breaks_ += sensor.queue->latest().breaks;
 }
 
 void LiveGuard::look_where(const GuardOrder& order, SimTime now) {
@@ -60,7 +57,11 @@ void LiveGuard::look_where(const GuardOrder& order, SimTime now) {
   }
   SampleHeader header;
   alignas(8) std::byte record[std::max(sizeof(PoseReading), sizeof(OdometryReading))];
-  if (pose_.queue->newest(&header, record) && header.count > 0) {
+  SampleQueue::Before before;
+  if (pose_.queue->newest(&header, record, &before) && header.count > 0) {
+    // The velocity would otherwise be estimated across the break.
+    if (before.breaks != pose_breaks_) track_.clear();
+    pose_breaks_ = before.breaks;
     const PoseReading read = pose_reading(pose_.kind, record);
     const Pose2 X_WR = compose(pose_.X_WM, {read.x_m, read.y_m, read.yaw_rad});
     // The same sample is read many times; add() leaves out what is not newer.

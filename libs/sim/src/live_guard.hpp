@@ -93,7 +93,8 @@ class LiveGuard {
   std::vector<GuardSensor> ages_;
   std::optional<SimTime> last_call_;
   double gap_s_ = 0;
-  std::uint32_t breaks_ = 0;
+  std::uint32_t breaks_ = 0;       ///< Of all sensors, until now.
+  std::uint32_t pose_breaks_ = 0;  ///< Of the pose, until the newest one.
   std::uint32_t begun_ = 0;
   std::uint32_t lost_sensor_ = 0;
 };

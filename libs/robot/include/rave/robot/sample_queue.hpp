@@ -94,8 +94,9 @@ class SampleQueue final : public SampleSink {
   [[nodiscard]] std::string break_reason() const;
 
   /// The newest published sample, also after next() has returned it; false: there is none. `record`
-  /// must have room for one record and receives the first of the sample. Any thread.
-  [[nodiscard]] bool newest(SampleHeader* header, void* record) const;
+  /// must have room for one record and receives the first of the sample. `before` may be null. Any
+  /// thread.
+  [[nodiscard]] bool newest(SampleHeader* header, void* record, Before* before = nullptr) const;
 
   /// Unblocks the producer, whose calls return false from now on. Samples can still be taken out.
   /// Any thread.

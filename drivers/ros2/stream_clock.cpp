@@ -17,7 +17,8 @@ void StreamClock::restart() {
 }
 
 StreamClock::Taken StreamClock::take(std::int64_t stamp_ns, double arrived_s) {
-  if (stamp_ns == 0) return {true, arrived_s};
+  if (stamp_ns == 0) return {true, false, arrived_s};
+  bool anew = false;
   if (any_ && stamp_ns <= newest_ns_) {
     const bool rising = old_in_a_row_ == 0 || stamp_ns > previous_old_ns_;
     previous_old_ns_ = stamp_ns;
@@ -27,16 +28,22 @@ StreamClock::Taken StreamClock::take(std::int64_t stamp_ns, double arrived_s) {
       return {};
     }
     restart();
-    ++restarts_;
+    anew = true;
   }
   if (!any_) origin_ns_ = stamp_ns;
+  // Relative to the first stamp, so that nanoseconds since 1970 keep their precision as a double.
+  const double sent_s = static_cast<double>(stamp_ns - origin_ns_) * 1e-9;
+  const auto sample = clock_.add(sent_s, arrived_s);
+  if (sample == line::ClockOffset::Sample::kEarly) {
+    ++early_;
+    return {};
+  }
+  anew = anew || sample == line::ClockOffset::Sample::kSet;
+  restarts_ += anew ? 1 : 0;
   any_ = true;
   newest_ns_ = stamp_ns;
   old_in_a_row_ = 0;
-  // Relative to the first stamp, so that nanoseconds since 1970 keep their precision as a double.
-  const double sent_s = static_cast<double>(stamp_ns - origin_ns_) * 1e-9;
-  clock_.add(sent_s, arrived_s);
-  return {true, sent_s + clock_.offset_s(sent_s)};
+  return {true, anew, sent_s + clock_.offset_s(sent_s)};
 }
 
 }  // namespace rave::ros2_driver

@@ -12,7 +12,11 @@ namespace rave::ros2_driver {
 class StreamClock {
  public:
   struct Taken {
-    bool good = false;  ///< False: not newer than the previous one.
+    /// False: not newer than the previous one, or it seems to arrive before it was sent.
+    bool good = false;
+    /// The sender began anew, or its clock was set: what was known of its clock does not count any
+    /// more, so messages that are late from now on may look fresh.
+    bool anew = false;
     /// Time at which the message was true, in the host's clock, least delay included.
     double host_s = 0;
   };
@@ -23,6 +27,8 @@ class StreamClock {
   void restart();
 
   [[nodiscard]] std::uint64_t old() const noexcept { return old_; }
+  /// How many were not believed because they seemed to arrive before they were sent.
+  [[nodiscard]] std::uint64_t early() const noexcept { return early_; }
   [[nodiscard]] std::uint64_t restarts() const noexcept { return restarts_; }
   [[nodiscard]] double drift_ppm() const noexcept { return clock_.drift_ppm(); }
 
@@ -34,6 +40,7 @@ class StreamClock {
   std::int64_t previous_old_ns_ = 0;
   int old_in_a_row_ = 0;
   std::uint64_t old_ = 0;
+  std::uint64_t early_ = 0;
   std::uint64_t restarts_ = 0;
 };
 

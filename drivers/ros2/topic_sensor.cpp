@@ -87,8 +87,14 @@ void TopicSensor::publish(std::int64_t stamp_ns, const void* records, std::uint3
   if (sink_ == nullptr) return;
   const line::HostTime now = line::host_now();
   const StreamClock::Taken taken = clock_.take(stamp_ns, line::host_seconds(now));
-  // Not newer than the message before.
   if (!taken.good) return;
+  if (taken.anew) {
+    const std::string text = fmt::format(
+        "the clock of the sender of `{}` was set, or it began anew; how late its messages are is "
+        "not known",
+        topic());
+    sink_->begin_anew(text.data(), text.size());
+  }
   last_ = now;
   alive_ = true;
   if (state_.samples++ == 0) {
@@ -134,6 +140,7 @@ std::string TopicSensor::report() const {
   json["rate_hz"] = state_.rate_hz;
   json["refused"] = state_.refused;
   json["old"] = clock_.old();
+  json["early"] = clock_.early();
   json["restarts"] = clock_.restarts();
   json["losses"] = state_.losses;
   json["passed_over"] = state_.passed_over;

@@ -24,6 +24,7 @@ std::string report_json(const std::string& where, const Identity& identity,
   json["bad_checksum"] = state.bad_checksum;
   json["malformed"] = state.malformed;
   json["repeated"] = state.repeated;
+  json["early"] = state.early;
   json["held_back"] = state.held_back;
   json["refused"] = state.refused;
   json["clock_offset_s"] = state.clock_offset_s;

@@ -16,6 +16,7 @@ struct LaserState {
   std::uint64_t bad_checksum = 0;  ///< Replies dropped: wrong checksum.
   std::uint64_t malformed = 0;     ///< Replies dropped: wrong format.
   std::uint64_t repeated = 0;      ///< Scans dropped: not later than the previous one.
+  std::uint64_t early = 0;         ///< Scans dropped: they seemed to arrive before they were sent.
   /// Scans dropped: a better clock estimate moved them before the previous one.
   std::uint64_t held_back = 0;
   std::uint64_t refused = 0;  ///< Replies with an error status.

@@ -28,6 +28,8 @@ using line::Wait;
 constexpr double kSilentPeriods = 5;
 constexpr double kSilence_s = 0.5;
 constexpr Wait kConnect{1000};
+constexpr std::string_view kAnew =
+    "the clock of the laser was set forward; how late its scans are is not known";
 
 /// A SCIP 2.0 laser. The host's thread calls configure(), open(), close() and report(); the
 /// driver's thread runs run() and what it calls. They share `state_`, under its mutex.
@@ -48,6 +50,12 @@ class ScipLaser final : public HardwareSensor {
     double last_device_s = -1;
     double first_device_s = -1;
     std::uint64_t scans = 0;
+
+    /// After a scan that does not count.
+    void restore_timer() {
+      (void)timer.seconds(static_cast<std::uint32_t>(
+          static_cast<std::uint64_t>(std::llround(last_device_s * 1e3)) & 0xffffffU));
+    }
   };
 
   [[nodiscard]] Result<Identity> find_device();
@@ -233,17 +241,22 @@ bool ScipLaser::take(const ScipSession::Next& next, Stretch& stretch, SampleSink
   if (end != ScanEnd::kScan) return false;
   const double device_s = stretch.timer.seconds(scan_.timer_ms);
   if (device_s <= stretch.last_device_s) {
-    // A duplicate, or an older scan that was delayed: restore the timer.
-    (void)stretch.timer.seconds(static_cast<std::uint32_t>(
-        static_cast<std::uint64_t>(std::llround(stretch.last_device_s * 1e3)) & 0xffffffU));
+    // A duplicate, or an older scan that was delayed.
+    stretch.restore_timer();
     note([](LaserState& state) { ++state.repeated; });
     return false;
   }
-  if (stretch.scans++ == 0) stretch.first_device_s = device_s;
-  stretch.last_device_s = device_s;
   // Arrivals jitter by the line and the operating system; the device's timer does not. The estimate
   // puts the timer on the host's clock.
-  stretch.clock.add(device_s, line::host_seconds(next.arrived));
+  const auto sample = stretch.clock.add(device_s, line::host_seconds(next.arrived));
+  if (sample == line::ClockOffset::Sample::kEarly) {
+    stretch.restore_timer();
+    note([](LaserState& state) { ++state.early; });
+    return false;
+  }
+  if (sample == line::ClockOffset::Sample::kSet) sink.begin_anew(kAnew.data(), kAnew.size());
+  if (stretch.scans++ == 0) stretch.first_device_s = device_s;
+  stretch.last_device_s = device_s;
   const double host_s = device_s + stretch.clock.offset_s(device_s) - options_.timing.latency_s;
   const SimTime stamp = line::run_stamp(sink, host_s);
   // A better estimate may move the clock back by less than a scan. A sensor's stamps must increase.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace rave::udp_pose {
 namespace {
@@ -19,7 +20,7 @@ constexpr std::int64_t kLargestLoss = 1'000'000;
 
 void PoseStream::restart() {
   ++state_.restarts;
-  clock_.reset();
+  anew_ = true;
   any_ = false;
   newest_seq_ = -1;
   since_restart_ = 0;
@@ -56,8 +57,13 @@ PoseStream::Verdict PoseStream::order(const PoseDatagram& datagram) {
     old_in_a_row_ = rising ? old_in_a_row_ + 1 : 0;
     previous_old_t_s_ = datagram.t_s;
     if (old_in_a_row_ < kRestartAfter) return Verdict::kOutOfOrder;
+    clock_.reset();
     restart();
   }
+  return Verdict::kAccepted;
+}
+
+void PoseStream::keep(const PoseDatagram& datagram) {
   old_in_a_row_ = 0;
   if (datagram.seq && newest_seq_ >= 0) {
     const std::int64_t missing = *datagram.seq - newest_seq_ - 1;
@@ -67,7 +73,6 @@ PoseStream::Verdict PoseStream::order(const PoseDatagram& datagram) {
   if (!any_) first_t_s_ = datagram.t_s;
   any_ = true;
   newest_t_s_ = datagram.t_s;
-  return Verdict::kAccepted;
 }
 
 PoseStream::Taken PoseStream::take(std::string_view bytes, std::string_view sender, double host_s,
@@ -76,21 +81,27 @@ PoseStream::Taken PoseStream::take(std::string_view bytes, std::string_view send
   if (!parsed) {
     ++state_.refused;
     state_.trouble = parsed.error().message;
-    return {Verdict::kRefused, 0, ""};
+    return {Verdict::kRefused, false, 0, ""};
   }
   if (parsed->body != body_) {
     ++state_.other_bodies;
-    return {Verdict::kOtherBody, 0, ""};
+    return {Verdict::kOtherBody, false, 0, ""};
   }
   std::string news;
-  if (!admit(sender, host_s, news)) return {Verdict::kOtherSender, 0, std::move(news)};
+  if (!admit(sender, host_s, news)) return {Verdict::kOtherSender, false, 0, std::move(news)};
   const Verdict verdict = order(*parsed);
   if (verdict != Verdict::kAccepted) {
     ++(verdict == Verdict::kDuplicate ? state_.duplicates : state_.out_of_order);
-    return {verdict, 0, std::move(news)};
+    return {verdict, false, 0, std::move(news)};
   }
+  const auto sample = clock_.add(parsed->t_s, host_s);
+  if (sample == line::ClockOffset::Sample::kEarly) {
+    ++state_.early;
+    return {Verdict::kEarly, false, 0, std::move(news)};
+  }
+  if (sample == line::ClockOffset::Sample::kSet) restart();
+  keep(*parsed);
   datagram = std::move(*parsed);
-  clock_.add(datagram.t_s, host_s);
   const double true_s = datagram.t_s + clock_.offset_s(datagram.t_s);
   const double delay_s = host_s - true_s;
   sum_delay_s_ += delay_s;
@@ -101,13 +112,13 @@ PoseStream::Taken PoseStream::take(std::string_view bytes, std::string_view send
   // Late samples still count for the clock and the order above; only the program does not get them.
   if (delay_s > max_delay_s_) {
     ++state_.late;
-    return {Verdict::kLate, true_s, std::move(news)};
+    return {Verdict::kLate, false, true_s, std::move(news)};
   }
   ++state_.samples;
   if (++since_restart_ > 1 && newest_t_s_ > first_t_s_) {
     state_.rate_hz = static_cast<double>(since_restart_ - 1) / (newest_t_s_ - first_t_s_);
   }
-  return {Verdict::kAccepted, true_s, std::move(news)};
+  return {Verdict::kAccepted, std::exchange(anew_, false), true_s, std::move(news)};
 }
 
 }  // namespace rave::udp_pose

@@ -19,8 +19,9 @@ struct StreamState {
   std::uint64_t duplicates = 0;
   std::uint64_t out_of_order = 0;
   std::uint64_t late = 0;
+  std::uint64_t early = 0;     ///< They seemed to arrive before they were sent.
   std::uint64_t lost = 0;      ///< Sequence numbers that never arrived, or arrived too late.
-  std::uint64_t restarts = 0;  ///< Restarts of the sender.
+  std::uint64_t restarts = 0;  ///< Restarts of the sender, or of its clock when it was set.
   /// Dropped: a better clock estimate moved them before the previous one.
   std::uint64_t held_back = 0;
   double rate_hz = 0;         ///< Rate of accepted samples by the sender's clock.
@@ -48,10 +49,14 @@ class PoseStream {
     kOtherSender,
     kDuplicate,
     kOutOfOrder,
-    kLate
+    kLate,
+    kEarly
   };
   struct Taken {
     Verdict verdict = Verdict::kRefused;
+    /// The sender began anew, or its clock was set: what was known of its clock does not count any
+    /// more, so poses that are late from now on may look fresh.
+    bool anew = false;
     /// Time at which the pose was true, in the host's clock, least delay included.
     double host_s = 0;
     std::string news;  ///< For users: there is a second sender, or another one than before.
@@ -67,6 +72,7 @@ class PoseStream {
   /// Whether a pose of this sender counts.
   [[nodiscard]] bool admit(std::string_view sender, double host_s, std::string& news);
   [[nodiscard]] Verdict order(const PoseDatagram& datagram);
+  void keep(const PoseDatagram& datagram);
   void restart();
 
   std::string body_;
@@ -76,6 +82,7 @@ class PoseStream {
   line::ClockOffset clock_;
   StreamState state_;
   bool any_ = false;
+  bool anew_ = false;  // since the last accepted one
   double first_t_s_ = 0;
   double newest_t_s_ = 0;
   std::int64_t newest_seq_ = -1;

@@ -35,6 +35,9 @@ constexpr std::array<ParamSpec, 8> kParams{
     line::lost_after_param(2, "Time after which a silent stream is reported as lost."),
 };
 
+constexpr std::string_view kAnew =
+    "the clock of the sender was set, or it began anew; how late its poses are is not known";
+
 /// Receives poses from another program. The host's thread calls configure(), open(), close() and
 /// report(); the driver's thread runs run(). They share `state_`, under its mutex.
 class UdpPose final : public HardwareSensor {
@@ -124,6 +127,7 @@ void UdpPose::run(SampleSink& sink, const std::stop_token& stop) {
       const double now_s = line::host_seconds(line::host_now());
       const auto taken = stream.take({text.data(), got.size}, sender.text, now_s, datagram);
       if (!taken.news.empty()) host_.write(LogLevel::kWarning, taken.news);
+      if (taken.anew) sink.begin_anew(kAnew.data(), kAnew.size());
       if (taken.verdict == PoseStream::Verdict::kAccepted) {
         if (!publish(datagram, taken.host_s, sink)) ++held_back;
         silent_at = line::after_seconds(line::host_now(), lost_after_s_);
@@ -175,6 +179,7 @@ std::string UdpPose::report() const {
   json["duplicates"] = state_.duplicates;
   json["out_of_order"] = state_.out_of_order;
   json["late"] = state_.late;
+  json["early"] = state_.early;
   json["held_back"] = state_.held_back;
   json["refused"] = state_.refused;
   json["other_bodies"] = state_.other_bodies;

@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -49,12 +50,21 @@ void MocapStation::restart() {
   count_ = 0;
 }
 
+void MocapStation::set_lag(double growth, double most_s) {
+  lag_growth_ = growth;
+  lag_most_s_ = most_s;
+}
+
 void MocapStation::sample(std::int64_t at_ns, double true_x, double true_y, double yaw,
                           std::mt19937_64& random) {
   std::normal_distribution<double> noise(0, 1);
   std::exponential_distribution<double> jitter(1);
   std::uniform_real_distribution<double> chance(0, 1);
-  const double x = true_x + noise_m_ * noise(random);
+  constexpr double kFar_m = 500;
+  const double x = true_x + noise_m_ * noise(random) + (far_left_ > 0 ? kFar_m : 0);
+  far_left_ = std::max(0, far_left_ - 1);
+  if (turn_every_ > 0 && count_ % turn_every_ == 0) yaw += M_PI;
+  lag_s_ = std::min(lag_s_ + lag_growth_ * static_cast<double>(period_ns_) * 1e-9, lag_most_s_);
   const double y = true_y + noise_m_ * noise(random);
   char text[320];
   std::snprintf(text, sizeof text,
@@ -62,7 +72,8 @@ void MocapStation::sample(std::int64_t at_ns, double true_x, double true_y, doub
                 "\"cov\":[%.9g,%.9g,%.9g]}",
                 body_.c_str(), static_cast<long long>(++count_), clock_.seconds_at(at_ns), x, y,
                 yaw, noise_m_ * noise_m_, noise_m_ * noise_m_, 1e-6);
-  const std::int64_t leaves = at_ns + std::llround((delay_s_ + jitter_s_ * jitter(random)) * 1e9);
+  const std::int64_t leaves =
+      at_ns + std::llround((delay_s_ + lag_s_ + jitter_s_ * jitter(random)) * 1e9);
   const bool lost = chance(random) < loss_ || mute_;
   char entry[200];
   std::snprintf(entry, sizeof entry, "%lld %lld %lld %.9f %.9f %.9f %s",

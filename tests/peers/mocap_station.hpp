@@ -36,6 +36,13 @@ class MocapStation {
   void send(const std::string& text);
   void set_mute(bool mute) { mute_ = mute; }
   void set_delay(double delay_s) { delay_s_ = delay_s; }
+  /// From now on each pose comes later than the one before, as from a queue that fills up: by
+  /// `growth` seconds a second, up to `most_s`.
+  void set_lag(double growth, double most_s);
+  /// Turns every `nth` heading by 180 degrees; 0: none.
+  void turn_every(int nth) { turn_every_ = nth; }
+  /// Puts the next poses 500 m away.
+  void send_far(int count) { far_left_ = count; }
   /// A new program in the place of the old: clock and count begin anew.
   void restart();
 
@@ -59,6 +66,11 @@ class MocapStation {
   sockaddr_in to_{};
   std::priority_queue<Datagram, std::vector<Datagram>, std::greater<>> waiting_;
   bool mute_ = false;
+  double lag_growth_ = 0;
+  double lag_most_s_ = 0;
+  double lag_s_ = 0;
+  int turn_every_ = 0;
+  int far_left_ = 0;
   std::int64_t count_ = 0;
 };
 

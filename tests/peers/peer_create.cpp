@@ -243,11 +243,21 @@ class CreatePeer {
     if (name == "cliff") robot_.cliffs = static_cast<unsigned>(number) & 15U;
     if (name == "button") robot_.buttons = static_cast<unsigned>(number) & 255U;
     if (name == "laser" && laser_) obey_laser(what, command);
-    if (name == "mocap" && mocap_) mocap_->set_mute(what == "mute");
+    if (name == "mocap" && mocap_) obey_mocap(what, command);
     if (name == "state" || name == "quit") console_.say("state " + state());
     if (name == "quit") return false;
     console_.say("ok " + name);
     return true;
+  }
+
+  void obey_mocap(const std::string& what, const std::vector<std::string>& command) {
+    const auto number = [&](std::size_t i) {
+      return command.size() > i ? std::atof(command[i].c_str()) : 0.0;
+    };
+    if (what == "mute" || what == "speak") mocap_->set_mute(what == "mute");
+    if (what == "lag") mocap_->set_lag(number(2), number(3));
+    if (what == "turn") mocap_->turn_every(static_cast<int>(number(2)));
+    if (what == "far") mocap_->send_far(static_cast<int>(number(2)));
   }
 
   void obey_laser(const std::string& what, const std::vector<std::string>& command) {

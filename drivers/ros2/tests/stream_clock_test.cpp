@@ -22,6 +22,46 @@ TEST(Ros2StreamClock, JitterOfTheWayIsTakenOut) {
   EXPECT_EQ(clock.old(), 0U);
 }
 
+TEST(Ros2StreamClock, MessagesThatFallBehindAreLateWhateverTheirNumber) {
+  StreamClock clock;
+  for (int i = 0; i < 400; ++i) (void)clock.take(kEpoch_ns + i * 100 * kMs, 50 + 0.1 * i);
+  double lag_s = 0;
+  for (int i = 400; i < 4000; ++i) {
+    lag_s = std::min(lag_s + 0.01, 3.0);
+    const auto taken = clock.take(kEpoch_ns + i * 100 * kMs, 50 + 0.1 * i + lag_s);
+    ASSERT_TRUE(taken.good);
+    EXPECT_FALSE(taken.anew);
+    // Half a second of lag takes 5 s, in which a clock may drift by 2.5 ms.
+    EXPECT_NEAR(taken.host_s, 50 + 0.1 * i, 5e-3);
+  }
+  EXPECT_EQ(clock.restarts(), 0U);
+}
+
+TEST(Ros2StreamClock, AClockThatIsSetForwardAndBackIsLearntAnewAndTold) {
+  StreamClock clock;
+  for (int i = 0; i < 100; ++i) (void)clock.take(kEpoch_ns + i * 100 * kMs, 50 + 0.1 * i);
+  int i = 100;
+  const auto send = [&](std::int64_t ahead_ms) {
+    const auto taken = clock.take(kEpoch_ns + (i * 100 + ahead_ms) * kMs, 50 + 0.1 * i);
+    ++i;
+    return taken;
+  };
+  // One stamp that is wrong is refused, and the next right one is good.
+  EXPECT_FALSE(send(60'000).good);
+  EXPECT_TRUE(send(0).good);
+  EXPECT_EQ(clock.early(), 1U);
+  for (const std::int64_t ahead_ms : {60'000, -60'000}) {
+    for (int n = 0; n < 9; ++n) EXPECT_FALSE(send(ahead_ms).good);
+    const double now_s = 50 + 0.1 * i;
+    const auto taken = send(ahead_ms);
+    EXPECT_TRUE(taken.good);
+    EXPECT_TRUE(taken.anew);
+    EXPECT_NEAR(taken.host_s, now_s, 1e-6);
+    for (int n = 0; n < 100; ++n) EXPECT_FALSE(send(ahead_ms).anew);
+  }
+  EXPECT_EQ(clock.restarts(), 2U);
+}
+
 TEST(Ros2StreamClock, WithoutAStampItIsTrueOnArrival) {
   StreamClock clock;
   EXPECT_EQ(clock.take(0, 12.5).host_s, 12.5);

@@ -50,6 +50,7 @@ TEST(PoseStream, ASenderThatBeginsAnewIsFollowed) {
   for (int i = 0; i < 100; ++i) {
     const auto taken = stream.take(text(0.01 * i, i), "a", 2 + 0.01 * i, pose);
     accepted += taken.verdict == Verdict::kAccepted ? 1 : 0;
+    EXPECT_EQ(taken.anew, i == 9);
     if (taken.verdict == Verdict::kAccepted) {
       EXPECT_NEAR(taken.host_s, 2 + 0.01 * i, 1e-6);
     }
@@ -90,6 +91,41 @@ TEST(PoseStream, ASenderMayOpenASocketForEachDatagram) {
     EXPECT_EQ(taken.news, "");
   }
   EXPECT_EQ(stream.state().restarts, 0U);
+}
+
+TEST(PoseStream, PosesThatFallBehindAreLateWhateverTheirNumber) {
+  PoseStream stream("cart", 0.2, 2);
+  PoseDatagram pose;
+  double lag_s = 0;
+  for (int i = 0; i < 4000; ++i) {
+    if (i >= 400) lag_s = std::min(lag_s + 0.005, 3.0);
+    const auto taken = stream.take(text(0.02 * i, i), "a", 100 + 0.02 * i + lag_s, pose);
+    ASSERT_EQ(taken.verdict, lag_s < 0.195   ? Verdict::kAccepted
+                             : lag_s < 0.205 ? taken.verdict
+                                             : Verdict::kLate)
+        << lag_s;
+    EXPECT_NEAR(taken.host_s, 100 + 0.02 * i, 5e-3);
+  }
+  EXPECT_EQ(stream.state().restarts, 0U);
+  EXPECT_GT(stream.state().late, 3000U);
+}
+
+TEST(PoseStream, AClockThatIsSetForwardIsLearntAnewAndTold) {
+  PoseStream stream("cart", 0.2, 2);
+  PoseDatagram pose;
+  for (int i = 0; i < 200; ++i) (void)stream.take(text(0.02 * i, i), "a", 0.02 * i, pose);
+  // One wrong stamp.
+  EXPECT_EQ(stream.take(text(50, 200), "a", 4, pose).verdict, Verdict::kEarly);
+  EXPECT_EQ(stream.take(text(4.02, 201), "a", 4.02, pose).verdict, Verdict::kAccepted);
+  for (int i = 202; i < 300; ++i) {
+    const auto taken = stream.take(text(3 + 0.02 * i, i), "a", 0.02 * i, pose);
+    EXPECT_EQ(taken.verdict, i < 211 ? Verdict::kEarly : Verdict::kAccepted) << i;
+    EXPECT_EQ(taken.anew, i == 211);
+  }
+  EXPECT_EQ(stream.state().early, 10U);
+  EXPECT_EQ(stream.state().restarts, 1U);
+  EXPECT_NEAR(stream.state().clock_offset_s, -3, 1e-9);
+  EXPECT_EQ(stream.state().lost, 1U);  // the one with the wrong stamp
 }
 
 }  // namespace

@@ -259,6 +259,14 @@ void describe(V& v, RobotFile& c) {
   v.field(
       "staleness_s", c.staleness_s,
       time_s("Age after which a reported pose counts as lost, also one reported by another host."));
+  v.field("pose_max_speed_mps", c.pose_max_speed_mps,
+          at_least_0("Speed beyond which a pose of `pose_from` is not believed; null: that of the "
+                     "guard, else 10 m/s, or 50 m/s for a robot without actuators.",
+                     "m/s"));
+  v.field("pose_max_turn_dps", c.pose_max_turn_dps,
+          at_least_0("Turning rate beyond which it is not believed; null: that of the guard, else "
+                     "360 degrees per second.",
+                     "deg/s"));
   v.field(
       "report_period_s", c.report_period_s,
       positive_s("Time between reports of the pose to other hosts, in real time; null: 0.1 s."));

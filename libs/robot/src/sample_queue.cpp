@@ -25,13 +25,15 @@ std::string text_of(std::int64_t ns) { return fmt::format("{:.9f} s", SimTime{ns
 
 // All memory for samples is taken here, so publish() only copies.
 SampleQueue::SampleQueue(ReadingKind kind, std::uint32_t max_records, std::size_t depth,
-                         const RunClock* live)
+                         const RunClock* live, std::unique_ptr<SampleGate> gate)
     : max_records_(max_records),
       record_size_(record_size(kind)),
       depth_(depth),
       live_(live),
       headers_(depth),
-      records_(depth * max_records * record_size_) {
+      records_(depth * max_records * record_size_),
+      before_(depth),
+      gate_(std::move(gate)) {
   RAVE_CHECK(record_size_ > 0 && max_records > 0 && depth > 0);
 }
 
@@ -75,6 +77,29 @@ bool SampleQueue::refused(SimTime stamp, std::uint32_t count) {
   return true;
 }
 
+// The wall clock goes on while the run is paused, so the moment is kept by that one. A stamp that
+// lies ahead makes no sample younger than its arrival.
+void SampleQueue::note_moment(SimTime stamp) {
+  const std::int64_t lag_ns = std::max<std::int64_t>((live_->now() - stamp).ns, 0);
+  moment_ns_ = steady_ns(std::chrono::steady_clock::now()) - lag_ns;
+  lag_ns_ = lag_ns;
+}
+
+bool SampleQueue::passes(SimTime stamp, const void* records, std::uint32_t count) {
+  if (!gate_ || count == 0) return true;
+  const SampleGate::Verdict verdict = gate_->judge(stamp, records);
+  if (verdict == SampleGate::Verdict::kRefuse) {
+    ++gated_;
+    refusal_ = gate_->reason();
+    return false;
+  }
+  if (verdict == SampleGate::Verdict::kAnew) {
+    break_reason_ = gate_->reason();
+    ++breaks_;
+  }
+  return true;
+}
+
 void SampleQueue::lose_oldest() {
   ++dropped_;
   dropped_since_next_ += headers_[first_].count;
@@ -85,7 +110,7 @@ void SampleQueue::lose_oldest() {
 bool SampleQueue::publish(SimTime stamp, const void* records, std::uint32_t count) noexcept {
   Lock lock(mutex_);
   if (closed_) return false;
-  if (refused(stamp, count)) return true;
+  if (refused(stamp, count) || !passes(stamp, records, count)) return true;
   if (live_ != nullptr) {
     // Live: the newest is worth most, and a driver must not be blocked by a slow run.
     if (count_ == depth_) lose_oldest();
@@ -98,8 +123,8 @@ bool SampleQueue::publish(SimTime stamp, const void* records, std::uint32_t coun
   const std::size_t slot = (first_ + count_) % depth_;
   ++count_;
   newest_ns_ = stamp.ns;
-  // Guards judge silence by arrival, since stamps may come from the clock of the device.
-  if (live_ != nullptr) arrival_ns_ = steady_ns(std::chrono::steady_clock::now());
+  if (live_ != nullptr) note_moment(stamp);
+  before_[slot] = {breaks_, gated_};
   headers_[slot] = {stamp.ns, ++sequence_, count, 0, 0};
   if (count > 0) std::memcpy(records_of(slot), records, std::size_t{count} * record_size_);
   if (consumer_waits_) to_consumer_.notify_one();
@@ -132,6 +157,13 @@ void SampleQueue::recover() noexcept {
   failure_.clear();
 }
 
+void SampleQueue::begin_anew(const char* text, std::uint64_t size) noexcept {
+  const Lock lock(mutex_);
+  if (live_ == nullptr) return;
+  break_reason_.assign(text, std::min<std::size_t>(size, kLongestText));
+  ++breaks_;
+}
+
 SimTime SampleQueue::now() const noexcept {
   return live_ == nullptr ? SimTime{INT64_MIN} : live_->now();
 }
@@ -161,6 +193,7 @@ bool SampleQueue::next(SimTime up_to, SampleHeader* header, void* records) {
   *header = headers_[first_];
   header->dropped = dropped_since_next_;
   dropped_since_next_ = 0;
+  taken_ = before_[first_];
   if (header->count > 0) {
     std::memcpy(records, records_of(first_), std::size_t{header->count} * record_size_);
   }
@@ -172,12 +205,13 @@ bool SampleQueue::next(SimTime up_to, SampleHeader* header, void* records) {
   return true;
 }
 
-bool SampleQueue::newest(SampleHeader* header, void* record) const {
+bool SampleQueue::newest(SampleHeader* header, void* record, Before* before) const {
   const Lock lock(mutex_);
   if (newest_ns_ == INT64_MIN) return false;
   // next() leaves a sample in its slot until the slot is reused, depth_ samples later.
   const std::size_t slot = (first_ + count_ + depth_ - 1) % depth_;
   *header = headers_[slot];
+  if (before != nullptr) *before = before_[slot];
   if (header->count > 0) {
     std::memcpy(record, records_.data() + slot * max_records_ * record_size_, record_size_);
   }
@@ -198,13 +232,20 @@ void SampleQueue::reopen() {
   closed_ = false;
   failed_ = false;
   newest_ns_ = INT64_MIN;
-  arrival_ns_ = kNever;
+  moment_ns_ = kNever;
+  lag_ns_ = 0;
   complete_ns_ = INT64_MIN;
   sequence_ = 0;
   dropped_since_next_ = 0;
   dropped_ = 0;
   failure_.clear();
   complaint_.clear();
+  taken_ = {};
+  breaks_ = 0;
+  gated_ = 0;
+  refusal_.clear();
+  break_reason_.clear();
+  if (gate_) gate_->reset();
 }
 
 void SampleQueue::clock_changed() {
@@ -222,8 +263,8 @@ bool SampleQueue::failed() const {
   return failed_;
 }
 
-std::optional<std::chrono::steady_clock::time_point> SampleQueue::newest_arrival() const noexcept {
-  const std::int64_t ns = arrival_ns_;
+std::optional<std::chrono::steady_clock::time_point> SampleQueue::newest_moment() const noexcept {
+  const std::int64_t ns = moment_ns_;
   if (ns == kNever) return std::nullopt;
   return std::chrono::steady_clock::time_point(std::chrono::nanoseconds(ns));
 }
@@ -231,6 +272,16 @@ std::optional<std::chrono::steady_clock::time_point> SampleQueue::newest_arrival
 std::string SampleQueue::complaint() const {
   const Lock lock(mutex_);
   return complaint_;
+}
+
+std::string SampleQueue::refusal() const {
+  const Lock lock(mutex_);
+  return refusal_;
+}
+
+std::string SampleQueue::break_reason() const {
+  const Lock lock(mutex_);
+  return break_reason_;
 }
 
 std::uint64_t SampleQueue::dropped() const {

@@ -18,7 +18,7 @@ namespace {
 /// How old a real sample may be when it is fused.
 constexpr Duration kHybridHistory{1'000'000'000};
 
-constexpr WordTable<EventKind, 25> kEventWords = {{
+constexpr WordTable<EventKind, 28> kEventWords = {{
     {"contact", EventKind::kContact},
     {"pinned", EventKind::kPinned},
     {"pose stale", EventKind::kPoseStale},
@@ -44,6 +44,9 @@ constexpr WordTable<EventKind, 25> kEventWords = {{
     {"said", EventKind::kSaid},
     {"placed", EventKind::kPlaced},
     {"lease", EventKind::kLease},
+    {"pose refused", EventKind::kPoseRefused},
+    {"begun anew", EventKind::kBegunAnew},
+    {"disarmed", EventKind::kDisarmed},
 }};
 
 Status check_pose_source(const RobotType& type, const std::string& robot) {

@@ -105,7 +105,7 @@ void Engine::Impl::tell_guard(RobotId robot, const GuardSpec& limits, std::uint3
     const auto limit = static_cast<GuardLimit>(i);
     std::string text(text_of(limit));
     if (limit == GuardLimit::kSensorLost) {
-      text = sensor_lost_text(roster.group_of(robot).sensors[lost_sensor]);
+      text = sensor_lost_text(roster.group_of(robot).sensors[lost_sensor], roster.member_of(robot));
     }
     to.push_back({step, robot, event_of(limit, limits), BodyId(), std::move(text), i});
   }

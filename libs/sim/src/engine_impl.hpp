@@ -99,6 +99,9 @@ struct Engine::Impl final : private HandOvers::Site {
   Status ingest_sensors(bool hybrid);
   Status ingest_sensor(RobotGroup& group, SensorSlots& slots, std::size_t member);
   void note_loss(SensorSlots& slots, std::size_t member, RobotId robot);
+  // engine_breaks.cpp: samples that were refused, or that do not continue those before
+  void note_break(RobotGroup& group, SensorSlots& slots, std::size_t member);
+  void note_refused(SensorSlots& slots, std::size_t member, RobotId robot);
   void accept_hardware_sample(RobotGroup& group, SensorSlots& slots, std::size_t member,
                               const SampleHeader& sample);
   void push_hardware_sample(RobotGroup& group, SensorSlots& slots, std::size_t member);

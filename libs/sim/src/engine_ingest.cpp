@@ -88,6 +88,7 @@ Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::s
     // All that has come since the last step, oldest first. A sample that fuse() withholds is not
     // delivered, but it counts as heard: its sensor is alive.
     while (queue.next(now, &sample, slots.scratch.data())) {
+      if (queue.before().breaks != slots.before[member].breaks) note_break(group, slots, member);
       sample.sequence = ++slots.sequence[member];
       slots.heard_ns[member] = sample.stamp_ns;
       if (slots.fusion && !fuse(group, slots, member, sample)) continue;
@@ -109,6 +110,7 @@ Status Engine::Impl::ingest_sensor(RobotGroup& group, SensorSlots& slots, std::s
     break;
   }
   if (lost) note_loss(slots, member, robot);
+  note_refused(slots, member, robot);
   if (slots.processing) process_hardware_samples(group, slots, member);
   if (slots.headers[member].fresh == 2) {
     slots.headers[member].fresh = 1;
@@ -184,8 +186,7 @@ Pose2 Engine::Impl::pose_frame(const RobotGroup& group, RobotId robot) const {
 void Engine::Impl::note_reported_pose(RobotGroup& group, const SensorSlots& slots,
                                       std::size_t member, const SampleHeader& header,
                                       const std::byte* record) {
-  const auto device = static_cast<std::uint32_t>(&slots - group.sensors.data());
-  if (group.type->pose_from != device || header.count == 0) return;
+  if (!group.is_pose_source(slots) || header.count == 0) return;
   const RobotId robot = group.members[member];
   const PoseReading reading = pose_reading(slots.spec->kind, record);
   const Pose2 X_WR = compose(pose_frame(group, robot), {reading.x_m, reading.y_m, reading.yaw_rad});

@@ -17,6 +17,17 @@ constexpr std::size_t kNamed = 8;
 /// What an actuator's driver calls it, if its device has one.
 constexpr std::string_view kDeviceWatchdog = "device_watchdog_s";
 
+/// As far as the engine has come to them, of the sensors that the guard of a robot knows.
+std::uint32_t breaks_of(const RobotGroup& group, std::size_t member) {
+  std::uint32_t breaks = 0;
+  for (const SensorSlots& slots : group.sensors) {
+    if (!slots.live) continue;
+    if (group.is_pose_source(slots)) breaks += slots.before[member].breaks;
+    if (slots.max_age_s) breaks += slots.before[member].breaks;
+  }
+  return breaks;
+}
+
 bool is_obeyed(const RobotGroup& group, std::size_t member) {
   return std::any_of(group.actuators.begin(), group.actuators.end(), [&](const auto& slots) {
     return slots.spec->hardware_ops != nullptr && slots.obeys[member] != 0;
@@ -159,6 +170,7 @@ void Engine::Impl::give_order(RobotGroup& group, std::uint32_t member) {
     demand.given = demand.watched ? guarded.given[group.index_of(*speaker)] : std::nullopt;
   }
   order.holds = robot_guards[robot.value()].holds();
+  order.breaks = breaks_of(group, member);
   // The world of a late step is as old as its lateness, which set_world_age() has stated.
   order.world_time = work_began - world_age;
   order.reported = reported[robot.value()];

@@ -40,6 +40,11 @@ void LiveGuard::note_gap(SimTime now) {
   last_call_ = now;
 }
 
+void LiveGuard::look_for_breaks() {
+  breaks_ = pose_.queue != nullptr ? pose_.queue->latest().breaks : 0;
+  for (const LiveSensor& sensor : sensors_) breaks_ += sensor.queue->latest().breaks;
+}
+
 void LiveGuard::look_where(const GuardOrder& order, SimTime now) {
   if (pose_.queue == nullptr) {
     const ReportedPose& told = order.reported;
@@ -52,7 +57,11 @@ void LiveGuard::look_where(const GuardOrder& order, SimTime now) {
   }
   SampleHeader header;
   alignas(8) std::byte record[std::max(sizeof(PoseReading), sizeof(OdometryReading))];
-  if (pose_.queue->newest(&header, record) && header.count > 0) {
+  SampleQueue::Before before;
+  if (pose_.queue->newest(&header, record, &before) && header.count > 0) {
+    // The velocity would otherwise be estimated across the break.
+    if (before.breaks != pose_breaks_) track_.clear();
+    pose_breaks_ = before.breaks;
     const PoseReading read = pose_reading(pose_.kind, record);
     const Pose2 X_WR = compose(pose_.X_WM, {read.x_m, read.y_m, read.yaw_rad});
     // The same sample is read many times; add() leaves out what is not newer.
@@ -91,6 +100,7 @@ void LiveGuard::look_around(const GuardOrder& order, double world_age_s) {
 
 void LiveGuard::limit(const GuardOrder& order, SimTime now, std::span<Command> allowed) {
   note_gap(now);
+  look_for_breaks();
   look_where(order, now);
   look_at_sensors();
   // Without a pose in the step, the engine could not say who is near: as good as no pose here.
@@ -100,7 +110,10 @@ void LiveGuard::limit(const GuardOrder& order, SimTime now, std::span<Command> a
   input_.dt_s = std::max(period_s_, gap_s_);
   input_.radius_m = order.radius_m;
   input_.body = order.body.get();
-  guard_.set_holds(order.holds);
+  GuardHolds holds = order.holds;
+  // The engine disarms it as soon as it comes to these samples.
+  holds.armed = holds.armed && breaks_ == order.breaks;
+  guard_.set_holds(holds);
   for (std::size_t a = 0; a < order.demands.size(); ++a) {
     const ActuatorDemand& demand = order.demands[a];
     // A copy for each actuator; the spans point to what all share.

@@ -29,6 +29,9 @@ struct ActuatorDemand {
 struct GuardOrder {
   std::vector<ActuatorDemand> demands;  ///< By actuator of the robot's type.
   GuardHolds holds;
+  /// How often samples of the robot's sensors, as far as the guard knows them, began anew until
+  /// `holds` was found.
+  std::uint32_t breaks = 0;
   SimTime world_time;     ///< Of the virtual world that the demands were made in.
   ReportedPose reported;  ///< For a robot whose pose does not come from a live sensor.
   double radius_m = 0;
@@ -74,6 +77,7 @@ class LiveGuard {
 
  private:
   void note_gap(SimTime now);
+  void look_for_breaks();
   void look_where(const GuardOrder& order, SimTime now);
   void look_at_sensors();
   void look_around(const GuardOrder& order, double world_age_s);
@@ -89,6 +93,8 @@ class LiveGuard {
   std::vector<GuardSensor> ages_;
   std::optional<SimTime> last_call_;
   double gap_s_ = 0;
+  std::uint32_t breaks_ = 0;       ///< Of all sensors, until now.
+  std::uint32_t pose_breaks_ = 0;  ///< Of the pose, until the newest one.
   std::uint32_t begun_ = 0;
   std::uint32_t lost_sensor_ = 0;
 };

@@ -26,6 +26,9 @@ inline constexpr std::uint32_t kMemberBlock = 64;
 
 /// One sensor of a type, for all robots of it. Vectors are indexed by member; after creation none
 /// changes its size, so views into them stay valid.
+/// In SensorSlots::refused_step.
+inline constexpr std::int64_t kNeverRefused = INT64_MIN / 2;
+
 struct SensorSlots {
   const SensorSpec* spec = nullptr;
   SensorInfo info;
@@ -49,8 +52,10 @@ struct SensorSlots {
   std::vector<std::byte> processing_state;
   std::vector<std::uint32_t> sequence;
   std::vector<std::uint8_t> failed;
-  std::vector<std::int64_t> heard_ns;  ///< Hardware: stamp of the newest raw sample.
-  std::vector<std::uint8_t> flip;      ///< Test hook: change a bit of the next delivery.
+  std::vector<std::int64_t> heard_ns;       ///< Hardware: stamp of the newest raw sample.
+  std::vector<SampleQueue::Before> before;  ///< Hardware: what of it has been told.
+  std::vector<std::int64_t> refused_step;   ///< Hardware: when one was refused last.
+  std::vector<std::uint8_t> flip;           ///< Test hook: change a bit of the next delivery.
   std::vector<std::unique_ptr<SampleQueue>> queues;
   std::vector<std::uint8_t> open;       ///< Hardware: has to be closed.
   std::vector<std::byte> scratch;       ///< Hardware: one sample on its way.
@@ -137,6 +142,19 @@ struct RobotGroup {
   /// Frame of the pose source since a hand-over, in the place of that of the type.
   std::optional<Pose2> X_WM;
 
+  /// Whether an actuator of this robot executes commands.
+  [[nodiscard]] bool obeys(std::size_t member) const noexcept {
+    return std::any_of(actuators.begin(), actuators.end(),
+                       [&](const ActuatorSlots& slots) { return slots.obeys[member] != 0; });
+  }
+  [[nodiscard]] bool is_pose_source(const SensorSlots& slots) const noexcept {
+    return type->pose_from == static_cast<std::uint32_t>(&slots - sensors.data());
+  }
+  /// Whether its robots drive by this sensor, as far as the guard knows: its samples may neither
+  /// fall silent nor begin anew.
+  [[nodiscard]] bool relies_on(const SensorSlots& slots) const noexcept {
+    return is_pose_source(slots) || slots.max_age_s.has_value();
+  }
   [[nodiscard]] bool has_guard(std::size_t member) const noexcept {
     return !guards.empty() && guards[member].thread != nullptr;
   }

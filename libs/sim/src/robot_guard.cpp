@@ -20,6 +20,8 @@ bool RobotGuard::release(bool armed) noexcept {
 
 bool RobotGuard::arm() noexcept { return !std::exchange(holds_.armed, true); }
 
+bool RobotGuard::disarm() noexcept { return std::exchange(holds_.armed, false); }
+
 Command RobotGuard::limit(const Command& command, CommandKind expected) const noexcept {
   return is_free() ? command : standing(expected);
 }

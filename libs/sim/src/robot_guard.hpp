@@ -35,6 +35,8 @@ class RobotGuard {
   bool release(bool armed) noexcept;
   /// False: it was armed already.
   bool arm() noexcept;
+  /// False: it was not armed.
+  bool disarm() noexcept;
   void set_armed(bool armed) noexcept { holds_.armed = armed; }
   void hold(bool held) noexcept { holds_.held = held; }
 

@@ -5,6 +5,7 @@
 
 #include "declared_fan.hpp"
 #include "plugin_call.hpp"
+#include "pose_gate.hpp"
 #include "robot_group_parts.hpp"
 #include "sensor_age.hpp"
 
@@ -30,6 +31,8 @@ void allocate(SensorSlots& slots, std::size_t count) {
   if (!slots.is_virtual()) {
     slots.scratch.resize(slots.stride);
     slots.heard_ns.resize(count);
+    slots.before.resize(count);
+    slots.refused_step.resize(count);
   }
   if (slots.queued()) {
     slots.raw_headers.resize(count);
@@ -48,6 +51,8 @@ void clear_samples(SensorSlots& slots) {
   std::fill(slots.sequence.begin(), slots.sequence.end(), 0U);
   std::fill(slots.failed.begin(), slots.failed.end(), std::uint8_t{0});
   std::fill(slots.heard_ns.begin(), slots.heard_ns.end(), kNeverHeard_ns);
+  std::fill(slots.before.begin(), slots.before.end(), SampleQueue::Before{});
+  std::fill(slots.refused_step.begin(), slots.refused_step.end(), kNeverRefused);
   std::fill(slots.flip.begin(), slots.flip.end(), std::uint8_t{0});
   if (slots.fusion) slots.fusion->clear();
   if (!slots.queued()) return;
@@ -88,8 +93,7 @@ Status configure_virtual(const GroupContext& context, RobotGroup& group, SensorS
 
 /// How old the poses of the robot may be, if this is the sensor that gives them.
 std::optional<Duration> staleness_of(const RobotGroup& group, const SensorSlots& slots) {
-  const auto index = static_cast<std::uint32_t>(&slots - group.sensors.data());
-  return group.type->pose_from == index ? std::optional(group.type->staleness) : std::nullopt;
+  return group.is_pose_source(slots) ? std::optional(group.type->staleness) : std::nullopt;
 }
 
 Status configure_hardware(const GroupContext& context, RobotGroup& group, SensorSlots& slots) {
@@ -122,8 +126,13 @@ Status configure_hardware(const GroupContext& context, RobotGroup& group, Sensor
     return fail(ErrorCode::kState, "follows the wall clock, but the run is stepped");
   }
   for (std::size_t m = 0; m < group.members.size(); ++m) {
+    std::unique_ptr<SampleGate> gate;
+    if (group.is_pose_source(slots)) {
+      gate = std::make_unique<PoseGate>(spec.kind, reach_of(*group.type));
+    }
     slots.queues.push_back(std::make_unique<SampleQueue>(
-        spec.kind, slots.capacity, kQueueDepth, slots.live ? context.spec.live_clock : nullptr));
+        spec.kind, slots.capacity, kQueueDepth, slots.live ? context.spec.live_clock : nullptr,
+        std::move(gate)));
   }
   return {};
 }

@@ -41,10 +41,10 @@ Result<std::optional<double>> max_age_s(const SensorSpec& sensor,
 
 double live_age_s(const SampleQueue& queue, bool judged_by_link) {
   if (judged_by_link) return queue.failed() ? kInfinite_s : 0;
-  // By arrival, not by stamp: stamps of a device may come from another clock.
-  const auto arrival = queue.newest_arrival();
-  if (!arrival) return kInfinite_s;
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - *arrival).count();
+  // What arrives late is old when it arrives.
+  const auto moment = queue.newest_moment();
+  if (!moment) return kInfinite_s;
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - *moment).count();
 }
 
 double told_max_age_s(const SensorSlots& slots) noexcept {
@@ -71,9 +71,14 @@ void find_watched_sensors(const RobotGroup& group, std::size_t member, SimTime n
   }
 }
 
-std::string sensor_lost_text(const SensorSlots& slots) {
+std::string sensor_lost_text(const SensorSlots& slots, std::size_t member) {
   if (is_judged_by_link(*slots.spec)) {
     return fmt::format("sensor lost: the driver of `{}` has failed", slots.spec->name);
+  }
+  const double lag_s = slots.live ? slots.queues[member]->newest_lag().seconds() : 0;
+  if (lag_s > *slots.max_age_s) {
+    return fmt::format("sensor lost: the samples of `{}` come {:.1f} s late, more than {:g} s",
+                       slots.spec->name, lag_s, *slots.max_age_s);
   }
   return fmt::format("sensor lost: `{}` has given no sample for more than {:g} s", slots.spec->name,
                      *slots.max_age_s);

@@ -33,8 +33,8 @@ inline constexpr std::int64_t kNeverHeard_ns = INT64_MIN;
 /// the file comes on top.
 [[nodiscard]] double told_max_age_s(const SensorSlots& slots) noexcept;
 
-/// Time since the newest raw sample of a sensor: in a live run since it arrived, on the wall clock;
-/// in a stepped one since its stamp. Of a sensor of events 0, or infinity while it is lost.
+/// Time since the newest raw sample of a sensor was true, by its stamp; in a live run the time since
+/// it arrived is that of the wall clock. Of a sensor of events 0, or infinity while it is lost.
 /// Infinite before the first sample. In a live run any thread, without the engine's lock; in a
 /// stepped one that of the engine.
 [[nodiscard]] double sensor_age_s(const SensorSlots& slots, std::size_t member, SimTime now);
@@ -49,6 +49,6 @@ void find_watched_sensors(const RobotGroup& group, std::size_t member, SimTime n
                           std::vector<GuardSensor>& sensors);
 
 /// The text of the event that a robot stands because of a sensor.
-[[nodiscard]] std::string sensor_lost_text(const SensorSlots& slots);
+[[nodiscard]] std::string sensor_lost_text(const SensorSlots& slots, std::size_t member);
 
 }  // namespace rave::sim

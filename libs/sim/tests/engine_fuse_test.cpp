@@ -108,7 +108,7 @@ TEST(EngineFuse, OfATurningRobotTheEdgeOfABoxIsWhereItWasAtTheStampOfALateSample
   constexpr double kLate_s = 0.1;
   constexpr std::uint32_t kRays = 1801;
   constexpr double kHalfDegree_rad = kPi / 360;
-  HandClock clock;
+  PlacedClock clock;
   EngineSpec spec;
   spec.live_clock = &clock;
   spec.world.obstacles.push_back(box({2, 0, 0}, 0.4, 0.4));
@@ -136,7 +136,7 @@ TEST(EngineFuse, OfATurningRobotTheEdgeOfABoxIsWhereItWasAtTheStampOfALateSample
 }
 
 TEST(EngineFuse, WhereNoPoseHasComeYetTheVelocityOfTheRobotCarriesItOn) {
-  HandClock clock;
+  PlacedClock clock;
   EngineSpec spec;
   spec.live_clock = &clock;
   spec.world.obstacles.push_back(box({5, 0, 0}, 1, 1));

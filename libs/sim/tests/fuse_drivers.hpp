@@ -124,7 +124,7 @@ SensorSpec hybrid(Numbers real, Numbers imagined, Numbers fuse = {}) {
 }
 
 /// A clock that stands where the test puts it.
-class HandClock final : public RunClock {
+class PlacedClock final : public RunClock {
  public:
   [[nodiscard]] SimTime now() const noexcept override { return time; }
   [[nodiscard]] std::chrono::steady_clock::time_point wall_time_of(

@@ -104,6 +104,25 @@ TEST_F(LiveGuardTest, TheFenceHoldsWhenTheGuardItselfComesLate) {
   }
 }
 
+TEST_F(LiveGuardTest, ALongGapCountsLessAndLess) {
+  begin(fence_alone());
+  order(10);
+  static_cast<void>(ask());
+  constexpr double kGap_s = 0.4;
+  clock_.advance(kGap_s);
+  for (int call = 0; call < 400; ++call) {
+    // It stands, but for what nobody would call motion.
+    x_m_ = 1e-9 * (call % 2);
+    publish();
+    const double dt_s = std::max(kPeriod_s, kGap_s * std::pow(0.99, call));
+    // The way of docs/explanation/guard.md, with the usual reaction of 0.1 s and 0.5 m/s2.
+    const double allowed_mps = ask();
+    const double way_m = allowed_mps * (dt_s + 0.1) + allowed_mps * allowed_mps / (2 * 0.5);
+    EXPECT_NEAR(way_m, kFence_m - kRadius_m, 2e-3) << call;
+    clock_.advance(kPeriod_s);
+  }
+}
+
 TEST_F(LiveGuardTest, TheWatchdogBitesByTheWallUntilTheNextCommand) {
   GuardSpec limits = fence_alone();
   limits.fence_W.clear();
@@ -257,6 +276,40 @@ TEST_F(LiveGuardTest, ASensorThatFallsSilentStopsIt) {
   EXPECT_EQ(ask(), 0);
   EXPECT_EQ(guard_->lost_sensor(), 5U);
   bumper.recover();
+  EXPECT_EQ(ask(), 0.2);
+}
+
+TEST_F(LiveGuardTest, ASensorWhoseSamplesComeLateStopsIt) {
+  SampleQueue laser(ReadingKind::kValues, 1, 4, &clock_);
+  // So long that no machine is slow enough to matter.
+  begin(fence_alone(), {{3, &laser, 1000, false}});
+  clock_.set(5000);
+  publish();
+  order(0.2);
+  const double value = 1;
+  for (const double lag_s : {1100.0, 500.0, 900.0, 1003.0}) {
+    clock_.advance(1000);
+    publish();
+    order(0.2);
+    ASSERT_TRUE(laser.publish(clock_.now() - from_seconds(lag_s), &value, 1));
+    EXPECT_EQ(ask(), lag_s > 1000 ? 0 : 0.2) << lag_s;
+  }
+  EXPECT_TRUE(begun(GuardLimit::kSensorLost));
+}
+
+TEST_F(LiveGuardTest, SamplesThatBeginAnewStopItUntilTheEngineKnows) {
+  begin(fence_alone());
+  order(0.2);
+  EXPECT_EQ(ask(), 0.2);
+  queue_.begin_anew("carried away", 12);
+  EXPECT_EQ(ask(), 0);
+  EXPECT_TRUE(begun(GuardLimit::kUnarmed));
+  // The engine has come to it, and somebody has armed the robot again.
+  order_.breaks = 1;
+  // Where it is now says nothing of its speed.
+  clock_.advance(kPeriod_s);
+  x_m_ = 1;
+  publish();
   EXPECT_EQ(ask(), 0.2);
 }
 

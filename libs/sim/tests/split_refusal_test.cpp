@@ -205,7 +205,7 @@ TEST(SplitRefusal, AtCreation) {
             "robot 4 is local, but there are 4 robots");
   EXPECT_EQ(error_of([](EngineSpec& spec) { spec.local->emplace_back(0); }),
             "robot `r0` is local twice");
-  HandClock clock;
+  PlacedClock clock;
   EXPECT_EQ(error_of([&](EngineSpec& spec) { spec.live_clock = &clock; }),
             "hosts in lock-step cannot share a live run: its drivers do not wait");
   EXPECT_EQ(error_of([&](EngineSpec& spec) {

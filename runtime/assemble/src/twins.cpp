@@ -136,6 +136,10 @@ Result<sim::RobotType> make_type(const DeviceContext& context, const config::Rob
   type.name = group.name.value;
   type.folder = std::filesystem::path(group.file).parent_path().string();
   type.staleness = from_seconds(group.robot.staleness_s);
+  type.pose_max_speed_mps = group.robot.pose_max_speed_mps;
+  if (const auto turn_dps = group.robot.pose_max_turn_dps) {
+    type.pose_max_turn_radps = deg_to_rad(*turn_dps);
+  }
   RAVE_TRY(add_devices(context, group, type));
   RAVE_TRY_ASSIGN(type.guard, guard_spec(group));
   return type;

@@ -47,8 +47,9 @@ bool changes_status(std::span<const sim::Event> events) {
   return std::ranges::any_of(events, [](const sim::Event& event) {
     using enum sim::EventKind;
     return event.kind == kStopped || event.kind == kReleased || event.kind == kArmed ||
-           event.kind == kHandedOver || event.kind == kOrdered || event.kind == kSaid ||
-           event.kind == kProgramFailed || event.kind == kDriverFailed || event.kind == kDriverBack;
+           event.kind == kDisarmed || event.kind == kHandedOver || event.kind == kOrdered ||
+           event.kind == kSaid || event.kind == kProgramFailed || event.kind == kDriverFailed ||
+           event.kind == kDriverBack;
   });
 }
 

@@ -12,41 +12,56 @@ namespace rave::line {
 // README.md). A mean through the points would follow the delays instead.
 void ClockOffset::reset() {
   buckets_.clear();
-  late_in_a_row_ = 0;
+  early_in_a_row_ = 0;
   offset_s_ = 0;
   drift_ = 0;
   origin_s_ = 0;
   newest_s_ = 0;
 }
 
-void ClockOffset::add(double device_s, double host_s) {
-  if (!std::isfinite(device_s) || !std::isfinite(host_s)) return;
-  const double difference_s = host_s - device_s;
-  if (known()) {
-    if (stepped(device_s, difference_s)) {
-      reset();
-      ++restarts_;
-    } else if (late_in_a_row_ > 0) {
-      return;  // so late that it says nothing about the clock
-    }
+ClockOffset::Sample ClockOffset::add(double device_s, double host_s) {
+  if (!std::isfinite(device_s) || !std::isfinite(host_s)) return Sample::kGood;
+  const Point point{device_s, host_s - device_s};
+  const Sample sample = known() ? judge(point) : Sample::kGood;
+  if (sample == Sample::kEarly) return sample;
+  if (sample == Sample::kSet) {
+    reset();
+    ++restarts_;
   }
+  if (!known()) {
+    first_s_ = device_s;
+    floor_ = point;
+  }
+  early_in_a_row_ = 0;
   newest_s_ = device_s;
-  keep({device_s, difference_s});
+  if (known() && point.y - offset_s(device_s) > options_.jump_s) {
+    // So late that it says nothing of the clock, which goes on as it did.
+    floor_ = {device_s, floor_.y + drift_ * (device_s - floor_.x)};
+    return sample;
+  }
+  keep(point);
   fit();
+  return sample;
 }
 
-bool ClockOffset::stepped(double device_s, double difference_s) {
-  // A device time that steps back is one of a device that was restarted.
-  if (device_s < newest_s_) return true;
-  const double excess_s = difference_s - offset_s(device_s);
-  // No sample arrives before it is sent, so the clock must have jumped forward.
-  if (excess_s < -options_.jump_s) return true;
-  // A single late sample is a delay. Many in a row mean that the clock was set.
-  late_in_a_row_ = excess_s > options_.jump_s ? late_in_a_row_ + 1 : 0;
-  return late_in_a_row_ >= options_.jump_samples;
+ClockOffset::Sample ClockOffset::judge(Point point) {
+  // Late samples are never a reason to think that the clock was set: a queue that fills up on the
+  // way delays all of them, and an estimate that followed would call them fresh.
+  if (point.y - offset_s(point.x) > -options_.jump_s) return Sample::kGood;
+  if (point.x - first_s_ < options_.settle_s) return Sample::kGood;
+  // One wrong stamp is no clock that was set: many have to say the same.
+  const bool agrees = early_in_a_row_ > 0 && point.x > early_.x &&
+                      std::abs(point.y - early_.y) < options_.jump_s;
+  early_in_a_row_ = agrees ? early_in_a_row_ + 1 : 1;
+  early_ = point;
+  return early_in_a_row_ < options_.jump_samples ? Sample::kEarly : Sample::kSet;
 }
 
 void ClockOffset::keep(Point point) {
+  // What the window forgets is not forgotten here. Otherwise a lag that grows slowly would become
+  // part of the offset.
+  const double raised_s = floor_.y + options_.max_drift * (point.x - floor_.x);
+  floor_ = {point.x, std::min(raised_s, point.y)};
   // Only the least delayed sample of each interval can touch the line, so memory and time do not
   // grow with the rate of samples.
   if (buckets_.empty() || point.x >= bucket_end_s_) {
@@ -76,16 +91,16 @@ double ClockOffset::hull_slope() {
   std::size_t i = 1;
   while (i + 1 < hull_.size() && hull_[i].x < mean_x) ++i;
   const double slope = (hull_[i].y - hull_[i - 1].y) / (hull_[i].x - hull_[i - 1].x);
-  // A quartz clock cannot drift more, so a steeper slope comes from delays.
-  return std::clamp(slope, -options_.max_drift, options_.max_drift);
+  // A quartz clock cannot drift more, so a steeper slope comes from delays that grow or shrink.
+  return std::abs(slope) <= options_.max_drift ? slope : drift_;
 }
 
 void ClockOffset::fit() {
   origin_s_ = buckets_.back().x;
   const bool long_enough = origin_s_ - buckets_.front().x >= options_.slope_after_s;
-  drift_ = long_enough ? hull_slope() : 0;
-  // With a clamped slope, or none, every sample must still be above the line.
-  offset_s_ = buckets_.back().y;
+  if (long_enough) drift_ = hull_slope();
+  // With another slope than theirs, or none, every sample must still be above the line.
+  offset_s_ = floor_.y - drift_ * (floor_.x - origin_s_);
   for (const Point& p : buckets_) {
     offset_s_ = std::min(offset_s_, p.y - drift_ * (p.x - origin_s_));
   }

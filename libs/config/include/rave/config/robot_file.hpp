@@ -36,6 +36,8 @@ struct RobotFile {
   std::optional<Located<std::string>> pose_from;  ///< Name of a sensor; unset: the true pose.
   PoseFile source_frame;  ///< X_WM: pose in the world of the frame M that pose_from reports in.
   double staleness_s = 0.5;
+  std::optional<double> pose_max_speed_mps;  ///< Faster, and a pose is not believed.
+  std::optional<double> pose_max_turn_dps;
   bool ros2 = false;  ///< Whether it is visible on ROS 2; ScenarioFile::ros2 gives the network.
   /// Real time only: the period at which its host publishes its state; a multiple of the step.
   /// Unset: 0.1 s, rounded up to a multiple.

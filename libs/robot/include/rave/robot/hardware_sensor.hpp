@@ -28,6 +28,10 @@ class SampleSink {
   /// Revokes fail(): the device is available again. Live runs only: a stepped driver runs ahead of
   /// the run, so its fail() is final.
   virtual void recover() noexcept = 0;
+  /// Says that samples from now on do not continue those before, and why: the clock of the device
+  /// was set, or another device has taken its place. A real robot that drives by this sensor has to
+  /// be armed again. Copies `text`. Live runs only.
+  virtual void begin_anew(const char* text, std::uint64_t size) noexcept = 0;
   /// The current time of a live run, for drivers that convert their own clock to stamps. In a
   /// stepped run it is the smallest SimTime, because stamps come from the data.
   [[nodiscard]] virtual SimTime now() const noexcept = 0;

@@ -19,7 +19,7 @@
 namespace rave {
 
 /// Increased by hand when the meaning of the interface changes but its layout does not.
-inline constexpr std::uint64_t kRobotInterfaceVersion = 5;
+inline constexpr std::uint64_t kRobotInterfaceVersion = 6;
 
 namespace detail {
 constexpr std::uint64_t hash_layout(std::uint64_t version,

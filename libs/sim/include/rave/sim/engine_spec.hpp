@@ -147,6 +147,10 @@ struct RobotType {
   std::optional<Pose2> X_WM;  ///< X_WM, the pose of that sensor's frame M; unset: the start pose
                               ///< for odometry, else W.
   Duration staleness = from_seconds(0.5);  ///< A reported pose older than this is stale.
+  /// Speeds beyond which a pose from hardware is not believed; unset: the limits of the guard, else
+  /// what no robot of its sort exceeds.
+  std::optional<double> pose_max_speed_mps;
+  std::optional<double> pose_max_turn_radps;
   /// Limits of the guard. A real robot that executes commands has at least those of GuardSpec{}.
   std::optional<GuardSpec> guard;
 };

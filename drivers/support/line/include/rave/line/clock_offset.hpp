@@ -16,9 +16,20 @@ namespace rave::line {
 /// of all lines below the samples it has the least sum of delays. Source: S. B. Moon, P. Skelly, D.
 /// Towsley, "Estimation and removal of clock skew from network delay measurements", INFOCOM 1999.
 ///
+/// Samples that fall behind are late: the offset never grows faster than a clock can drift, however
+/// many there are. The other way round, samples that seem to arrive before they were sent, only a
+/// clock that was set explains it.
+///
 /// Pure: reads no clock. Not thread-safe.
 class ClockOffset {
  public:
+  /// What a sample turned out to be.
+  enum class Sample {
+    kGood,   ///< It counts, however late it is.
+    kEarly,  ///< It seems to arrive before it was sent: not believed, it changed nothing.
+    kSet,    ///< The last of many such: the clock was set, and the estimate begins anew with it.
+  };
+
   /// How samples are chosen and trusted.
   struct Options {
     double window_s = 30;  ///< How long a sample is used.
@@ -27,17 +38,20 @@ class ClockOffset {
     /// No drift is computed from shorter spans, because it would be noise.
     double slope_after_s = 5;
     double max_drift = 500e-6;  ///< Largest error of a quartz clock.
-    double jump_s = 0.5;        ///< After a larger clock step the estimate restarts, ...
-    /// ... forward only after this many in a row, because samples may just be late.
-    std::int32_t jump_samples = 20;
+    double jump_s = 0.5;        ///< A sample that comes so much too early is not believed, ...
+    /// ... unless so many in a row agree on where the clock is.
+    std::int32_t jump_samples = 10;
+    /// In the first so many seconds the first sample may have been a late one, so that a much
+    /// earlier one is good.
+    double settle_s = 2;
   };
 
   ClockOffset() : ClockOffset(Options{}) {}
   explicit ClockOffset(const Options& options) : options_(options) {}
 
-  /// Adds a sample with device time `device_s` that arrived at `host_s`. A decreasing device time
-  /// restarts the estimate.
-  void add(double device_s, double host_s);
+  /// Adds a sample with device time `device_s`, which must not decrease without a reset(), that
+  /// arrived at `host_s`. What is no number changes nothing and is good.
+  [[nodiscard]] Sample add(double device_s, double host_s);
   /// Clears everything except the count of restarts.
   void reset();
 
@@ -50,7 +64,7 @@ class ClockOffset {
   [[nodiscard]] double offset_s() const noexcept { return offset_s(newest_s_); }
   /// By how much the host's clock runs faster, in parts per million.
   [[nodiscard]] double drift_ppm() const noexcept { return drift_ * 1e6; }
-  /// The number of restarts after steps of the device's clock.
+  /// How often the clock was set.
   [[nodiscard]] std::uint64_t restarts() const noexcept { return restarts_; }
 
  private:
@@ -59,7 +73,7 @@ class ClockOffset {
     double y = 0;  ///< Arrival minus device time.
   };
 
-  [[nodiscard]] bool stepped(double device_s, double difference_s);
+  [[nodiscard]] Sample judge(Point point);
   void keep(Point point);
   void fit();
   [[nodiscard]] double hull_slope();
@@ -68,11 +82,14 @@ class ClockOffset {
   std::deque<Point> buckets_;  // ascending x
   std::vector<Point> hull_;
   double bucket_end_s_ = 0;
+  double first_s_ = 0;
+  Point floor_;  // the lowest sample of all, raised by what a clock can have drifted since
   double newest_s_ = 0;
   double origin_s_ = 0;
   double offset_s_ = 0;
   double drift_ = 0;
-  std::int32_t late_in_a_row_ = 0;
+  std::int32_t early_in_a_row_ = 0;
+  Point early_;  // the last sample that was not believed
   std::uint64_t restarts_ = 0;
 };
 

@@ -71,6 +71,11 @@ class LiveSink final : public SampleSink {
     const std::lock_guard lock(mutex_);
     changed_.notify_all();
   }
+  void begin_anew(const char* text, std::uint64_t size) noexcept override {
+    queue_.begin_anew(text, size);
+    const std::lock_guard lock(mutex_);
+    changed_.notify_all();
+  }
   [[nodiscard]] SimTime now() const noexcept override { return queue_.now(); }
 
   /// Waits for `count` further samples.
@@ -90,6 +95,12 @@ class LiveSink final : public SampleSink {
   void await_recovery() {
     std::unique_lock lock(mutex_);
     EXPECT_TRUE(changed_.wait_for(lock, kLong, [&] { return queue_.failure().empty(); }));
+  }
+  /// Waits for begin_anew() of the driver; returns its text.
+  std::string await_break() {
+    std::unique_lock lock(mutex_);
+    EXPECT_TRUE(changed_.wait_for(lock, kLong, [&] { return queue_.latest().breaks > 0; }));
+    return queue_.break_reason();
   }
   /// Waits for a sample whose first record satisfies `wanted`; returns that record.
   template <class Wanted>

@@ -69,6 +69,7 @@ class RecordingSink final : public SampleSink {
   }
 
   void recover() noexcept override {}
+  void begin_anew(const char*, std::uint64_t) noexcept override {}
   void fail(const char* text, std::uint64_t size) noexcept override {
     const std::lock_guard lock(mutex_);
     fault_.assign(text, size);

@@ -25,6 +25,7 @@ std::string report_json(const std::string& where, const Identity& identity,
   json["malformed"] = state.malformed;
   json["repeated"] = state.repeated;
   json["held_back"] = state.held_back;
+  json["blind"] = state.blind;
   json["refused"] = state.refused;
   json["clock_offset_s"] = state.clock_offset_s;
   json["clock_drift_ppm"] = state.clock_drift_ppm;

@@ -50,5 +50,7 @@ void find_watched_sensors(const RobotGroup& group, std::size_t member, SimTime n
 
 /// The text of the event that a robot stands because of a sensor.
 [[nodiscard]] std::string sensor_lost_text(const SensorSlots& slots);
+/// The same of a sensor that repeats itself, which may be the pose source.
+[[nodiscard]] std::string sensor_frozen_text(const RobotGroup& group, std::uint32_t sensor);
 
 }  // namespace rave::sim

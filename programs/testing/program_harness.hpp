@@ -250,7 +250,7 @@ inline void expect_stand_when_old_or_blind(const std::array<Command, 5>& command
   EXPECT_NE(commands[0].value[0], 0);
   EXPECT_EQ(commands[1], velocity_command(0, 0));
   EXPECT_NE(commands[2].value[0], 0);
-  EXPECT_EQ(commands[3].value[0], 0);
+  EXPECT_NEAR(commands[3].value[0], 0, 1e-12);
   EXPECT_NE(commands[4].value[0], 0);
 }
 

@@ -24,6 +24,7 @@ Result<ScanRequest> request_for(const LaserOptions& options, const Parameters& d
   request.first_step = options.first_step < 0 ? device.first_step : options.first_step;
   request.last_step = options.last_step < 0 ? device.last_step : options.last_step;
   request.skipped_scans = options.skip_scans;
+  request.codes = error_codes_of(device.model);
   request.range_min_mm = device.range_min_mm;
   request.range_max_mm =
       // Two characters have 12 bits. The largest number, 4095, means "that far or farther", so 4094

@@ -26,6 +26,7 @@ std::string report_json(const std::string& where, const Identity& identity,
   json["repeated"] = state.repeated;
   json["early"] = state.early;
   json["held_back"] = state.held_back;
+  json["blind"] = state.blind;
   json["refused"] = state.refused;
   json["clock_offset_s"] = state.clock_offset_s;
   json["clock_drift_ppm"] = state.clock_drift_ppm;

@@ -19,6 +19,7 @@ struct LaserState {
   std::uint64_t early = 0;         ///< Scans dropped: they seemed to arrive before they were sent.
   /// Scans dropped: a better clock estimate moved them before the previous one.
   std::uint64_t held_back = 0;
+  std::uint64_t blind = 0;    ///< Scans dropped: every ray is an error code.
   std::uint64_t refused = 0;  ///< Replies with an error status.
   double clock_offset_s = 0;  ///< Host (its steady clock) minus device, smallest delay included.
   double clock_drift_ppm = 0;

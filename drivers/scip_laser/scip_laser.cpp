@@ -261,12 +261,15 @@ bool ScipLaser::take(const ScipSession::Next& next, Stretch& stretch, SampleSink
   const SimTime stamp = line::run_stamp(sink, host_s);
   // A better estimate may move the clock back by less than a scan. A sensor's stamps must increase.
   const bool in_order = stamp.ns > last_stamp_ns_;
-  if (in_order) {
+  // Without any measured ray it is no sample, so that the sensor grows old and its robot stands.
+  // The line is alive: the device is not started again for it.
+  const bool sees = scan_.sees();
+  if (in_order && sees) {
     last_stamp_ns_ = stamp.ns;
     (void)sink.publish(stamp, scan_.ranges_m.data(), request_.size());
   }
   note([&](LaserState& state) {
-    ++(in_order ? state.scans : state.held_back);
+    ++(!sees ? state.blind : in_order ? state.scans : state.held_back);
     state.clock_offset_s = stretch.clock.offset_s();
     state.clock_drift_ppm = stretch.clock.drift_ppm();
     state.clock_restarts = stretch.clock.restarts();

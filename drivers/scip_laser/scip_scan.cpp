@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "scip_laser/scip_code.hpp"
@@ -29,10 +30,10 @@ float range_of(std::uint32_t value_mm, const ScanRequest& request) noexcept {
   // The largest encodable number means "at least that far".
   const bool saturated =
       value_mm + 1 == 1U << (6U * static_cast<std::uint32_t>(request.characters));
-  if (saturated || mm < request.range_min_mm || mm > request.range_max_mm) {
-    return std::numeric_limits<float>::infinity();
-  }
-  return static_cast<float>(mm) * 1e-3F;
+  if (saturated || mm > request.range_max_mm) return std::numeric_limits<float>::infinity();
+  const auto range_min_m = static_cast<float>(request.range_min_mm) * 1e-3F;
+  if (mm < kLeastRange_mm) return range_of_code(mm, request.codes, range_min_m);
+  return std::max(static_cast<float>(mm) * 1e-3F, range_min_m);
 }
 
 /// A range may be split between two blocks.
@@ -63,6 +64,11 @@ bool echoes(std::string_view echo, const ScanRequest& request) {
 }
 
 }  // namespace
+
+bool Scan::sees() const noexcept {
+  return std::any_of(ranges_m.begin(), ranges_m.end(),
+                     [](float range_m) { return !std::isnan(range_m); });
+}
 
 std::string ScanRequest::command() const {
   const char* const encoding = characters == 2 ? "S" : "D";

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scip_laser/error_codes.hpp"
 #include "scip_laser/scip_decoder.hpp"
 
 namespace rave::scip {
@@ -18,8 +19,9 @@ struct ScanRequest {
   std::int32_t last_step = 0;
   /// Scans skipped between two that are sent, 0 to 9. Continuous mode only.
   std::int32_t skipped_scans = 0;
-  std::int32_t range_min_mm = 0;  ///< Smaller values are error codes.
+  std::int32_t range_min_mm = 0;
   std::int32_t range_max_mm = 0;
+  ErrorCodes codes = ErrorCodes::kDistances;
 
   [[nodiscard]] std::uint32_t size() const noexcept {
     return static_cast<std::uint32_t>(last_step - first_step + 1);
@@ -30,9 +32,12 @@ struct ScanRequest {
 
 struct Scan {
   std::uint32_t timer_ms = 0;  ///< The device's 24-bit timer when the scan passed step 0.
-  /// Metres, by step; +infinity without return: an error code (below the minimum), above the
-  /// maximum, or the largest encodable number.
+  /// Metres, by step. +infinity without return: above the maximum, the largest encodable number, or
+  /// an error code that says so. NaN: another error code.
   std::vector<float> ranges_m;
+
+  /// Whether any step was measured.
+  [[nodiscard]] bool sees() const noexcept;
 };
 
 enum class ScanEnd {

@@ -7,6 +7,7 @@
 
 #include "rave/math/scalar.hpp"
 #include "rave/robot/plugin_entry.hpp"
+#include "rave/robot/sight.hpp"
 
 namespace rave {
 namespace {
@@ -80,6 +81,13 @@ float nearest_of(std::span<const float> ranges_m) noexcept {
   return nearest_m;
 }
 
+/// Whether any of them is NaN.
+bool any_unknown(std::span<const float> ranges_m) noexcept {
+  unsigned unknown = 0;
+  for (const float range_m : ranges_m) unknown |= std::isnan(range_m) ? 1U : 0U;
+  return unknown != 0;
+}
+
 /// Drives straight on; turns to the freer side for a random time when something is near ahead.
 class Cruise final : public DecisionProcess {
  public:
@@ -117,7 +125,8 @@ class Cruise final : public DecisionProcess {
     const float right_m = nearest_of(part(ranges_m, rays_.first, rays_.right_end));
     const float ahead_m = nearest_of(part(ranges_m, rays_.right_end, rays_.left_begin));
     const float left_m = nearest_of(part(ranges_m, rays_.left_begin, rays_.end));
-    const float nearest_m = std::min({right_m, ahead_m, left_m});
+    float nearest_m = std::min({right_m, ahead_m, left_m});
+    if (is_blind(part(ranges_m, rays_.first, rays_.end))) nearest_m = 0;
     if (turns_left_ == 0 && nearest_m < avoid_m_) begin_turn(left_m, right_m, percepts.random());
     if (turns_left_ == 0) {
       commands.velocity(drive_, cruise_mps_, 0);
@@ -130,6 +139,20 @@ class Cruise final : public DecisionProcess {
   }
 
  private:
+  /// Whether it cannot see where it would drive; given its rays ahead.
+  [[nodiscard]] bool is_blind(std::span<const float> ahead_m) const noexcept {
+    // Most scans have no such ray, and then it need not be known where they look.
+    if (!any_unknown(ahead_m)) return false;
+    const SensorInfo& sensor = laser_.info();
+    const double spread_rad = 0.5 * sensor.cone_rad;
+    Sight sight;
+    for (std::size_t i = 0; i < ahead_m.size(); ++i) {
+      const double axis_rad = sensor.X_RS.yaw + sensor.bearings_rad[rays_.first + i];
+      sight.add(Sectors::between(axis_rad - spread_rad, axis_rad + spread_rad), ahead_m[i]);
+    }
+    return (sight.blind() & Sectors::ahead(kMustSee_rad)).any();
+  }
+
   /// The ranges [begin, end), as far as the sample has them.
   static std::span<const float> part(std::span<const float> ranges_m, std::uint32_t begin,
                                      std::uint32_t end) noexcept {

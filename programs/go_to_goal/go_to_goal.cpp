@@ -42,7 +42,7 @@ class GoToGoal final : public DecisionProcess {
     setup_ = setup;
     RAVE_TRY_ASSIGN(drive_, setup.controller(CommandKind::kVelocity));
     scan_ = Scan(setup);
-    points_R_.reserve(ObstacleMemory::kSide * ObstacleMemory::kSide);
+    points_R_.reserve(ObstacleMemory::kSide * ObstacleMemory::kSide + Sectors::kCount);
     return parameters_changed(params);
   }
 
@@ -79,6 +79,9 @@ class GoToGoal final : public DecisionProcess {
     memory_.update(scan_, X_WR, percepts.now());
     points_R_.clear();
     memory_.append_to(points_R_, X_WR, look_m_ + 0.5);
+    for (const RangeHit& hit : scan_.hits()) {
+      if (hit.blind) points_R_.push_back(hit.p_R);
+    }
 
     const std::optional<Vec2> goal_W = next_goal(percepts, X_WR, commands);
     if (!goal_W) return;

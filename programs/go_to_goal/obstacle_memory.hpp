@@ -28,7 +28,8 @@ class ObstacleMemory {
     now_ = now;
     for (const RangeBeam& beam : scan.beams()) sweep(beam, X_WR);
     for (const RangeHit& hit : scan.hits()) {
-      if (hit.distance_m < 0.45 * kSide * kCell_m) mark(transform(X_WR, hit.p_R));
+      // Blindness ends; it is nothing to remember.
+      if (!hit.blind && hit.distance_m < 0.45 * kSide * kCell_m) mark(transform(X_WR, hit.p_R));
     }
   }
 

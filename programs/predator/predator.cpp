@@ -116,7 +116,7 @@ class Predator final : public DecisionProcess {
     points_R_.clear();
     for (const RangeHit& hit : scan_.hits()) {
       // The prey itself must not count as an obstacle, or the hunt would steer around it.
-      if (squared_norm(hit.p_R - prey_R) > prey_radius_m_ * prey_radius_m_) {
+      if (hit.blind || squared_norm(hit.p_R - prey_R) > prey_radius_m_ * prey_radius_m_) {
         points_R_.push_back(hit.p_R);
       }
     }

@@ -213,10 +213,11 @@ class ProgramUnderTest {
 };
 
 /// Nothing is near, and the sensor that says so falls silent: what the one robot of a program
-/// commands by a scan that is fresh, by the same when it is older than 0.3 s, and when scans come
-/// again. The program must not have been started; `beside` gives what else it needs to drive.
+/// commands by a scan that is fresh, by the same when it is older than 0.3 s, when scans come
+/// again, by one in which the ray ahead was not measured, and when it is measured again. The
+/// program must not have been started; `beside` gives what else it needs to drive.
 template <class Beside>
-std::array<Command, 3> commands_by_age(ProgramUnderTest& program, const Beside& beside) {
+std::array<Command, 5> commands_by_age(ProgramUnderTest& program, const Beside& beside) {
   Rig& rig = *program.rigs.front();
   RigSensor& scanner = rig.add_ranges({-0.4, -0.2, 0, 0.2, 0.4}, 0, 8.0);
   scanner.info.max_age_s = 0.3;
@@ -227,21 +228,30 @@ std::array<Command, 3> commands_by_age(ProgramUnderTest& program, const Beside& 
     program.decide({from_seconds(t_s).ns});
     return rig.command();
   };
-  std::array<Command, 3> commands;
+  std::array<Command, 5> commands;
   scanner.give(free, from_seconds(10).ns);
   (void)decide(10);
   commands[0] = decide(10.25);
   commands[1] = decide(10.4);
   scanner.give(free, from_seconds(10.5).ns);
   commands[2] = decide(10.5);
+  std::vector<float> blind = free;
+  blind[2] = std::numeric_limits<float>::quiet_NaN();
+  scanner.give(blind, from_seconds(10.6).ns);
+  commands[3] = decide(10.6);
+  scanner.give(free, from_seconds(10.7).ns);
+  commands[4] = decide(10.7);
   return commands;
 }
 
-/// Expects of commands_by_age() that an old scan is no free space.
-inline void expect_stand_when_old(const std::array<Command, 3>& commands) {
+/// Expects of commands_by_age() that neither an old scan nor a ray that was not measured is free
+/// space. A robot that is blind ahead may turn.
+inline void expect_stand_when_old_or_blind(const std::array<Command, 5>& commands) {
   EXPECT_NE(commands[0].value[0], 0);
   EXPECT_EQ(commands[1], velocity_command(0, 0));
   EXPECT_NE(commands[2].value[0], 0);
+  EXPECT_NEAR(commands[3].value[0], 0, 1e-12);
+  EXPECT_NE(commands[4].value[0], 0);
 }
 
 }  // namespace rave::testing

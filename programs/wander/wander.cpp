@@ -124,7 +124,8 @@ class Wander final : public DecisionProcess {
     --back_off_left_;
     const double behind_m =
         std::min(scan_.nearest_m(kPi - rear_rad_, kPi), scan_.nearest_m(-kPi, rear_rad_ - kPi));
-    if (behind_m - radius_m_ < rear_stop_m_) back_off_left_ = 0;
+    const bool blind = (scan_.blind() & Sectors::behind(rear_rad_)).any();
+    if (blind || behind_m - radius_m_ < rear_stop_m_) back_off_left_ = 0;
     return back_off_left_ > 0;
   }
 

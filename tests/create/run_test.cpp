@@ -93,6 +93,50 @@ TEST(CreateRun, ALaserThatFallsSilentStopsTheRobotUntilItSpeaksAgain) {
   (void)run.rave->wait();
 }
 
+TEST(CreateRun, ALaserThatRepeatsItselfStopsTheRobotUntilItLooksAgain) {
+  CreateRun run("create", 600);
+  run.start();
+  run.await_state(testing::wheels_turn);
+  run.peer->tell("laser freeze");
+  run.await_console("frozen: `laser` repeats the same scan", 1);
+  run.await_state(testing::wheels_stand);
+  run.peer->tell("laser see");
+  run.await_state(testing::wheels_turn);
+  run.rave->interrupt();
+  (void)run.rave->wait();
+}
+
+TEST(CreateRun, ALaserThatMeasuresNothingStopsTheRobot) {
+  CreateRun run("create", 600);
+  run.start();
+  run.await_state(testing::wheels_turn);
+  run.peer->tell("laser blind 0");
+  run.await_console("sensor lost: `laser`", 1);
+  run.await_state(testing::wheels_stand);
+  run.peer->tell("laser see");
+  run.await_state(testing::wheels_turn);
+  run.rave->interrupt();
+  (void)run.rave->wait();
+}
+
+TEST(CreateRun, WhoIsBlindAheadTurnsAndTouchesNothing) {
+  CreateRun run("create", 600);
+  run.start();
+  run.await_state(testing::wheels_turn);
+  run.peer->tell("laser blind 7 -60 60");
+  // It turns on the spot, again and again.
+  const Json begun = run.await_state([](const Json& now) {
+    return now["left_mps"].get<double>() * now["right_mps"].get<double>() < 0;
+  });
+  const Json turned = run.await_state([&](const Json& now) {
+    return std::abs(now["yaw"].get<double>() - begun["yaw"].get<double>()) > 1.5;
+  });
+  EXPECT_LT(turned["path_m"].get<double>() - begun["path_m"].get<double>(), 0.05);
+  EXPECT_EQ(turned["touches"], 0);
+  run.rave->interrupt();
+  (void)run.rave->wait();
+}
+
 TEST(CreateRun, ARobotThatIsNotThereIsAnErrorOfTheStart) {
   CreateRun run("create", 5);
   run.peer->tell("vanish");

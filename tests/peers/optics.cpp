@@ -19,7 +19,7 @@ std::vector<int> scan_room(const Room& room, double x, double y, double yaw, dou
     const double mm = room.distance(x, y, yaw + bearing) * 1000 + noise(random);
     ranges_mm.push_back(mm <= ScipDevice::kMost_mm
                             ? std::max(static_cast<int>(std::lround(mm)), ScipDevice::kLeast_mm)
-                            : 0);
+                            : ScipDevice::kNothingInReach);
   }
   return ranges_mm;
 }

@@ -264,6 +264,7 @@ class CreatePeer {
     if (const Fault fault = fault_named(what); fault != Fault::kNone) {
       laser_->spoil_next(fault, command.size() > 2 ? std::atoi(command[2].c_str()) : 1);
     }
+    laser_->obey({command.begin() + 1, command.end()});
     if (what == "mute" || what == "speak") laser_->set_mute(what == "mute");
     if (what == "vanish") laser_->vanish();
     if (what == "return") laser_->come_back();
@@ -324,6 +325,7 @@ int main(int argc, char** argv) {
                                "laser-port",
                                "laser-pose",
                                "laser-noise-mm",
+                               "laser-model",
                                "laser-rpm",
                                "laser-latency-ms",
                                "laser-log",

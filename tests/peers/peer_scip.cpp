@@ -75,6 +75,7 @@ class ScipPeer {
     if (const Fault fault = fault_named(name); fault != Fault::kNone) {
       laser_.spoil_next(fault, command.size() > 1 ? std::atoi(command[1].c_str()) : 1);
     }
+    laser_.obey(command);
     if (name == "mute") laser_.set_mute(true);
     if (name == "speak") laser_.set_mute(false);
     if (name == "vanish") laser_.vanish();
@@ -93,7 +94,7 @@ class ScipPeer {
 
 int main(int argc, char** argv) {
   const peer::Arguments given(argc, argv,
-                              {"link", "port", "room", "pose", "circle", "noise-mm", "rpm",
+                              {"link", "port", "model", "room", "pose", "circle", "noise-mm", "rpm",
                                "clock-start-s", "drift-ppm", "latency-ms", "seed", "log"});
   ScipPeer(given).run();
 }

@@ -48,7 +48,7 @@ void ScipDevice::power_on() {
 }
 
 std::string ScipDevice::parameters() const {
-  return info("MODL:PEER-04LX") + info("DMIN:" + std::to_string(kLeast_mm)) +
+  return info("MODL:" + model_) + info("DMIN:" + std::to_string(kLeast_mm)) +
          info("DMAX:" + std::to_string(kMost_mm)) + info("ARES:" + std::to_string(kStepsPerTurn)) +
          info("AMIN:" + std::to_string(kFirstStep)) + info("AMAX:" + std::to_string(kLastStep)) +
          info("AFRT:" + std::to_string(kFrontStep)) + info("SCAN:" + std::to_string(rpm_));

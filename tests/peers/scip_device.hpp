@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "own_clock.hpp"
@@ -19,8 +20,10 @@ class ScipDevice {
   static constexpr int kStepsPerTurn = 1024;
   static constexpr int kLeast_mm = 20;
   static constexpr int kMost_mm = 5600;
+  static constexpr int kNothingInReach = 1;  // as a UTM-30LX says it
 
-  ScipDevice(int rpm, OwnClock clock) : rpm_(rpm), clock_(clock) {}
+  ScipDevice(std::string model, int rpm, OwnClock clock)
+      : model_(std::move(model)), rpm_(rpm), clock_(clock) {}
 
   /// As after power-on: laser off, and still speaking SCIP 1.1.
   void power_on();
@@ -36,6 +39,7 @@ class ScipDevice {
   [[nodiscard]] std::string data(const std::string& command) const;
   [[nodiscard]] std::string parameters() const;
 
+  std::string model_;
   int rpm_;
   OwnClock clock_;
   bool scip2_ = false;

@@ -30,7 +30,8 @@ void check_reply(const Reply& reply, const ScanRequest& request, Scan& scan) {
   if (end != ScanEnd::kScan) return;
   RAVE_CHECK(scan.timer_ms < (1U << 24) && scan.ranges_m.size() == request.size());
   for (const float range_m : scan.ranges_m) {
-    RAVE_CHECK(std::isinf(range_m) || (range_m > 0.019F && range_m < 5.601F));
+    RAVE_CHECK(std::isinf(range_m) || std::isnan(range_m) ||
+               (range_m > 0.019F && range_m < 5.601F));
   }
 }
 
@@ -41,6 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   ScanRequest request;
   request.continuous = (data[0] & 1U) == 0;
   request.characters = (data[0] & 2U) == 0 ? 3 : 2;
+  request.codes = (data[0] & 4U) == 0 ? ErrorCodes::kReasons : ErrorCodes::kDistances;
   request.last_step = 31;
   request.range_min_mm = 20;
   request.range_max_mm = 5600;

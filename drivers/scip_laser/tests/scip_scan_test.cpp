@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "dialogue.hpp"
@@ -42,8 +43,8 @@ TEST(Scan, CommandsAsTheSpecificationHasThem) {
   EXPECT_EQ(wanted.command(), "GS0044072501");
 }
 
-TEST(Scan, RangesInMetresAndErrorCodesAsNoReturn) {
-  const std::vector<unsigned> mm = {0, 19, 20, 1234, 5600, 5601, 262'143};
+TEST(Scan, RangesInMetresAndWhatLiesBeyondAsNoReturn) {
+  const std::vector<unsigned> mm = {5602, 65'533, 20, 1234, 5600, 5601, 262'143};
   Scan scan;
   for (const bool continuous : {true, false}) {
     const ScanRequest wanted = request(6, continuous);
@@ -71,6 +72,41 @@ TEST(Scan, TheLargestNumberOfTwoCharactersIsNoReturn) {
   }
 }
 
+TEST(Scan, ErrorCodesAsTheModelMeansThem) {
+  const std::vector<unsigned> mm = {0, 1, 2, 3, 6, 7, 19, 20, 22, 23};
+  ScanRequest wanted = request(9);
+  wanted.range_min_mm = 23;  // as a UTM-30LX has it
+  Scan scan;
+  for (const ErrorCodes codes : {ErrorCodes::kReasons, ErrorCodes::kDistances}) {
+    wanted.codes = codes;
+    ASSERT_EQ(read(scan_text(wanted.command(), "99", 1, mm, 3), wanted, scan), ScanEnd::kScan);
+    for (const std::size_t unknown : {0U, 3U, 4U, 5U, 6U}) {
+      EXPECT_TRUE(std::isnan(scan.ranges_m[unknown])) << mm[unknown];
+    }
+    for (const std::size_t near : {7U, 8U, 9U}) EXPECT_FLOAT_EQ(scan.ranges_m[near], 0.023F);
+    const bool older = codes == ErrorCodes::kReasons;
+    EXPECT_EQ(std::isnan(scan.ranges_m[1]), older);
+    EXPECT_EQ(std::isinf(scan.ranges_m[1]), !older);
+    EXPECT_EQ(std::isnan(scan.ranges_m[2]), older);
+    if (!older) {
+      EXPECT_FLOAT_EQ(scan.ranges_m[2], 0.023F);
+    }
+  }
+}
+
+TEST(Scan, SeesIfAnyRayWasMeasured) {
+  ScanRequest wanted = request(2);
+  wanted.codes = ErrorCodes::kReasons;
+  Scan scan;
+  const auto read_all = [&](const std::vector<unsigned>& mm) {
+    EXPECT_EQ(read(scan_text(wanted.command(), "99", 1, mm, 3), wanted, scan), ScanEnd::kScan);
+    return scan.sees();
+  };
+  EXPECT_FALSE(read_all({0, 7, 19}));
+  EXPECT_TRUE(read_all({0, 700, 19}));
+  EXPECT_TRUE(read_all({0, 5601, 19})) << "free space was measured";
+}
+
 TEST(Scan, OfThreeCharacters4095IsARange) {
   const ScanRequest wanted = request(0);
   Scan scan;
@@ -84,7 +120,7 @@ TEST(Scan, RangesAcrossTheEndOfABlock) {
   for (const int characters : {2, 3}) {
     const ScanRequest wanted = request(681, true, characters);
     if (characters == 2) {
-      for (unsigned& value : mm) value %= 4096;
+      for (unsigned& value : mm) value = std::max(value % 4096, 20U);
     }
     Scan scan;
     ASSERT_EQ(read(scan_text(wanted.command(), "99", 1, mm, characters), wanted, scan),

@@ -218,6 +218,17 @@ void describe(V& v, GuardFile& c) {
           between(0, 10, "s", "Time from a command to the reaction of the robot."));
   v.field("watchdog_s", c.watchdog_s,
           positive_s("Age after which a command of the program expires."));
+  v.field(
+      "frozen_s", c.frozen_s,
+      between(0, 60, "s",
+              "Time, beyond `reaction_s`, for which a pose or a scan of a real robot may stay the "
+              "same to the bit while it is commanded to move; 0: any time, for sources without "
+              "noise."));
+  v.field(
+      "must_see_deg", c.must_see_deg,
+      between(0, 180, "deg",
+              "Half of the angle that the range sensors of a real robot must see where it drives, "
+              "ahead or back; 0: none."));
 }
 
 template <class V>

@@ -205,15 +205,30 @@ bool SampleQueue::next(SimTime up_to, SampleHeader* header, void* records) {
   return true;
 }
 
+const std::byte* SampleQueue::records_of(std::size_t slot) const noexcept {
+  return records_.data() + slot * max_records_ * record_size_;
+}
+
+/// next() leaves a sample in its slot until the slot is reused, depth_ samples later.
+std::size_t SampleQueue::newest_slot() const noexcept {
+  return (first_ + count_ + depth_ - 1) % depth_;
+}
+
 bool SampleQueue::newest(SampleHeader* header, void* record, Before* before) const {
   const Lock lock(mutex_);
   if (newest_ns_ == INT64_MIN) return false;
-  // next() leaves a sample in its slot until the slot is reused, depth_ samples later.
-  const std::size_t slot = (first_ + count_ + depth_ - 1) % depth_;
-  *header = headers_[slot];
-  if (before != nullptr) *before = before_[slot];
+  *header = headers_[newest_slot()];
+  if (before != nullptr) *before = before_[newest_slot()];
+  if (header->count > 0) std::memcpy(record, records_of(newest_slot()), record_size_);
+  return true;
+}
+
+bool SampleQueue::newer_than(std::uint32_t sequence, SampleHeader* header, void* records) const {
+  const Lock lock(mutex_);
+  if (newest_ns_ == INT64_MIN || headers_[newest_slot()].sequence == sequence) return false;
+  *header = headers_[newest_slot()];
   if (header->count > 0) {
-    std::memcpy(record, records_.data() + slot * max_records_ * record_size_, record_size_);
+    std::memcpy(records, records_of(newest_slot()), std::size_t{header->count} * record_size_);
   }
   return true;
 }

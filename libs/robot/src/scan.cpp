@@ -19,7 +19,7 @@ Vec2 unit(double angle_rad) {
 
 }  // namespace
 
-Scan::Scan(const Setup& setup) {
+Scan::Scan(const Setup& setup) : radius_m_(setup.robot_radius_m()) {
   std::size_t rays = 0;
   for (const RangesHandle& handle : setup.all_sensors<float>()) {
     const SensorInfo& info = handle.info();
@@ -32,18 +32,20 @@ Scan::Scan(const Setup& setup) {
       sensor.rays.push_back(
           {info.X_RS.position(),
            {unit(axis_rad), unit(axis_rad + spread_rad), unit(axis_rad - spread_rad)},
-           spread_rad});
+           spread_rad,
+           Sectors::between(axis_rad - spread_rad, axis_rad + spread_rad)});
     }
     rays += sensor.rays.size();
     sensors_.push_back(std::move(sensor));
   }
   beams_.reserve(rays);
-  hits_.reserve(3 * rays);
+  hits_.reserve(3 * rays + Sectors::kCount);
 }
 
 void Scan::update(const Percepts& percepts) {
   hits_.clear();
   beams_.clear();
+  sight_.clear();
   old_ = false;
   for (const Sensor& sensor : sensors_) {
     old_ = old_ || percepts.is_old(sensor.handle);
@@ -53,9 +55,21 @@ void Scan::update(const Percepts& percepts) {
       add(sensor.rays[i], ranges_m[i], sensor.handle.info().range_max_m);
     }
   }
+  add_blind();
+}
+
+/// What it cannot see may be right before it.
+void Scan::add_blind() {
+  const Sectors ahead = sight_.blind() & Sectors::ahead(kMustSee_rad);
+  for (int i = 0; ahead.any() && i < Sectors::kCount; ++i) {
+    if (!ahead.has(i)) continue;
+    const double bearing_rad = Sectors::middle_rad(i);
+    hits_.push_back({radius_m_ * unit(bearing_rad), radius_m_, bearing_rad, true});
+  }
 }
 
 void Scan::add(const Ray& ray, float range_m, double limit_m) {
+  sight_.add(ray.sectors, range_m);
   if (std::isnan(range_m)) return;
   const bool hit = range_m < std::numeric_limits<float>::infinity();
   // Minus infinity means "too near to measure" (REP-117).
@@ -65,7 +79,7 @@ void Scan::add(const Ray& ray, float range_m, double limit_m) {
   const int edges = ray.spread_rad > 0 ? 3 : 1;
   for (int k = 0; k < edges; ++k) {
     const Vec2 p_R = ray.origin_R + free_m * ray.directions_R[k];
-    hits_.push_back({p_R, std::sqrt(squared_norm(p_R)), atan2(p_R.y, p_R.x)});
+    hits_.push_back({p_R, std::sqrt(squared_norm(p_R)), atan2(p_R.y, p_R.x), false});
   }
 }
 

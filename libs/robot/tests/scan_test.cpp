@@ -73,10 +73,34 @@ TEST_F(ScanTest, IsOldWhenASensorHasNotSpokenForLongerThanItMay) {
 
 TEST_F(ScanTest, NoReturnIsFreeAndNotANumberIsNothing) {
   const Scan scan =
-      scan_of(0, {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()});
+      scan_of(0, {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()});
   EXPECT_TRUE(scan.hits().empty());
   ASSERT_EQ(scan.beams().size(), 1U);
   EXPECT_EQ(scan.beams()[0].free_m, 4.0);
+}
+
+TEST_F(ScanTest, WhatItCannotSeeAheadTouchesItsBody) {
+  raw_.robot.radius_m = 0.2;
+  const float unknown = std::numeric_limits<float>::quiet_NaN();
+  const Scan scan = scan_of(0, {2.0F, unknown});  // the second one looks ahead
+  ASSERT_EQ(scan.hits().size(), 2U);
+  EXPECT_FALSE(scan.hits()[0].blind);
+  EXPECT_TRUE(scan.hits()[1].blind);
+  EXPECT_NEAR(scan.hits()[1].distance_m, 0.2, 1e-12);
+  EXPECT_NEAR(std::sqrt(squared_norm(scan.hits()[1].p_R)), 0.2, 1e-12);
+  EXPECT_NEAR(scan.nearest_m(-0.1, 0.1), 0.2, 1e-12);
+  EXPECT_TRUE((scan.blind() & Sectors::ahead(0.1)).any());
+  // A cone is blind in all its width, unless another one sees there.
+  const Scan cones = scan_of(0.6, {2.0F, unknown});
+  EXPECT_TRUE((cones.blind() & Sectors::between(0.25, 0.25)).any());
+  EXPECT_FALSE((scan_of(3.2, {2.0F, unknown}).blind() & Sectors::between(0.2, 0.2)).any());
+}
+
+TEST_F(ScanTest, WhatItCannotSeeBesideOrBehindIsNoHit) {
+  const float unknown = std::numeric_limits<float>::quiet_NaN();
+  const Scan scan = scan_of(0, {unknown, 3.0F});
+  EXPECT_EQ(scan.hits().size(), 1U);
+  EXPECT_TRUE((scan.blind() & Sectors::between(0.5 * kPi, 0.5 * kPi)).any());
 }
 
 TEST_F(ScanTest, TooNearToMeasureIsAHitAtTheSensor) {

@@ -93,19 +93,23 @@ Command Engine::Impl::guarded(const RobotGroup& group, const ActuatorSlots& slot
     const auto quiet_steps = static_cast<std::int64_t>(kGuardQuiet_s / spec.step.seconds());
     const auto present = static_cast<std::int64_t>(step);
     tell_guard(robot, *limits, robot_guard.begin(output.acted, present, quiet_steps),
-               output.lost_sensor, worker.events);
+               output.lost_sensor, 0, worker.events);
   }
   return output.command;
 }
 
 void Engine::Impl::tell_guard(RobotId robot, const GuardSpec& limits, std::uint32_t begun,
-                              std::uint32_t lost_sensor, std::vector<Event>& to) const {
+                              std::uint32_t lost_sensor, std::uint32_t frozen_sensor,
+                              std::vector<Event>& to) const {
   for (std::uint32_t i = 0; i < kGuardLimits; ++i) {
     if ((begun >> i & 1U) == 0) continue;
     const auto limit = static_cast<GuardLimit>(i);
     std::string text(text_of(limit));
     if (limit == GuardLimit::kSensorLost) {
       text = sensor_lost_text(roster.group_of(robot).sensors[lost_sensor], roster.member_of(robot));
+    }
+    if (limit == GuardLimit::kFrozen) {
+      text = sensor_frozen_text(roster.group_of(robot), frozen_sensor);
     }
     to.push_back({step, robot, event_of(limit, limits), BodyId(), std::move(text), i});
   }

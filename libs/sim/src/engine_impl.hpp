@@ -198,9 +198,10 @@ struct Engine::Impl final : private HandOvers::Site {
                                 std::uint32_t member, const ControllerSlots* controller,
                                 const Command& command, Worker& worker);
   void find_neighbours(RobotId robot, double reach_m, Worker& worker) const;
-  /// Events of limits that begin to act, as bits. `lost_sensor`: as in GuardOutput.
+  /// Events of limits that begin to act, as bits. The sensors: as in GuardNews.
   void tell_guard(RobotId robot, const GuardSpec& limits, std::uint32_t begun,
-                  std::uint32_t lost_sensor, std::vector<Event>& to) const;
+                  std::uint32_t lost_sensor, std::uint32_t frozen_sensor,
+                  std::vector<Event>& to) const;
 
   // engine_live.cpp: guards with threads of their own
   [[nodiscard]] Status start_guards();

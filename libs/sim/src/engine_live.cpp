@@ -98,6 +98,7 @@ Result<std::unique_ptr<GuardThread>> Engine::Impl::start_guard(RobotGroup& group
     const SensorSlots& source = group.sensors[*group.type->pose_from];
     // What a stepped driver has published may lie in the future.
     if (source.live) setup.pose.queue = source.queues[member].get();
+    setup.pose.index = *group.type->pose_from;
     setup.pose.kind = source.spec->kind;
     setup.pose.X_WM = pose_frame(group, robot);
   }
@@ -107,6 +108,11 @@ Result<std::unique_ptr<GuardThread>> Engine::Impl::start_guard(RobotGroup& group
     if (!slots.max_age_s || !slots.live) continue;
     setup.sensors.push_back(
         {s, slots.queues[member].get(), *slots.max_age_s, is_judged_by_link(*slots.spec)});
+  }
+  for (std::uint32_t s = 0; s < group.sensors.size(); ++s) {
+    const SensorSlots& slots = group.sensors[s];
+    if (!slots.live || slots.spec->kind != ReadingKind::kRanges) continue;
+    setup.ranges.push_back({s, slots.queues[member].get(), ray_sectors(slots.info)});
   }
   for (const ActuatorSlots& slots : group.actuators) {
     setup.actuators.push_back(
@@ -218,7 +224,7 @@ void Engine::Impl::hear_guard(RobotGroup& group, std::uint32_t member) {
   const RobotId robot = group.members[member];
   guarded.thread->look(guarded.news);
   tell_guard(robot, *guards[spec.robots[robot.value()].type], guarded.news.begun,
-             guarded.news.lost_sensor, events);
+             guarded.news.lost_sensor, guarded.news.frozen_sensor, events);
   const bool stuck = guarded.news.stuck > kStuck;
   for (std::size_t a = 0; a < group.actuators.size(); ++a) {
     ActuatorSlots& slots = group.actuators[a];

@@ -237,6 +237,7 @@ std::optional<GuardLimit> hold_reason(const GuardSpec& spec, const GuardInput& i
   if (!in.armed) return GuardLimit::kUnarmed;
   if (!in.pose_known) return GuardLimit::kPoseLost;
   if (first_lost(in) != in.sensors.end()) return GuardLimit::kSensorLost;
+  if (in.frozen_sensor) return GuardLimit::kFrozen;
   if (spec.world_lost == WorldLostPolicy::kStop && !(in.world_age_s <= spec.world_timeout_s)) {
     return GuardLimit::kWorldLost;
   }
@@ -292,6 +293,11 @@ GuardOutput guard(const GuardSpec& spec, const GuardInput& input) noexcept {
       spec.world_lost == WorldLostPolicy::kSlow && !(input.world_age_s <= spec.world_timeout_s);
   if (slow && cap(drive, &Drive::v_mps, spec.slow_speed_mps)) {
     output.acted |= bit(GuardLimit::kWorldLost);
+  }
+  // It may turn, and then it sees.
+  if (drive.v_mps > 0 ? input.is_blind_ahead : drive.v_mps < 0 && input.is_blind_behind) {
+    drive.v_mps = 0;
+    output.acted |= bit(GuardLimit::kBlind);
   }
   output.acted |= limit_motion(spec, input, drive);
   output.command = velocity_command(drive.v_mps, drive.w_radps);

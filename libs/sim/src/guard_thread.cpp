@@ -32,7 +32,7 @@ bool raise_priority(std::thread& thread) {
 GuardThread::GuardThread(Setup setup, std::string_view robot)
     : setup_(std::move(setup)),
       robot_(robot),
-      guard_(setup_.limits, setup_.pose, setup_.sensors, setup_.period) {
+      guard_(setup_.limits, setup_.pose, setup_.sensors, setup_.period, setup_.ranges) {
   const std::size_t count = setup_.actuators.size();
   allowed_.resize(count);
   written_.resize(count);
@@ -95,6 +95,7 @@ void GuardThread::look(GuardNews& news) {
     const std::lock_guard lock(mutex_);
     news.begun = std::exchange(news_.begun, 0);
     news.lost_sensor = news_.lost_sensor;
+    news.frozen_sensor = news_.frozen_sensor;
     news.written = news_.written;
   }
   // An atomic and not under the mutex: a driver that hangs must be noticed while it hangs.
@@ -135,6 +136,7 @@ void GuardThread::write_all(bool stands) {
   const std::size_t count = std::min(order_.demands.size(), allowed_.size());
   if (stands) {
     for (std::size_t a = 0; a < count; ++a) allowed_[a] = standing(order_.demands[a].expected);
+    guard_.stand();
   } else {
     guard_.limit(order_, now, allowed_);
   }
@@ -143,6 +145,7 @@ void GuardThread::write_all(bool stands) {
   const std::lock_guard lock(mutex_);
   news_.begun |= guard_.take_begun();
   news_.lost_sensor = guard_.lost_sensor();
+  news_.frozen_sensor = guard_.frozen_sensor();
   for (std::size_t a = 0; a < count; ++a) news_.written[a] = written_[a];
 }
 

@@ -35,8 +35,9 @@ struct WrittenCommand {
 
 /// What a guard tells the engine. What happened several times since the last look counts once.
 struct GuardNews {
-  std::uint32_t begun = 0;        ///< Bit `1 << limit` of each limit that began to act.
-  std::uint32_t lost_sensor = 0;  ///< The last one that was too old; as in GuardOutput.
+  std::uint32_t begun = 0;          ///< Bit `1 << limit` of each limit that began to act.
+  std::uint32_t lost_sensor = 0;    ///< The last one that was too old; as in GuardOutput.
+  std::uint32_t frozen_sensor = 0;  ///< The last one that repeated itself.
   std::vector<WrittenCommand> written;
   /// The driver has not returned from a command for so long.
   Duration stuck;
@@ -54,6 +55,7 @@ class GuardThread {
     GuardSpec limits;
     LivePose pose;
     std::vector<LiveSensor> sensors;
+    std::vector<LiveRanges> ranges;
     std::vector<GuardedActuator> actuators;
     const RunClock* clock = nullptr;  ///< Not owned.
     Duration period;

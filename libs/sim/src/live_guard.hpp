@@ -7,7 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "frozen_watch.hpp"
 #include "pose_track.hpp"
+#include "range_watch.hpp"
 #include "rave/base/time.hpp"
 #include "rave/robot/sample_queue.hpp"
 #include "rave/sim/guard.hpp"
@@ -45,8 +47,9 @@ struct GuardOrder {
 struct LivePose {
   const SampleQueue* queue = nullptr;  ///< Null: GuardOrder::reported counts. Not owned.
   ReadingKind kind = ReadingKind::kPose;
-  Pose2 X_WM;          ///< Frame of the sensor.
-  Duration staleness;  ///< An older pose is lost.
+  Pose2 X_WM;               ///< Frame of the sensor.
+  Duration staleness;       ///< An older pose is lost.
+  std::uint32_t index = 0;  ///< Of the sensor in the robot's type.
 };
 
 /// A sensor of a real robot that must not fall silent: see sensor_age.hpp.
@@ -66,18 +69,28 @@ class LiveGuard {
   static constexpr double kLongestGap_s = 0.5;
 
   /// `period`: of calls of limit().
-  LiveGuard(GuardSpec limits, LivePose pose, std::vector<LiveSensor> sensors, Duration period);
+  LiveGuard(GuardSpec limits, LivePose pose, std::vector<LiveSensor> sensors, Duration period,
+            std::vector<LiveRanges> ranges = {});
 
   /// The commands that the actuators may get at `now`, by actuator.
   void limit(const GuardOrder& order, SimTime now, std::span<Command> allowed);
+  /// The robot was told to stand, past this guard.
+  void stand() noexcept { told_ = {}; }
   /// The limits that began to act since the last call, as bits.
   [[nodiscard]] std::uint32_t take_begun() noexcept;
   /// The last sensor that was too old: its index in the robot's type.
   [[nodiscard]] std::uint32_t lost_sensor() const noexcept { return lost_sensor_; }
 
+  /// The last sensor that repeated itself: its index in the robot's type.
+  [[nodiscard]] std::uint32_t frozen_sensor() const noexcept { return frozen_sensor_; }
+
  private:
   void note_gap(SimTime now);
   void look_for_breaks();
+  void note_told(double gap_s);
+  void take_pose();
+  void look_at_ranges();
+  void forget_frozen() noexcept;
   void look_where(const GuardOrder& order, SimTime now);
   void look_at_sensors();
   void look_around(const GuardOrder& order, double world_age_s);
@@ -88,6 +101,12 @@ class LiveGuard {
   const double period_s_;
   RobotGuard guard_;
   PoseTrack track_{from_seconds(1.0)};
+  FrozenWatch frozen_pose_;
+  std::optional<PoseReading> last_pose_;  ///< As it was read.
+  SimTime changed_;  ///< Stamp of the first sample that said what the last one says.
+  std::vector<RangeWatch> ranges_;
+  Command told_;      ///< The velocity that the robot obeys.
+  GuardHolds holds_;  ///< Of the last order.
   GuardInput input_;  ///< Without what differs by actuator.
   std::vector<GuardNeighbour> neighbours_;
   std::vector<GuardSensor> ages_;
@@ -97,6 +116,7 @@ class LiveGuard {
   std::uint32_t pose_breaks_ = 0;  ///< Of the pose, until the newest one.
   std::uint32_t begun_ = 0;
   std::uint32_t lost_sensor_ = 0;
+  std::uint32_t frozen_sensor_ = 0;
 };
 
 }  // namespace rave::sim

@@ -82,6 +82,8 @@ std::string_view text_of(GuardLimit limit) noexcept {
       "turn rate: above its limit",
       "fence: it would leave its region",
       "separation: it would come too close to another robot",
+      "frozen: a sensor repeats itself although the robot is commanded to move",
+      "blind: its range sensors do not see where it would drive",
   };
   return kTexts[static_cast<std::size_t>(limit)];
 }

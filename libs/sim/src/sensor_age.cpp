@@ -84,4 +84,19 @@ std::string sensor_lost_text(const SensorSlots& slots, std::size_t member) {
                      *slots.max_age_s);
 }
 
+std::string sensor_frozen_text(const RobotGroup& group, std::uint32_t sensor) {
+  const std::string& name = group.sensors[sensor].spec->name;
+  if (group.type->pose_from == sensor) {
+    return fmt::format(
+        "frozen: the pose of `{}` stays the same to the bit although the robot is commanded to "
+        "move: "
+        "the "
+        "sensor repeats itself, or something holds the robot",
+        name);
+  }
+  return fmt::format(
+      "frozen: `{}` repeats the same scan to the bit although the robot is commanded to move",
+      name);
+}
+
 }  // namespace rave::sim

@@ -33,10 +33,10 @@ inline constexpr std::int64_t kNeverHeard_ns = INT64_MIN;
 /// the file comes on top.
 [[nodiscard]] double told_max_age_s(const SensorSlots& slots) noexcept;
 
-/// Time since the newest raw sample of a sensor was true, by its stamp; in a live run the time since
-/// it arrived is that of the wall clock. Of a sensor of events 0, or infinity while it is lost.
-/// Infinite before the first sample. In a live run any thread, without the engine's lock; in a
-/// stepped one that of the engine.
+/// Time since the newest raw sample of a sensor was true, by its stamp; in a live run the time
+/// since it arrived is that of the wall clock. Of a sensor of events 0, or infinity while it is
+/// lost. Infinite before the first sample. In a live run any thread, without the engine's lock; in
+/// a stepped one that of the engine.
 [[nodiscard]] double sensor_age_s(const SensorSlots& slots, std::size_t member, SimTime now);
 
 /// Whether a sensor counts as lost when its driver says so, and not by its age.
@@ -50,5 +50,7 @@ void find_watched_sensors(const RobotGroup& group, std::size_t member, SimTime n
 
 /// The text of the event that a robot stands because of a sensor.
 [[nodiscard]] std::string sensor_lost_text(const SensorSlots& slots, std::size_t member);
+/// The same of a sensor that repeats itself, which may be the pose source.
+[[nodiscard]] std::string sensor_frozen_text(const RobotGroup& group, std::uint32_t sensor);
 
 }  // namespace rave::sim

@@ -25,7 +25,7 @@ class Cart {
     the_cart = this;
     hand.on_write = [this](const Command& command) {
       if (stands_still) return;
-      x_m_ = x_m_ + command.value[0] * kStep_s;
+      if (!leans_against_wall) x_m_ = x_m_ + command.value[0] * kStep_s;
       farthest_m = std::max(farthest_m.load(), x_m_.load());
       clock.advance(kStep_s);
       say();
@@ -52,6 +52,7 @@ class Cart {
   Hand hand;
   std::atomic<double> farthest_m = 0;
   std::atomic<bool> stands_still = false;  ///< And no time passes with its commands.
+  std::atomic<bool> leans_against_wall = false;
 
  private:
   std::mutex mutex_;
@@ -138,6 +139,23 @@ TEST_F(EngineLiveGuard, TheFenceHoldsWhileTheEngineStandsStill) {
   EXPECT_LE(cart_.farthest_m, 2 - 0.15 + 1e-3);
   EXPECT_GT(cart_.farthest_m, 1.7) << "nothing else has stopped it";
   EXPECT_EQ(of_kind(run(*engine, 1), EventKind::kGuardSlowed).size(), 1U);
+}
+
+TEST_F(EngineLiveGuard, ARobotThatIsCommandedAndDoesNotMoveStandsAndTheReasonSaysBoth) {
+  RobotType type = cart_type(0.3);
+  type.guard->world_lost = WorldLostPolicy::kIgnore;
+  type.guard->watchdog_s = 1e6;
+  const auto engine = make_engine(live_spec(std::move(type)));
+  run(*engine, 1);
+  ASSERT_TRUE(cart_.hand.await(velocity_command(0.3, 0)));
+  cart_.leans_against_wall = true;
+  ASSERT_TRUE(cart_.hand.await(velocity_command(0, 0)));
+  const auto stops = of_kind(run(*engine, 1), EventKind::kGuardStopped);
+  ASSERT_EQ(stops.size(), 1U);
+  EXPECT_EQ(stops[0].detail, static_cast<std::uint32_t>(GuardLimit::kFrozen));
+  EXPECT_EQ(stops[0].text,
+            "frozen: the pose of `mocap` stays the same to the bit although the robot is commanded "
+            "to move: the sensor repeats itself, or something holds the robot");
 }
 
 TEST_F(EngineLiveGuard, ARealRobotDoesNotMoveWithoutAThreadForItsGuard) {

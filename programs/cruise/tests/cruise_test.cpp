@@ -48,10 +48,10 @@ class CruiseTest : public ::testing::Test {
   std::int64_t k_ = 0;
 };
 
-TEST(Cruise, AnOldScanIsNoFreeSpace) {
+TEST(Cruise, WhatItDoesNotSeeIsNoFreeSpace) {
   testing::ProgramUnderTest program(rave_register_plugin, "cruise");
   (void)program.add_robot();
-  testing::expect_stand_when_old(testing::commands_by_age(program, [] {}));
+  testing::expect_stand_when_old_or_blind(testing::commands_by_age(program, [] {}));
 }
 
 TEST_F(CruiseTest, DrivesStraightOnWhileNothingIsNearAhead) {
@@ -118,7 +118,8 @@ TEST_F(CruiseTest, ChanceDecidesIfBothSidesAreTheSame) {
 
 TEST_F(CruiseTest, WhatIsNotANumberDoesNotCountAndTooNearToMeasureDoes) {
   start();
-  EXPECT_EQ(decide(with(3, std::numeric_limits<float>::quiet_NaN())), velocity_command(0.4, 0));
+  const float unknown = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(decide(with(0, unknown)), velocity_command(0.4, 0)) << "it does not look there";
   EXPECT_EQ(decide(with(3, -kFree)), velocity_command(0, 0.8));
 }
 

@@ -36,11 +36,11 @@ class FlockTest : public ::testing::Test {
   testing::RigRadio& radio = rig.add_radio("air");
 };
 
-TEST(Flock, AnOldScanIsNoFreeSpace) {
+TEST(Flock, WhatItDoesNotSeeIsNoFreeSpace) {
   testing::ProgramUnderTest program(rave_register_plugin, "flock");
   testing::Rig& rig = program.add_robot();
   rig.add_radio("air");
-  testing::expect_stand_when_old(testing::commands_by_age(program, [] {}));
+  testing::expect_stand_when_old_or_blind(testing::commands_by_age(program, [] {}));
 }
 
 TEST_F(FlockTest, AloneItGoesStraightAheadAndSaysWhereItIs) {

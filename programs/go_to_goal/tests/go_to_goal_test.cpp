@@ -55,11 +55,11 @@ Trip go(Suite suite, const Room& room, double gx_m, double gy_m, double limit_s)
   return result;
 }
 
-TEST(GoToGoal, AnOldScanIsNoFreeSpace) {
+TEST(GoToGoal, WhatItDoesNotSeeIsNoFreeSpace) {
   testing::ProgramUnderTest program(rave_register_plugin, "go_to_goal");
   testing::Rig& rig = program.add_robot();
   rig.params.set("goal_x_m", 5).set("goal_y_m", 0);
-  testing::expect_stand_when_old(testing::commands_by_age(program, [] {}));
+  testing::expect_stand_when_old_or_blind(testing::commands_by_age(program, [] {}));
 }
 
 TEST(GoToGoal, ReachesAGoalInTheOpenInAboutTheTimeOfAStraightLine) {

@@ -65,12 +65,12 @@ Room plain() {
   return room;
 }
 
-TEST(Predator, AnOldScanIsNoFreeSpace) {
+TEST(Predator, WhatItDoesNotSeeIsNoFreeSpace) {
   testing::ProgramUnderTest program(rave_register_plugin, "predator");
   testing::Rig& rig = program.add_robot();
   testing::RigSensor& eyes = rig.add(ReadingKind::kNeighbours, "neighbours");
   eyes.give(std::vector<NeighbourReading>{{9, 3, 0, 0, 0, 0}}, 0);
-  testing::expect_stand_when_old(testing::commands_by_age(program, [] {}));
+  testing::expect_stand_when_old_or_blind(testing::commands_by_age(program, [] {}));
 }
 
 TEST(Predator, CatchesASlowPreyInTheOpenAndSaysSoOnce) {

@@ -32,12 +32,12 @@ class PreyTest : public ::testing::Test {
   Rig& rig = program.add_robot();
 };
 
-TEST(Prey, AnOldScanIsNoFreeSpace) {
+TEST(Prey, WhatItDoesNotSeeIsNoFreeSpace) {
   testing::ProgramUnderTest program(rave_register_plugin, "prey");
   testing::Rig& rig = program.add_robot();
   testing::RigSensor& eyes = rig.add(ReadingKind::kNeighbours, "neighbours");
   eyes.give(std::vector<NeighbourReading>{}, 0);
-  testing::expect_stand_when_old(testing::commands_by_age(program, [] {}));
+  testing::expect_stand_when_old_or_blind(testing::commands_by_age(program, [] {}));
 }
 
 TEST_F(PreyTest, FleesAtItsNewSpeed) {

@@ -56,10 +56,10 @@ Tour tour(Suite suite, std::uint64_t seed, double duration_s) {
   return result;
 }
 
-TEST(Wander, AnOldScanIsNoFreeSpace) {
+TEST(Wander, WhatItDoesNotSeeIsNoFreeSpace) {
   testing::ProgramUnderTest program(rave_register_plugin, "wander");
   (void)program.add_robot();
-  testing::expect_stand_when_old(testing::commands_by_age(program, [] {}));
+  testing::expect_stand_when_old_or_blind(testing::commands_by_age(program, [] {}));
 }
 
 TEST(Wander, NeverHitsAnythingAndGetsAround) {

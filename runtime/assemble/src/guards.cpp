@@ -34,6 +34,8 @@ Result<std::optional<sim::GuardSpec>> guard_spec(const config::RobotGroup& group
   spec.deceleration_mps2 = file.deceleration_mps2;
   spec.reaction_s = file.reaction_s;
   spec.watchdog_s = file.watchdog_s;
+  spec.frozen_s = file.frozen_s;
+  spec.must_see_rad = deg_to_rad(file.must_see_deg);
   if (!file.fence_m) return spec;
   for (const auto& [x_m, y_m] : file.fence_m->value) spec.fence_W.push_back({x_m, y_m});
   // The pieces are not used; their existence shows that the fence encloses an area.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "@NAME@.hpp"
 
-#include <algorithm>
+#include <rave/math/scalar.hpp>
 #include <rave/robot/plugin_entry.hpp>
 
 // Looks up once what decide() uses. A robot without it is refused with a message.
 rave::Status @CLASS@::start(const rave::Setup& setup) {
-  RAVE_TRY_ASSIGN(ranges_, setup.sensor<float>());
+  RAVE_TRY(setup.sensor<float>());
+  scan_ = rave::Scan(setup);
   RAVE_TRY_ASSIGN(drive_, setup.controller(rave::CommandKind::kVelocity));
   return parameters_changed(setup.params());
 }
@@ -21,14 +22,14 @@ rave::Status @CLASS@::parameters_changed(const rave::Params& params) {
 // Fill this in. Called once a period: what the robot knows goes in, what it wants comes out.
 // As it stands the robot drives ahead, and turns on the spot while something is near.
 void @CLASS@::decide(const rave::Percepts& percepts, rave::Commands& commands) {
-  const auto ranges_m = percepts[ranges_];
+  scan_.update(percepts);
   // A sensor that fell silent says nothing about the present: the robot waits for it.
-  if (percepts.is_old(ranges_)) {
+  if (scan_.is_old()) {
     commands.velocity(drive_, 0.0, 0.0);
     return;
   }
-  if (ranges_m.empty()) return;
-  const double nearest_m = *std::min_element(ranges_m.begin(), ranges_m.end());
+  // From the middle of the robot. Where it is blind ahead, that is as far as its body reaches.
+  const double nearest_m = scan_.nearest_m(-rave::kPi, rave::kPi);
   if (nearest_m < stop_m_) {
     commands.velocity(drive_, 0.0, 1.0);
   } else {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <rave/robot/program.hpp>
+#include <rave/robot/scan.hpp>
 
 /// A program for any robot with a range sensor (laser, sonar, infra-red) and a controller that
 /// takes velocities.
@@ -12,7 +13,7 @@ class @CLASS@ : public rave::DecisionProcess {
   rave::Status parameters_changed(const rave::Params& params) override;
 
  private:
-  rave::RangesHandle ranges_;
+  rave::Scan scan_;  // All range sensors together.
   rave::ControllerHandle drive_;
   double speed_mps_ = 0;
   double stop_m_ = 0;

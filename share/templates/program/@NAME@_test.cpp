@@ -3,6 +3,7 @@
 #include "@NAME@.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 namespace {
@@ -61,10 +62,13 @@ std::string problem() {
   const rave::Command far = command_at(5.0F, 0.0, error);
   const rave::Command near = command_at(0.2F, 0.0, error);
   const rave::Command old = command_at(5.0F, 1.0, error);
+  const float unknown_m = std::numeric_limits<float>::quiet_NaN();
+  const rave::Command blind = command_at(unknown_m, 0.0, error);
   if (!error.empty()) return error;
   if (far.value[0] <= 0) return "it does not drive although nothing is near";
   if (near.value[0] != 0) return "it drives although something is near";
   if (old.value[0] != 0) return "it drives on what it saw a second ago";
+  if (blind.value[0] != 0) return "it drives although no ray was measured";
   return "";
 }
 

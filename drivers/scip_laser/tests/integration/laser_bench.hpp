@@ -74,7 +74,7 @@ class LaserBench {
       words >> number >> scan.measured_ns >> scan.timer_ms >> scan.fault;
       for (int mm = 0; words >> mm;) {
         if (two && mm > 4095) mm = 4095;
-        scan.ranges_m.push_back(mm < 20 || mm > 5600 ? std::numeric_limits<float>::infinity()
+        scan.ranges_m.push_back(mm == 1 || mm > 5600 ? std::numeric_limits<float>::infinity()
                                                      : static_cast<float>(mm) * 1e-3F);
       }
       all.push_back(std::move(scan));

@@ -146,6 +146,8 @@ struct GuardFile {
   double deceleration_mps2 = 0.5;  ///< The deceleration that the robot achieves at least.
   double reaction_s = 0.1;         ///< Delay between a command and its effect.
   double watchdog_s = 1;  ///< Commands of the program that are older than this are ignored.
+  double frozen_s = 0.5;  ///< Beyond `reaction_s`: how long a sensor may repeat itself; 0: always.
+  double must_see_deg = 45;  ///< To each side of where it drives; 0: it need not see.
   bool operator==(const GuardFile&) const = default;
 };
 

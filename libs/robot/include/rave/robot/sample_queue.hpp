@@ -98,6 +98,11 @@ class SampleQueue final : public SampleSink {
   /// thread.
   [[nodiscard]] bool newest(SampleHeader* header, void* record, Before* before = nullptr) const;
 
+  /// The newest published sample with all its records, unless it is number `sequence` or there is
+  /// none: false. `records` must have room for max_records(). Any thread.
+  [[nodiscard]] bool newer_than(std::uint32_t sequence, SampleHeader* header, void* records) const;
+  [[nodiscard]] std::uint32_t max_records() const noexcept { return max_records_; }
+
   /// Unblocks the producer, whose calls return false from now on. Samples can still be taken out.
   /// Any thread.
   void close();
@@ -123,6 +128,8 @@ class SampleQueue final : public SampleSink {
 
  private:
   [[nodiscard]] std::byte* records_of(std::size_t slot) noexcept;
+  [[nodiscard]] const std::byte* records_of(std::size_t slot) const noexcept;
+  [[nodiscard]] std::size_t newest_slot() const noexcept;
   [[nodiscard]] bool refused(SimTime stamp, std::uint32_t count);
   [[nodiscard]] bool passes(SimTime stamp, const void* records, std::uint32_t count);
   void note_moment(SimTime stamp);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rave/robot/program.hpp"
+#include "rave/robot/sight.hpp"
 
 namespace rave {
 
@@ -13,6 +14,8 @@ struct RangeHit {
   Vec2 p_R;
   double distance_m = 0;   ///< Distance from the robot's origin.
   double bearing_rad = 0;  ///< Direction from the robot's origin, in (-pi, pi].
+  /// Nothing was measured there: it stands for a direction ahead in which the robot is blind.
+  bool blind = false;
 };
 
 /// One ray or cone of the latest samples, with or without a return.
@@ -25,7 +28,9 @@ struct RangeBeam {
 
 /// The readings of all range sensors of a robot combined, in the robot frame: sonars and lasers
 /// look alike. A ray gives one hit, a cone three (axis and both edges), because the obstacle may be
-/// anywhere on its arc. No returns and NaN give none. Owned by the program; update() does not
+/// anywhere on its arc. No returns and NaN give none. Where every ray is NaN the robot is blind
+/// (Sight); ahead of it, within kMustSee_rad, that counts as a hit that touches its body. So no
+/// program drives into what its sensors cannot see. Owned by the program; update() does not
 /// allocate.
 class Scan {
  public:
@@ -44,12 +49,15 @@ class Scan {
   /// Distance from the robot's origin to the nearest hit with a bearing in [from_rad, to_rad];
   /// infinity if there is none.
   [[nodiscard]] double nearest_m(double from_rad, double to_rad) const noexcept;
+  /// Where the robot is blind, in all directions.
+  [[nodiscard]] Sectors blind() const noexcept { return sight_.blind(); }
 
  private:
   struct Ray {
     Vec2 origin_R;
     Vec2 directions_R[3];  ///< Axis, left edge, right edge.
     double spread_rad = 0;
+    Sectors sectors;
   };
   struct Sensor {
     RangesHandle handle;
@@ -57,8 +65,11 @@ class Scan {
   };
 
   void add(const Ray& ray, float range_m, double limit_m);
+  void add_blind();
 
   std::vector<Sensor> sensors_;
+  double radius_m_ = 0;  ///< Of the robot's body.
+  Sight sight_;
   std::vector<RangeHit> hits_;
   std::vector<RangeBeam> beams_;
   bool old_ = false;

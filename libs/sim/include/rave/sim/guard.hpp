@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "rave/base/time.hpp"
 #include "rave/math/pose.hpp"
 #include "rave/robot/command.hpp"
+#include "rave/robot/sight.hpp"
 #include "rave/world/body.hpp"
 
 namespace rave::sim {
@@ -33,6 +35,11 @@ struct GuardSpec {
   double deceleration_mps2 = 0.5;  ///< The deceleration that the robot achieves at least; above 0.
   double reaction_s = 0.1;         ///< Delay between a command and its effect.
   double watchdog_s = 1.0;  ///< Commands of the program that are older than this are ignored.
+  /// Real robots: on top of `reaction_s`, how long a sensor may repeat itself to the bit while the
+  /// robot is commanded to move; 0: for ever.
+  double frozen_s = 0.5;
+  /// Real robots: half of the angle that its range sensors must see where it drives; 0: none.
+  double must_see_rad = kMustSee_rad;
 };
 
 /// Why a command did not reach an actuator unchanged.
@@ -48,13 +55,16 @@ enum class GuardLimit : std::uint32_t {
   kTurn,
   kFence,
   kSeparation,
+  // In the order in which they came, because recordings have the numbers.
+  kFrozen,  ///< A sensor repeats itself although the robot was told to move.
+  kBlind,   ///< Its range sensors do not see where it would drive.
 };
-inline constexpr std::size_t kGuardLimits = 11;
+inline constexpr std::size_t kGuardLimits = 13;
 /// The name of a limit, such as `fence`.
 [[nodiscard]] std::string_view to_string(GuardLimit limit) noexcept;
 /// Whether a limit stops the robot instead of slowing it down.
 [[nodiscard]] constexpr bool stops(GuardLimit limit) noexcept {
-  return limit <= GuardLimit::kBadCommand;
+  return limit <= GuardLimit::kBadCommand || limit == GuardLimit::kFrozen;
 }
 
 /// Another robot near the guarded one.
@@ -87,6 +97,10 @@ struct GuardInput {
   /// Largest speed, in either direction, commanded since the pose was measured.
   double fastest_mps = 0;
   std::span<const GuardSensor> sensors;
+  /// Index of a sensor that repeats itself, in the robot's type.
+  std::optional<std::uint32_t> frozen_sensor;
+  bool is_blind_ahead = false;   ///< Its range sensors do not see where it would drive...
+  bool is_blind_behind = false;  ///< ... or would back off.
   double world_age_s = 0;
   double dt_s = 0.01;
   /// Something limited the last motion, or had limited it before the robot was stopped there: the

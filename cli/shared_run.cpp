@@ -26,12 +26,13 @@ namespace {
 class Crew {
  public:
   Crew(const RunCommand& options, const bus::BusConfig& bus, std::filesystem::path folder,
-       const config::ScenarioFile& scenario, Console& console)
+       const config::ScenarioFile& scenario, std::size_t hosts, Console& console)
       : options_(options),
         bus_(bus),
         folder_(std::move(folder)),
         restarts_(scenario.on_lost_host == config::LostHost::kRestart),
-        patience_s_(std::max(kLeastPatience_s, scenario.host_timeout_s)),
+        more_s_(hosts > kFew ? kMore_s * static_cast<double>(hosts - kFew) : 0),
+        patience_s_(std::max(kLeastPatience_s, scenario.host_timeout_s) + more_s_),
         console_(console) {}
 
   Status start(const config::PlannedHost& host) {
@@ -81,11 +82,11 @@ class Crew {
 
   /// Waits for their ends. What went wrong, one sentence each.
   [[nodiscard]] std::vector<std::string> part() {
-    constexpr std::chrono::seconds kPatience{20};
+    const std::chrono::milliseconds patience(20'000 + static_cast<std::int64_t>(1e3 * more_s_));
     std::vector<std::string> problems;
     for (Member& member : members_) {
       if (member.process) {
-        member.code = member.process->wait(kPatience);
+        member.code = member.process->wait(patience);
         member.process.reset();
       }
       if (member.code == kGood) continue;
@@ -109,6 +110,10 @@ class Crew {
   static constexpr int kMostStarts = 10;
   /// If this process is killed, its hosts wait this long for a process that takes its place.
   static constexpr double kLeastPatience_s = 60;
+  /// Many hosts on a machine that has other work begin and end slowly: for each host above a few,
+  /// the others have this much more time.
+  static constexpr std::size_t kFew = 10;
+  static constexpr double kMore_s = 6;
   struct Member {
     std::string name;
     int starts = 0;
@@ -162,6 +167,7 @@ class Crew {
   const bus::BusConfig& bus_;
   std::filesystem::path folder_;
   bool restarts_;
+  double more_s_;
   double patience_s_;
   Console& console_;
   std::vector<Member> members_;
@@ -221,7 +227,7 @@ Result<int> run_shared(const RunCommand& asked, const config::ExpandedScenario& 
   RAVE_TRY(write_file_atomically(start.path() / "scenario.yaml", config::write_expanded(scenario)));
   RAVE_TRY(check_hosts_fit(scenario, options.plugins, hosts.size(), console));
   RAVE_TRY(lines ? make_lines(options, start.path()) : Status());
-  Crew crew(options, bus, start.path(), scenario.scenario, console);
+  Crew crew(options, bus, start.path(), scenario.scenario, hosts.size(), console);
   for (const config::PlannedHost& host : hosts) {
     if (host.elsewhere) {
       console.warn("run", "waiting for host `{}`; start it with: {}", host.name,

@@ -50,21 +50,6 @@ Qos partitions_of(const RunId& run, Side side, bool all_runs) {
   return qos;
 }
 
-/// The entities that currently match `entity`.
-std::vector<dds_instance_handle_t> matched(dds_entity_t entity, bool reads) {
-  const auto list = reads ? dds_get_matched_publications : dds_get_matched_subscriptions;
-  std::vector<dds_instance_handle_t> handles(16);
-  // The number may grow between two calls, so it is asked again with more room.
-  while (true) {
-    const dds_return_t count = list(entity, handles.data(), handles.size());
-    if (count < 0) return {};
-    const auto size = static_cast<std::size_t>(count);
-    const bool all = size <= handles.size();
-    handles.resize(size);
-    if (all) return handles;
-  }
-}
-
 /// The writer id that the matched reader or writer announces.
 std::uint64_t writer_of(dds_entity_t entity, bool reads, dds_instance_handle_t handle,
                         const RunId& run, const Participants& participants) {
@@ -72,19 +57,11 @@ std::uint64_t writer_of(dds_entity_t entity, bool reads, dds_instance_handle_t h
   dds_builtintopic_endpoint_t* const data = data_of(entity, handle);
   if (data == nullptr) return 0;
   const Identity who = read_identity(data->qos);
-  // Endpoints remain visible for a moment after their participant is lost.
+  // Endpoints remain visible for a while after their participant is lost.
   const bool lost = participants.gone(data->participant_key);
   dds_builtintopic_free_endpoint(data);
-  return who.run == run && !lost ? who.writer : 0;
-}
-
-dds_guid_t participant_of(dds_entity_t entity, bool reads, dds_instance_handle_t handle) {
-  const auto data_of = reads ? dds_get_matched_publication_data : dds_get_matched_subscription_data;
-  dds_builtintopic_endpoint_t* const data = data_of(entity, handle);
-  if (data == nullptr) return {};
-  const dds_guid_t guid = data->participant_key;
-  dds_builtintopic_free_endpoint(data);
-  return guid;
+  if (lost) return kGoneProcess;
+  return who.run == run ? who.writer : 0;
 }
 
 /// Whether this process has a domain; its owner receives the log of Cyclone DDS.
@@ -154,11 +131,12 @@ Status Bus::open_participant() {
   const Qos partition = partitions_of(config_.run, config_.side, config_.all_runs);
   publisher_ = dds_create_publisher(participant_, partition.get(), nullptr);
   subscriber_ = dds_create_subscriber(participant_, partition.get(), nullptr);
-  participants_ = std::make_unique<Participants>(participant_, config_);
-  const dds_return_t worst = std::min(
-      {publisher_, subscriber_, std::ranges::min(participants_->readers()), dds_entity_t{0}});
+  RAVE_TRY_ASSIGN(const LifeSignEnds sign, open_life_sign());
+  participants_ = std::make_unique<Participants>(participant_, sign, config_);
+  const dds_return_t worst =
+      std::min({publisher_, subscriber_, sign.writer, std::ranges::min(participants_->readers()),
+                dds_entity_t{0}});
   if (worst < 0) return refused(worst);
-  if (secured && !config_.anonymous) RAVE_TRY(introduce());
   // The local transport is not encrypted, so it must not be used with certificates.
   if (config_.local_transport && !config_.anonymous && !secured) {
     if (auto socket = LocalSocket::open({config_.run, writer_, 0})) {
@@ -168,15 +146,18 @@ Status Bus::open_participant() {
   return {};
 }
 
-Status Bus::introduce() {
-  const TopicSpec spec = topic_of<HostInfo>();
+Result<LifeSignEnds> Bus::open_life_sign() {
+  const TopicSpec spec = topic_of<LifeSign>();
   RAVE_TRY_ASSIGN(const dds_entity_t topic, make_topic(spec));
   const Qos qos = make_qos(spec.qos);
-  write_identity({config_.participant, config_.run, writer_}, qos.get());
-  const dds_entity_t writer = dds_create_writer(publisher_, topic, qos.get(), nullptr);
+  LifeSignEnds ends{dds_create_reader(subscriber_, topic, qos.get(), nullptr), 0, writer_};
+  if (!config_.anonymous) {
+    write_identity({config_.participant, config_.run, writer_}, qos.get());
+    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, config_.lease.ns);
+    ends.writer = dds_create_writer(publisher_, topic, qos.get(), nullptr);
+  }
   dds_delete(topic);
-  if (writer < 0) return refused(writer);
-  return {};
+  return ends;
 }
 
 tl::unexpected<Error> Bus::refused(dds_return_t code) {
@@ -276,9 +257,11 @@ std::vector<BusEvent> Bus::take_events() {
   }
   const std::size_t before = events_.size();
   participants_->collect(events_);
+  const std::uint64_t seen = std::exchange(silences_, participants_->silences());
+  const bool silence = seen != silences_;
   for (Endpoint& endpoint : endpoints_) {
     collect_incompatible(endpoint);
-    collect_matches(endpoint);
+    collect_matches(endpoint, silence);
   }
   // A participant has come or gone, so addresses of the local transport may have changed.
   if (events_.size() > before) {
@@ -317,12 +300,12 @@ const Standstill& Bus::standstill() const noexcept {
   return participants_->standstill();
 }
 
-void Bus::collect_matches(Endpoint& endpoint) {
+void Bus::collect_matches(Endpoint& endpoint, bool all) {
   std::uint32_t status = 0;
   dds_take_status(
       endpoint.entity, &status,
       endpoint.reads ? DDS_SUBSCRIPTION_MATCHED_STATUS : DDS_PUBLICATION_MATCHED_STATUS);
-  if (status == 0) return;
+  if (status == 0 && !all) return;
   const auto add = [&](const Endpoint::Peer& peer, bool appeared) {
     const Identity who = participants_->find(peer.participant);
     const EventKind reader = appeared ? EventKind::kReaderAppeared : EventKind::kReaderLost;
@@ -331,17 +314,20 @@ void Bus::collect_matches(Endpoint& endpoint) {
   };
   const auto now = matched(endpoint.entity, endpoint.reads);
   std::erase_if(endpoint.peers, [&](const Endpoint::Peer& peer) {
-    const bool gone = std::ranges::find(now, peer.handle) == now.end();
+    const bool gone =
+        std::ranges::find(now, peer.handle) == now.end() || participants_->gone(peer.participant);
     if (gone) add(peer, false);
     return gone;
   });
   for (const dds_instance_handle_t handle : now) {
     if (std::ranges::find(endpoint.peers, handle, &Endpoint::Peer::handle) != endpoint.peers.end())
       continue;
-    endpoint.peers.push_back({handle, participant_of(endpoint.entity, endpoint.reads, handle)});
+    const Endpoint::Peer peer{handle, participant_of(endpoint.entity, endpoint.reads, handle)};
     // It may have appeared after the participants were read.
     participants_->collect(events_);
-    add(endpoint.peers.back(), true);
+    if (participants_->gone(peer.participant)) continue;
+    endpoint.peers.push_back(peer);
+    add(peer, true);
   }
 }
 

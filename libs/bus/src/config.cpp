@@ -67,6 +67,9 @@ int port_of(const BusConfig& config, int place) {
   return 7400 + 250 * static_cast<int>(config.domain) + 10 + 2 * place;
 }
 
+/// A process announces itself again at least this often, for processes that did not hear it.
+constexpr std::int64_t kLongestCall_ms = 30'000;
+
 std::string discovery(const BusConfig& config, int hub) {
   std::vector<std::string> peers = config.peers;
   if (peers.empty() && config.loopback()) peers = {config.interface};
@@ -76,9 +79,10 @@ std::string discovery(const BusConfig& config, int hub) {
   std::string xml = fmt::format(
       "<Discovery><ParticipantIndex>{}</ParticipantIndex>"
       "<MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex>"
-      "<LeaseDuration>{}ms</LeaseDuration>",
+      "<LeaseDuration>{}ms</LeaseDuration><SPDPInterval>{}ms</SPDPInterval>",
       is_hub ? std::to_string(BusConfig::kMostPlain + hub) : "auto", config.max_processes - 1,
-      config.lease.ns / 1'000'000);
+      std::max(config.lease, config.forget).ns / 1'000'000,
+      std::min(config.lease.ns / 1'250'000, kLongestCall_ms));
   // The domain has another number within this process then.
   if (config.beside) xml += fmt::format("<ExternalDomainId>{}</ExternalDomainId>", config.domain);
   if (!config.tag.empty()) xml += fmt::format("<Tag>{}</Tag>", escaped_markup(config.tag));

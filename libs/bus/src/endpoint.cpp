@@ -28,6 +28,29 @@ std::size_t matched_ends(dds_entity_t entity, bool reads) noexcept {
   return count < 0 ? 0 : static_cast<std::size_t>(count);
 }
 
+std::vector<dds_instance_handle_t> matched(dds_entity_t entity, bool reads) {
+  const auto list = reads ? dds_get_matched_publications : dds_get_matched_subscriptions;
+  std::vector<dds_instance_handle_t> handles(16);
+  // The number may grow between two calls, so it is asked again with more room.
+  while (true) {
+    const dds_return_t count = list(entity, handles.data(), handles.size());
+    if (count < 0) return {};
+    const auto size = static_cast<std::size_t>(count);
+    const bool all = size <= handles.size();
+    handles.resize(size);
+    if (all) return handles;
+  }
+}
+
+dds_guid_t participant_of(dds_entity_t entity, bool reads, dds_instance_handle_t handle) {
+  const auto data_of = reads ? dds_get_matched_publication_data : dds_get_matched_subscription_data;
+  dds_builtintopic_endpoint_t* const data = data_of(entity, handle);
+  if (data == nullptr) return {};
+  const dds_guid_t guid = data->participant_key;
+  dds_builtintopic_free_endpoint(data);
+  return guid;
+}
+
 std::optional<std::string> take_mismatch(dds_entity_t entity, bool reads, bool all_partitions) {
   std::uint32_t policy = 0;
   std::int32_t fresh = 0;

@@ -105,8 +105,10 @@ void LocalSender::meet(std::vector<std::uint64_t> writers) {
   if (writers == writers_) return;
   writers_ = std::move(writers);
   addresses_.clear();
-  for (const std::uint64_t writer : writers_) addresses_.emplace_back(run_, writer, topic_);
   auto sorted = writers_;
+  // DDS goes on counting a process that was killed, for a while.
+  std::erase(sorted, kGoneProcess);
+  for (const std::uint64_t writer : sorted) addresses_.emplace_back(run_, writer, topic_);
   std::ranges::sort(sorted);
   // If a process has two readers, only one of them has the socket.
   // An id of 0 is a reader that did not announce its process: it has no socket.
@@ -179,7 +181,8 @@ void LocalReceiver::meet(const std::vector<std::uint64_t>& writers) {
   writers_ = writers;
   std::vector<Known> known;
   for (const std::uint64_t writer : writers_) {
-    if (writer != 0) known.push_back({writer, LocalAddress(run_, writer, 0)});
+    if (writer != 0 && writer != kGoneProcess)
+      known.push_back({writer, LocalAddress(run_, writer, 0)});
   }
   // Last datagrams of a writer that left may still be queued, and count as with DDS.
   leaving_.clear();

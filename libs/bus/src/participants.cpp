@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "rave/base/control_characters.hpp"
+#include "rave/bus/endpoint.hpp"
+#include "rave/bus/topics.hpp"
 
 namespace rave::bus {
 namespace {
@@ -79,7 +81,8 @@ Identity read_identity(const dds_qos_t* qos) {
   return identity;
 }
 
-Participants::Participants(dds_entity_t participant, const BusConfig& config)
+Participants::Participants(dds_entity_t participant, const LifeSignEnds& sign,
+                           const BusConfig& config)
     : run_(config.run),
       all_runs_(config.all_runs),
       secured_(!config.security.empty()),
@@ -87,9 +90,12 @@ Participants::Participants(dds_entity_t participant, const BusConfig& config)
       // Every process sends at least each 0.8 leases, so after a standstill of a fifth of a lease
       // others may count as lost. They, and processes that lost this one, need time to be
       // discovered again.
+      life_sign_(sign),
       standstill_({lease_.ns / 5}, lease_ * 3) {
   readers_.push_back(
       dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr));
+  readers_.push_back(life_sign_.reader);
+  dds_set_status_mask(life_sign_.reader, DDS_LIVELINESS_CHANGED_STATUS);
   if (secured_) {
     readers_.push_back(
         dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr));
@@ -97,6 +103,7 @@ Participants::Participants(dds_entity_t participant, const BusConfig& config)
   dds_guid_t guid{};
   dds_get_guid(participant, &guid);
   self_ = key_of(guid);
+  beat();
 }
 
 std::map<Participants::Guid, Identity> Participants::take_writers() const {
@@ -111,7 +118,65 @@ std::map<Participants::Guid, Identity> Participants::take_writers() const {
   return said;
 }
 
+void Participants::beat() {
+  const auto now = Standstill::Clock::now();
+  if (life_sign_.writer <= 0 || now - last_beat_ < std::chrono::nanoseconds(lease_.ns)) return;
+  last_beat_ = now;
+  LifeSign sign{};
+  std::ranges::copy(run_.bytes, sign.run);
+  sign.writer = life_sign_.number;
+  // If it cannot be sent, the next one will be.
+  static_cast<void>(dds_write(life_sign_.writer, &sign));
+}
+
+void Participants::take_life_signs(std::vector<BusEvent>& events) {
+  take_all<LifeSign>(life_sign_.reader, [this, &events](const LifeSign& sign, const auto& info) {
+    if (!run_.equals(sign.run)) return;
+    if (info.instance_state == DDS_ALIVE_INSTANCE_STATE) {
+      heard_.insert(sign.writer);
+      come_back(sign.writer, events);
+    } else {
+      fall_silent(sign.writer);
+    }
+  });
+  dds_liveliness_changed_status_t status{};
+  dds_get_liveliness_changed_status(life_sign_.reader, &status);
+  if (status.not_alive_count_change > 0) suspect_the_new();
+}
+
+// Whoever is suspected without reason comes back with its first sign.
+void Participants::suspect_the_new() {
+  for (const dds_instance_handle_t handle : matched(life_sign_.reader, true)) {
+    const auto known = known_.find(key_of(participant_of(life_sign_.reader, true, handle)));
+    if (known == known_.end() || heard_.contains(known->second.writer)) continue;
+    fall_silent(known->second.writer);
+  }
+}
+
+void Participants::fall_silent(std::uint64_t writer) {
+  const dds_guid_t* const owner = owner_of(writer);
+  if (owner == nullptr) return;
+  const dds_guid_t guid = *owner;
+  silent_.insert(key_of(guid));
+  ++silences_;
+  disappear(guid);
+}
+
+void Participants::come_back(std::uint64_t writer, std::vector<BusEvent>& events) {
+  const auto back = std::ranges::find_if(silent_, [&](const Guid& key) {
+    const auto who = gone_.find(key);
+    return who != gone_.end() && who->second.writer == writer;
+  });
+  if (back == silent_.end()) return;
+  const Guid key = *back;
+  silent_.erase(back);
+  ++silences_;
+  const Identity who = gone_.extract(key).mapped();
+  learn(key, who, events);
+}
+
 void Participants::collect(std::vector<BusEvent>& events) {
+  beat();
   // A participant is announced before its writers, so the participant of a known writer is known.
   const std::map<Guid, Identity> said = take_writers();
   take_all<dds_builtintopic_participant_t>(
@@ -119,13 +184,16 @@ void Participants::collect(std::vector<BusEvent>& events) {
       [this, &events](const dds_builtintopic_participant_t& sample, const auto& info) {
         // A participant that appeared and left since the last call has one sample for both.
         if (info.valid_data) appear(sample, events);
-        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) disappear(sample.key);
+        if (info.instance_state == DDS_ALIVE_INSTANCE_STATE) return;
+        silent_.erase(key_of(sample.key));
+        disappear(sample.key);
       });
   for (const auto& [key, who] : said) {
     const auto known = known_.find(key);
     if (known == known_.end() || known->second.writer != 0) continue;
     learn(key, who, events);
   }
+  take_life_signs(events);
   judge(events);
 }
 
@@ -183,6 +251,7 @@ void Participants::disappear(const dds_guid_t& guid) {
   auto node = known_.extract(key_of(guid));
   if (node.empty()) return;
   const std::uint64_t writer = node.mapped().writer;
+  heard_.erase(writer);
   if (!foreign(node.mapped())) missed_.insert({node.key(), node.mapped()});
   const auto owner = owners_.find(writer);
   if (owner != owners_.end() && key_of(owner->second) == node.key()) {

@@ -77,6 +77,7 @@ Status WaitSet::add_reader(dds_entity_t reader) {
 
 Status WaitSet::add_events() {
   for (const dds_entity_t reader : bus_->participants_->readers()) RAVE_TRY(add_reader(reader));
+  RAVE_TRY(attach(bus_->participants_->life_signs()));
   for (const Bus::Endpoint& endpoint : bus_->endpoints_) RAVE_TRY(attach(endpoint.entity));
   return {};
 }
@@ -87,6 +88,7 @@ Woken WaitSet::wait(Duration timeout, const std::stop_token& stop) {
   auto came = Relay::Came::kNothing;
   // Before and after: a gap that is longer than the wait means that this process did not run.
   bus_->participants_->standstill().look();
+  bus_->participants_->beat();
   {
     const std::stop_callback wake(stop, [this] { dds_set_guardcondition(stop_, true); });
     std::array<dds_attach_t, 1> woken{};

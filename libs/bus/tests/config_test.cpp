@@ -36,7 +36,9 @@ TEST(BusConfig, StaysOnThisMachineByDefault) {
   EXPECT_TRUE(has(xml, "<Peer address=\"127.0.0.1\"/>"));
   EXPECT_TRUE(has(xml, "<ParticipantIndex>auto</ParticipantIndex>"));
   EXPECT_TRUE(has(xml, "<MaxAutoParticipantIndex>63</MaxAutoParticipantIndex>"));
-  EXPECT_TRUE(has(xml, "<LeaseDuration>1000ms</LeaseDuration>"));
+  // Not the second after which a silent process counts as lost: see BusConfig::forget.
+  EXPECT_TRUE(has(xml, "<LeaseDuration>30000ms</LeaseDuration>"));
+  EXPECT_TRUE(has(xml, "<SPDPInterval>800ms</SPDPInterval>"));
   EXPECT_TRUE(has(xml, "<WhcAdaptive>false</WhcAdaptive>"));
 }
 

@@ -221,6 +221,29 @@ TEST(Processes, AKilledProcessIsNoticed) {
   std::printf("noticed after %.3f s\n", took.count());
 }
 
+// If Cyclone DDS forgot a silent process so soon, it could crash: see BusConfig::forget.
+TEST(Processes, ASilentProcessIsLostButNotForgottenAndComesBack) {
+  const TestDomain domain;
+  const auto bus = Bus::open(domain.config());
+  ASSERT_TRUE(bus) << bus.error().text();
+  const auto reader = Reader<Packet>::create(**bus);
+  PeerProcess peer(domain, "echo", "sleeper");
+  ASSERT_EQ(peer.line(), "ready");
+  const BusEvent first = await_event(**bus, EventKind::kWriterAppeared);
+  EXPECT_EQ(first.participant, "sleeper");
+  peer.pause();
+  EXPECT_EQ(await_event(**bus, EventKind::kParticipantLost).writer, first.writer);
+  EXPECT_TRUE((*bus)->processes().empty());
+  EXPECT_EQ(reader->writers(), 1U) << "DDS still knows it";
+  peer.resume();
+  EXPECT_EQ(await_event(**bus, EventKind::kParticipantAppeared).writer, first.writer);
+  EXPECT_EQ((*bus)->processes().size(), 1U);
+  EXPECT_EQ(round_trip(**bus), std::string(64, 'r'));
+  EXPECT_EQ(peer.end(), 0);
+  EXPECT_EQ(await_event(**bus, EventKind::kParticipantLost).writer, first.writer);
+  EXPECT_TRUE(eventually([&] { return reader->writers() == 0; })) << "it said good-bye";
+}
+
 TEST(Processes, TwoRunsOnOneMachineDoNotMeet) {
   const TestDomain ours;
   TestDomain theirs = ours;

@@ -65,7 +65,7 @@ bus::BusConfig config_of(const Network& network) {
   config.interface = network.interface;
   config.peers = network.peers;
   config.multicast = network.multicast;
-  config.lease = kLease;
+  config.lease = config.forget = kLease;
   // This is the domain number on the network; the number in this process is another one.
   config.cyclone_settings = fmt::format(
       "<CycloneDDS><Domain Id=\"any\"><Discovery><ExternalDomainId>{}</ExternalDomainId>"

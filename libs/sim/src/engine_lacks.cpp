@@ -38,7 +38,7 @@ std::string Engine::lacks(RobotId robot) const {
   find_watched_sensors(group, static_cast<std::uint32_t>(m), engine.now, sensors);
   for (const GuardSensor& sensor : sensors) {
     if (sensor.age_s <= sensor.max_age_s) continue;
-    add(text, sensor_lost_text(group.sensors[sensor.index]));
+    add(text, sensor_lost_text(group.sensors[sensor.index], m));
   }
   const bool stops = limits->world_lost == WorldLostPolicy::kStop;
   if (stops && !(engine.world_age.seconds() <= limits->world_timeout_s)) {

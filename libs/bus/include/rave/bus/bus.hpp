@@ -22,6 +22,7 @@ class LocalReceiver;
 class LocalSender;
 class LocalSocket;
 class Standstill;
+struct LifeSignEnds;
 
 /// Another participant of the domain, with the properties that it announced. A value.
 struct BusProcess {
@@ -92,9 +93,9 @@ class Bus {
   [[nodiscard]] Status open_domain();
   [[nodiscard]] Status open_hub();
   [[nodiscard]] Status open_participant();
-  /// Announces this process through a writer without samples: with security on, such announcements
-  /// are encrypted.
-  [[nodiscard]] Status introduce();
+  /// Opens the ends of the signs of life. The writer also announces this process: with security on,
+  /// such announcements are encrypted, and those of participants are not.
+  [[nodiscard]] Result<LifeSignEnds> open_life_sign();
   [[nodiscard]] tl::unexpected<Error> refused(dds_return_t code);
   [[nodiscard]] Result<dds_entity_t> make_topic(const TopicSpec& spec);
   /// Creates a reader or writer of a topic.
@@ -112,7 +113,8 @@ class Bus {
   void note_foreign(const std::string& topic);
   void note_stranger() noexcept { ++foreign_samples_; }
   void note_refused(const std::string& topic, std::uint64_t writer, std::string why);
-  void collect_matches(Endpoint& endpoint);
+  /// `all`: also those that DDS has not told of, since a process fell silent or came back.
+  void collect_matches(Endpoint& endpoint, bool all);
   void collect_incompatible(const Endpoint& endpoint);
 
   BusConfig config_;
@@ -128,6 +130,7 @@ class Bus {
       local_transport_;  ///< The socket to send from; null: all samples use DDS.
   std::vector<Endpoint> endpoints_;
   std::vector<BusEvent> events_;
+  std::uint64_t silences_ = 0;  ///< Participants::silences() that the matches already reflect.
   std::uint64_t foreign_samples_ = 0;
   /// The foreign samples already reported, without those of the local transport.
   std::uint64_t foreign_told_ = 0;

@@ -77,6 +77,11 @@ struct BusConfig {
   static constexpr int kMostHubs = 6;
   /// A process that was silent for longer than this counts as lost.
   Duration lease{1'000'000'000};
+  /// After this time DDS itself forgets a silent process, if it is longer than `lease`. It must be
+  /// much longer than the time in which a process without a processor discovers others: Cyclone DDS
+  /// 0.10 crashes if it forgets a process whose readers and writers it is about to enter. (Its
+  /// issue 905: the entry is in one index and not yet in the other when it is removed.)
+  Duration forget{30'000'000'000};
   /// Processes with different tags do not discover each other, whatever their run. Usually empty.
   std::string tag;
   /// Permits other buses of this process in the domain; this one then counts as another process.

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 /// What all DDS readers and writers share, both those of the bus and those of ROS 2. Thread: that
 /// of the entity's owner.
@@ -25,6 +26,11 @@ struct Loan {
 void take(dds_entity_t reader, Loan& loan);
 void give_back(dds_entity_t reader, Loan& loan) noexcept;
 
+/// The entities that currently match a reader or writer.
+[[nodiscard]] std::vector<dds_instance_handle_t> matched(dds_entity_t entity, bool reads);
+/// The participant of one of them; all zero if it has left.
+[[nodiscard]] dds_guid_t participant_of(dds_entity_t entity, bool reads,
+                                        dds_instance_handle_t handle);
 /// The number of matched entities of a reader or writer.
 [[nodiscard]] std::size_t matched_ends(dds_entity_t entity, bool reads) noexcept;
 

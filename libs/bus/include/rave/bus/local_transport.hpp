@@ -24,6 +24,8 @@ namespace rave::bus {
 inline constexpr std::size_t kMostLocalBytes = 60'000;
 /// In front of the sample: a magic word, the version, the topic number.
 inline constexpr std::size_t kLocalHeaderBytes = 8;
+/// In the place of a writer id: a process that is lost, whose ends DDS still counts.
+inline constexpr std::uint64_t kGoneProcess = ~std::uint64_t{0};
 
 /// An address in the abstract Unix namespace (no file). It belongs to a network namespace, as
 /// loopback does. A value.
@@ -75,7 +77,8 @@ class LocalSender {
   LocalSender& operator=(const LocalSender&) = delete;
   ~LocalSender();
 
-  /// Sets the processes of the matched readers, by writer id; 0: not a process of this run.
+  /// Sets the processes of the matched readers, by writer id; 0: not a process of this run;
+  /// kGoneProcess: a lost one, which gets nothing.
   void meet(std::vector<std::uint64_t> writers);
   /// The number of matched readers.
   [[nodiscard]] std::size_t readers() const noexcept { return writers_.size(); }
@@ -111,7 +114,8 @@ class LocalReceiver {
  public:
   LocalReceiver(const TopicSpec& topic, const RunId& run, LocalSocket socket);
 
-  /// Sets the processes of the matched writers, by writer id; 0: not a process of this run.
+  /// Sets the processes of the matched writers, by writer id; 0: not a process of this run;
+  /// kGoneProcess: a lost one.
   void meet(const std::vector<std::uint64_t>& writers);
   [[nodiscard]] int descriptor() const noexcept { return socket_.descriptor(); }
 

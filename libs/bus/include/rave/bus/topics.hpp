@@ -34,6 +34,7 @@ using CommandAnswer = rave_wire_CommandAnswer;
 using Packet = rave_wire_Packet;
 using HostInfo = rave_wire_HostInfo;
 using ProcessState = rave_wire_ProcessState;
+using LifeSign = rave_wire_LifeSign;
 using ClockPing = rave_wire_ClockPing;
 using ClockPong = rave_wire_ClockPong;
 using LineInfo = rave_wire_LineInfo;
@@ -96,6 +97,9 @@ template <>
 inline constexpr TopicSpec kTopic<Packet> = {"rave/radio", &rave_wire_Packet_desc, kCrowd};
 template <>
 inline constexpr TopicSpec kTopic<HostInfo> = {"rave/host", &rave_wire_HostInfo_desc, kDurable};
+template <>
+inline constexpr TopicSpec kTopic<LifeSign> = {"rave/life_sign", &rave_wire_LifeSign_desc,
+                                               kDescription};
 template <>
 inline constexpr TopicSpec kTopic<ProcessState> = {"rave/process", &rave_wire_ProcessState_desc,
                                                    kNewest};

@@ -27,6 +27,9 @@ Status TopicSensor::open(SampleSink& sink) {
     drain();
     sink_ = &sink;
     state_ = {};
+    look_after(state_);
+    refused_at_open_ = std::exchange(state_.refused, 0);
+    next_told_ = 1;
     clock_.restart();
     last_ = line::host_now();
     last_stamp_ns_ = std::numeric_limits<std::int64_t>::min();
@@ -60,6 +63,7 @@ line::HostTime TopicSensor::attend(line::HostTime now) {
   drain();
   state_.refused = 0;
   look_after(state_);
+  tell_refused();
   if (may_be_silent_) return line::HostTime::max();
   if (std::exchange(alive_, false)) {
     refused_before_ = state_.refused;
@@ -81,6 +85,16 @@ line::HostTime TopicSensor::attend(line::HostTime now) {
       device_->options().timing.lost_after_s, refused ? state_.trouble : explain_silence());
   sink_->fail(state_.trouble.data(), state_.trouble.size());
   return line::HostTime::max();
+}
+
+// Not each: a robot whose every message is refused would fill the log.
+void TopicSensor::tell_refused() {
+  const std::uint64_t refused = state_.refused - refused_at_open_;
+  if (refused < next_told_) return;
+  device_->log(LogLevel::kWarning,
+               fmt::format("`{}`: {} message{} refused so far: {}", topic(), refused,
+                           refused == 1 ? "" : "s", state_.trouble));
+  while (next_told_ <= refused) next_told_ *= 10;
 }
 
 void TopicSensor::publish(std::int64_t stamp_ns, const void* records, std::uint32_t count) {

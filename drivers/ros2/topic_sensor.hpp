@@ -85,6 +85,8 @@ class TopicSensor : public HardwareSensor, public TopicUser {
   void warn(std::string text, TopicState& state) const;
 
  private:
+  void tell_refused();
+
   Ros2Device* device_ = nullptr;
   bool ready_ = false;
   bool may_be_silent_ = false;
@@ -98,6 +100,8 @@ class TopicSensor : public HardwareSensor, public TopicUser {
   line::HostTime last_{};
   std::int64_t last_stamp_ns_ = 0;
   std::uint64_t refused_before_ = 0;  // value at the last message
+  std::uint64_t refused_at_open_ = 0;
+  std::uint64_t next_told_ = 1;  // number of refused messages at which they are told of again
   bool lost_ = false;
   bool alive_ = false;  // a message arrived since the last check
 };

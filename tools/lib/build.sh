@@ -35,12 +35,28 @@ rave_show_progress() {
   return 0
 }
 
-# rave_configure PRESET [cmake options]: only if there is no build tree yet; afterwards ninja
-# configures again by itself when a CMake file changes.
+# Whether something is there now that the build tree FOLDER lacked when it was configured: a program,
+# or a file by its pattern (cmake/RaveTools.cmake).
+rave_tool_has_come() {
+  local names part name
+  [ -f "$1/lacking.txt" ] || return 1
+  while IFS=$'\t' read -r names part; do
+    for name in $names; do
+      if command -v "$name" >/dev/null || { [[ "$name" = /* ]] && compgen -G "$name" >/dev/null; }; then
+        echo "$part: $name has come"
+        return 0
+      fi
+    done
+  done <"$1/lacking.txt"
+  return 1
+}
+
+# rave_configure PRESET [cmake options]: only if there is no build tree yet, or if a tool that it lacked
+# has come; otherwise ninja configures again by itself when a CMake file changes.
 rave_configure() {
   local preset="$1" folder="$root/build/$1" log="$root/build/$1-configure.log"
   shift
-  if [ -f "$folder/build.ninja" ] && [ $# = 0 ]; then
+  if [ -f "$folder/build.ninja" ] && [ $# = 0 ] && ! rave_tool_has_come "$folder"; then
     return 0
   fi
   mkdir -p "$root/build"
@@ -62,13 +78,10 @@ rave_build() {
   return "${PIPESTATUS[0]}"
 }
 
-# rave_build_page PRESET: the page of the GUI Server. A tree that was configured before npm was there
-# does not know it yet. One whose packages could not be fetched is tried again: its stamp, which
-# keeps other builds from waiting for the registry each time, says nothing of the page.
+# rave_build_page PRESET: the page of the GUI Server. One whose packages could not be fetched is tried
+# again: its stamp, which keeps other builds from waiting for the registry each time, says nothing of
+# the page.
 rave_build_page() {
-  if ! ninja -C "$root/build/$1" -t query rave_page >/dev/null 2>&1; then
-    (cd "$root" && cmake --preset "$1") >"$root/build/$1-configure.log" 2>&1 || return
-  fi
   if [ ! -f "$root/build/$1/share/rave/web/index.html" ]; then
     rm -f "$root/build/$1/web/page.stamp"
   fi

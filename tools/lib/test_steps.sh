@@ -23,6 +23,17 @@ step_build() {
   [ "$result" = passed ]
 }
 
+# Fails if the tree lacks tools, and with them suites: ./test promises all of them.
+step_promised() {
+  local result=passed lacking="$root/build/$1/lacking.txt"
+  [ ! -s "$lacking" ] || result=failed
+  if [ "$result" = failed ]; then
+    echo "Suites are missing, because $lacking lists tools that are not there:" >&2
+    awk -F '\t' '{ print "  " $2 ": needs " $1 }' "$lacking" >&2
+  fi
+  step_note "$1" suites "$result" 0
+}
+
 # Runs the tests of a built preset: PRESET [ctest options]. The report is called STEP_NAME, or as the
 # preset.
 step_ctest() {

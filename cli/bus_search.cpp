@@ -38,6 +38,12 @@ watch::Enough enough_for(SearchFor what, const std::string& word) {
 
 }  // namespace
 
+Duration search_patience(const bus::BusConfig& config) {
+  // Shorter than that of `rave top`: who has mistyped the name of a run waits for it.
+  const bool near = config.loopback() && config.peers.empty();
+  return from_seconds(near ? 1.5 : 3);
+}
+
 Result<bus::RunId> find_bus_run(const bus::BusConfig& config, const std::string& word,
                                 SearchFor what, Duration patience, const std::stop_token& stop) {
   RAVE_TRY_ASSIGN(const auto found,

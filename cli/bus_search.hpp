@@ -18,6 +18,9 @@ enum class SearchFor : std::uint8_t {
           ///< given.
 };
 
+/// How long runs are searched for, here or on other machines.
+[[nodiscard]] Duration search_patience(const bus::BusConfig& config);
+
 /// The run on the bus of `config` that a word refers to: as of watch::choose_run(), or the only one
 /// of that scenario. Searches for `patience`, then up to 1.5 s for the scenario of each run.
 /// Errors: kNotFound (none, or several), those of bus::Bus::open().

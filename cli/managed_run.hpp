@@ -45,6 +45,17 @@ struct ManagedRun {
                                      const std::vector<std::string>& plugins, std::size_t hosts,
                                      LogSink& log);
 
+/// A source for pages that looks on at a run on the bus. `control`, `on_over`: see
+/// gui_server::watch_run().
+[[nodiscard]] Result<std::shared_ptr<gui_server::Source>> look_on(
+    const RunCommand& options, const config::ExpandedScenario& scenario, const bus::BusConfig& bus,
+    runtime::RunControl* control, LogSink& log, gui_server::OnOver on_over = {});
+
+/// Lets pages order robots of the run by way of their hosts, if there is a key for that.
+[[nodiscard]] Status offer_lines(const RunCommand& options,
+                                 const config::ExpandedScenario& scenario,
+                                 const bus::BusConfig& bus, gui_server::GuiServer& page);
+
 /// Serves a page that looks on at a run on the bus. `control`: that of its manager, if it is in
 /// this process; may be null. `on_over`: see gui_server::watch_run().
 [[nodiscard]] Result<std::unique_ptr<gui_server::GuiServer>> show_run(

@@ -7,14 +7,18 @@
 #include <cstdio>
 #include <filesystem>
 #include <mutex>
+#include <thread>
 #include <utility>
 
+#include "bus_search.hpp"
 #include "console.hpp"
 #include "error_text.hpp"
 #include "managed_run.hpp"
 #include "places.hpp"
-#include "rave/host/host_run.hpp"
+#include "rave/base/thread.hpp"
+#include "rave/protocol/agreement.hpp"
 #include "run_scenario.hpp"
+#include "sought_run.hpp"
 
 namespace rave::cli {
 namespace {
@@ -48,8 +52,85 @@ class Afterwards {
   std::shared_ptr<gui_server::Source> replay_;  ///< Guarded by the mutex.
 };
 
+/// The page of a scenario, whose run may start later.
+class ScenarioPage {
+ public:
+  ScenarioPage(RunCommand options, config::ExpandedScenario scenario, Afterwards& afterwards)
+      : options_(std::move(options)),
+        scenario_(std::move(scenario)),
+        afterwards_(afterwards),
+        seeker_(scenario_) {}
+
+  Result<std::unique_ptr<gui_server::GuiServer>> serve() {
+    RAVE_TRY_ASSIGN(bus_,
+                    bus_config(options_.bus, "GUI Server", runtime::shared_number(scenario_)));
+    make_room(bus_, kMostHosts);
+    // The search has a bus of its own.
+    bus_.beside = true;
+    // A run that is named has that number, whatever it runs.
+    named_ = !options_.bus.run.empty();
+    if (!named_) RAVE_TRY(seek(search_patience(bus_), {}));
+    return show_run(options_, scenario_, bus_, nullptr, console_, when_over());
+  }
+
+  /// Shows the run on the page when it is found, if that has not been yet. Stops when destroyed,
+  /// which comes before the end of the page.
+  Status seek_on(gui_server::GuiServer& page) {
+    if (named_ || found_) return {};
+    return start_thread(
+        thread_, "the search for the run", [this, &page](const std::stop_token& stop) {
+          const bus::RunId before = bus_.run;
+          while (!found_ && !stop.stop_requested()) {
+            const Status looked = seek(from_seconds(3600), stop);
+            if (!looked) return tell(looked.error());
+          }
+          if (!found_ || bus_.run == before) return;
+          auto source = look_on(options_, scenario_, bus_, nullptr, console_, when_over());
+          if (!source) return tell(source.error());
+          page.show(*std::move(source));
+          if (const Status lines = offer_lines(options_, scenario_, bus_, page); !lines) {
+            tell(lines.error());
+          }
+        });
+  }
+
+ private:
+  Status seek(Duration patience, const std::stop_token& stop) {
+    RAVE_TRY_ASSIGN(auto sought, seeker_.seek(bus_, patience, stop));
+    if (!sought) return {};
+    found_ = true;
+    bus_.run = sought->run;
+    scenario_ = std::move(sought->scenario);
+    if (sought->differs) {
+      console_.warn("gui",
+                    "run {} of `{}` has another seed, duration or files than given here; its world "
+                    "may look different",
+                    bus_.run.text().substr(0, 8), scenario_.scenario.name.value);
+    }
+    return {};
+  }
+  gui_server::OnOver when_over() {
+    return [&afterwards = afterwards_](std::shared_ptr<gui_server::Source> replay,
+                                       const std::string& where) {
+      afterwards.take(std::move(replay), where);
+    };
+  }
+  void tell(const Error& error) { console_.error("gui", "{}", error.text()); }
+
+  RunCommand options_;
+  config::ExpandedScenario scenario_;
+  Afterwards& afterwards_;
+  RunSeeker seeker_;
+  Console console_{false};
+  bus::BusConfig bus_;
+  bool named_ = false;
+  bool found_ = false;
+  std::jthread thread_;  ///< Alone with the rest from its start on.
+};
+
 Result<std::unique_ptr<gui_server::GuiServer>> serve(const GuiCommand& options,
-                                                     Afterwards& afterwards) {
+                                                     Afterwards& afterwards,
+                                                     std::unique_ptr<ScenarioPage>& page) {
   const auto file = record_file(options.file);
   std::error_code error;
   // A scenario may be given by its file, as `rave run` takes it.
@@ -69,14 +150,8 @@ Result<std::unique_ptr<gui_server::GuiServer>> serve(const GuiCommand& options,
                 options.file);
   }
   if (!scenario) return tl::unexpected(scenario.error());
-  RAVE_TRY_ASSIGN(auto bus, bus_config(run.bus, "GUI Server", runtime::shared_number(*scenario)));
-  make_room(bus, kMostHosts);
-  Console console(false);
-  return show_run(
-      run, *scenario, bus, nullptr, console,
-      [&afterwards](std::shared_ptr<gui_server::Source> replay, const std::string& where) {
-        afterwards.take(std::move(replay), where);
-      });
+  page = std::make_unique<ScenarioPage>(std::move(run), *scenario, afterwards);
+  return page->serve();
 }
 
 }  // namespace
@@ -90,10 +165,13 @@ Result<int> gui(const GuiCommand& options) {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
   Afterwards afterwards;
-  RAVE_TRY_ASSIGN(const auto server, serve(options, afterwards));
+  std::unique_ptr<ScenarioPage> page;
+  RAVE_TRY_ASSIGN(const auto server, serve(options, afterwards, page));
   afterwards.set_page(server.get());
+  if (page) RAVE_TRY(page->seek_on(*server));
   int signal = 0;
   sigwait(&signals, &signal);
+  page.reset();
   afterwards.set_page(nullptr);
   return kGood;
 }

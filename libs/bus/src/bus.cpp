@@ -34,8 +34,13 @@ constexpr std::uint32_t kWriterStatus =
 
 // Hosts are in both partitions, the manager and monitors in one each. So both match hosts, and
 // never each other.
-Qos partitions_of(const RunId& run, Side side) {
+Qos partitions_of(const RunId& run, Side side, bool all_runs) {
   Qos qos(dds_create_qos());
+  if (all_runs) {
+    const char* any = side == Side::kMonitor ? "rave/*/hosts" : "rave/*";
+    dds_qset_partition(qos.get(), 1, &any);
+    return qos;
+  }
   const std::string run_itself = "rave/" + run.text();
   const std::string hosts = run_itself + "/hosts";
   std::vector<const char*> names;
@@ -146,10 +151,10 @@ Status Bus::open_participant() {
   }
   participant_ = dds_create_participant(number_, qos.get(), nullptr);
   if (participant_ < 0) return refused(participant_);
-  const Qos partition = partitions_of(config_.run, config_.side);
+  const Qos partition = partitions_of(config_.run, config_.side, config_.all_runs);
   publisher_ = dds_create_publisher(participant_, partition.get(), nullptr);
   subscriber_ = dds_create_subscriber(participant_, partition.get(), nullptr);
-  participants_ = std::make_unique<Participants>(participant_, config_.run, config_.lease, secured);
+  participants_ = std::make_unique<Participants>(participant_, config_);
   const dds_return_t worst = std::min(
       {publisher_, subscriber_, std::ranges::min(participants_->readers()), dds_entity_t{0}});
   if (worst < 0) return refused(worst);

@@ -172,6 +172,9 @@ Status validate(const BusConfig& config) {
   RAVE_TRY(check_text("tag", config.tag, 255));
   if (config.run.none() && !config.anonymous)
     return fail(kBad, "run: expected an id, the same for all processes of a run");
+  if (config.all_runs && (!config.anonymous || !config.run.none())) {
+    return fail(kBad, "all_runs: only for an anonymous process without a run");
+  }
   if (config.domain > 230) return fail(kBad, "domain: found {}, expected 0 to 230", config.domain);
   if (config.interface.empty()) return fail(kBad, "interface: expected an address or a name");
   if (config.max_processes < 1 || config.max_processes > 119) {

@@ -79,14 +79,15 @@ Identity read_identity(const dds_qos_t* qos) {
   return identity;
 }
 
-Participants::Participants(dds_entity_t participant, const RunId& run, Duration lease, bool secured)
-    : run_(run),
-      secured_(secured),
-      lease_(lease),
+Participants::Participants(dds_entity_t participant, const BusConfig& config)
+    : run_(config.run),
+      all_runs_(config.all_runs),
+      secured_(!config.security.empty()),
+      lease_(config.lease),
       // Every process sends at least each 0.8 leases, so after a standstill of a fifth of a lease
       // others may count as lost. They, and processes that lost this one, need time to be
       // discovered again.
-      standstill_({lease.ns / 5}, lease * 3) {
+      standstill_({lease_.ns / 5}, lease_ * 3) {
   readers_.push_back(
       dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr));
   if (secured_) {
@@ -161,7 +162,7 @@ void Participants::appear(const dds_builtintopic_participant_t& sample,
 
 void Participants::learn(const Guid& key, const Identity& who, std::vector<BusEvent>& events) {
   known_[key] = who;
-  if (who.writer != 0 && who.run == run_) {
+  if (who.writer != 0 && ours(who)) {
     dds_guid_t guid{};
     std::ranges::copy(key, guid.v);
     owners_.try_emplace(who.writer, guid);
@@ -188,7 +189,7 @@ void Participants::disappear(const dds_guid_t& guid) {
     owners_.erase(owner);
     // Another participant may have claimed the same id before.
     for (const auto& [key, who] : known_) {
-      if (who.writer != writer || who.run != run_) continue;
+      if (who.writer != writer || !ours(who)) continue;
       std::ranges::copy(key, owners_[writer].v);
       break;
     }
@@ -209,7 +210,7 @@ bool Participants::speaks_for(const dds_guid_t& guid, std::uint64_t writer) cons
   return owner == nullptr || key_of(*owner) == key_of(guid);
 }
 
-bool Participants::foreign(const Identity& who) const { return !who.run.none() && who.run != run_; }
+bool Participants::foreign(const Identity& who) const { return !who.run.none() && !ours(who); }
 
 Identity Participants::find(const dds_guid_t& guid) const {
   const Guid key = key_of(guid);

@@ -30,13 +30,12 @@ void write_identity(const Identity& identity, dds_qos_t* qos);
 
 /// The other processes in the domain, from the built-in topics of DDS. Owner: the bus.
 ///
-/// Announcements of participants are not encrypted, even with certificates. So with `secured` a
+/// Announcements of participants are not encrypted, even with certificates. So with them a
 /// process announces its identity through a writer, which only members receive: its participant
 /// first appears without a name, and again with it when that writer is known.
 class Participants {
  public:
-  /// `lease`: time after which a silent process counts as lost.
-  Participants(dds_entity_t participant, const RunId& run, Duration lease, bool secured);
+  Participants(dds_entity_t participant, const BusConfig& config);
 
   /// Reads the changes. Processes of this run, and those not of RAVE, become events; of another run
   /// only the first process does. After a standstill of this process, others have a grace period in
@@ -66,9 +65,12 @@ class Participants {
   /// The identities announced through writers since the last call.
   [[nodiscard]] std::map<Guid, Identity> take_writers() const;
   void judge(std::vector<BusEvent>& events);
+  /// Whether it belongs to a run that this process looks at.
+  [[nodiscard]] bool ours(const Identity& who) const { return all_runs_ || who.run == run_; }
   [[nodiscard]] bool foreign(const Identity& who) const;
 
   RunId run_;
+  bool all_runs_;
   bool secured_;
   Duration lease_;
   Guid self_{};

@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "rave/bus/reader.hpp"
+#include "rave/bus/sequence.hpp"
 #include "rave/bus/writer.hpp"
 #include "rave/bus_testing/peer_process.hpp"
 
@@ -89,6 +93,80 @@ TEST(Sides, ManagerAndMonitorsMatchHostsAndNotEachOther) {
   EXPECT_EQ(ends[3].runs_in.take([](const RunState&) {}), 0U);
   EXPECT_EQ(matches_of(*manager, known, "manager"), all({"host", "other"}));
   EXPECT_EQ(matches_of(*monitor, known, "monitor"), all({"host", "other"}));
+}
+
+/// Two runs in one domain, and processes that look at both.
+class AllRuns : public ::testing::Test {
+ protected:
+  [[nodiscard]] std::unique_ptr<Bus> open(const char* name, const RunId& run, Side side) const {
+    BusConfig config = domain_.config();
+    config.participant = name;
+    config.run = run;
+    config.side = side;
+    config.beside = true;
+    config.anonymous = config.all_runs = run.none();
+    auto bus = Bus::open(config);
+    EXPECT_TRUE(bus) << bus.error().text();
+    return *std::move(bus);
+  }
+
+  TestDomain domain_;
+  RunId one_ = RunId::random();
+  RunId two_ = RunId::random();
+  std::unique_ptr<Bus> first_ = open("first", one_, Side::kAll);
+  std::unique_ptr<Bus> second_ = open("second", two_, Side::kAll);
+  std::unique_ptr<Bus> asker_ = open("asker", RunId(), Side::kAll);
+};
+
+TEST_F(AllRuns, AreHeardByWhoLooksAtThemAndTheirManagersNotByMonitors) {
+  const auto manager = open("manager", one_, Side::kManager);
+  const auto monitor = open("monitor", RunId(), Side::kMonitor);
+  std::vector<Writer<HostInfo>> infos;
+  for (Bus* const bus : {manager.get(), first_.get(), second_.get()}) {
+    infos.push_back(*Writer<HostInfo>::create(*bus));
+    HostInfo info{};
+    put_text(info.name, bus->config().participant);
+    put_text(info.version, "1");
+    ASSERT_TRUE(infos.back().write(info));
+  }
+  // By name: the run.
+  std::map<std::string, std::string> seen;
+  const auto see = [&seen](Reader<HostInfo>& reader) {
+    reader.take([&seen](const HostInfo& info) {
+      RunId run;
+      std::ranges::copy(info.run, run.bytes.begin());
+      seen[info.name] = run.text();
+    });
+    return seen.size();
+  };
+  auto all = *Reader<HostInfo>::create(*asker_);
+  EXPECT_TRUE(eventually([&] { return see(all) == 3; }));
+  EXPECT_EQ(seen["second"], two_.text());
+  seen.clear();
+  auto hosts = *Reader<HostInfo>::create(*monitor);
+  EXPECT_TRUE(eventually([&] { return see(hosts) == 2; }));
+  EXPECT_EQ(seen["first"], one_.text());
+  EXPECT_FALSE(seen.contains("manager"));
+}
+
+TEST_F(AllRuns, ARequestReachesTheRunThatItNames) {
+  auto requests = *Writer<Request>::create(*asker_);
+  auto asked_first = *Reader<Request>::create(*first_);
+  auto asked_second = *Reader<Request>::create(*second_);
+  EXPECT_TRUE(eventually([&] { return requests.readers() == 2; }));
+  Request request{};
+  std::ranges::copy(two_.bytes, request.run);
+  request.target = second_->writer();
+  request.number = 1;
+  put_text(request.from, "asker");
+  borrow_text(request.text, "stop");
+  ASSERT_TRUE(requests.write(request));
+  std::size_t heard = 0;
+  EXPECT_TRUE(eventually([&] {
+    heard += asked_second.take([](const Request&) {});
+    return heard == 1;
+  }));
+  EXPECT_EQ(asked_first.take([](const Request&) {}), 0U);
 }
 
 }  // namespace

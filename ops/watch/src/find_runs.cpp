@@ -62,10 +62,13 @@ Result<std::vector<FoundRun>> find_runs(bus::BusConfig config, Duration patience
   std::size_t known = 0;
   for (;;) {
     static_cast<void>(bus->take_events());
-    const std::size_t processes = bus->processes().size();
+    const std::vector<bus::BusProcess> all = bus->processes();
+    // With certificates a process appears first and says its run later.
+    const auto processes = static_cast<std::size_t>(
+        std::ranges::count_if(all, [](const auto& process) { return !process.run.none(); }));
     if (processes > known) {
       known = processes;
-      const auto found = runs_of(bus->processes());
+      const auto found = runs_of(all);
       // Discovery has no end. So wait until the wanted run is found, or until no new process has
       // appeared for a moment.
       if (enough && enough(found)) break;

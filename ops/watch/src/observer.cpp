@@ -92,7 +92,16 @@ void Observer::watch(Duration span, const std::stop_token& stop) {
 }
 
 RunView Observer::view(bool with_robots) const {
-  return impl_->model.view(steady_ns(), with_robots);
+  RunView view = impl_->model.view(steady_ns(), with_robots);
+  if (knows_any()) return view;
+  const auto processes = impl_->bus->processes();
+  const bool found = std::ranges::any_of(processes, [this](const bus::BusProcess& process) {
+    return process.run == impl_->bus->config().run;
+  });
+  if (found) {
+    view.text = "its processes were found, but they send nothing readable: do they use --security?";
+  }
+  return view;
 }
 
 bus::Bus& Observer::bus() noexcept { return *impl_->bus; }

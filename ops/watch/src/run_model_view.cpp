@@ -284,9 +284,7 @@ void RunModel::tell_robots(const std::set<std::uint32_t>& hosts, RunView& view,
 void RunModel::tell_run(RunView& view, std::int64_t now_ns) const {
   view.run = run_;
   view.timing = timing();
-  if (!knows_any()) {
-    view.text = "its processes were found, but they send nothing readable: do they use --security?";
-  }
+  if (!knows_any()) view.text = "no process of the run was found";
   if (!state_) return tell_words(view);
   view.scenario = state_->scenario;
   constexpr Phase kPhases[] = {Phase::kGathering, Phase::kRunning, Phase::kWaits, Phase::kEnded,

@@ -173,8 +173,7 @@ TEST_F(RunModelTest, TwoMessagesInARowSayNothingOfCores) {
 TEST(RunModelAlone, WhoHearsNothingIsToldWhy) {
   const RunModel model("00ff");
   EXPECT_FALSE(model.knows_any());
-  EXPECT_EQ(model.view(0, true).text,
-            "its processes were found, but they send nothing readable: do they use --security?");
+  EXPECT_EQ(model.view(0, true).text, "no process of the run was found");
 }
 
 TEST_F(RunModelTest, TheSpeedIsThatOfLately) {

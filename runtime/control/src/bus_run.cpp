@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -23,6 +24,9 @@ using std::chrono::milliseconds;
 
 /// When no new process has appeared for this long, the search for processes is complete.
 constexpr milliseconds kMoment{400};
+/// The same while a process is seen that has not been believed yet: with certificates, a message of
+/// the handshake that is lost is repeated after a second.
+constexpr milliseconds kBelief{1200};
 
 Result<std::string> request_line(const Request& request) {
   std::string line = write_request(request);
@@ -69,13 +73,22 @@ struct BusRun::Impl {
   std::string from;
   std::vector<BusPeer> peers{};
   Clock::time_point grew{};  ///< When the last of `peers` appeared.
-  std::string scenario{};    ///< The scenario of the run, as its manager reports it.
+  /// By run: its scenario, as its manager reports it.
+  std::map<std::string, std::string> scenarios{};
   std::uint64_t number = 0;  ///< The number of the last request.
 
   void look();
   /// When the search for processes is complete, at most `latest`.
   [[nodiscard]] Clock::time_point search_end(Clock::time_point latest) const {
-    return peers.empty() ? latest : std::min(latest, grew + kMoment);
+    const auto processes = bus->processes();
+    const bool secured = !bus->config().security.empty();
+    const bool doubtful = secured && std::ranges::any_of(processes, [](const auto& process) {
+                            return process.run.none();
+                          });
+    return peers.empty() ? latest : std::min(latest, grew + (doubtful ? kBelief : kMoment));
+  }
+  [[nodiscard]] const std::string& scenario_of(const BusPeer& peer) {
+    return scenarios[peer.run.text()];
   }
   [[nodiscard]] bool knows(std::uint64_t writer) const {
     return std::ranges::find(peers, writer, &BusPeer::writer) != peers.end();
@@ -90,12 +103,15 @@ struct BusRun::Impl {
 void BusRun::Impl::look() {
   infos.take([this](const bus::HostInfo& info) {
     if (knows(info.writer) || peers.size() >= rave_wire_kMaxHosts) return;
-    peers.push_back({info.writer, info.name, info.machine, info.host == rave_wire_kNone,
-                     info.clock == rave_wire_CLOCK_REAL_TIME});
+    BusPeer& peer = peers.emplace_back();
+    peer = {info.writer, info.name, info.machine, info.host == rave_wire_kNone,
+            info.clock == rave_wire_CLOCK_REAL_TIME};
+    std::ranges::copy(info.run, peer.run.bytes.begin());
     grew = Clock::now();
   });
   states.take([this](const bus::RunState& state) {
-    if (knows(state.writer)) scenario = plain_text(state.scenario);
+    const auto peer = std::ranges::find(peers, state.writer, &BusPeer::writer);
+    if (peer != peers.end()) scenarios[peer->run.text()] = plain_text(state.scenario);
   });
   for (const bus::BusEvent& event : bus->take_events()) {
     if (event.kind != bus::EventKind::kParticipantLost || event.writer == 0) continue;
@@ -105,6 +121,7 @@ void BusRun::Impl::look() {
 
 Status BusRun::Impl::send(const Asked& one) {
   bus::Request request{};
+  std::ranges::copy(one.peer.run.bytes, request.run);
   request.target = one.peer.writer;
   request.number = one.number;
   bus::put_text(request.from, from);
@@ -248,19 +265,23 @@ Result<Answer> BusRun::ask(const BusPeer& peer, const Request& request, Duration
 }
 
 std::vector<BusReply> BusRun::ask_each(const Request& request, const Meant& meant,
-                                       Duration patience) {
+                                       Duration patience, const Search* search) {
   Impl& run = *impl_;
   const auto line = request_line(request);
   if (!line) return {};
-  const auto latest = Clock::now() + std::chrono::nanoseconds(patience.ns);
+  const auto began = Clock::now();
+  const auto latest = began + std::chrono::nanoseconds(patience.ns);
   std::vector<Asked> asked;
   for (;;) {
     run.look();
-    const auto end = run.search_end(latest);
+    auto end = run.search_end(latest);
+    if (search != nullptr && std::ranges::none_of(run.peers, search->only)) {
+      end = began + std::chrono::nanoseconds(search->duration.ns);
+    }
     for (const BusPeer& peer : run.peers) {
       const bool before = std::ranges::any_of(
           asked, [&peer](const Asked& one) { return one.peer.writer == peer.writer; });
-      if (before || !meant(peer, run.scenario)) continue;
+      if (before || !meant(peer, run.scenario_of(peer))) continue;
       asked.push_back({peer, ++run.number, *line, latest});
     }
     run.take(asked, patience);

@@ -55,6 +55,9 @@ struct BusConfig {
   /// name alone, so others never count it as a member of a run. Without a run it discovers
   /// processes but receives no samples.
   bool anonymous = false;
+  /// For an anonymous process without a run: it exchanges samples with the processes of all runs of
+  /// the domain. Each sample that it writes must name its run.
+  bool all_runs = false;
   Side side = Side::kAll;
   /// The DDS domain, 0 to 230. It determines the UDP ports: 7400 + 250 * domain and up.
   std::uint32_t domain = 0;

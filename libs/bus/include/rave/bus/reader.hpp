@@ -138,7 +138,8 @@ class Reader {
                         Gone& gone) {
     const bool disposed = info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE;
     if (!info.valid_data && !disposed) return 0;
-    if (!core_.bus().config().run.equals(sample.run)) {
+    const BusConfig& config = core_.bus().config();
+    if (!config.all_runs && !config.run.equals(sample.run)) {
       core_.note_foreign();
       return 0;
     }

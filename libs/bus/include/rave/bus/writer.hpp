@@ -43,9 +43,10 @@ class Writer {
     return {};
   }
 
-  /// Sets the run and writer of a sample and sends it. Its sequences stay owned by the caller and
-  /// are read during the call only. Errors: kTimeout (a reader does not keep up and there is no
-  /// room; see QosProfile::waits), kInvalidArgument (a sequence is longer than its bound).
+  /// Sets the writer of a sample, and its run if the bus has one, and sends it. Its sequences stay
+  /// owned by the caller and are read during the call only. Errors: kTimeout (a reader does not
+  /// keep up and there is no room; see QosProfile::waits), kInvalidArgument (a sequence is longer
+  /// than its bound).
   [[nodiscard]] Status write(Message& sample) {
     sign(sample);
     return core_.write(&sample);
@@ -64,7 +65,8 @@ class Writer {
 
  private:
   void sign(Message& sample) const {
-    std::ranges::copy(core_.bus().config().run.bytes, sample.run);
+    const BusConfig& config = core_.bus().config();
+    if (!config.all_runs) std::ranges::copy(config.run.bytes, sample.run);
     sample.writer = core_.bus().writer();
   }
 

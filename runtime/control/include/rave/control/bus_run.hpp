@@ -23,6 +23,7 @@ struct BusPeer {
   bool manager = false;  ///< Whether it is the Environment Manager of the run.
   bool live = false;     ///< Whether the run is in real time; then only hosts accept requests for
                          ///< their robots.
+  bus::RunId run{};
 };
 
 /// The reply of one of several processes to a request.
@@ -31,15 +32,16 @@ struct BusReply {
   Result<Answer> answer;
 };
 
-/// Sends requests to the processes of a run over the bus. It is not part of the run. One owner
-/// thread.
+/// Sends requests to the processes of a run, or of all runs, over the bus. It is not part of a run.
+/// One owner thread.
 class BusRun {
  public:
   /// The default timeout for an answer.
   static constexpr Duration kPatience{5'000'000'000};
 
-  /// `config.run` must be the id of the run. `from`: name of the sender for the logs of others; not
-  /// empty. Errors: those of bus::Bus::open().
+  /// `config.run` must be the id of the run, or `config.all_runs` set; then only ask_each() may be
+  /// called. `from`: name of the sender for the logs of others; not empty. Errors: those of
+  /// bus::Bus::open().
   [[nodiscard]] static Result<std::unique_ptr<BusRun>> open(bus::BusConfig config,
                                                             std::string_view from);
   BusRun(const BusRun&) = delete;
@@ -61,11 +63,19 @@ class BusRun {
   /// Selects the processes to ask. `scenario` is that of their run; empty until its manager has
   /// announced it.
   using Meant = std::function<bool(const BusPeer&, const std::string& scenario)>;
+  /// How long processes are searched for while others may still be meant.
+  struct Search {
+    Duration duration;
+    /// Whether the run of a process is the only one that can be meant; then the search ends when no
+    /// new process has appeared for a moment.
+    std::function<bool(const BusPeer&)> only;
+  };
   /// Sends a request to all selected processes in parallel, each as soon as it is found. Returns
   /// when no new process has appeared for a moment and all have answered, at most after `patience`.
   /// For requests with short answers. The errors of replies are those of ask().
   [[nodiscard]] std::vector<BusReply> ask_each(const Request& request, const Meant& meant,
-                                               Duration patience = kPatience);
+                                               Duration patience = kPatience,
+                                               const Search* search = nullptr);
 
  private:
   struct Impl;

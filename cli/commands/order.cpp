@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
+#include <csignal>
+#include <random>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -24,6 +27,24 @@ using Clock = std::chrono::steady_clock;
 /// Well within the time after which a driver counts as gone.
 constexpr std::chrono::milliseconds kAgain{50};
 
+/// Of this process: two terminals do not share a lease. JSON carries 53 bits of it.
+std::uint64_t own_page() {
+  std::random_device chance;
+  constexpr std::uint64_t kBits = (std::uint64_t{1} << 53U) - 1;
+  return std::max<std::uint64_t>(1, (std::uint64_t{chance()} << 32U | chance()) & kBits);
+}
+
+std::atomic<bool> was_suspended{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+/// The shell, or who else may suspend this process, also wakes it.
+void note_suspensions() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { was_suspended.store(true); };
+  action.sa_flags = SA_RESTART;
+  ::sigaction(SIGCONT, &action, nullptr);
+}
+
 Result<std::vector<Vec2>> points_of(const OrderCommand& options) {
   if (options.numbers.size() % 2 != 0 || options.numbers.empty()) {
     return fail(ErrorCode::kInvalidArgument, "expected X Y, or X Y X Y ...; there are {} numbers",
@@ -41,6 +62,7 @@ Result<Request> read_request(const OrderCommand& options) {
   switch (options.what) {
     case What::kDrive: {
       Request request = request_of({RunKind::kDrive, options.robot});
+      request.run.page = own_page();
       request.run.v_mps = options.numbers[0];
       request.run.w_radps = options.numbers[1];
       return request;
@@ -89,29 +111,43 @@ const AskedRun* ask(const std::vector<AskedRun>& runs, const Request& request) {
   return nullptr;
 }
 
+Request cancel_of(const Request& drive) {
+  Request cancel = request_of({RunKind::kCancel, drive.run.robot});
+  cancel.run.page = drive.run.page;
+  return cancel;
+}
+
 /// Keeps driving, and gives the robot back to its program.
 Result<int> drive_on(const AskedRun& run, const Request& drive, double for_s) {
   const auto end = Clock::now() + std::chrono::duration<double>(for_s);
   while (Clock::now() + kAgain < end) {
     std::this_thread::sleep_for(kAgain);
+    if (was_suspended.load()) {
+      // The robot stands already, and may even be driven by another one.
+      static_cast<void>(run.ask(cancel_of(drive)));
+      return refused(run, fmt::format("this command was suspended, so it no longer drives {}",
+                                      drive.run.robot));
+    }
     RAVE_TRY_ASSIGN(const auto answer, run.ask(drive));
     if (!answer.good) return refused(run, answer.text);
   }
   // The last velocity holds until the end, and then the program takes over; without the cancel it
   // would wait until the driver counts as gone.
   std::this_thread::sleep_until(end);
-  return ask({run}, request_of({RunKind::kCancel, drive.run.robot})) != nullptr ? kGood : kNotGood;
+  return ask({run}, cancel_of(drive)) != nullptr ? kGood : kNotGood;
 }
 
 }  // namespace
 
 Result<int> give_order(const OrderCommand& options) {
   RAVE_TRY_ASSIGN(const auto request, read_request(options));
+  note_suspensions();
   RAVE_TRY_ASSIGN(const auto run, AskedRun::find(options.run, options.bus));
   const std::vector<AskedRun> runs = run.takers_of_orders(options.robot);
   if (options.force) {
     Request take = request_of({RunKind::kTake, options.robot});
     take.run.value = "force";
+    take.run.page = request.run.page;
     if (ask(runs, take) == nullptr) return kNotGood;
   }
   const AskedRun* const by = ask(runs, request);

@@ -88,5 +88,44 @@ TEST_F(Orders, ADriverThatIsKilledLeavesARobotThatStandsAndThenItsProgram) {
   EXPECT_TRUE(happened("`terminal` no longer drives: no message came from them")) << events();
 }
 
+TEST_F(Orders, TwoTerminalsDoNotDriveOneRobot) {
+  start({"--no-record"});
+  const pid_t driver = start_rave({"drive", "bert", "0.3", "0", "--for", "3000"}, {setting_});
+  ASSERT_GT(driver, 0);
+  wait_until([&] {
+    return rave({"ps", "--robots"}).out.find("`terminal` drives it") != std::string::npos;
+  });
+  refused({"drive", "bert", "-0.3", "0"}, "another terminal drives bert; `--force` takes it");
+  refused({"goal", "bert", "0", "0"}, "another terminal drives bert; `--force` takes it");
+  const Ended taken = rave({"drive", "bert", "-0.3", "0", "--for", "0.2", "--force"});
+  EXPECT_EQ(taken.exit_code, 0) << taken.err;
+  EXPECT_NE(taken.out.find("it was taken from another terminal"), std::string::npos) << taken.out;
+  EXPECT_EQ(wait_for(driver), 1) << "it does not drive on when the other one has ended";
+  end();
+}
+
+/// A person suspends the command, and somebody else goes on with the robot.
+TEST_F(Orders, ADriveThatWasSuspendedEndsWhenItIsResumed) {
+  start({"--no-record"});
+  const pid_t driver = start_rave({"drive", "bert", "0.3", "0", "--for", "3000"}, {setting_});
+  ASSERT_GT(driver, 0);
+  const auto says = [&](const char* text) {
+    return rave({"ps", "--robots"}).out.find(text) != std::string::npos;
+  };
+  wait_until([&] { return says("`terminal` drives it"); });
+  ::kill(driver, SIGSTOP);
+  EXPECT_EQ(rave({"stop", "--robot", "bert"}).exit_code, 0);
+  EXPECT_EQ(rave({"arm", "--release"}).exit_code, 0);
+  wait_until([&] { return !says("`terminal` drives it"); });
+  ::kill(driver, SIGCONT);
+  EXPECT_EQ(wait_for(driver), 1);
+  EXPECT_FALSE(says("drive")) << rave({"ps", "--robots"}).out;
+  end();
+  const std::string told = events();
+  const std::size_t drive = told.find("drive 0.30 m/s");
+  ASSERT_NE(drive, std::string::npos);
+  EXPECT_EQ(told.find("drive 0.30 m/s", drive + 1), std::string::npos) << told;
+}
+
 }  // namespace
 }  // namespace rave::cli_test

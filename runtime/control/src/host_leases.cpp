@@ -14,6 +14,11 @@ std::string_view name_of(const HostLeases::Person& person) {
   return person.name.empty() ? HostLeases::kTerminal : person.name;
 }
 
+/// What tells two leases of the same name apart.
+std::string_view place_of(std::string_view holder) {
+  return holder == HostLeases::kTerminal ? "terminal" : "page";
+}
+
 }  // namespace
 
 std::string lease_text(const HostLeases::Change& change) {
@@ -23,7 +28,7 @@ std::string lease_text(const HostLeases::Change& change) {
   }
   if (change.before.empty()) return fmt::format("`{}` drives", change.after);
   if (change.before == change.after)
-    return fmt::format("`{}` drives on another page", change.after);
+    return fmt::format("`{}` drives on another {}", change.after, place_of(change.after));
   return fmt::format("`{}` drives now, instead of `{}`", change.after, change.before);
 }
 
@@ -48,6 +53,10 @@ bool HostLeases::owns(const Lease& lease, const Person& person) noexcept {
 
 tl::unexpected<Error> HostLeases::refusal(const std::string& robot, const Lease& lease,
                                           const Person& person) {
+  if (person.name.empty() && lease.holder == HostLeases::kTerminal) {
+    return fail(ErrorCode::kState, "another terminal drives {}; `--force` takes it from there",
+                robot);
+  }
   if (lease.holder == name_of(person)) {
     return fail(ErrorCode::kState,
                 "you drive {} on another page: give it back there, or take it here", robot);
@@ -86,7 +95,8 @@ Result<std::string> HostLeases::take(const std::string& robot, const Person& per
   set(robot, person, own && lease->driven, now);
   if (before.empty()) return fmt::format("{} is yours", robot);
   if (before == name_of(person)) {
-    return fmt::format("{} is yours; it was taken from another page of yours", robot);
+    return fmt::format("{} is yours; it was taken from another {} of yours", robot,
+                       place_of(before));
   }
   return fmt::format("{} is yours; it was taken from `{}`", robot, before);
 }

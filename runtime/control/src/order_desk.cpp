@@ -24,6 +24,16 @@ HostLeases::Person person_of(const RunRequest& request) {
   return {request.by, request.overrides, request.page};
 }
 
+HeldSticks::Stick stick_of(const RunRequest& request) {
+  return {request.robot, request.by, request.page};
+}
+
+bool stands(const RunRequest& drive) { return drive.v_mps == 0 && drive.w_radps == 0; }
+
+bool is_of_lease(RunRequest::Kind kind) {
+  return kind == RunRequest::Kind::kTake || kind == RunRequest::Kind::kGive;
+}
+
 }  // namespace
 
 bool OrderDesk::is_for(RunRequest::Kind kind) noexcept {
@@ -81,26 +91,60 @@ Result<std::string> OrderDesk::serve(const RunRequest& request, const Give& give
   if (for_all && !request.by.empty() && !request.overrides) {
     return fail(ErrorCode::kState, "only a super-user can cancel the orders of all robots");
   }
-  const bool of_lease =
-      request.kind == RunRequest::Kind::kTake || request.kind == RunRequest::Kind::kGive;
+  const bool drives = request.kind == RunRequest::Kind::kDrive;
+  if (drives && stands(request)) {
+    RAVE_TRY_ASSIGN(const auto use, look_at_stick(request, is_driven, now));
+    if (use == HeldSticks::Use::kFreed) return "the stick of " + request.robot + " is neutral";
+  }
   // What others send to a robot that a person drives must not use up what its driver may send.
-  if (!of_lease && !request.robot.empty()) {
-    RAVE_TRY(leases_.use(request.robot, person_of(request), HostLeases::Use::kLook, now));
+  if (!is_of_lease(request.kind) && !request.robot.empty()) {
+    const Status own = leases_.use(request.robot, person_of(request), HostLeases::Use::kLook, now);
+    if (!own) return refused(request, own.error(), now);
   }
-  RAVE_TRY(check_rate(of_lease ? request.robot + "\n" : request.robot, now));
-  Result<std::string> answer;
-  if (request.kind == RunRequest::Kind::kTake) {
-    if (!request.value.empty() && request.value != "force") {
-      return fail(ErrorCode::kInvalidArgument, "`{}`: expected `force` or nothing", request.value);
-    }
-    answer = leases_.take(request.robot, person_of(request), request.value == "force", now);
-  } else if (request.kind == RunRequest::Kind::kGive) {
-    answer = leases_.give(request.robot, person_of(request), request.value, now);
-  } else {
-    answer = order(request, give, is_driven, now);
-  }
+  if (drives && !stands(request)) RAVE_TRY(look_at_stick(request, is_driven, now));
+  RAVE_TRY(check_rate(is_of_lease(request.kind) ? request.robot + "\n" : request.robot, now));
+  auto answer = carry_out(request, give, is_driven, now);
   follow_leases(give);
+  if (!answer) return refused(request, answer.error(), now);
   return answer;
+}
+
+Result<HeldSticks::Use> OrderDesk::look_at_stick(const RunRequest& drive, const IsDriven& is_driven,
+                                                 Time now) {
+  const HeldSticks::Stick stick = stick_of(drive);
+  // A stop ends a drive in the run; the stick may still be held when the robot is released.
+  if (watch_.moves(drive.robot, drive.by, drive.page) && !is_driven(drive.robot)) {
+    watch_.ended(drive.robot);
+    sticks_.hold(stick, drive.robot + " was stopped while it was driven", now);
+  }
+  return sticks_.use(stick, stands(drive), now);
+}
+
+tl::unexpected<Error> OrderDesk::refused(const RunRequest& request, Error why, Time now) {
+  // Another error is a mistake in the request, which the next one may not have.
+  const bool held =
+      request.kind == RunRequest::Kind::kDrive && !stands(request) && why.code == ErrorCode::kState;
+  if (held) sticks_.hold(stick_of(request), why.message, now);
+  return tl::unexpected(std::move(why));
+}
+
+Result<std::string> OrderDesk::carry_out(const RunRequest& request, const Give& give,
+                                         const IsDriven& is_driven, Time now) {
+  if (request.kind == RunRequest::Kind::kGive) {
+    return leases_.give(request.robot, person_of(request), request.value, now);
+  }
+  if (request.kind != RunRequest::Kind::kTake) return order(request, give, is_driven, now);
+  const bool forces = request.value == "force";
+  // A driver over the bus, where drives have no answers.
+  const bool drives = request.value == "drive";
+  if (!request.value.empty() && !forces && !drives) {
+    return fail(ErrorCode::kInvalidArgument, "`{}`: expected `force` or nothing", request.value);
+  }
+  if (drives) RAVE_TRY(sticks_.use(stick_of(request), false, now));
+  auto taken = leases_.take(request.robot, person_of(request), forces, now);
+  // Who takes a robot begins anew.
+  if (taken) sticks_.forget(stick_of(request));
+  return taken;
 }
 
 Result<std::string> OrderDesk::order(const RunRequest& request, const Give& give,
@@ -122,6 +166,10 @@ Result<std::string> OrderDesk::order(const RunRequest& request, const Give& give
   leases_.drive_ended(request.robot, now);
   if (request.kind == RunRequest::Kind::kCancel) {
     ordered_.erase(request.robot);
+    // A terminal has the lease only while it drives.
+    if (request.by.empty()) {
+      static_cast<void>(leases_.give(request.robot, person_of(request), {}, now));
+    }
   } else {
     ordered_[request.robot] = request.by;
   }
@@ -134,7 +182,8 @@ Result<std::string> OrderDesk::drive(const RunRequest& request, const Give& give
   // A drive that is renewed unchanged is no new input of the run.
   const bool known = watch_.drives(request.robot) && is_driven(request.robot);
   const bool changed =
-      watch_.driven(request.robot, request.by, request.v_mps, request.w_radps, now) || !known;
+      watch_.driven(request.robot, request.by, request.v_mps, request.w_radps, now, request.page) ||
+      !known;
   Result<std::string> answer = fmt::format("{} is driven", request.robot);
   if (changed) answer = give(request);
   if (!answer) {
@@ -151,6 +200,7 @@ void OrderDesk::tick(const Give& give, Time now) {
   for (const DriveWatch::Silent& silent : watch_.take_silent(now)) {
     // Refused if the robot has been stopped or removed; then it stands anyway.
     static_cast<void>(give(ended_by(RunRequest::Kind::kDrive, silent.robot, silent.by)));
+    sticks_.silent({silent.robot, silent.by, silent.page}, now);
   }
   leases_.expire(now);
   follow_leases(give);

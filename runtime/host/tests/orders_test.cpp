@@ -41,11 +41,12 @@ struct Office {
   std::vector<std::string> inputs;
   bool driven = false;
   bool refuses = false;
+  ErrorCode error = ErrorCode::kState;
   OrderDesk::Time now{1h};
 
   OrderDesk::Give give() {
     return [this](const RunRequest& asked) -> Result<std::string> {
-      if (refuses) return fail(ErrorCode::kState, "it is stopped");
+      if (refuses) return fail(error, "it is stopped");
       driven = asked.kind == Kind::kDrive;
       inputs.push_back(fmt::format(
           "{} {} {}{}", to_string(asked.kind), asked.robot, asked.by,
@@ -143,10 +144,18 @@ TEST(OrderDesk, WhoIsRefusedByTheRunHasNoLease) {
   EXPECT_FALSE(office.desk.waits());
 }
 
-TEST(OrderDesk, AfterAStopTheSameDriveCountsAnew) {
+TEST(OrderDesk, AfterAStopTheSameDriveCountsAnewOnceTheStickWasNeutral) {
   Office office;
   office.serve(drive("anna", 0.3));
   office.driven = false;  // as a stop does
+  const std::string held =
+      "r1 was stopped while it was driven; let the stick go before it drives r1";
+  EXPECT_EQ(office.serve(drive("anna", 0.3)), held);
+  office.wait(999ms);
+  EXPECT_EQ(office.serve(drive("anna", 0.2)), held) << "it is held on";
+  office.take();
+  EXPECT_EQ(office.serve(drive("anna", 0)), "the stick of r1 is neutral");
+  EXPECT_TRUE(office.take().empty()) << "that drives nothing";
   EXPECT_EQ(office.serve(drive("anna", 0.3)), "done");
   EXPECT_EQ(office.take().size(), 2U);
 }
@@ -204,6 +213,97 @@ TEST(OrderDesk, ASecondPageOfTheSamePersonTakesItAndTheRobotStands) {
   EXPECT_NE(office.serve(first).find("you drive r1 on another page"), std::string::npos);
   EXPECT_EQ(office.serve(second), "done");
   EXPECT_EQ(office.take(), Lines{"drive r1 anna 0.1"});
+}
+
+RunRequest on_page(RunRequest request, std::uint64_t page) {
+  request.page = page;
+  return request;
+}
+
+TEST(OrderDesk, AStickThatIsHeldWhileTheRobotIsArmedMovesNothingUntilItIsNeutral) {
+  Office office;
+  office.refuses = true;
+  const RunRequest held = on_page(drive("anna", 0.3), 7);
+  EXPECT_EQ(office.serve(held), "it is stopped");
+  office.refuses = false;  // it is released and armed
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_EQ(office.serve(held), "it is stopped; let the stick go before it drives r1");
+    office.wait(33ms);
+  }
+  RunRequest asks = on_page(request(Kind::kTake, "anna"), 7);
+  asks.value = "drive";
+  EXPECT_EQ(office.serve(asks), "it is stopped; let the stick go before it drives r1")
+      << "over the bus a drive has no other answer";
+  office.wait(10s);
+  EXPECT_NE(office.serve(held), "done") << "a page that was away may hold it still";
+  EXPECT_TRUE(office.take().empty());
+  EXPECT_EQ(office.serve(on_page(drive("anna", 0), 7)), "the stick of r1 is neutral");
+  EXPECT_EQ(office.serve(held), "done");
+  EXPECT_EQ(office.serve(asks), "r1 is yours");
+}
+
+TEST(OrderDesk, AStickThatWasRefusedForTheLeaseOfAnotherDoesNotDriveWhenThatEnds) {
+  Office office;
+  office.serve(on_page(drive("anna", 0.3), 1));
+  const RunRequest held = on_page(drive("bert", 0.1), 2);
+  EXPECT_EQ(office.serve(held), "`anna` drives r1");
+  office.serve(on_page(request(Kind::kGive, "anna"), 1));
+  EXPECT_EQ(office.serve(held), "`anna` drives r1; let the stick go before it drives r1");
+  EXPECT_EQ(office.serve(on_page(drive("bert", 0), 2)), "the stick of r1 is neutral");
+  EXPECT_EQ(office.serve(held), "done");
+}
+
+TEST(OrderDesk, AMistakeInADriveHoldsNoStick) {
+  Office office;
+  office.error = ErrorCode::kInvalidArgument;
+  office.refuses = true;
+  EXPECT_EQ(office.serve(drive("anna", 1000)), "it is stopped");
+  office.refuses = false;
+  EXPECT_EQ(office.serve(drive("anna", 1)), "done");
+}
+
+TEST(OrderDesk, ADriverWhoWasSuspendedDoesNotDriveOn) {
+  Office office;
+  const RunRequest held = on_page(drive("", 0.3), 9);
+  EXPECT_EQ(office.serve(held), "done");
+  office.wait(200ms);
+  office.wait(800ms);
+  EXPECT_EQ(office.serve(held), "done") << "a slow link";
+  office.wait(200ms);
+  office.wait(801ms);
+  EXPECT_EQ(office.serve(held),
+            "the driver of r1 was silent for 1.0 s; let the stick go, then drive on");
+  office.wait(60s);
+  office.take();
+  EXPECT_EQ(office.serve(held),
+            "the driver of r1 was silent for 61.0 s; let the stick go, then drive on");
+  EXPECT_TRUE(office.take().empty());
+  EXPECT_EQ(office.serve(on_page(drive("", 0.3), 10)), "done") << "another terminal";
+}
+
+TEST(OrderDesk, TwoTerminalsDoNotShareALease) {
+  Office office;
+  const RunRequest first = on_page(drive("", 0.3), 1);
+  const RunRequest second = on_page(drive("", -0.3), 2);
+  const std::string refused = "another terminal drives r1; `--force` takes it from there";
+  EXPECT_EQ(office.serve(first), "done");
+  EXPECT_EQ(office.serve(second), refused);
+  EXPECT_EQ(office.serve(request(Kind::kGoal, "")), refused) << "a script";
+  EXPECT_EQ(office.take(), Lines{"drive r1  0.3"});
+  RunRequest take = on_page(request(Kind::kTake, ""), 3);
+  take.value = "force";
+  EXPECT_EQ(office.serve(take), "r1 is yours; it was taken from another terminal of yours");
+  EXPECT_EQ(office.serve(first), refused);
+  EXPECT_EQ(office.serve(on_page(drive("", -0.3), 3)), "done");
+}
+
+TEST(OrderDesk, ATerminalThatHasDrivenLeavesTheRobotToOthers) {
+  Office office;
+  EXPECT_EQ(office.serve(on_page(drive("", 0.3), 1)), "done");
+  EXPECT_EQ(office.serve(on_page(request(Kind::kCancel, ""), 1)), "done");
+  EXPECT_EQ(office.desk.holder("r1"), "");
+  EXPECT_EQ(office.take(), (Lines{"drive r1  0.3", "cancel r1 "}));
+  EXPECT_EQ(office.serve(on_page(drive("", 0.3), 2)), "done");
 }
 
 TEST(OrderDesk, ALeaseThatIsGivenBackGivesTheRobotToItsProgram) {

@@ -147,9 +147,11 @@ it('a robot that refuses is not asked again before everything is let go', async 
   expect(loop.refusal).toBe('no');
   made.touch('throttle', 0);
   tick();
+  // The host waits for that as well.
+  expect(ask.mock.calls.at(-1)?.[0]).toMatchObject({v: 0, w: 0});
   made.touch('throttle', 1);
   tick();
-  expect(ask.mock.calls.length).toBe(2);
+  expect(ask.mock.calls.length).toBe(3);
 });
 
 it('triggers are pedals, and shoulder buttons gears', () => {

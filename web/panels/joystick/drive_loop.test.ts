@@ -68,12 +68,14 @@ it('asks a robot that refuses once, however often a held gamepad is read, and ag
   expect(ask.mock.calls.length).toBe(1);
   expect(loop.refusal).toBe('`ben` drives r1');
   loop.release('pad');
+  // The host of the robot waits for a neutral stick as well.
+  expect(ask.mock.calls.map(([order]) => order.v)).toEqual([0.4, 0]);
   loop.hold('pad', 0, 1);
-  expect(ask.mock.calls.length).toBe(2);
+  expect(ask.mock.calls.length).toBe(3);
   await vi.advanceTimersByTimeAsync(16);
   // Another hand was not refused yet.
   loop.hold('keys', 0, 1);
-  expect(ask.mock.calls.length).toBe(3);
+  expect(ask.mock.calls.length).toBe(4);
 });
 
 it('does not drive on with a gamepad that is still held when the page has let go, nor the next robot', () => {

@@ -29,6 +29,8 @@ export class DriveLoop {
   private sent_ms = -Infinity;
   /** Held on after the robot refused or the page let go for it: it counts only when it is gripped anew. */
   private spent: StickSource | null = null;
+  /** The robot that refused: its host waits for a neutral stick, too. */
+  private refused: number | null = null;
 
   constructor(private readonly commands: Commands, private readonly changed: () => void) {}
 
@@ -47,7 +49,10 @@ export class DriveLoop {
 
   /** A source is let go, or gripped anew; without one: whichever was held. */
   renew(source?: StickSource): void {
-    if (source === undefined || source === this.spent) this.spent = null;
+    if (this.spent === null || (source !== undefined && source !== this.spent)) return;
+    this.spent = null;
+    if (this.refused !== null && this.refused === this.slot && this.held === null) this.send();
+    this.refused = null;
   }
 
   hold(source: StickSource, x: number, y: number): void {
@@ -112,7 +117,7 @@ export class DriveLoop {
       } else {
         // Asked again and again it would be refused again and again.
         const held = this.held !== null;
-        if (held) this.spent = this.held;
+        if (held) [this.spent, this.refused] = [this.held, slot];
         this.stopTimers();
         this.held = null;
         this.x = this.y = 0;

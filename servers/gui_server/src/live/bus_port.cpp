@@ -143,6 +143,7 @@ Result<std::future<Result<std::string>>> BusPort::drive(const runtime::RunReques
   runtime::RunRequest take;
   take.kind = runtime::RunRequest::Kind::kTake;
   take.robot = request.robot;
+  take.value = "drive";
   take.by = request.by;
   take.page = request.page;
   return requests_->queue(std::move(take));

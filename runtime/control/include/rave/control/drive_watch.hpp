@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,16 +19,20 @@ class DriveWatch {
 
   /// Records or renews a drive command. Returns true if the velocity is new or has changed.
   bool driven(const std::string& robot, const std::string& by, double v_mps, double w_radps,
-              Time now);
+              Time now, std::uint64_t page = 0);
   /// The robot is no longer driven, or was stopped.
   void ended(const std::string& robot) { drives_.erase(robot); }
   void all_ended() { drives_.clear(); }
   [[nodiscard]] bool any() const noexcept { return !drives_.empty(); }
   [[nodiscard]] bool drives(const std::string& robot) const { return drives_.contains(robot); }
+  /// Whether the last velocity of this page of a person lets the robot move.
+  [[nodiscard]] bool moves(const std::string& robot, const std::string& by,
+                           std::uint64_t page) const;
 
   struct Silent {
     std::string robot;
     std::string by;
+    std::uint64_t page = 0;
     friend bool operator==(const Silent&, const Silent&) = default;
   };
   /// Robots whose drive commands were not renewed while they moved. Each is returned once and then
@@ -36,7 +41,9 @@ class DriveWatch {
 
  private:
   struct Drive {
+    [[nodiscard]] bool moves() const noexcept { return v_mps != 0 || w_radps != 0; }
     std::string by;
+    std::uint64_t page = 0;
     double v_mps = 0;
     double w_radps = 0;
     Time renewed;

@@ -9,6 +9,7 @@
 
 #include "rave/base/result.hpp"
 #include "rave/control/drive_watch.hpp"
+#include "rave/control/held_sticks.hpp"
 #include "rave/control/host_leases.hpp"
 #include "rave/control/run_control.hpp"
 
@@ -56,15 +57,24 @@ class OrderDesk {
   };
   Status check_rate(const std::string& robot, Time now);
   Status check_release(const RunRequest& request, Time now);
+  /// Takes or gives the lease, or calls order().
+  Result<std::string> carry_out(const RunRequest& request, const Give& give,
+                                const IsDriven& is_driven, Time now);
   Result<std::string> order(const RunRequest& request, const Give& give, const IsDriven& is_driven,
                             Time now);
   Result<std::string> drive(const RunRequest& request, const Give& give, const IsDriven& is_driven,
                             Time now);
+  /// Whether the velocity of a drive counts. Error kState: its stick is held.
+  Result<HeldSticks::Use> look_at_stick(const RunRequest& drive, const IsDriven& is_driven,
+                                        Time now);
+  /// The answer to a refused request. The stick of a drive is held then.
+  tl::unexpected<Error> refused(const RunRequest& request, Error why, Time now);
   /// Applies changes of leases: the previous holder stops driving.
   void follow_leases(const Give& give);
 
   HostLeases leases_;
   DriveWatch watch_;
+  HeldSticks sticks_;
   std::map<std::string, Bucket, std::less<>> rates_;
   /// By robot: the author of its present order.
   std::map<std::string, std::string, std::less<>> ordered_;

@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
+#include <vector>
 
 #include "page_key.hpp"
 #include "rave/base/json_text.hpp"
+#include "rave/base/names.hpp"
 #include "rave/base/wall_clock.hpp"
 #include "rave/control/order_words.hpp"
 #include "signed_text.hpp"
@@ -221,8 +225,27 @@ Result<std::vector<runtime::RunRequest>> LineBook::covered(const Ticket& ticket,
   return requests;
 }
 
+Status LineBook::may_give(const Ticket& giver, const Request& give) const {
+  const std::string& to = give.value;
+  if (give.kind != Kind::kGive || to.empty() || to == giver.user) return {};
+  std::set<std::string_view> able;
+  for (const auto& [id, line] : lines_) {
+    if (line.closing || !line.ticket || !line.ticket->orders.has(give.robot)) continue;
+    if (line.ticket->user == to) return {};
+    if (line.ticket->user != giver.user) able.insert(line.ticket->user);
+  }
+  return fail(ErrorCode::kNotFound, "`{}` is not here, or may not command {}; {}", to, give.robot,
+              able.empty()
+                  ? std::string("nobody else who may is here")
+                  : "it can be given to " +
+                        join_names(std::vector<std::string_view>(able.begin(), able.end()), "or"));
+}
+
 void LineBook::take(std::uint64_t id, Line& line, const OrderMessage& order) {
   auto requests = covered(*line.ticket, order.request);
+  if (const Status may = may_give(*line.ticket, order.request); requests && !may) {
+    requests = tl::unexpected(may.error());
+  }
   if (!requests) {
     note_refusal(line, runtime::to_string(order.request.kind), requests.error().message);
     return answer(id, order.id, false, requests.error().message);

@@ -52,6 +52,8 @@ class LineBook {
   /// The same order for each robot that the ticket covers. Error kState if it covers none.
   [[nodiscard]] static Result<std::vector<Request>> covered(const Ticket& ticket,
                                                             const Request& request);
+  /// Whether the person to whom a lease is given has a line here. Error kNotFound: who else has.
+  [[nodiscard]] Status may_give(const Ticket& giver, const Request& give) const;
   void welcome(std::uint64_t id, Line& line, Ticket ticket);
   void close(Line& line, std::uint16_t code, std::string_view why);
   void refuse_line(Line& line, std::string_view why);

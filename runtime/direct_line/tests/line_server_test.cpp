@@ -213,6 +213,28 @@ TEST_F(DirectLine, APageThatIsGoneLeavesTheLeasesOfWhatItHasOrdered) {
   EXPECT_EQ(asked[2].page, asked[0].page);
 }
 
+TEST_F(DirectLine, ALeaseIsGivenOnlyToAPersonWhoIsHere) {
+  RawSocket anna = line();
+  const auto give = [&anna](const char* to) {
+    anna.send(
+        fmt::format(R"({{"type":"order","id":1,"kind":"give","robot":"green-1","to":"{}"}})", to));
+    return anna.text_with("\"answer\"");
+  };
+  EXPECT_NE(give("ben").find("`ben` is not here, or may not command green-1; nobody else who may "
+                             "is here"),
+            std::string::npos);
+  Ticket of_ben = ticket();
+  of_ben.user = "ben";
+  of_ben.nonce = "second";
+  const RawSocket ben = line(of_ben);
+  EXPECT_NE(give("zoe").find("`zoe` is not here, or may not command green-1; it can be given to "
+                             "ben"),
+            std::string::npos);
+  EXPECT_TRUE(run_.asked().empty());
+  EXPECT_NE(give("ben").find("\"good\":true"), std::string::npos);
+  EXPECT_NE(give("anna").find("\"good\":true"), std::string::npos) << "to her next page";
+}
+
 TEST_F(DirectLine, TheRobotStandsWhenTheHostEnds) {
   RawSocket anna = line();
   anna.send(drive(1, "green-1"));

@@ -164,6 +164,28 @@ TEST_F(Hostile, WhatAPageLeavesIsAnyPagesOfTheSamePerson) {
   EXPECT_EQ(asked[1].second.page, asked[0].second.page);
 }
 
+TEST_F(Hostile, ALeaseIsGivenOnlyToAPersonWhoIsHereAndMayCommand) {
+  RawSocket ben = socket(guest(Role::kCommander, "ben"));
+  const auto give = [&ben](const char* to) {
+    ben.send(
+        fmt::format(R"({{"type":"lease","request":1,"do":"give","slots":[0],"to":"{}"}})", to));
+    return ben.text_with("\"to\":\"give\"");
+  };
+  EXPECT_NE(give("zoe").find("`zoe` is not here; nobody else who may command this robot is here"),
+            std::string::npos);
+  RawSocket ada = socket(guest(Role::kCommander, "ada"));
+  RawSocket eve = socket(guest(Role::kObserver, "eve"));
+  EXPECT_NE(ada.text_with("\"hello\""), "");
+  EXPECT_NE(eve.text_with("\"hello\""), "");
+  EXPECT_NE(give("zoe").find("`zoe` is not here; this robot can be given to ada"),
+            std::string::npos);
+  EXPECT_NE(give("eve").find("`eve` may not command this robot; this robot can be given to ada"),
+            std::string::npos);
+  EXPECT_TRUE(run_->commands().empty());
+  EXPECT_TRUE(audited("give, 1 robots: `zoe` is not here")) << audit();
+  EXPECT_NE(give("ada").find("\"good\":true"), std::string::npos);
+}
+
 TEST_F(Hostile, APageThatGoesRightAfterItsFirstOrderLeavesItAsWell) {
   {
     RawSocket ben = socket(guest(Role::kCommander, "ben"));

@@ -28,7 +28,8 @@ struct PageCommands::Open {
   PageAnswer answer;
 };
 
-PageCommands::PageCommands(Say say, Told told) : say_(std::move(say)), told_(std::move(told)) {}
+PageCommands::PageCommands(Say say, Told told, MayGive may_give)
+    : say_(std::move(say)), told_(std::move(told)), may_give_(std::move(may_give)) {}
 
 void PageCommands::begin(std::shared_ptr<Source> source, Author author) {
   let_go();
@@ -90,6 +91,13 @@ void PageCommands::take(const CommandMessage& command) {
     const PageAnswer answer{
         to, false, fmt::format("Too many orders: at most {} robots per second.", kPerSecond),
         command.request};
+    say_(answer);
+    told_(command, answer);
+    return;
+  }
+  const bool gives = command.kind == CommandMessage::Kind::kGive && !command.value.empty();
+  if (const Status may = gives && may_give_ ? may_give_(command) : Status(); !may) {
+    const PageAnswer answer{to, false, may.error().message, command.request};
     say_(answer);
     told_(command, answer);
     return;

@@ -26,7 +26,9 @@ class PageCommands {
   using Say = std::function<void(const PageAnswer&)>;
   /// Told of each answer but that of a velocity that was taken.
   using Told = std::function<void(const CommandMessage&, const PageAnswer&)>;
-  PageCommands(Say say, Told told);
+  /// Whether the person to whom a lease is given can use it. Error: who else could.
+  using MayGive = std::function<Status(const CommandMessage&)>;
+  PageCommands(Say say, Told told, MayGive may_give = {});
 
   /// From now on commands go there; what was driven elsewhere stands. Null: nowhere.
   void begin(std::shared_ptr<Source> source, Author author);
@@ -49,6 +51,7 @@ class PageCommands {
 
   Say say_;
   Told told_;
+  MayGive may_give_;
   std::shared_ptr<Source> source_;
   Author author_;
   web::RateLimit limit_{kPerSecond, kBurst};

@@ -35,6 +35,9 @@ Session::Session(web::Socket& socket, SessionCalls calls)
       commands_([this](const PageAnswer& said) { socket_.send_text(payload(answer_text(said))); },
                 [this](const CommandMessage& command, const PageAnswer& said) {
                   calls_.commanded(command, said);
+                },
+                [this](const CommandMessage& give) {
+                  return calls_.may_give ? calls_.may_give(give) : Status();
                 }) {}
 
 void Session::show(std::shared_ptr<Source> source, const Greeting& greeting, bool same_run,

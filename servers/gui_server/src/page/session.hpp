@@ -40,6 +40,7 @@ struct SessionCalls {
   std::function<void(const HaltMessage&, bool good)> halted;
   /// Once it is known what became of it.
   PageCommands::Told commanded;
+  PageCommands::MayGive may_give;
   std::function<Result<std::string>(const ChatMessage&)> chat;
   /// A message that is none. `cut`: it is one too many, and the page is cut off.
   std::function<void(std::string_view why, bool cut)> malformed;

@@ -298,6 +298,7 @@ SessionCalls Visitors::calls_of(std::uint64_t id) {
   calls.commanded = [this, id](const CommandMessage& command, const PageAnswer& answer) {
     note_command(id, command, answer);
   };
+  calls.may_give = [this, id](const CommandMessage& give) { return may_give(id, give); };
   calls.people = [this, id](const PeopleMessage& asked) { take_people(id, asked); };
   calls.malformed = [this, id](std::string_view why, bool cut) { note_malformed(id, why, cut); };
   calls.page_key = [this, id](const PageKeyMessage& page) {

@@ -85,6 +85,8 @@ class Visitors {
   [[nodiscard]] static bool is_operator(const Visitor& visitor);
   void note_command(std::uint64_t id, const CommandMessage& command, const PageAnswer& answer);
   void note_malformed(std::uint64_t id, std::string_view why, bool cut);
+  /// Whether a lease may be given to the person that is named.
+  [[nodiscard]] Status may_give(std::uint64_t id, const CommandMessage& give) const;
   [[nodiscard]] bool is_there(const std::string& name) const;
   void tell_chat();
   void tell_people();

@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <string_view>
+#include <vector>
 
+#include "rave/base/names.hpp"
 #include "visitors/visitors.hpp"
 
 namespace rave::gui_server {
@@ -51,6 +55,32 @@ Result<std::string> Visitors::chat(std::uint64_t id, const ChatMessage& chat) {
   source_->keep_chat(ChatRoom::text_of(room_.last()));
   if (robots > 0) visitor.page->command(told);
   return robots > 0 ? fmt::format("Sent to {} robots.", robots) : std::string("Said.");
+}
+
+Status Visitors::may_give(std::uint64_t id, const CommandMessage& give) const {
+  const Visitor& giver = visitors_.at(id);
+  const std::string own = known(giver.person).name;
+  if (give.value == own || !giver.view) return {};
+  std::set<std::string> able;
+  for (const auto& [other, visitor] : visitors_) {
+    // Who looks with the eyes of another commands nothing meanwhile.
+    if (visitor.eyes || !visitor.view) continue;
+    const bool commands = std::ranges::all_of(give.slots, [&](std::uint32_t slot) {
+      const auto robot = giver.view->robot_of(slot);
+      return robot && visitor.view->may(InfoClass::kCommand, *robot);
+    });
+    if (commands) able.insert(known(visitor.person).name);
+  }
+  if (able.contains(give.value)) return {};
+  able.erase(own);
+  const char* const robots = give.slots.size() == 1 ? "this robot" : "these robots";
+  return fail(
+      ErrorCode::kNotFound, "`{}` {}; {}", give.value,
+      is_there(give.value) ? fmt::format("may not command {}", robots) : "is not here",
+      able.empty()
+          ? fmt::format("nobody else who may command {} is here", robots)
+          : fmt::format("{} can be given to {}", robots,
+                        join_names(std::vector<std::string_view>(able.begin(), able.end()), "or")));
 }
 
 bool Visitors::is_there(const std::string& name) const {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <future>
 #include <map>
 #include <optional>
 #include <set>
@@ -17,7 +16,6 @@
 #include "bus_search.hpp"
 #include "error_text.hpp"
 #include "rave/base/names.hpp"
-#include "rave/base/thread.hpp"
 #include "rave/control/client.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/watch/observer.hpp"
@@ -29,10 +27,6 @@ using control::Answer;
 using control::BusPeer;
 using control::BusRun;
 using control::Request;
-
-/// Shorter than that of `rave top`: who has mistyped the name of a run waits for it.
-constexpr Duration kPatienceNear = from_seconds(1.5);
-constexpr Duration kPatienceFar = from_seconds(3);
 
 /// All processes of a run are looked at, one after the other; one that is well answers at once.
 constexpr Duration kLookPatience = from_seconds(1.5);
@@ -86,11 +80,6 @@ Result<bus::BusConfig> asker_config(const BusOptions& options) {
   return config;
 }
 
-Duration patience_of(const bus::BusConfig& config) {
-  const bool near = config.loopback() && config.peers.empty();
-  return near ? kPatienceNear : kPatienceFar;
-}
-
 /// How people say a run of which only the number is known.
 std::string name_of(const bus::RunId& run) { return run.text().substr(0, 8); }
 
@@ -100,7 +89,7 @@ Result<Found> search_bus(const std::string& word, const BusOptions& options) {
   Found found;
   if (mark != std::string::npos) found.host = word.substr(mark + 1);
   RAVE_TRY_ASSIGN(auto config, asker_config(options));
-  const auto run = find_bus_run(config, run_word, SearchFor::kAct, patience_of(config));
+  const auto run = find_bus_run(config, run_word, SearchFor::kAct, search_patience(config));
   if (!run) return none_at_all(word, config, run.error());
   config.run = *run;
   RAVE_TRY_ASSIGN(found.bus, BusRun::open(config, own_name()));
@@ -112,33 +101,6 @@ Result<Found> search_bus(const std::string& word, const BusOptions& options) {
 
 std::string name_of(const Found& found, const BusPeer& peer) {
   return peer.manager ? found.run : fmt::format("{}{}{}", found.run, kOfHost, peer.name);
-}
-
-/// Asks those in one run that `word` means.
-std::vector<Reply> ask_each_of(bus::BusConfig config, const bus::RunId& run, std::string_view word,
-                               const Request& request) {
-  const std::size_t mark = word.rfind(kOfHost);
-  const std::string_view run_word = word.substr(0, mark);
-  Found found;
-  if (mark != std::string_view::npos) found.host = word.substr(mark + 1);
-  const bool named = run_word.empty() || watch::is_called(run, run_word);
-  found.run = named && !run.text().starts_with(run_word) ? std::string(run_word) : name_of(run);
-  config.run = run;
-  // The search continues.
-  config.beside = true;
-  auto bus = BusRun::open(config, own_name());
-  if (!bus) return {{found.run, tl::unexpected(std::move(bus).error())}};
-  const auto meant = [&](const BusPeer& peer, const std::string& scenario) {
-    if (!named && scenario != run_word) return false;
-    if (!found.host.empty()) return !peer.manager && peer.name == found.host;
-    return !peer.manager || !peer.live;
-  };
-  std::vector<Reply> replies;
-  for (control::BusReply& reply : (*bus)->ask_each(request, meant)) {
-    if (!named) found.run = run_word;
-    replies.push_back({name_of(found, reply.peer), std::move(reply.answer)});
-  }
-  return replies;
 }
 
 /// Whether a socket here is that of a host, and the scenario in its name.
@@ -265,25 +227,37 @@ Result<AskedRun> AskedRun::find_on_bus(const std::string& word, const BusOptions
 Result<std::vector<Reply>> AskedRun::ask_each_on_bus(const std::string& word,
                                                      const BusOptions& options,
                                                      const Request& request) {
-  RAVE_TRY_ASSIGN(const auto config, asker_config(options));
-  const std::string run_word = word.substr(0, word.rfind(kOfHost));
-  std::map<std::string, std::future<std::vector<Reply>>> asked;
-  const auto ask_new = [&](const std::vector<watch::FoundRun>& found) {
-    bool named = false;
-    for (const watch::FoundRun& run : found) {
-      named = named || watch::is_named(run.run, run_word);
-      auto& replies = asked[run.run.text()];
-      if (replies.valid()) continue;
-      replies = start_beside([&config, id = run.run, &word, &request] {
-        return ask_each_of(config, id, word, request);
-      });
-    }
-    return named;
+  RAVE_TRY_ASSIGN(auto config, asker_config(options));
+  const std::size_t mark = word.rfind(kOfHost);
+  const std::string run_word = word.substr(0, mark);
+  const std::string host = mark == std::string::npos ? std::string() : word.substr(mark + 1);
+  // One participant for the search and for the request: with certificates each has to be believed
+  // by all others first, which takes a while.
+  config.all_runs = true;
+  config.run = {};
+  RAVE_TRY_ASSIGN(const auto bus, BusRun::open(config, own_name()));
+  std::set<std::string> by_scenario;
+  const auto meant = [&](const BusPeer& peer, const std::string& scenario) {
+    if (scenario == run_word) by_scenario.insert(peer.run.text());
+    const bool called = run_word.empty() || watch::is_called(peer.run, run_word);
+    if (!called && scenario != run_word) return false;
+    if (!host.empty()) return !peer.manager && peer.name == host;
+    return !peer.manager || !peer.live;
   };
-  RAVE_TRY(watch::find_runs(config, patience_of(config), ask_new));
-  std::vector<Reply> all;
-  for (auto& [run, replies] : asked) std::ranges::move(replies.get(), std::back_inserter(all));
-  return all;
+  const BusRun::Search search{search_patience(config), [&run_word](const BusPeer& peer) {
+                                return watch::is_named(peer.run, run_word);
+                              }};
+  std::vector<Reply> replies;
+  for (control::BusReply& reply : bus->ask_each(request, meant, BusRun::kPatience, &search)) {
+    // A number means nothing to a user who gave a name.
+    const bool named =
+        watch::is_named(reply.peer.run, run_word) || by_scenario.contains(reply.peer.run.text());
+    const std::string run = named ? run_word : name_of(reply.peer.run);
+    replies.push_back(
+        {reply.peer.manager ? run : fmt::format("{}{}{}", run, kOfHost, reply.peer.name),
+         std::move(reply.answer)});
+  }
+  return replies;
 }
 
 bool AskedRun::is_host() const { return bus_ ? !peer_.manager : names_host(name_); }
@@ -344,7 +318,8 @@ std::vector<AskedRun> AskedRun::takers_of_orders(const std::string& robot) const
 Result<std::vector<SeenRun>> AskedRun::all_on_bus(const BusOptions& options) {
   RAVE_TRY_ASSIGN(auto config, asker_config(options));
   const auto all_that_time = [](const std::vector<watch::FoundRun>&) { return false; };
-  RAVE_TRY_ASSIGN(const auto runs, watch::find_runs(config, patience_of(config), all_that_time));
+  RAVE_TRY_ASSIGN(const auto runs,
+                  watch::find_runs(config, search_patience(config), all_that_time));
   std::vector<SeenRun> seen;
   for (const watch::FoundRun& run : runs) {
     config.run = run.run;
@@ -363,11 +338,23 @@ Result<std::vector<SeenRun>> AskedRun::all_on_bus(const BusOptions& options) {
     }
     const std::string machines = machines_of(peers);
     const auto manager = std::ranges::find_if(peers, &BusPeer::manager);
-    // It knows of all; without it each host knows its own.
-    if (manager != peers.end()) peers = {BusPeer(*manager)};
-    for (const BusPeer& peer : peers) {
+    const auto see = [&](const BusPeer& peer) {
       const AskedRun one(name_of(found, peer), bus, peer);
       seen.push_back({one.name(), peer.manager ? machines : peer.machine, one.status()});
+    };
+    // It knows of all; without it each host knows its own.
+    if (manager == peers.end()) {
+      std::ranges::for_each(peers, see);
+      continue;
+    }
+    see(*manager);
+    auto& status = seen.back().status;
+    // In real time it does not know who may move.
+    if (!status || !status->live) continue;
+    for (const BusPeer& peer : peers) {
+      if (peer.manager) continue;
+      const auto told = AskedRun(peer.name, bus, peer).status(kLookPatience);
+      if (told) complete(*status, *told);
     }
   }
   return seen;
@@ -381,6 +368,17 @@ Result<runtime::RunStatus> AskedRun::status(Duration patience) const {
   RAVE_TRY_ASSIGN(auto answer, ask(Request{}, patience));
   if (!answer.good) return fail(ErrorCode::kState, "{}: {}", name_, answer.text);
   return std::move(answer.status);
+}
+
+void complete(runtime::RunStatus& manager, const runtime::RunStatus& host) {
+  const bool is_told = std::ranges::any_of(manager.robots, &runtime::RunStatus::Robot::elsewhere);
+  if (!is_told || manager.run.empty() || manager.run != host.run) return;
+  std::map<std::string_view, const runtime::RunStatus::Robot*> by_name;
+  for (const auto& robot : host.robots) by_name.emplace(robot.name, &robot);
+  for (auto& robot : manager.robots) {
+    const auto told = by_name.find(robot.name);
+    if (robot.elsewhere && told != by_name.end()) robot = *told->second;
+  }
 }
 
 int refused(const AskedRun& run, const std::string& why) {

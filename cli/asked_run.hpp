@@ -105,6 +105,9 @@ class AskedRun {
   control::BusPeer peer_;
 };
 
+/// Completes the status of a manager in real time with what a host of its run says of its robots.
+void complete(runtime::RunStatus& manager, const runtime::RunStatus& host);
+
 /// Prints that a process refuses what it was asked, and why. Returns kNotGood.
 int refused(const AskedRun& run, const std::string& why);
 

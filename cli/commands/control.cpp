@@ -87,7 +87,9 @@ std::string pace_text(const runtime::RunStatus& status) {
 
 std::string state_text(const runtime::RunStatus::Robot& robot) {
   // A stop first: it also holds for a robot that is not armed, and is released separately.
-  std::string text = robot.stopped ? "stopped" : robot.armed ? "free" : "not armed";
+  std::string text = robot.stopped ? "stopped" : robot.armed ? "" : "not armed";
+  if (!robot.lacks.empty()) text += (text.empty() ? "" : ", ") + robot.lacks;
+  if (text.empty()) text = robot.elsewhere ? "its host does not answer" : "free";
   if (robot.hand_over) {
     const auto& hand_over = *robot.hand_over;
     text += fmt::format(" at ({:.3f}, {:.3f}) m, {:.1f} deg", hand_over.x_m, hand_over.y_m,
@@ -105,13 +107,16 @@ std::string state_text(const runtime::RunStatus::Robot& robot) {
 std::string state_text(const runtime::RunStatus& status) {
   std::size_t stopped = 0;
   std::size_t unarmed = 0;
+  std::size_t lacking = 0;
   for (const auto& robot : status.robots) {
     stopped += robot.stopped ? 1 : 0;
     unarmed += robot.armed ? 0 : 1;
+    if (!robot.lacks.empty()) ++lacking;
   }
   std::string text = status.paused ? "paused" : "running";
   if (stopped > 0) text += fmt::format(", {} stopped", stopped);
   if (unarmed > 0) text += fmt::format(", {} not armed", unarmed);
+  if (lacking > 0) text += fmt::format(", {} cannot move", lacking);
   if (!status.waits_for.empty()) text += ", waiting for " + status.waits_for;
   return text;
 }
@@ -171,11 +176,18 @@ Result<int> list_runs(const PsCommand& options) {
   RAVE_TRY_ASSIGN(const auto runs, control::running_runs());
   const bool network = options.network || options.bus.says_where();
   Table table = runs_table(network);
+  std::vector<SeenRun> here;
   for (const std::string& run : runs) {
-    const auto status = AskedRun(run).status();
+    auto status = AskedRun(run).status();
     // One that ended meanwhile is no more; one that is stuck is worth a line.
     if (!status && status.error().code == ErrorCode::kNotFound) continue;
-    add_run(table, run, status, "this one", options.robots);
+    here.push_back({run, "this one", std::move(status)});
+  }
+  for (SeenRun& run : here) {
+    for (const SeenRun& host : here) {
+      if (&host != &run && run.status && host.status) complete(*run.status, *host.status);
+    }
+    add_run(table, run.name, run.status, run.machines, options.robots);
   }
   int code = kGood;
   if (network) {

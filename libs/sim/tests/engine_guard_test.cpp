@@ -60,6 +60,22 @@ TEST(EngineGuard, ARealRobotWithoutAGuardSectionIsGuardedAllTheSame) {
   EXPECT_TRUE(engine->armed(robot));
 }
 
+TEST(EngineGuard, SaysWhatARobotLacksToMove) {
+  EngineSpec spec;
+  RobotType type = obedient_type({{"gap_s", 0.3}, {"gap_end_s", 1.2}});
+  type.program = program<Drive>({{"v", 0.3}});
+  const RobotId robot = add_robot(spec, std::move(type));
+  const auto engine = make_engine(std::move(spec));
+  EXPECT_EQ(engine->lacks(robot), "") << "nothing was heard yet";
+  run(*engine, 20);
+  EXPECT_EQ(engine->lacks(robot), "");
+  run(*engine, 69);
+  EXPECT_EQ(engine->lacks(robot), "pose lost: its pose is not reported");
+  EXPECT_TRUE(engine->armed(robot));
+  run(*engine, 60);
+  EXPECT_EQ(engine->lacks(robot), "");
+}
+
 /// Beside the pose a sensor that is silent between 0.3 and 1.2 s.
 EngineSpec with_second_sensor(SampleTiming timing, std::optional<double> max_age_s,
                               Numbers second = {{"gap_s", 0.3}, {"gap_end_s", 1.2}}) {
@@ -129,6 +145,7 @@ TEST(EngineGuard, ASensorOfEventsWhoseDeviceIsGoneStopsTheRobot) {
   EXPECT_EQ(events[0].kind, EventKind::kDriverFailed);
   EXPECT_EQ(events[1].kind, EventKind::kGuardStopped);
   EXPECT_EQ(events[1].text, "sensor lost: the driver of `compass` has failed");
+  EXPECT_EQ(engine->lacks(RobotId(0)), events[1].text);
   EXPECT_EQ(Obedient::told().back(), velocity_command(0, 0));
 }
 

@@ -63,6 +63,8 @@ void members(auto& object, Is<RunStatus::Robot> auto& its) {
   object.must("simulated", its.simulated);
   object.must("armed", its.armed);
   object.must("stopped", its.stopped);
+  object.may("elsewhere", its.elsewhere);
+  object.may("lacks", its.lacks);
   object.may("hand_over", its.hand_over);
   object.may("shadow", its.shadow);
   object.may("lease", its.lease);

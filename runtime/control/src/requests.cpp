@@ -166,6 +166,7 @@ void refresh_status(const sim::Engine& engine, RunStatus& status) {
     robot.simulated = spec.types[spec.robots[r].type].simulated;
     robot.armed = engine.armed(RobotId(r));
     robot.stopped = engine.stopped(RobotId(r));
+    robot.lacks = engine.lacks(RobotId(r));
     const auto hand_over = engine.hand_over_state(RobotId(r));
     if (!hand_over) continue;
     const Pose2 X_WR = engine.snapshot().pose(RobotId(r));

@@ -227,6 +227,8 @@ TEST(Protocol, AStatusSaysWhoDrivesAndWhat) {
   robot.lease = "anna";
   robot.takes = {"drive", "goal"};
   robot.order = "goal 1.00, 2.00";
+  robot.lacks = "pose lost: its pose is not reported";
+  robot.elsewhere = true;
   robot.changed = {{"body.scale", "2"}, {"program.mode", "fast, \"far\""}};
   std::string line = write_answer(answer);
   line.pop_back();
@@ -237,6 +239,8 @@ TEST(Protocol, AStatusSaysWhoDrivesAndWhat) {
   EXPECT_EQ(read->status.robots[0].takes, robot.takes);
   EXPECT_EQ(read->status.robots[0].order, "goal 1.00, 2.00");
   EXPECT_EQ(read->status.robots[0].changed, robot.changed);
+  EXPECT_EQ(read->status.robots[0].lacks, robot.lacks);
+  EXPECT_TRUE(read->status.robots[0].elsewhere);
   for (const char* const bad : {R"("takes":"all")", R"("changed":[])", R"("changed":{"a":1})"}) {
     EXPECT_FALSE(parse_answer(
         R"({"good":true,"text":"","status":{"scenario":"s","sim_s":0,"duration_s":1,"pace":1,)"

@@ -25,6 +25,15 @@ bool any_twin(const sim::Engine& engine) {
   return false;
 }
 
+/// Whether it has a robot whose hardware can fall silent, and come back.
+bool any_real(const sim::Engine& engine) {
+  const sim::EngineSpec& spec = engine.spec();
+  for (std::uint32_t r = 0; r < spec.robots.size(); ++r) {
+    if (engine.is_local(RobotId(r)) && !spec.types[spec.robots[r].type].simulated) return true;
+  }
+  return false;
+}
+
 /// Brings up to date what others see of the run.
 void refresh(const RunSession& run, RunStatus& status) {
   refresh_status(run.engine, status);
@@ -38,7 +47,8 @@ bool changes_status(std::span<const sim::Event> events) {
   return std::ranges::any_of(events, [](const sim::Event& event) {
     using enum sim::EventKind;
     return event.kind == kStopped || event.kind == kReleased || event.kind == kArmed ||
-           event.kind == kHandedOver || event.kind == kOrdered || event.kind == kSaid;
+           event.kind == kHandedOver || event.kind == kOrdered || event.kind == kSaid ||
+           event.kind == kProgramFailed || event.kind == kDriverFailed || event.kind == kDriverBack;
   });
 }
 
@@ -65,7 +75,7 @@ void tell_progress(const RunSession& run) {
 /// What others see of the run between two requests.
 void tell_status(RunSession& run, Clock::time_point now) {
   RunControl* const control = run.options.control;
-  const bool changes = run.has_twins || run.observers.has_orders();
+  const bool changes = run.has_real || run.has_twins || run.observers.has_orders();
   if (control != nullptr && changes && now >= run.next_status) {
     run.next_status = now + (run.late.behind() ? kLateFactor : 1) * kStatusInterval;
     control->refresh([&run](RunStatus& status) { refresh(run, status); });
@@ -107,6 +117,7 @@ RunSession::RunSession(sim::Engine& of, ObserverList& all, WallPace& clock,
       console(log),
       live(in_real_time),
       steps(steps_of(run)),
+      has_real(any_real(of)),
       has_twins(any_twin(of)),
       late(clock.period_of(of.spec().step), log, how.control),
       watch(&log) {

@@ -47,7 +47,8 @@ struct RunSession {
   const std::uint64_t steps;  ///< Of the run.
   /// Where another process numbers the inputs: set by the exchange, which owns it; else null.
   InputForwarder* forwarder = nullptr;
-  const bool has_twins;  ///< Its status changes without a request.
+  const bool has_real;   ///< Its status changes without a request,
+  const bool has_twins;  ///< and so does this one.
   LateWatch late;
   StallWatch watch;
   std::uint64_t first = 0;  ///< The step with which this process began.

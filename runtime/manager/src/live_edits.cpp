@@ -73,7 +73,7 @@ void LiveEdits::begin(bool takes_over) {
   status.duration_s = options_.duration.seconds();
   status.live = true;
   for (const auto& robot : options_.robots) {
-    status.robots.push_back({robot.name, robot.simulated, true, false});
+    status.robots.push_back({robot.name, robot.simulated, true, false, true});
   }
   serves_ = true;
   options_.control->begin(std::move(status));

@@ -186,6 +186,9 @@ class Engine {
   [[nodiscard]] bool stopped(RobotId robot) const noexcept;
   /// False: the robot does not move until it is armed.
   [[nodiscard]] bool armed(RobotId robot) const noexcept;
+  /// What else keeps a robot of this process from moving, for people: a sensor without samples, a
+  /// lost pose, a failed driver or program. Empty: nothing.
+  [[nodiscard]] std::string lacks(RobotId robot) const;
   /// Changes parameters of one robot, all or none. Errors: kInvalidArgument and kNotFound (unknown,
   /// out of range, refused by the driver or program, a body that would overlap something), kState
   /// (its program has failed; the authority changes bodies). After an error nothing has changed.

@@ -50,8 +50,9 @@ struct RunRequest {
   std::string key = {};  ///< kSet: the parameter, such as `program.max_speed_mps`.
   /// kHandOver: `real`, `simulated`, `first` or `twin`. kSet: the value as in a file. kText: the
   /// text, at most 1000 bytes of UTF-8. kGive: the new holder; empty: none. kTake: empty (refused
-  /// with the name of the holder if another user has the lease) or `force` (takes it over and
-  /// notifies the previous holder).
+  /// with the name of the holder if another user has the lease), `drive` (refused also while the
+  /// stick of this page is held; for ways on which a drive has no answer) or `force` (takes it over
+  /// and notifies the previous holder).
   std::string value = {};
   /// Name of the user who sent it. Empty: the local terminal, a super-user.
   std::string by = {};
@@ -117,6 +118,10 @@ struct RunStatus {
     bool simulated = true;
     bool armed = true;
     bool stopped = false;
+    /// Whether it may move is known to its host only, not to this process.
+    bool elsewhere = false;
+    /// What else keeps it from moving, such as a silent sensor; empty: nothing.
+    std::string lacks = {};
     std::optional<HandOver> hand_over = std::nullopt;
     std::optional<Shadow> shadow = std::nullopt;
     std::string lease = {};        ///< Holder of the command lease; empty: none.

@@ -77,7 +77,7 @@ bool SampleQueue::refused(SimTime stamp, std::uint32_t count) {
   return true;
 }
 
-// The wall clock goes on while the run is paused, so the moment is kept by that one. A stamp that
+// The wall clock continues while the run is paused, so the moment is kept by that one. A stamp that
 // lies ahead makes no sample younger than its arrival.
 void SampleQueue::note_moment(SimTime stamp) {
   const std::int64_t lag_ns = std::max<std::int64_t>((live_->now() - stamp).ns, 0);

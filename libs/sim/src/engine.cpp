@@ -45,7 +45,7 @@ constexpr WordTable<EventKind, 28> kEventWords = {{
     {"placed", EventKind::kPlaced},
     {"lease", EventKind::kLease},
     {"pose refused", EventKind::kPoseRefused},
-    {"begun anew", EventKind::kBegunAnew},
+    {"sensor restarted", EventKind::kSensorRestarted},
     {"disarmed", EventKind::kDisarmed},
 }};
 

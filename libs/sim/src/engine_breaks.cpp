@@ -18,7 +18,8 @@ void Engine::Impl::note_break(RobotGroup& group, SensorSlots& slots, std::size_t
   // Who armed it did so for what its sensors had said.
   const bool drives = !group.type->simulated && group.obeys(member) && group.relies_on(slots);
   const bool disarmed = drives && robot_guards[robot.value()].disarm();
-  note({step, robot, disarmed ? EventKind::kDisarmed : EventKind::kBegunAnew, BodyId(), text});
+  note(
+      {step, robot, disarmed ? EventKind::kDisarmed : EventKind::kSensorRestarted, BodyId(), text});
 }
 
 void Engine::Impl::note_refused(SensorSlots& slots, std::size_t member, RobotId robot) {

@@ -14,10 +14,10 @@ namespace {
 
 // Where neither file nor guard says how fast it is.
 constexpr double kDriven_mps = 10;
-constexpr double kWatched_mps = 50;  // nobody commands it: a car, a person
+constexpr double kWatched_mps = 50;  // without commands: a car, a person
 constexpr double kTurn_radps = 2 * kPi;
 
-constexpr double kMargin = 1.3;   // the robot's speed control overshoots, somebody pushes it
+constexpr double kMargin = 1.3;   // the robot's speed control overshoots, a person pushes it
 constexpr double kSlack_s = 0.1;  // stamps jitter
 // A localisation that corrects itself.
 constexpr double kCorrection_m = 0.5;

@@ -26,7 +26,7 @@ struct PoseReach {
 /// finite is refused, too.
 ///
 /// Poses that are refused, agree with each other for half a second, and are never interrupted by a
-/// good one, are a new place: somebody has carried the robot, or the origin of the source has
+/// good one, are a new place: a person has carried the robot, or the origin of the source has
 /// moved. The last of them begins anew.
 class PoseGate final : public SampleGate {
  public:

@@ -140,11 +140,11 @@ TEST(EngineBreaksOfARecording, ANewPlaceIsAnEventAtTheSampleThatBeganIt) {
   sink.complete_up_to(SimTime{} + from_seconds(10));
   auto events = run(*engine, 140);
   EXPECT_EQ(engine->reported(robot).pose.x_m, 1);
-  EXPECT_TRUE(of_kind(events, EventKind::kBegunAnew).empty());
+  EXPECT_TRUE(of_kind(events, EventKind::kSensorRestarted).empty());
   events = run(*engine, 40);
   EXPECT_EQ(engine->reported(robot).pose.x_m, 200);
-  ASSERT_EQ(of_kind(events, EventKind::kBegunAnew).size(), 1U);
-  EXPECT_EQ(of_kind(events, EventKind::kBegunAnew)[0].step, 150U);
+  ASSERT_EQ(of_kind(events, EventKind::kSensorRestarted).size(), 1U);
+  EXPECT_EQ(of_kind(events, EventKind::kSensorRestarted)[0].step, 150U);
   EXPECT_EQ(of_kind(events, EventKind::kPoseRefused).size(), 1U);
 }
 

@@ -35,7 +35,7 @@ ClockOffset::Sample ClockOffset::add(double device_s, double host_s) {
   early_in_a_row_ = 0;
   newest_s_ = device_s;
   if (known() && point.y - offset_s(device_s) > options_.jump_s) {
-    // So late that it says nothing of the clock, which goes on as it did.
+    // So late that it says nothing of the clock, which continues as it did.
     floor_ = {device_s, floor_.y + drift_ * (device_s - floor_.x)};
     return sample;
   }
@@ -50,8 +50,8 @@ ClockOffset::Sample ClockOffset::judge(Point point) {
   if (point.y - offset_s(point.x) > -options_.jump_s) return Sample::kGood;
   if (point.x - first_s_ < options_.settle_s) return Sample::kGood;
   // One wrong stamp is no clock that was set: many have to say the same.
-  const bool agrees = early_in_a_row_ > 0 && point.x > early_.x &&
-                      std::abs(point.y - early_.y) < options_.jump_s;
+  const bool agrees =
+      early_in_a_row_ > 0 && point.x > early_.x && std::abs(point.y - early_.y) < options_.jump_s;
   early_in_a_row_ = agrees ? early_in_a_row_ + 1 : 1;
   early_ = point;
   return early_in_a_row_ < options_.jump_samples ? Sample::kEarly : Sample::kSet;

@@ -110,8 +110,7 @@ TEST(ClockOffset, AStampFromTheFutureIsNotBelieved) {
   for (int i = 1; i < 50; ++i) {
     EXPECT_EQ(clock.add(device.clock(20) + 2 * i, 20 + 0.01 * i), ClockOffset::Sample::kEarly);
   }
-  EXPECT_EQ(clock.add(device.clock(20.5), 20.5 + device.least_delay_s),
-            ClockOffset::Sample::kGood);
+  EXPECT_EQ(clock.add(device.clock(20.5), 20.5 + device.least_delay_s), ClockOffset::Sample::kGood);
   EXPECT_NEAR(clock.offset_s(device.clock(20.5)), before_s, 1e-3);
   EXPECT_EQ(clock.restarts(), 0U);
 }

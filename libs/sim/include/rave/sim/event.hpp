@@ -36,9 +36,9 @@ enum class EventKind : std::uint32_t {
   kSaid = 35,             ///< A program sent a text to users.
   kPlaced = 36,           ///< A simulated robot was placed elsewhere.
   kLease = 37,  ///< The holder of a command lease changed; made by the host, not part of the hash.
-  kPoseRefused = 38,  ///< A reported pose is not believed: the robot cannot be there.
-  kBegunAnew = 39,    ///< Samples of a sensor do not continue those before.
-  kDisarmed = 40,     ///< The same of a real robot that drives by it: it has to be armed again.
+  kPoseRefused = 38,      ///< A reported pose is not believed: the robot cannot be there.
+  kSensorRestarted = 39,  ///< Samples of a sensor do not continue those before.
+  kDisarmed = 40,         ///< The same of a real robot that drives by it: it has to be armed again.
 };
 /// All kinds are below this number; to_string() of one that does not exist is "unknown".
 inline constexpr std::uint32_t kEventKindEnd = static_cast<std::uint32_t>(EventKind::kDisarmed) + 1;

@@ -38,11 +38,10 @@ class ClockOffset {
     /// No drift is computed from shorter spans, because it would be noise.
     double slope_after_s = 5;
     double max_drift = 500e-6;  ///< Largest error of a quartz clock.
-    double jump_s = 0.5;        ///< A sample that comes so much too early is not believed, ...
-    /// ... unless so many in a row agree on where the clock is.
+    double jump_s = 0.5;        ///< A sample that comes earlier by this is not believed, ...
+    /// ... unless this number in a row agree on where the clock is.
     std::int32_t jump_samples = 10;
-    /// In the first so many seconds the first sample may have been a late one, so that a much
-    /// earlier one is good.
+    /// For this time the first sample may have been a late one, so that a much earlier one is good.
     double settle_s = 2;
   };
 

@@ -183,10 +183,10 @@ Result<RunOutcome> write_results(const RunResults& results, const std::filesyste
   }
   // `result.json` is written last, so a program that waits for it finds the other files complete.
   outcome.summary = summary_text(results, outcome);
-  RAVE_TRY(write_file_atomically(folder / "summary.txt", outcome.summary));
-  RAVE_TRY(write_file_atomically(folder / "events.log",
-                                 events_log(results.spec, results.kinds, results.facts.events)));
-  RAVE_TRY(write_file_atomically(folder / "result.json", result_json(results, outcome)));
+  RAVE_TRY(write_private_file_atomically(folder / "summary.txt", outcome.summary));
+  RAVE_TRY(write_private_file_atomically(
+      folder / "events.log", events_log(results.spec, results.kinds, results.facts.events)));
+  RAVE_TRY(write_private_file_atomically(folder / "result.json", result_json(results, outcome)));
   return outcome;
 }
 

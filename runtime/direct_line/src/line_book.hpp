@@ -25,6 +25,10 @@ class LineBook {
     kTooManyLines = 4429,
   };
 
+  /// Lines with a ticket, and how many of these are for super-users alone.
+  static constexpr std::size_t kMostLines = 256;
+  static constexpr std::size_t kReserve = 32;
+
   LineBook(const LineOptions& options, runtime::RunControl& control);
 
   void opened(std::uint64_t id, web::Socket& socket, const web::Request& request);
@@ -52,6 +56,9 @@ class LineBook {
   /// The same order for each robot that the ticket covers. Error kState if it covers none.
   [[nodiscard]] static Result<std::vector<Request>> covered(const Ticket& ticket,
                                                             const Request& request);
+  void make_room_for_stranger();
+  /// Whether another line may have this ticket.
+  [[nodiscard]] bool has_room(const Ticket& ticket) const;
   void welcome(std::uint64_t id, Line& line, Ticket ticket);
   void close(Line& line, std::uint16_t code, std::string_view why);
   void refuse_line(Line& line, std::string_view why);

@@ -96,7 +96,7 @@ Status check_private_file(const std::filesystem::path& path) {
   struct stat about {};
   // Who opens it says better what is wrong with a missing file.
   if (::stat(path.c_str(), &about) != 0) return {};
-  // As ssh does. A group of somebody else's file may be meant to read it, as that of a key that
+  // As ssh does. A group of another user's file may be meant to read it, as that of a key that
   // several servers of a machine share.
   const bool own = about.st_uid == ::geteuid();
   if ((about.st_mode & (own ? 077U : 007U)) == 0) return {};

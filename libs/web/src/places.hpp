@@ -10,8 +10,8 @@
 
 #include "rave/web/server.hpp"
 
-// Who has how many connections. Nobody who has many can keep others out: see each class. The thread
-// of the server.
+// Who has how many connections. No visitor who has many can keep others out: see each class. The
+// thread of the server.
 namespace rave::web {
 
 /// An open resource that the server closes when it ends.

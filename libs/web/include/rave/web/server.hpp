@@ -115,7 +115,8 @@ struct ServerOptions {
   std::size_t sockets_per_user = 64;
   std::size_t sockets_per_address = 224;
   std::size_t sockets_per_network = 256;
-  std::size_t reserve = 64;  ///< More than these, for who may stop robots, and for super-users.
+  std::size_t reserve =
+      64;  ///< More than these, for users who may stop robots, and for super-users.
   /// Per session, or for strangers per address; `request_burst` at once.
   double requests_per_s = 100;
   double request_burst = 1000;

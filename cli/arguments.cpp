@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "arguments.hpp"
 
+#include <sys/stat.h>
+
+#include <algorithm>
 #include <initializer_list>
+#include <iterator>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -38,6 +42,17 @@ void group_commands(CLI::App& root) {
       }
     }
   }
+}
+
+/// What a run writes, and what is made of its recording, is for the user alone: it has what people
+/// said and what cameras and sensors saw. What these commands write has none of that.
+void write_privately(const CLI::App& root) {
+  constexpr std::string_view kOthers[] = {"check",  "drivers", "describe", "new",
+                                          "schema", "keys",    "doctor",   "bench"};
+  for (const CLI::App* const used : root.get_subcommands()) {
+    if (std::ranges::find(kOthers, used->get_name()) != std::end(kOthers)) return;
+  }
+  ::umask(::umask(0) | 077U);
 }
 
 /// `rave help run` is `rave run --help`.
@@ -114,6 +129,7 @@ int run_command_line(int argc, const char* const* argv) {
     put(stderr, root.help());
     return kBadInput;
   }
+  write_privately(root);
   const Result<int> code = chosen();
   return code ? *code : complain(code.error());
 }

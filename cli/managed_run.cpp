@@ -295,8 +295,8 @@ Status check_hosts_fit(const config::ExpandedScenario& scenario,
 }
 
 Result<ManagedEnd> manage_run(const ManagedRun& run) {
-  RAVE_TRY(
-      write_file_atomically(run.folder / "scenario.yaml", config::write_expanded(run.scenario)));
+  RAVE_TRY(write_private_file_atomically(run.folder / "scenario.yaml",
+                                         config::write_expanded(run.scenario)));
   RAVE_TRY_ASSIGN(auto built, build_world(run.scenario, run.options.plugins, run.console));
   RAVE_TRY_ASSIGN(auto hosts, config::plan_hosts(run.scenario));
   if (hosts.empty()) {

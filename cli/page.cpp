@@ -11,6 +11,7 @@
 
 #include "error_text.hpp"
 #include "places.hpp"
+#include "rave/control/folder.hpp"
 #include "rave/gui_server/accounts.hpp"
 
 namespace rave::cli {
@@ -26,12 +27,26 @@ bool has_desktop() {
   return !is_set("SSH_CONNECTION") && (is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"));
 }
 
-/// Opens the page where there is a desktop; elsewhere only the link is printed.
-void open_browser(const std::string& link) {
+/// Where a browser can read a file of this user. Browsers of snaps see neither hidden folders nor
+/// those for temporary files.
+Result<std::filesystem::path> folder_for_browsers() {
+  std::error_code ignored;
+  const char* const home = std::getenv("HOME");
+  if (is_set("HOME") && std::filesystem::exists("/snap", ignored)) return home;
+  return control::socket_folder();
+}
+
+/// Opens the page where there is a desktop; elsewhere only the link is printed. The link itself is
+/// not on the command line of the browser, which every user of this machine can read.
+void open_browser(gui_server::GuiServer& server) {
   if (!has_desktop()) return;
-  // The link has only characters that a shell leaves alone within quotes.
-  const std::string command = fmt::format("xdg-open '{}' >/dev/null 2>&1 &", link);
-  if (std::system(command.c_str()) != 0) return;  // The link was told; nothing is lost.
+  const auto folder = folder_for_browsers();
+  if (!folder) return;
+  const auto file = server.entry_file(*folder);
+  // What a shell does not leave alone within quotes. The link was told; nothing is lost.
+  if (!file || file->string().find('\'') != std::string::npos) return;
+  const std::string command = fmt::format("xdg-open '{}' >/dev/null 2>&1 &", file->string());
+  if (std::system(command.c_str()) != 0) return;
 }
 
 /// The name of this machine, for a command that is typed on another one.
@@ -77,7 +92,7 @@ Result<std::unique_ptr<gui_server::GuiServer>> serve_page(
   const bool loopback = whole.listen == gui_server::GuiOptions().listen;
   put(stdout, how_to_reach(link, server->foxglove_address(), server->port(), loopback));
   std::fflush(stdout);
-  if (!options.no_open) open_browser(link);
+  if (!options.no_open) open_browser(*server);
   return server;
 }
 

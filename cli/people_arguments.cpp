@@ -32,6 +32,9 @@ void add_people_commands(CLI::App& root, Command& chosen) {
   add_person(add.app, add.options);
   const auto [invite, c] =
       add_one(parent, chosen, "invite", "Create an invitation and print its link", What::kInvite);
+  add_value(invite, "--name", c.name,
+            "Name of the one person whom it is for; no other person gets it [each chooses one]",
+            "NAME");
   add_person(invite, c);
   add_value(invite, "--uses", c.uses, "Number of people who can use the link [1]", "N");
   add_value(invite, "--days", c.days, "Days of validity [7]", "N");
@@ -43,7 +46,8 @@ void add_people_commands(CLI::App& root, Command& chosen) {
   parent.footer(
       "Examples:\n"
       "  rave people add ada --role super_user\n"
-      "  rave people invite --role observer --teams green --uses 20");
+      "  rave people invite --role observer --teams green --uses 20\n"
+      "  rave people invite --name ben --role commander");
 }
 
 }  // namespace rave::cli

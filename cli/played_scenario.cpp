@@ -382,7 +382,7 @@ Status write_played(const PlayedScenario& played, const fs::path& folder) {
   for (const PlayedScenario::File& file : played.files) {
     const fs::path path = folder / file.path;
     RAVE_TRY(create_folder(path.parent_path()));
-    RAVE_TRY(write_file_atomically(path, file.text));
+    RAVE_TRY(write_private_file_atomically(path, file.text));
   }
   return {};
 }

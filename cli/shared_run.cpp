@@ -224,7 +224,8 @@ Result<int> run_shared(const RunCommand& asked, const config::ExpandedScenario& 
   RAVE_TRY_ASSIGN(const auto opened, RunStart::open(options, scenario.scenario.name.value));
   RunStart& start = *opened;
   Console& console = start.console();
-  RAVE_TRY(write_file_atomically(start.path() / "scenario.yaml", config::write_expanded(scenario)));
+  RAVE_TRY(write_private_file_atomically(start.path() / "scenario.yaml",
+                                         config::write_expanded(scenario)));
   RAVE_TRY(check_hosts_fit(scenario, options.plugins, hosts.size(), console));
   RAVE_TRY(lines ? make_lines(options, start.path()) : Status());
   Crew crew(options, bus, start.path(), scenario.scenario, hosts.size(), console);

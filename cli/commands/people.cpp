@@ -85,14 +85,16 @@ Result<std::string> add(Accounts& accounts, const PeopleCommand& options) {
 Result<std::string> invite(Accounts& accounts, const PeopleCommand& options) {
   RAVE_TRY_ASSIGN(const Role role, role_of(options.role));
   RAVE_TRY_ASSIGN(const Teams teams, gui_server::parse_teams(options.teams));
-  RAVE_TRY_ASSIGN(const std::string secret,
-                  accounts.invite(role, teams, options.uses, options.days, user_name()));
+  RAVE_TRY_ASSIGN(const std::string secret, accounts.invite(role, teams, options.uses, options.days,
+                                                            user_name(), options.name));
   // A server that was started with these accounts has left where it is.
   const auto address = read_file(accounts.folder() / "address", 1000);
   const std::string where = address ? address->substr(0, address->find('\n')) : "";
+  const std::string people = !options.name.empty() ? options.name
+                             : options.uses == 1   ? "one person"
+                                                   : fmt::format("{} people", options.uses);
   return fmt::format("{}/join?invite={}\n{}for {} as {}, within {} days\n", where, secret,
-                     where.empty() ? "append it to the address of the page; " : "",
-                     options.uses == 1 ? "one person" : fmt::format("{} people", options.uses),
+                     where.empty() ? "append it to the address of the page; " : "", people,
                      to_string(role), options.days);
 }
 
@@ -107,16 +109,20 @@ std::string list(const Accounts& accounts) {
   table.columns = {{.heading = "name", .least = 32},
                    {.heading = "role", .least = 10},
                    {.heading = "password", .least = 8},
+                   {.heading = "name was", .least = 8},
                    {.heading = "teams"}};
   for (const auto& account : file.accounts) {
     table.rows.push_back({account.person.name, std::string(to_string(account.person.role)),
-                          account.password.empty() ? "no" : "yes", account.person.teams.text()});
+                          account.password.empty() ? "no" : "yes",
+                          account.person.name_given ? "given" : "chosen",
+                          account.person.teams.text()});
   }
   std::string text = render_table(table, {.look = TableLook::kSpaces});
   for (const auto& invitation : file.invitations) {
-    text += fmt::format("invitation by {}: {}, teams {}, {} left, {} days\n", invitation.by,
-                        to_string(invitation.role), invitation.teams.text(), invitation.uses,
-                        days_until(invitation.until_s));
+    const bool named = !invitation.name.empty();
+    text += fmt::format("invitation by {}{}{}: {}, teams {}, {} left, {} days\n", invitation.by,
+                        named ? " for " : "", invitation.name, to_string(invitation.role),
+                        invitation.teams.text(), invitation.uses, days_until(invitation.until_s));
   }
   return text;
 }

@@ -52,7 +52,7 @@ Result<int> report_gap(const GapCommand& options) {
   const std::string stem = "gap-" + gap.robot;
   const std::string json = runtime::gap_json(gap);
   RAVE_TRY(runtime::draw_gap(gap, folder, stem));
-  RAVE_TRY(write_file_atomically(folder / (stem + ".json"), json));
+  RAVE_TRY(write_private_file_atomically(folder / (stem + ".json"), json));
   if (options.json) {
     put(stdout, json);
     return kGood;

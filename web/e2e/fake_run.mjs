@@ -45,11 +45,11 @@ export function makeBodies(half_m) {
 /** Who may come in, with everything that is shown of it. */
 function fakeAccounts() {
   const now_s = Math.floor(Date.now() / 1000);
-  const person = (name, role, teams, pages, more = {}) => ({name, role, teams, guest: false, disabled: false, pages, sessions: pages === 0 ? 0 : 1, seen_s: now_s - 26 * 3600, ...more});
+  const person = (name, role, teams, pages, more = {}) => ({name, role, teams, guest: false, name_given: true, disabled: false, pages, sessions: pages === 0 ? 0 : 1, seen_s: now_s - 26 * 3600, ...more});
   return {type: 'accounts', kept: true, why_not: '', links: 1,
-    people: [person('Ada N', 'super_user', '*', 2), person('ben', 'commander', '*', 1), person('carla', 'observer', 'north', 1, {guest: true}),
+    people: [person('Ada N', 'super_user', '*', 2), person('ben', 'commander', '*', 1), person('carla', 'observer', 'north', 1, {guest: true, name_given: false}),
       person('fatima', 'observer', 'south,west', 0), person('gil', 'commander', '-', 0, {disabled: true, seen_s: 0})],
-    invitations: [{id: 'a1', role: 'observer', teams: '*', uses: 7, until_s: now_s + 23 * 3600 + 60, by: 'Ada N'}, {id: 'a2', role: 'commander', teams: 'east', uses: 1, until_s: now_s + 5 * 86400 + 60, by: 'operator'}]};
+    invitations: [{id: 'a1', role: 'observer', teams: '*', uses: 7, until_s: now_s + 23 * 3600 + 60, by: 'Ada N', name: ''}, {id: 'a2', role: 'commander', teams: 'east', uses: 1, until_s: now_s + 5 * 86400 + 60, by: 'operator', name: ''}]};
 }
 
 function fakeAudit() {
@@ -200,7 +200,7 @@ export class FakeRun {
     else if (what === 'disable' || what === 'enable') Object.assign(known, {disabled: what === 'disable', pages: 0, sessions: 0});
     else if (what === 'end_sessions') Object.assign(known, {pages: 0, sessions: 0});
     else if (what === 'withdraw') invitations.splice(invitations.findIndex(({id}) => id === message.id), 1);
-    else invitations.push({id: `b${request}`, role: message.role, teams: message.teams, uses: message.uses, until_s: Math.floor(Date.now() / 1000) + message.days * 86400, by: 'Ada N'});
+    else invitations.push({id: `b${request}`, role: message.role, teams: message.teams, uses: message.uses, until_s: Math.floor(Date.now() / 1000) + message.days * 86400, by: 'Ada N', name: message.name});
     return [this.accounts, ...(what === 'make' ? [{type: 'invited', request, link: '/join?invite=0123456789abcdef'}] : []), answer];
   }
 

@@ -68,16 +68,40 @@ Result<std::string> read_file(const std::filesystem::path& path, std::size_t max
   }
 }
 
-Status write_file_atomically(const std::filesystem::path& path, std::string_view content) {
+namespace {
+
+Status replace_file(const std::filesystem::path& path, ::mode_t mode, std::string_view content) {
   // Beside the target, because rename() replaces a file at once only within a file system.
   std::filesystem::path temporary = path;
   temporary += fmt::format(".{}.part", ::getpid());
-  Status written = create_file(temporary, O_TRUNC, 0644, content);
+  Status written = create_file(temporary, O_TRUNC, mode, content);
   if (written && ::rename(temporary.c_str(), path.c_str()) != 0) {
     written = system_failure(path, "replace");
   }
   if (!written) ::unlink(temporary.c_str());
   return written;
+}
+
+}  // namespace
+
+Status write_file_atomically(const std::filesystem::path& path, std::string_view content) {
+  return replace_file(path, 0644, content);
+}
+
+Status write_private_file_atomically(const std::filesystem::path& path, std::string_view content) {
+  return replace_file(path, 0600, content);
+}
+
+Status check_private_file(const std::filesystem::path& path) {
+  struct stat about {};
+  // Who opens it says better what is wrong with a missing file.
+  if (::stat(path.c_str(), &about) != 0) return {};
+  // As ssh does. A group of another user's file may be meant to read it, as that of a key that
+  // several servers of a machine share.
+  const bool own = about.st_uid == ::geteuid();
+  if ((about.st_mode & (own ? 077U : 007U)) == 0) return {};
+  return fail(ErrorCode::kState, "other users can read the private key `{0}`; run `chmod 600 {0}`",
+              path.string());
 }
 
 Status write_private_file(const std::filesystem::path& path, std::string_view content) {

@@ -25,6 +25,32 @@ TEST_F(FileTest, WritesAndReadsBackAllBytes) {
   EXPECT_EQ(read_file(folder_ / "x").value(), content);
 }
 
+TEST_F(FileTest, PrivateFilesAreOfTheUserAlone) {
+  const auto mode_of = [](const std::filesystem::path& file) {
+    struct stat about {};
+    EXPECT_EQ(::stat(file.c_str(), &about), 0);
+    return about.st_mode & 07777U;
+  };
+  const ::mode_t before = ::umask(0);
+  EXPECT_TRUE(write_private_file(folder_ / "a", "secret"));
+  EXPECT_TRUE(write_private_file_atomically(folder_ / "b", "secret"));
+  EXPECT_TRUE(write_file_atomically(folder_ / "c", "open"));
+  ::umask(before);
+  EXPECT_EQ(mode_of(folder_ / "a"), 0600U);
+  EXPECT_EQ(mode_of(folder_ / "b"), 0600U);
+  EXPECT_EQ(mode_of(folder_ / "c"), 0644U);
+  EXPECT_TRUE(check_private_file(folder_ / "a"));
+  EXPECT_TRUE(check_private_file(folder_ / "none"));
+  for (const ::mode_t open : {0604U, 0640U, 0620U, 0602U, 0601U}) {
+    ASSERT_EQ(::chmod((folder_ / "a").c_str(), open), 0);
+    const Status checked = check_private_file(folder_ / "a");
+    ASSERT_FALSE(checked) << open;
+    EXPECT_EQ(checked.error().message, "other users can read the private key `" +
+                                           (folder_ / "a").string() + "`; run `chmod 600 " +
+                                           (folder_ / "a").string() + "`");
+  }
+}
+
 TEST_F(FileTest, AFailedWriteLeavesNothingBehind) {
   std::filesystem::create_directories(folder_ / "target" / "occupied");
   const auto status = write_file_atomically(folder_ / "target", "new");

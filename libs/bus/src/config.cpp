@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "rave/base/control_characters.hpp"
+#include "rave/base/file.hpp"
 #include "rave/base/markup.hpp"
 
 namespace rave::bus {
@@ -155,7 +156,7 @@ Status check_certificates(const std::filesystem::path& folder) {
                   set ? "; this is a set of keys, name the folder of one member in it" : "");
     }
   }
-  return {};
+  return check_private_file(folder / "identity_key.pem");
 }
 
 }  // namespace

@@ -171,6 +171,11 @@ TEST(BusConfig, LooksForEachCertificate) {
                                  "permissions_ca.pem", "governance.p7s", "permissions.p7s"}) {
     std::ofstream(folder / name) << "x";
   }
+  const std::filesystem::path key = folder / "identity_key.pem";
+  std::filesystem::permissions(key, std::filesystem::perms(0644));
+  EXPECT_EQ(reason(config), "other users can read the private key `" + key.string() +
+                                "`; run `chmod 600 " + key.string() + "`");
+  std::filesystem::permissions(key, std::filesystem::perms(0600));
   EXPECT_EQ(reason(config), "accepted");
   EXPECT_TRUE(
       has(cyclone_xml(config), "<PrivateKey>file:" + (folder / "identity_key.pem").string()));

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "rave/base/control_characters.hpp"
+#include "rave/base/plain_name.hpp"
 #include "scenario_fields.hpp"
 
 namespace rave::config {
@@ -55,7 +57,11 @@ void validate(const GuiRightFile& c, CheckContext& check) {
   if (c.role.has_value() == c.user.has_value()) {
     check.error("", "expected exactly one of `role` and `user`");
   }
-  if (c.user && c.user->value.empty()) check.error("user", "`user`: expected a name");
+  // No account can have another name, and a reader could take it for that of an account.
+  if (c.user && !is_user_name(c.user->value)) {
+    check.error("user", "`user`: found `{}`, expected {}",
+                without_control_characters(c.user->value, "?"), kUserNameRule);
+  }
   if ((c.reach == GuiReach::kTeams) == c.teams.empty()) {
     check.error("teams", "`teams` is required with `reach: teams` and not allowed without it");
   }

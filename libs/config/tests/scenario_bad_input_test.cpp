@@ -206,6 +206,11 @@ const FileCase kScenarios[] = {
     {"GuiNobody",
      "name: a\ngui: {rights: [{classes: [pose], reach: all}]}\nrobots: [{name: r, file: r.yaml}]\n",
      "s.yaml:2:16: expected exactly one of `role` and `user`"},
+    {"GuiUserName",
+     "name: a\ngui: {rights: [{user: \"ada \", classes: [pose], reach: all}]}\nrobots: [{name: r, "
+     "file: r.yaml}]\n",
+     "s.yaml:2:23: `user`: found `ada `, expected 1 to 32 letters, digits, `-`, `_`, `.` and `@`, "
+     "the first a letter or digit"},
     {"GuiTeams",
      "name: a\ngui: {rights: [{role: observer, classes: [pose], reach: teams}]}\nrobots: [{name: "
      "r, "

@@ -25,7 +25,7 @@ Result<std::unique_ptr<McapFile>> McapFile::create(const std::filesystem::path& 
                                                    std::string_view profile,
                                                    std::string_view library) {
   // Readable, too: the summary at the end is made from chunks that are read back.
-  const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   if (fd < 0) {
     const int code = errno;
     return fail(code == ENOENT ? ErrorCode::kNotFound : ErrorCode::kIo, "cannot create `{}`: {}",

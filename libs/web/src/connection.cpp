@@ -58,11 +58,10 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
   Connection(Core& core, TcpSocket socket, const std::string& peer)
       : core_(core),
         stream_(std::move(socket), core.tls ? &core.tls->context() : nullptr),
-        slot_(std::make_shared<ConnectionSlot>(core, network_of(peer))),
         peer_(peer) {
-    core_.connections.insert(this);
+    core_.connections.add(*this, peer);
   }
-  ~Connection() override { core_.connections.erase(this); }
+  ~Connection() override { core_.connections.remove(*this); }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
@@ -88,8 +87,8 @@ class Connection final : public Link, public std::enable_shared_from_this<Connec
 
   Core& core_;
   Stream stream_;
-  std::shared_ptr<ConnectionSlot> slot_;  ///< Passed on if the connection becomes a WebSocket.
   std::string peer_;
+  Caller caller_;  ///< Of the last request.
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
   Message message_;
@@ -180,15 +179,16 @@ void Connection::dispatch(const Request& request) {
 }
 
 std::optional<Response> Connection::refusal(Request& request) {
-  if (!core_.requests.take(slot_->network(), RateLimit::Clock::now())) {
+  const std::string target(message_.target());
+  const bool known = parse_target(target, request.path, request.query);
+  caller_ = known ? core_.handler().caller(request) : Caller();
+  core_.connections.name(*this, caller_);
+  if (!core_.takes_request(caller_, peer_)) {
     Response response = text_response(429, "too many requests; try again in a few seconds\n");
     response.headers.emplace_back("Retry-After", "5");
     return response;
   }
-  const std::string target(message_.target());
-  if (!parse_target(target, request.path, request.query)) {
-    return text_response(400, "malformed request target\n");
-  }
+  if (!known) return text_response(400, "malformed request target\n");
   if (request.method != "GET" && request.method != "HEAD" && request.method != "POST") {
     return text_response(405, "method not allowed\n");
   }
@@ -219,7 +219,8 @@ void Connection::upgrade(Request request) {
   stream_.set_send_buffer(core_.options().send_buffer_bytes);
   // From here on the socket belongs to the WebSocket, and cut() must not close it.
   handed_over_ = true;
-  serve_websocket(core_, std::move(stream_), std::move(slot_), std::move(request),
+  core_.connections.remove(*this);
+  serve_websocket(core_, std::move(stream_), std::move(caller_), std::move(request),
                   std::move(subprotocol), message_);
 }
 

@@ -2,23 +2,15 @@
 #pragma once
 
 #include <boost/asio/io_context.hpp>
-#include <map>
 #include <set>
 
+#include "places.hpp"
 #include "rave/web/rate_limit.hpp"
 #include "rave/web/server.hpp"
 #include "stream.hpp"
 #include "tls.hpp"
 
 namespace rave::web {
-
-/// An open resource that the server closes when it ends.
-class Link {
- public:
-  virtual ~Link() = default;
-  /// Closes it at once, without a handshake.
-  virtual void cut() = 0;
-};
 
 /// A WebSocket as seen by its server.
 class SocketLink : public Socket {
@@ -42,43 +34,28 @@ class Core {
   [[nodiscard]] bool is_own_host(std::string_view host) const;
   /// `http://` or `https://`.
   [[nodiscard]] const char* scheme() const noexcept { return tls ? "https://" : "http://"; }
-  /// Whether a network may open another connection.
-  [[nodiscard]] bool has_room(const std::string& network) const;
+  /// Whether an address may open another connection now.
+  [[nodiscard]] bool accepts_from(const std::string& address);
+  /// Whether a request is within the limits.
+  [[nodiscard]] bool takes_request(const Caller& caller, const std::string& address);
 
   std::unique_ptr<Tls> tls;  ///< Null: no TLS.
-  RateLimit accepts;  ///< The limit of requests also applies to connections: a TLS handshake costs
-                      ///< more than a request.
-  RateLimit requests;
+  RateLimit messages;        ///< By session.
   ServerCounts counts;
   std::uint16_t port = 0;
   bool stopping = false;
+  ConnectionPlaces connections;
+  SocketPlaces socket_places;
   std::set<SocketLink*> sockets;
-  std::set<Link*> connections;
-  std::map<std::string, std::size_t> slots;  ///< Number of connections and sockets by network.
 
  private:
   ServerOptions options_;
   Handler& handler_;
+  RateLimit accepts_;          ///< By address.
+  RateLimit network_accepts_;  ///< By network.
+  RateLimit requests_;         ///< By session, or by network.
   asio::io_context io_{1};
   std::uint64_t last_id_ = 0;
-};
-
-/// Counts a connection for its network during its lifetime.
-class ConnectionSlot {
- public:
-  ConnectionSlot(Core& core, std::string network) : core_(core), network_(std::move(network)) {
-    ++core_.slots[network_];
-  }
-  ConnectionSlot(const ConnectionSlot&) = delete;
-  ConnectionSlot& operator=(const ConnectionSlot&) = delete;
-  ~ConnectionSlot() {
-    if (--core_.slots[network_] == 0) core_.slots.erase(network_);
-  }
-  [[nodiscard]] const std::string& network() const noexcept { return network_; }
-
- private:
-  Core& core_;
-  std::string network_;
 };
 
 /// Serves an accepted connection.

@@ -16,10 +16,14 @@
 namespace rave::web {
 
 Core::Core(const ServerOptions& options, Handler& handler)
-    : accepts(options.requests_per_s, options.request_burst),
-      requests(options.requests_per_s, options.request_burst),
+    : messages(4 * options.messages_per_s, 4 * options.message_burst),
+      connections(options.connections, options.connections_per_session),
+      socket_places(options),
       options_(options),
-      handler_(handler) {}
+      handler_(handler),
+      accepts_(options.accepts_per_s, options.accept_burst),
+      network_accepts_(3 * options.accepts_per_s, 3 * options.accept_burst),
+      requests_(options.requests_per_s, options.request_burst) {}
 
 bool Core::is_own_host(std::string_view host) const {
   const std::string suffix = fmt::format(":{}", port);
@@ -29,11 +33,18 @@ bool Core::is_own_host(std::string_view host) const {
   return tls ? tls->fits(std::string(host)) : host == options_.address;
 }
 
-bool Core::has_room(const std::string& network) const {
-  if (connections.size() + sockets.size() >= options_.connections) return false;
-  // One network may not take all places from the others.
-  const auto found = slots.find(network);
-  return found == slots.end() || found->second < options_.connections_per_network;
+bool Core::accepts_from(const std::string& address) {
+  // All of this machine share an address, so that one of them could keep out the others.
+  if (is_loopback(address)) return true;
+  const auto now = RateLimit::Clock::now();
+  return accepts_.take(address, now) && network_accepts_.take(network_of(address), now);
+}
+
+bool Core::takes_request(const Caller& caller, const std::string& address) {
+  if (caller.cheap) return true;
+  // Addresses have no blank, so none is taken for a session.
+  const std::string of = caller.session.empty() ? network_of(address) : "session " + caller.session;
+  return requests_.take(of, RateLimit::Clock::now());
 }
 
 namespace {
@@ -126,10 +137,8 @@ void ServerImpl::accept() {
     Error gone;
     const auto peer = error ? Tcp::endpoint() : socket.remote_endpoint(gone);
     const std::string address = peer.address().to_string();
-    const std::string network = network_of(address);
     // Refused without an answer: it would cost as much as a request.
-    if (!error && !gone && core_.has_room(network) &&
-        core_.accepts.take(network, RateLimit::Clock::now())) {
+    if (!error && !gone && core_.accepts_from(address)) {
       ++core_.counts.connections;
       serve_connection(core_, std::move(socket), address);
     }
@@ -199,9 +208,7 @@ void ServerImpl::stop() {
     acceptor_.close(ignored);
     for (const auto& timer : timers_) timer->timer.cancel();
     when_rung(-1, {});
-    for (Link* const link : std::vector(core_.connections.begin(), core_.connections.end())) {
-      link->cut();
-    }
+    for (Link* const link : core_.connections.all()) link->cut();
     for (SocketLink* const socket : std::vector(core_.sockets.begin(), core_.sockets.end())) {
       socket->close(1001, "the server is shutting down");
     }

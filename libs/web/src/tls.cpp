@@ -68,6 +68,7 @@ Tls::~Tls() = default;
 Result<std::unique_ptr<Tls>> Tls::load(const std::filesystem::path& certificate,
                                        const std::filesystem::path& key) {
   RAVE_TRY_ASSIGN(const std::string chain, read_file(certificate, kLargestFile));
+  RAVE_TRY(check_private_file(key));
   RAVE_TRY_ASSIGN(const std::string key_text, read_file(key, kLargestFile));
   std::unique_ptr<Tls> tls(new Tls);
   tls->context_ = std::make_unique<ssl::context>(ssl::context::tls_server);

@@ -17,16 +17,20 @@ namespace http = beast::http;
 namespace websocket = beast::websocket;
 
 constexpr std::uint16_t kTooMany = 4429;
+constexpr std::uint16_t kNoRoom = 4430;
+/// Who does not answer a closing handshake within this time is cut off.
+constexpr auto kClosing = std::chrono::seconds(3);
 
 /// A WebSocket with its own queue. Lives as long as one of its operations is pending.
 class WebSocket final : public SocketLink, public std::enable_shared_from_this<WebSocket> {
  public:
-  WebSocket(Core& core, Stream stream, std::shared_ptr<ConnectionSlot> slot, Request request,
-            std::string subprotocol)
+  WebSocket(Core& core, Stream stream, Caller caller, Request request, std::string subprotocol)
       : core_(core),
         stream_(std::move(stream)),
-        slot_(std::move(slot)),
+        caller_(std::move(caller)),
         request_(std::move(request)),
+        no_room_(core.socket_places.refusal(caller_, request_.peer)),
+        place_(core.socket_places, caller_, request_.peer),
         subprotocol_(std::move(subprotocol)),
         rate_(core.options().messages_per_s, core.options().message_burst) {}
   ~WebSocket() override { core_.sockets.erase(this); }
@@ -47,6 +51,8 @@ class WebSocket final : public SocketLink, public std::enable_shared_from_this<W
     bool text = false;
   };
   void opened();
+  /// Whether another message is within the limits.
+  [[nodiscard]] bool takes_message();
   void queue(Out out);
   void write();
   void read();
@@ -56,8 +62,10 @@ class WebSocket final : public SocketLink, public std::enable_shared_from_this<W
 
   Core& core_;
   websocket::stream<Stream> stream_;
-  std::shared_ptr<ConnectionSlot> slot_;  ///< Passed on by the connection.
+  Caller caller_;
   Request request_;
+  std::string_view no_room_;  ///< Why; empty: there is room.
+  SocketPlaces::Place place_;
   std::string subprotocol_;
   TokenBucket rate_;
   beast::flat_buffer buffer_;
@@ -93,10 +101,13 @@ void WebSocket::accept(const http::request<http::string_body>& upgrade) {
 
 void WebSocket::opened() {
   core_.sockets.insert(this);
-  const Handler::Admission admission = core_.handler().admit(request_);
   // Refused after the handshake, because a browser does not show a page why an upgrade failed; it
   // does show the code of a close.
-  if (admission.refusal != 0) {
+  if (!no_room_.empty()) {
+    ++core_.counts.sockets_without_room;
+    core_.handler().crowded(request_, no_room_);
+    close(kNoRoom, no_room_);
+  } else if (const auto admission = core_.handler().admit(request_); admission.refusal != 0) {
     close(admission.refusal, admission.reason);
   } else {
     id_ = core_.next_id();
@@ -166,7 +177,7 @@ void WebSocket::take(std::string_view message) {
     if (!text) close(1003, "text messages only");
     return;
   }
-  if (!rate_.take(TokenBucket::Clock::now())) {
+  if (!takes_message()) {
     ++core_.counts.sockets_closed_for_rate;
     core_.handler().flooded(id_);
     return close(kTooMany, "too many messages");
@@ -176,6 +187,14 @@ void WebSocket::take(std::string_view message) {
   if (!core_.handler().received_binary(id_, message)) close(1003, "text messages only");
 }
 
+bool WebSocket::takes_message() {
+  const auto now = TokenBucket::Clock::now();
+  if (!rate_.take(now)) return false;
+  // The pages of a session share a limit, so that many of them are no way around that of one.
+  const bool shared = !caller_.session.empty() && caller_.rank != Caller::Rank::kAlways;
+  return !shared || core_.messages.take(caller_.session, now);
+}
+
 void WebSocket::close(std::uint16_t code, std::string_view reason) {
   if (ended_ || closing_) return;
   // A close frame has room for 123 bytes of reason (RFC 6455, section 5.5).
@@ -183,6 +202,11 @@ void WebSocket::close(std::uint16_t code, std::string_view reason) {
   closing_ = websocket::close_reason(
       static_cast<websocket::close_code>(code),
       beast::string_view(reason.data(), std::min(reason.size(), kMostReason)));
+  // It takes no place of others while it closes. If too many do, by clients that do not answer, it
+  // is cut; its pending read tells end().
+  if (!place_.leave() && !core_.stopping) return cut();
+  // Also while earlier messages wait for a client that does not read.
+  stream_.next_layer().expires_after(kClosing);
   if (!writing_) start_closing();
 }
 
@@ -203,10 +227,9 @@ void WebSocket::end() {
 
 }  // namespace
 
-void serve_websocket(Core& core, Stream stream, std::shared_ptr<ConnectionSlot> slot,
-                     Request request, std::string subprotocol,
-                     const http::request<http::string_body>& upgrade) {
-  std::make_shared<WebSocket>(core, std::move(stream), std::move(slot), std::move(request),
+void serve_websocket(Core& core, Stream stream, Caller caller, Request request,
+                     std::string subprotocol, const http::request<http::string_body>& upgrade) {
+  std::make_shared<WebSocket>(core, std::move(stream), std::move(caller), std::move(request),
                               std::move(subprotocol))
       ->accept(upgrade);
 }

@@ -8,10 +8,10 @@
 
 namespace rave::web {
 
-/// Converts a connection to a WebSocket after its upgrade request. `slot` must have no other owner.
-/// `subprotocol`: the negotiated one; empty: none.
-void serve_websocket(Core& core, Stream stream, std::shared_ptr<ConnectionSlot> slot,
-                     Request request, std::string subprotocol,
+/// Converts a connection to a WebSocket after its upgrade request, if the caller has room for one;
+/// otherwise it is closed with 4430. `subprotocol`: the negotiated one; empty: none.
+void serve_websocket(Core& core, Stream stream, Caller caller, Request request,
+                     std::string subprotocol,
                      const beast::http::request<beast::http::string_body>& upgrade);
 
 }  // namespace rave::web

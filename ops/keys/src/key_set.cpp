@@ -111,6 +111,7 @@ Result<Authority> read_authority(const fs::path& folder, std::int64_t now_s) {
     return fail(ErrorCode::kState, "the authority in `{}` expired on {}; create a new set",
                 ca.string(), date_text(authority.facts.validity.until_s));
   }
+  RAVE_TRY(check_private_file(ca / kAuthorityKey));
   RAVE_TRY_ASSIGN(authority.credential.key, read_file(ca / kAuthorityKey, kLargestFile));
   const Status pair = check_pair(authority.credential);
   if (!pair) return damaged(kAuthorityKey, pair.error());

@@ -44,6 +44,7 @@ Status check(const NewWebKeys& wanted) {
 Result<Credential> read_web_authority(const fs::path& folder, std::int64_t now_s) {
   Credential authority;
   RAVE_TRY_ASSIGN(authority.certificate, read_file(folder / kAuthority, kLargestFile));
+  RAVE_TRY(check_private_file(folder / kAuthorityKey));
   RAVE_TRY_ASSIGN(authority.key, read_file(folder / kAuthorityKey, kLargestFile));
   RAVE_TRY(check_pair(authority));
   RAVE_TRY_ASSIGN(const CertificateFacts facts, read_certificate(authority.certificate));

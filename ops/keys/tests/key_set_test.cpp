@@ -189,6 +189,9 @@ TEST_F(KeySet, ADamagedAuthorityMakesNoMembers) {
   EXPECT_EQ(names_in(folder_ / "set"), (Names{"ca", "left", "right"}));
 
   write(ca / "authority_key.pem", key);
+  fs::permissions(ca / "authority_key.pem", fs::perms(0644));
+  EXPECT_NE(add().find("other users can read the private key"), std::string::npos) << add();
+  fs::permissions(ca / "authority_key.pem", fs::perms(0600));
   EXPECT_EQ(add(), "none");
 }
 

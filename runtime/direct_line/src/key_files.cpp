@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <sodium.h>
-#include <sys/stat.h>
 
 #include <span>
 
@@ -73,11 +72,7 @@ Status make_key_files(const fs::path& file) {
 Result<SigningKey> read_signing_key(const fs::path& file) {
   SigningKey key;
   RAVE_TRY(read_line(file, kSecretWord, key.secret));
-  struct stat about {};
-  if (::stat(file.c_str(), &about) == 0 && (about.st_mode & 077U) != 0) {
-    return fail(ErrorCode::kState, "other users can read `{}`; run `chmod 600` on it",
-                file.string());
-  }
+  RAVE_TRY(check_private_file(file));
   crypto_sign_ed25519_sk_to_pk(key.open.data(), key.secret.data());
   return key;
 }

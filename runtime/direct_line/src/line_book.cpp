@@ -23,7 +23,8 @@ using LineJson = nlohmann::ordered_json;
 
 /// A page that has not shown a ticket within this time is disconnected.
 constexpr auto kHelloPatience = std::chrono::seconds(5);
-constexpr std::size_t kMostStrangers = 32;
+constexpr std::size_t kMostStrangers = 64;
+constexpr std::size_t kMostOfUser = 32;
 constexpr unsigned kMostNonsense = 20;
 constexpr std::size_t kChallengeBytes = 32;
 constexpr std::size_t kMostRemembered = 2000;
@@ -61,16 +62,30 @@ void LineBook::opened(std::uint64_t id, web::Socket& socket, const web::Request&
   line.origin = request.header("origin");
   line.challenge = base64_of(random_bytes(kChallengeBytes));
   line.since = Line::Clock::now();
-  const auto strangers = std::ranges::count_if(
-      lines_, [](const auto& entry) { return !entry.second.ticket && !entry.second.closing; });
+  make_room_for_stranger();
   Line& kept = lines_.emplace(id, std::move(line)).first->second;
-  if (static_cast<std::size_t>(strangers) >= kMostStrangers) {
-    // Only lines without a ticket count, so that strangers cannot take the room of pages.
-    note_refusal(kept, "a line", "too many connections without a ticket");
-    return close(kept, kTooManyLines, "too many connections");
-  }
   kept.send(
       dumped({{"type", "challenge"}, {"host", options_.host}, {"challenge", kept.challenge}}));
+}
+
+/// Only lines without a ticket count, so that strangers cannot take the room of pages. A newcomer
+/// always gets a place, for it may be a page that is about to stop a robot: of the network with the
+/// most the oldest goes.
+void LineBook::make_room_for_stranger() {
+  std::map<std::string, std::vector<Line*>> strangers;
+  std::size_t count = 0;
+  for (auto& [id, line] : lines_) {
+    if (line.ticket || line.closing) continue;
+    strangers[web::network_of(line.peer)].push_back(&line);
+    ++count;
+  }
+  if (count < kMostStrangers) return;
+  const auto most = std::ranges::max_element(
+      strangers, {}, [](const auto& of_network) { return of_network.second.size(); });
+  // Numbers of lines count up, so the first is the oldest.
+  Line& oldest = *most->second.front();
+  note_refusal(oldest, "a line", "too many connections without a ticket");
+  close(oldest, kTooManyLines, "too many connections");
 }
 
 void LineBook::received(std::uint64_t id, std::string_view text) {
@@ -166,7 +181,24 @@ void LineBook::take(std::uint64_t id, Line& line, const HelloMessage& hello) {
   welcome(id, line, *std::move(ticket));
 }
 
+bool LineBook::has_room(const Ticket& ticket) const {
+  std::size_t all = 0;
+  std::size_t of_user = 0;
+  for (const auto& [id, line] : lines_) {
+    // The page's own earlier line is about to be replaced.
+    if (!line.ticket || line.closing || line.ticket->nonce == ticket.nonce) continue;
+    ++all;
+    if (line.ticket->user == ticket.user) ++of_user;
+  }
+  if (ticket.role == "super_user") return all < kMostLines;
+  return of_user < kMostOfUser && all < kMostLines - kReserve;
+}
+
 void LineBook::welcome(std::uint64_t id, Line& line, Ticket ticket) {
+  if (!has_room(ticket)) {
+    note_refusal(line, "a line", "too many connections of `" + ticket.user + "`");
+    return close(line, kTooManyLines, "too many connections");
+  }
   for (auto& [other_id, other] : lines_) {
     // A page that connects anew before this host has noticed the end of its old line replaces it.
     if (other_id == id || !other.ticket || other.ticket->nonce != ticket.nonce) continue;

@@ -25,6 +25,10 @@ class LineBook {
     kTooManyLines = 4429,
   };
 
+  /// Lines with a ticket, and how many of these are for super-users alone.
+  static constexpr std::size_t kMostLines = 256;
+  static constexpr std::size_t kReserve = 32;
+
   LineBook(const LineOptions& options, runtime::RunControl& control);
 
   void opened(std::uint64_t id, web::Socket& socket, const web::Request& request);
@@ -54,6 +58,9 @@ class LineBook {
                                                             const Request& request);
   /// Whether the person to whom a lease is given has a line here. Error kNotFound: who else has.
   [[nodiscard]] Status may_give(const Ticket& giver, const Request& give) const;
+  void make_room_for_stranger();
+  /// Whether another line may have this ticket.
+  [[nodiscard]] bool has_room(const Ticket& ticket) const;
   void welcome(std::uint64_t id, Line& line, Ticket ticket);
   void close(Line& line, std::uint16_t code, std::string_view why);
   void refuse_line(Line& line, std::string_view why);

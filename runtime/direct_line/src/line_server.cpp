@@ -16,7 +16,6 @@ namespace {
 /// How often answers of the run are passed on, and lines are checked.
 constexpr auto kPoll = std::chrono::milliseconds(5);
 constexpr auto kLook = std::chrono::milliseconds(250);
-constexpr std::size_t kMostLines = 256;
 
 Status check_address(const LineOptions& options) {
   if (web::is_loopback(options.address) || !options.certificate.empty()) return {};
@@ -55,7 +54,9 @@ class LineServer::Impl final : public web::Handler {
     web_options.certificate = options.certificate;
     web_options.key = options.key;
     web_options.subprotocol = "rave.line.1";
-    web_options.connections = kMostLines;
+    // The book has limits by ticket, which the server cannot know; strangers are beside these.
+    web_options.sockets = 2 * LineBook::kMostLines;
+    web_options.sockets_per_address = web_options.sockets_per_network = web_options.sockets;
     // The origin is checked by the ticket, which names that of its page.
     web_options.message_bytes = kLongestTicket + (std::size_t{16} << 10U);
     web_options.own_origin_only = false;

@@ -208,7 +208,7 @@ Result<HostOutcome> run_host(const config::ExpandedScenario& scenario, plugin::C
   RAVE_TRY_ASSIGN(const HostPart part, find_host_part(scenario, options.host));
   const RunOptions& run = options.run;
   const std::string expanded = config::write_expanded(scenario);
-  RAVE_TRY(write_file_atomically(run.output / "scenario.yaml", expanded));
+  RAVE_TRY(write_private_file_atomically(run.output / "scenario.yaml", expanded));
   ConsoleTee console(run.log);
   BuildOptions how{run.program_runner, &console};
   how.local = part.robots;

@@ -50,10 +50,10 @@ Status write_results(const RunSession& run, const std::string& host, const HostE
   if (!facts.shadows.empty()) json["shadows"] = shadows_json(facts.shadows);
   json["ending"] = outcome.ending;
   json["problems"] = outcome.problems;
-  Status written = write_file_atomically(
+  Status written = write_private_file_atomically(
       folder / "result.json",
       json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  const Status events = write_file_atomically(
+  const Status events = write_private_file_atomically(
       folder / "events.log",
       events_log(run.engine.spec(), run.observers.results().kinds, run.events));
   return written ? events : written;
@@ -72,7 +72,7 @@ Status leave_facts(const RunSession& run, const HostSetup& host, HostExchange& e
   }
   const auto bytes = encode_facts(FactsOf{shared_number(host.scenario), host.options.host}, facts);
   // First of all where a process that dies now has them.
-  Status written = write_file_atomically(
+  Status written = write_private_file_atomically(
       run.options.output / kFactsFile, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   if (const Status sent = exchange.deliver(bytes); !sent) {
     run.console.warn("host", "the environment manager did not receive its results: {}",

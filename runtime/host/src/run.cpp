@@ -86,7 +86,7 @@ Result<RunOutcome> run(const config::ExpandedScenario& scenario, plugin::Catalog
                        const RunOptions& options) {
   RAVE_TRY(create_folder(options.output));
   const std::string expanded = config::write_expanded(scenario);
-  RAVE_TRY(write_file_atomically(options.output / "scenario.yaml", expanded));
+  RAVE_TRY(write_private_file_atomically(options.output / "scenario.yaml", expanded));
 
   config::ExpandedScenario adjusted = scenario;
   config::ScenarioFile& file = adjusted.scenario;

@@ -204,16 +204,16 @@ RunOutcome write_results(const RunResults& results, const std::filesystem::path&
   };
   const auto write_summary = [&] {
     outcome.summary = summary_text(results, outcome);
-    return write_file_atomically(folder / "summary.txt", outcome.summary);
+    return write_private_file_atomically(folder / "summary.txt", outcome.summary);
   };
   const auto write_json = [&] {
-    return write_file_atomically(folder / "result.json", result_json(results, outcome));
+    return write_private_file_atomically(folder / "result.json", result_json(results, outcome));
   };
   // On a disk with little room the small ones first: numbers cannot be had again from a picture.
   // A program that waits for `result.json` finds the other texts complete.
   note("summary.txt", write_summary());
   note("events.log",
-       write_file_atomically(folder / "events.log",
+       write_private_file_atomically(folder / "events.log",
                              events_log(results.spec, results.kinds, results.facts.events)));
   note("result.json", write_json());
   if (picture) {

@@ -8,8 +8,10 @@
 
 #include "foxglove/foxglove_door.hpp"
 #include "foxglove/foxglove_guests.hpp"
+#include "listen_rules.hpp"
 #include "metrics.hpp"
 #include "people/door.hpp"
+#include "people/link_file.hpp"
 #include "rave/base/file.hpp"
 #include "rave/gui_server/source.hpp"
 #include "rave/web/rate_limit.hpp"
@@ -29,32 +31,6 @@ constexpr auto kSilence = std::chrono::milliseconds(32);
 constexpr auto kCheck = std::chrono::milliseconds(500);
 constexpr int kPortsToTry = 20;
 constexpr std::uint16_t kNotSignedIn = 4401;
-
-/// Whether the server may be reached from elsewhere, and if so, what that needs is there.
-Status check_listen(const GuiOptions& options, const Accounts* accounts) {
-  if (web::is_loopback(options.listen)) return {};
-  if (options.certificate.empty() || options.key.empty()) {
-    return fail(
-        ErrorCode::kInvalidArgument,
-        "to listen on {} needs TLS: `rave keys web web-keys NAME`, with the name or address that "
-        "people type, makes a certificate; then add --certificate web-keys/server.pem --key "
-        "web-keys/server_key.pem",
-        options.listen);
-  }
-  if (accounts == nullptr) {
-    return fail(ErrorCode::kInvalidArgument, "to listen on {} needs accounts: add --accounts DIR",
-                options.listen);
-  }
-  const AccountsFile state = accounts->state();
-  const bool has_super_user = std::ranges::any_of(state.accounts, [](const Account& account) {
-    return account.person.role == Role::kSuperUser && !account.disabled;
-  });
-  if (has_super_user) return {};
-  return fail(ErrorCode::kInvalidArgument,
-              "to listen on {} needs accounts, and `{}` has no super-user: `rave people add YOU "
-              "--role super_user --accounts {}` makes one",
-              options.listen, accounts->folder().string(), accounts->folder().string());
-}
 
 }  // namespace
 
@@ -139,10 +115,42 @@ class GuiServer::Impl final : public web::Handler {
     return fmt::format("{}/enter?key={}", server_->origin(), door_.new_key());
   }
 
+  [[nodiscard]] Result<std::filesystem::path> entry_file(const std::filesystem::path& folder) {
+    // By port, of which a machine has each once.
+    const std::string name = fmt::format("rave-page-{}.html", server_->port());
+    RAVE_TRY_ASSIGN(auto file, LinkFile::write(folder, name, entry()));
+    link_file_ = std::move(file);
+    return link_file_->path();
+  }
+
   [[nodiscard]] std::string foxglove_address() const {
     if (!foxglove_) return {};
     if (foxglove_token_.empty()) return server_->origin() + "/foxglove";
     return socket_address(foxglove_token_);
+  }
+
+  web::Caller caller(const web::Request& request) override {
+    web::Caller caller;
+    caller.cheap = Door::is_door(request);
+    caller.session =
+        is_guest(request) ? foxglove_door_.session_of(request) : door_.session_of(request);
+    const auto person = door_.whose(caller.session);
+    if (!person) {
+      caller.session.clear();
+      return caller;
+    }
+    caller.user = person->name;
+    const bool always = person->role == Role::kSuperUser;
+    const bool may_stop = visitors_.may_stop(*person);
+    caller.rank = always     ? web::Caller::Rank::kAlways
+                  : may_stop ? web::Caller::Rank::kMayStop
+                             : web::Caller::Rank::kAnyone;
+    return caller;
+  }
+
+  void crowded(const web::Request& request, std::string_view why) override {
+    const std::string user = caller(request).user;
+    audit_->note("refused", {{"why", why}, {"user", user}, {"from", request.peer}});
   }
 
   bool serve_later(const web::Request& request, const web::Reply& reply) override {
@@ -329,6 +337,7 @@ class GuiServer::Impl final : public web::Handler {
   FoxgloveGuests guests_;
   std::chrono::steady_clock::time_point ticked_{};
   std::string foxglove_token_;  ///< Of a super-user; empty: there is none.
+  std::optional<LinkFile> link_file_;
   std::unique_ptr<web::Server> server_;
 };
 
@@ -362,7 +371,7 @@ Result<std::unique_ptr<GuiServer>> GuiServer::start(const GuiOptions& options,
   RAVE_TRY(impl->listen(options, std::move(source)));
   // For the links of `rave people invite`.
   if (accounts) {
-    RAVE_TRY(write_file_atomically(options.accounts / "address", impl->origin() + "\n"));
+    RAVE_TRY(write_private_file_atomically(options.accounts / "address", impl->origin() + "\n"));
   }
   return std::unique_ptr<GuiServer>(new GuiServer(std::move(impl)));
 }
@@ -374,6 +383,9 @@ void GuiServer::offer_lines(std::shared_ptr<direct_line::Lines> lines,
 }
 std::uint16_t GuiServer::port() const noexcept { return impl_->port(); }
 std::string GuiServer::entry() { return impl_->entry(); }
+Result<std::filesystem::path> GuiServer::entry_file(const std::filesystem::path& folder) {
+  return impl_->entry_file(folder);
+}
 std::string GuiServer::foxglove_address() const { return impl_->foxglove_address(); }
 
 }  // namespace rave::gui_server

@@ -32,6 +32,9 @@ std::string metrics_text(const web::ServerCounts& counts, std::size_t pages,
                 counts.refused_requests) +
          metric("rate_closed_total", "counter", "WebSockets closed because they sent too much.",
                 counts.sockets_closed_for_rate) +
+         metric("no_room_total", "counter",
+                "WebSockets refused because a session, a user or an address had too many.",
+                counts.sockets_without_room) +
          metric("sent_bytes_total", "counter", "Bytes sent over WebSockets.", counts.sent_bytes) +
          metric("lost_audit_lines_total", "counter",
                 "Lines that could not be written to the audit log.", lost_audit_lines);
@@ -42,7 +45,7 @@ Result<std::string> metrics_token(const std::filesystem::path& folder) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) {
     // The folder is private.
-    RAVE_TRY(write_file_atomically(file, new_secret() + "\n"));
+    RAVE_TRY(write_private_file_atomically(file, new_secret() + "\n"));
   }
   RAVE_TRY_ASSIGN(std::string token, read_file(file, 1000));
   return token.substr(0, token.find('\n'));

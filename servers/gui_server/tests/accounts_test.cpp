@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "accounts_fixture.hpp"
 #include "metrics.hpp"
 #include "people/audit_log.hpp"
 #include "people/secrets.hpp"
@@ -18,35 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class AccountsTest : public testing::Test {
- public:
-  AccountsTest() {
-    std::string name = fs::temp_directory_path() / "rave-accounts-XXXXXX";
-    if (::mkdtemp(name.data()) != nullptr) folder_ = name;
-  }
-  ~AccountsTest() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-
- protected:
-  [[nodiscard]] std::unique_ptr<Accounts> opened() {
-    auto accounts = Accounts::open(folder_ / "gui", [this] { return now_s_; });
-    EXPECT_TRUE(accounts) << accounts.error().text();
-    return *std::move(accounts);
-  }
-  [[nodiscard]] std::string text() const {
-    return read_file(folder_ / "gui/accounts").value_or("");
-  }
-  template <class T>
-  static std::string error_of(const Result<T>& result) {
-    return result ? "none" : result.error().message;
-  }
-
-  fs::path folder_;
-  std::int64_t now_s_ = 1'800'000'000;
-};
-
 TEST_F(AccountsTest, SignInWithTheRightPasswordAlone) {
   const auto accounts = opened();
   ASSERT_TRUE(accounts->add({"ada", Role::kCommander, {false, {"green"}}}, "correct horse"));
@@ -54,7 +26,7 @@ TEST_F(AccountsTest, SignInWithTheRightPasswordAlone) {
   ASSERT_TRUE(session) << session.error().text();
   const auto person = accounts->who(*session);
   ASSERT_TRUE(person);
-  EXPECT_EQ(*person, (Person{"ada", Role::kCommander, {false, {"green"}}}));
+  EXPECT_EQ(*person, (Person{"ada", Role::kCommander, {false, {"green"}}, true}));
   for (const auto& [name, password] :
        {std::pair("ada", "wrong horse"), std::pair("eve", "correct horse"), std::pair("ada", "")}) {
     EXPECT_EQ(error_of(accounts->sign_in(name, password)), "the name or the password is wrong");
@@ -145,7 +117,7 @@ TEST_F(AccountsTest, AnotherRoleIsInForceAtOnceAndOfOpenSessions) {
   ASSERT_TRUE(accounts->add({"ben", Role::kSuperUser, {}}, "correct horse"));
   const std::string session = *accounts->sign_in("ben", "correct horse");
   ASSERT_TRUE(accounts->change_person({"ben", Role::kObserver, {false, {"green"}}}));
-  EXPECT_EQ(*accounts->who(session), (Person{"ben", Role::kObserver, {false, {"green"}}}));
+  EXPECT_EQ(*accounts->who(session), (Person{"ben", Role::kObserver, {false, {"green"}}, true}));
   EXPECT_EQ(error_of(accounts->change_person({"Ben", Role::kObserver, {}})),
             "there is no account `Ben`; did you mean `ben`?");
   // Who could mend it is never taken away; ben may go.
@@ -203,8 +175,8 @@ TEST_F(AccountsTest, AnInvitationIsWithdrawnByItsId) {
   const auto withdrawn = accounts->withdraw(id);
   ASSERT_TRUE(withdrawn) << withdrawn.error().text();
   EXPECT_EQ(withdrawn->role, Role::kCommander);
-  EXPECT_FALSE(accounts->knows_invitation(secret));
-  EXPECT_TRUE(accounts->knows_invitation(kept));
+  EXPECT_FALSE(accounts->invitation(secret));
+  EXPECT_TRUE(accounts->invitation(kept));
   EXPECT_EQ(error_of(accounts->withdraw(id)),
             "this invitation is used up, has expired or was withdrawn");
 }
@@ -266,6 +238,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "accounts:2: expected enabled or disabled, found `asleep`"},
         BadFile{"rave-accounts 1\nuser\tada\tobserver\t*\t-\tenabled\t-1\n",
                 "accounts:2: expected a number up to 99999999999"},
+        BadFile{"rave-accounts 1\nuser\tada\tobserver\t*\t-\tenabled\t1\tmine\n",
+                "accounts:2: expected given or chosen, found `mine`"},
+        BadFile{
+            "rave-accounts 1\ninvitation\t" HASH "\tobserver\t*\t1\t5\tada\ta b\n",
+            "accounts:2: a name has 1 to 32 letters, digits, `-`, `_`, `.` and `@`, the first a "
+            "letter or digit"},
         BadFile{"rave-accounts 1\nsession\tshort\tada\t1\n",
                 "accounts:2: expected a hash of 64 digits"},
         BadFile{"rave-accounts 1\nsession\t" HASH "\tada\t1e9\n",
@@ -277,8 +255,12 @@ TEST(AccountsFileTest, IsReadAsItWasWritten) {
   const std::string text =
       "rave-accounts 1\nuser\tada\tsuper_user\t*\t$argon2id$v=19$m=65536,t=2,p=1$c2FsdA$aGFzaA\n"
       "user\tben\tobserver\tblue,green\t-\nuser\tcleo\tobserver\t*\t-\tdisabled\t1800000000\n"
+      "user\tdora\tobserver\t*\t$argon2id$v=19$m=65536,t=2,p=1$c2FsdA$aGFzaA\tenabled\t0\tchosen\n"
+      "user\teve\tobserver\t*\t-\tenabled\t0\tgiven\n"
       "invitation\t" HASH
       "\tcommander\t-\t3\t1800000000\tada\n"
+      "invitation\t" HASH
+      "\tcommander\t-\t1\t1800000000\tada\tfred\n"
       "session\t" HASH "\tben\t1800000001\n";
   const auto file = parse_accounts(text, "accounts");
   ASSERT_TRUE(file) << file.error().text();

@@ -149,7 +149,7 @@ class FakeRun : public Source {
     open.hand_over->last = kTwinText;
     open.shadow = runtime::RunStatus::Shadow{};
     open.shadow->m = kOpenGap_m;
-    DriveState secret{1, "spy-lord", {"drive"}, ""};
+    DriveState secret{1, "spy-lord", {"drive"}, "goal 47.11, 2.00"};
     secret.hand_over = runtime::RunStatus::HandOver{};
     secret.shadow = runtime::RunStatus::Shadow{};
     secret.shadow->m = kSecretGap_m;

@@ -111,9 +111,10 @@ class Hostile : public ::testing::Test {
     const std::string link = server_->entry();
     return socket(cookie_of(ask("GET", link.substr(link.find("/enter")))));
   }
-  /// Joins by an invitation; returns the cookie.
-  [[nodiscard]] std::string guest(Role role, const std::string& name) {
-    const auto secret = accounts_->invite(role, {false, {"green"}}, 1, 7, "test");
+  /// Joins by an invitation; returns the cookie. `given`: it is for that name.
+  [[nodiscard]] std::string guest(Role role, const std::string& name, bool given = false) {
+    const auto secret =
+        accounts_->invite(role, {false, {"green"}}, 1, 7, "test", given ? name : "");
     EXPECT_TRUE(secret);
     EXPECT_EQ(status_of(ask("GET", "/join?invite=" + *secret)), "200");
     std::string cookie =

@@ -288,9 +288,11 @@ TEST_F(Hostile, AReplayShowsTheChatOfTheRecordToWhoMayReadItAlone) {
                       {3, 2.5, "ada", "commander", "role", "commander", "for commanders"},
                       {4, 3.5, "ada", "commander", "robot", "spy-2", "for a spy"},
                       {5, 4.5, "ada", "boss", "all", "", "of an unknown role"}};
-  const std::string cookie = guest(Role::kCommander, "ben");
+  const std::string cookie = guest(Role::kCommander, "ben", true);
   RawSocket ben = socket(cookie);
   RawSocket eve = socket(guest(Role::kObserver, "eve"));
+  // A name that an invited person chose is not that of who was meant.
+  replay->recorded.push_back({6, 5.5, "ada", "commander", "user", "eve", "for eve alone"});
   server_->show(replay);
   const std::string bens = ben.text_with("said to all");
   EXPECT_NE(bens.find(R"("t":1.5,"from":{"name":"ada","role":"commander"})"), std::string::npos)

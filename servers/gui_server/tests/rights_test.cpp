@@ -74,9 +74,11 @@ TEST(UsualRights, AreThoseOfTheDocumentation) {
 
 TEST(RightsOfAPerson, AreTheirOwnBeforeThoseOfTheRole) {
   Rights rights;
-  const Person ben{"ben", Role::kObserver, kGreen};
+  const Person ben{"ben", Role::kObserver, kGreen, true};
   rights.set_user("ben", InfoClass::kRecording, Reach{Kind::kAll, {}});
   EXPECT_EQ(rights.of(ben, InfoClass::kRecording).kind, Kind::kAll);
+  // An invited person who chose that name is somebody else.
+  EXPECT_EQ(rights.of({"ben", Role::kObserver, kGreen}, InfoClass::kRecording).kind, Kind::kNone);
   rights.set_user("ben", InfoClass::kRecording, std::nullopt);
   EXPECT_EQ(rights.of(ben, InfoClass::kRecording).kind, Kind::kNone);
   EXPECT_FALSE(rights.set(Role::kSuperUser, InfoClass::kPose, {}));
@@ -99,7 +101,7 @@ TEST(RightsOfAScenario, ChangeTheUsualOnes) {
   const Rights rights = rights_of(gui);
   EXPECT_EQ(rights.of(Role::kObserver, InfoClass::kReadings), (Reach{Kind::kTeams, {"green"}}));
   EXPECT_EQ(rights.of(Role::kCommander, InfoClass::kPose).kind, Kind::kAll);
-  EXPECT_EQ(rights.of({"eve", Role::kObserver, {}}, InfoClass::kStop).kind, Kind::kAll);
+  EXPECT_EQ(rights.of({"eve", Role::kObserver, {}, true}, InfoClass::kStop).kind, Kind::kAll);
 }
 
 TEST(RightsOfAScenario, AreNoPartOfWhatProcessesCompare) {
@@ -307,7 +309,7 @@ class DeskTest : public testing::Test {
     return *std::move(desk);
   }
   fs::path folder_;
-  const Person ben_{"ben", Role::kObserver, kGreen};
+  const Person ben_{"ben", Role::kObserver, kGreen, true};
 };
 
 TEST_F(DeskTest, PeopleWithEqualRightsShareAView) {

@@ -14,6 +14,8 @@ export class Invitations extends LiveElement {
   private draft = new RoleDraft('observer', '*', []);
   private uses = 1;
   private days = 7;
+  /** Of the one person whom it is for; empty: each person chooses a name. */
+  private name = '';
   /** The address that was told, until it is put away. */
   private link = '';
   private copied = false;
@@ -31,7 +33,8 @@ export class Invitations extends LiveElement {
     const number = (event: Event) => Number((event.target as HTMLInputElement).value);
     return html`<form @submit=${(event: Event) => { event.preventDefault(); void this.make(); }}>
         ${this.draft.render(rights?.teams.filter((team) => team !== '') ?? [], () => this.requestUpdate())}
-        <label>People<input type="number" name="uses" min="1" max="1000" required .value=${String(this.uses)} @input=${(event: Event) => { this.uses = number(event); }}></label>
+        <label title="This person alone gets the name. Rights of a user need it.">For<input name="name" placeholder="anybody" maxlength="32" .value=${this.name} @input=${(event: Event) => { this.name = (event.target as HTMLInputElement).value.trim(); this.requestUpdate(); }}></label>
+        <label>People<input type="number" name="uses" min="1" max="1000" required ?disabled=${this.name !== ''} .value=${this.name === '' ? String(this.uses) : '1'} @input=${(event: Event) => { this.uses = number(event); }}></label>
         <label>Days<input type="number" name="days" min="1" max="365" required .value=${String(this.days)} @input=${(event: Event) => { this.days = number(event); }}></label>
         <button class="main">${icon('userPlus', 15)} Make a link</button></form>
       ${this.note === '' ? nothing : html`<p class="note bad" role="alert">${this.note}</p>`}
@@ -58,7 +61,7 @@ export class Invitations extends LiveElement {
 
   private async make(): Promise<void> {
     const {model, commands} = this.context;
-    const answer = await commands.ask({type: 'invitation', do: 'make', role: this.draft.role, teams: this.draft.teams, uses: this.uses, days: this.days});
+    const answer = await commands.ask({type: 'invitation', do: 'make', role: this.draft.role, teams: this.draft.teams, uses: this.name === '' ? this.uses : 1, days: this.days, name: this.name});
     this.note = answer.good ? '' : answer.text;
     const told = model.takeInvited(answer.request);
     this.link = told === null ? '' : new URL(told, location.origin).href;

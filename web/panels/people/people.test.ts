@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import {expect, it} from 'vitest';
 import type {KnownPerson} from '../../protocol/messages';
-import {agoText, auditText, auditTime, endsText, peopleWith, seenText, teamsOf, teamsText, usesText, whoText} from './people';
+import {accountText, agoText, auditText, auditTime, endsText, peopleWith, seenText, teamsOf, teamsText, usesText, whoText} from './people';
 
 const kNow_s = 1_800_000_000;
 
 function person(name: string, more: Partial<KnownPerson> = {}): KnownPerson {
-  return {name, role: 'observer', teams: '*', guest: false, disabled: false, pages: 0, sessions: 0, seen_s: 0, ...more};
+  return {name, role: 'observer', teams: '*', guest: false, name_given: true, disabled: false, pages: 0, sessions: 0, seen_s: 0, ...more};
 }
 
 it('teams are said and sent', () => {
@@ -39,7 +39,10 @@ it('people are found by name, role and team, those who are here first', () => {
   expect(peopleWith(people, '').map(({name}) => name)).toEqual(['zoe', 'Ada', 'ben']);
   expect(peopleWith(people, 'GREEN').map(({name}) => name)).toEqual(['ben']);
   expect(peopleWith(people, 'super-user').map(({name}) => name)).toEqual(['Ada']);
-  expect(usesText({id: '', role: 'observer', teams: '*', uses: 1, until_s: 0, by: 'ada'})).toBe('for one person');
+  expect(usesText({id: '', role: 'observer', teams: '*', uses: 1, until_s: 0, by: 'ada', name: ''})).toBe('for one person');
+  expect(usesText({id: '', role: 'observer', teams: '*', uses: 1, until_s: 0, by: 'ada', name: 'ben'})).toBe('for ben');
+  expect(accountText(person('ada'))).toBe('');
+  expect(accountText(person('eve', {guest: true, name_given: false}))).toBe('guest, no password; chose this name');
 });
 
 it('lines of the audit log are sentences', () => {

@@ -43,6 +43,11 @@ export function seenText(person: KnownPerson, now_s: number): string {
   return person.pages > 0 ? 'now' : agoText(person.seen_s, now_s);
 }
 
+/** What else is to be known of an account; empty: nothing. */
+export function accountText({guest, name_given}: KnownPerson): string {
+  return [guest ? 'guest, no password' : '', name_given ? '' : 'chose this name'].filter(Boolean).join('; ');
+}
+
 /** Those whose name, role or teams have what was typed; who is here comes first. */
 export function peopleWith(people: readonly KnownPerson[], typed: string): KnownPerson[] {
   const part = typed.trim().toLowerCase();
@@ -50,7 +55,8 @@ export function peopleWith(people: readonly KnownPerson[], typed: string): Known
   return people.filter(fits).sort((a, b) => Number(b.pages > 0) - Number(a.pages > 0) || a.name.localeCompare(b.name));
 }
 
-export function usesText({uses}: KnownInvitation): string {
+export function usesText({uses, name}: KnownInvitation): string {
+  if (name !== '') return `for ${name}`;
   return uses === 1 ? 'for one person' : `${uses} uses left`;
 }
 

@@ -5,7 +5,7 @@ import {LiveElement} from '../../app/live_element';
 import {controls} from '../../app/styles';
 import {faceStyle, initials, roleText} from '../../app/words';
 import type {ChangeAccount, KnownPerson} from '../../protocol/messages';
-import {peopleWith, seenText, teamsText} from './people';
+import {accountText, peopleWith, seenText, teamsText} from './people';
 import {RoleDraft} from './role_form';
 import {peopleStyles} from './styles';
 
@@ -50,11 +50,12 @@ export class PeopleList extends LiveElement {
   }
 
   private renderPerson(person: KnownPerson, now_s: number): TemplateResult {
-    const {name, role, teams, pages, disabled, guest} = person;
+    const {name, role, teams, pages, disabled} = person;
+    const more = accountText(person);
     const mine = name === this.context.model.hello?.user.name;
     const open = this.open === name;
     return html`<tr class=${open ? 'open' : disabled ? 'off' : ''}>
-        <th scope="row"><span class="who"><i class="face ${mine ? 'you' : ''}" style=${faceStyle(name)}>${initials(name)}</i><span>${name}${mine ? html` <em>you</em>` : nothing}<small class="narrow">${teamsText(teams)}</small>${guest ? html`<small>guest, no password</small>` : nothing}</span></span></th>
+        <th scope="row"><span class="who"><i class="face ${mine ? 'you' : ''}" style=${faceStyle(name)}>${initials(name)}</i><span>${name}${mine ? html` <em>you</em>` : nothing}<small class="narrow">${teamsText(teams)}</small>${more === '' ? nothing : html`<small>${more}</small>`}</span></span></th>
         <td>${roleText(role).toLowerCase()}</td><td class="teams">${teamsText(teams)}</td><td class="number">${pages === 0 ? '–' : pages}</td>
         <td class="number ${pages > 0 ? 'here' : disabled ? 'bad' : ''}">${seenText(person, now_s)}</td>
         <td><button class="icon-button" aria-expanded=${open} aria-label="Change ${name}" title="Change ${name}" @click=${() => this.toggle(person)}>${icon('ellipsis', 16)}</button></td></tr>

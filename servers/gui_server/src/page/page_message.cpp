@@ -18,12 +18,12 @@ constexpr std::size_t kMostSlots = 100'000;
 constexpr std::size_t kLongestName = 64;
 constexpr std::size_t kMostTeams = 1000;
 
-using Do = TransportMessage::Do;
-constexpr WordTable<Do, 5> kTransportWords = {{{"play", Do::kPlay},
-                                               {"pause", Do::kPause},
-                                               {"step", Do::kStep},
-                                               {"seek", Do::kSeek},
-                                               {"pace", Do::kPace}}};
+using TransportDo = TransportMessage::Do;
+constexpr WordTable<TransportDo, 5> kTransportWords = {{{"play", TransportDo::kPlay},
+                                                        {"pause", TransportDo::kPause},
+                                                        {"step", TransportDo::kStep},
+                                                        {"seek", TransportDo::kSeek},
+                                                        {"pace", TransportDo::kPace}}};
 /// Whether the robots stop.
 constexpr WordTable<bool, 2> kHaltWords = {{{"stop", true}, {"release", false}}};
 
@@ -86,7 +86,8 @@ Result<LookMapsMessage> look_maps_of(Members& members) {
 Result<TransportMessage> transport_of(Members& members) {
   TransportMessage transport;
   RAVE_TRY_ASSIGN(transport.what, members.choice("do", kTransportWords));
-  const bool takes_value = transport.what != Do::kPlay && transport.what != Do::kPause;
+  const bool takes_value =
+      transport.what != TransportDo::kPlay && transport.what != TransportDo::kPause;
   // A value that is not needed is taken, too: finish() would refuse the message otherwise.
   if (takes_value || members.has("value")) {
     RAVE_TRY_ASSIGN(transport.value, members.number("value"));

@@ -48,6 +48,9 @@ Result<InvitationMessage> invitation_of_message(Members& members) {
   RAVE_TRY_ASSIGN(invitation.teams, teams_in(members));
   RAVE_TRY_ASSIGN(invitation.uses, members.index_in("uses", 1, 1000));
   RAVE_TRY_ASSIGN(invitation.days, members.index_in("days", 1, 365));
+  if (members.has("name")) {
+    RAVE_TRY_ASSIGN(invitation.name, members.text("name", kLongestPersonName));
+  }
   return invitation;
 }
 

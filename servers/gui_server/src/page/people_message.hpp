@@ -31,7 +31,8 @@ struct InvitationMessage {
   Teams teams{};
   std::uint32_t uses = 1;
   std::uint32_t days = 7;
-  std::string id;  ///< Of one that is withdrawn.
+  std::string name;  ///< Of the one person whom it is for; empty: each chooses one.
+  std::string id;    ///< Of one that is withdrawn.
 };
 
 /// Asks for the newest lines of the audit log.

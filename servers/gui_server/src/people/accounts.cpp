@@ -7,12 +7,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <utility>
 
+#include "people/free_name.hpp"
 #include "people/secrets.hpp"
 #include "rave/base/descriptor.hpp"
 #include "rave/base/file.hpp"
@@ -24,7 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLargestFile = std::size_t{8} << 20U;
-constexpr std::size_t kMostAccounts = 5000;
 constexpr std::size_t kMostInvitations = 1000;
 constexpr std::ptrdiff_t kSessionsOfOne = 20;
 
@@ -41,27 +40,9 @@ Result<Descriptor> lock_file(const fs::path& file) {
 
 std::int64_t wall_s() { return wall_ns() / kSecond_ns; }
 
-/// `Anna` and `anna` would be mistaken for each other in lists and in the audit log.
-bool same_but_for_capitals(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](char x, char y) {
-    return std::tolower(static_cast<unsigned char>(x)) ==
-           std::tolower(static_cast<unsigned char>(y));
-  });
-}
-
 auto account_of(auto& file, std::string_view name) {
   return std::ranges::find_if(
       file.accounts, [name](const Account& account) { return account.person.name == name; });
-}
-
-Status check_free(const AccountsFile& file, std::string_view name) {
-  for (const Account& account : file.accounts) {
-    if (!same_but_for_capitals(account.person.name, name)) continue;
-    return fail(ErrorCode::kInvalidArgument, "the name `{}` is taken", account.person.name);
-  }
-  if (file.accounts.size() < kMostAccounts) return {};
-  return fail(ErrorCode::kInvalidArgument,
-              "this server already has {} accounts, which is the maximum", kMostAccounts);
 }
 
 /// What has ended is not kept; with the last session of a guest goes the guest.
@@ -175,10 +156,7 @@ Status Accounts::change(const std::function<Status(AccountsFile&)>& how) {
 }
 
 Status Accounts::write(const AccountsFile& changed) {
-  RAVE_TRY(write_file_atomically(folder_ / "accounts", write_accounts(changed)));
-  // The folder is private already; this is for who copies the file.
-  std::error_code ignored;
-  fs::permissions(folder_ / "accounts", fs::perms::owner_read | fs::perms::owner_write, ignored);
+  RAVE_TRY(write_private_file_atomically(folder_ / "accounts", write_accounts(changed)));
   // Read back what was written, so that memory and file cannot differ.
   stamp_.clear();
   return read_if_changed();
@@ -204,12 +182,17 @@ Status Accounts::add(const Person& person, std::string_view password) {
   return change([&](AccountsFile& file) -> Status {
     RAVE_TRY(check_free(file, person.name));
     file.accounts.push_back({person, hash, false, 0});
+    file.accounts.back().person.name_given = true;
     return {};
   });
 }
 
 Result<std::string> Accounts::invite(Role role, const Teams& teams, int uses, int days,
-                                     std::string_view by) {
+                                     std::string_view by, std::string_view name) {
+  if (!name.empty()) RAVE_TRY(check_user_name(name));
+  if (!name.empty() && uses != 1) {
+    return fail(ErrorCode::kInvalidArgument, "an invitation for `{}` is for one person", name);
+  }
   if (uses < 1 || uses > 1000) {
     return fail(ErrorCode::kInvalidArgument, "an invitation is valid for 1 to 1000 people");
   }
@@ -218,25 +201,29 @@ Result<std::string> Accounts::invite(Role role, const Teams& teams, int uses, in
   }
   RAVE_TRY(check_user_name(by));
   std::string secret = new_secret();
-  RAVE_TRY(change([&](AccountsFile& file) -> Status {
+  const auto make = [&](AccountsFile& file) -> Status {
     if (file.invitations.size() >= kMostInvitations) {
       return fail(ErrorCode::kState, "there are already {} invitations, which is the maximum",
                   kMostInvitations);
     }
+    if (!name.empty()) RAVE_TRY(check_free(file, name));
     const std::int64_t until_s = clock_() + std::int64_t{86'400} * days;
-    file.invitations.push_back({hash_of(secret), role, teams, uses, until_s, std::string(by)});
+    file.invitations.push_back(
+        {hash_of(secret), role, teams, uses, until_s, std::string(by), std::string(name)});
     return {};
-  }));
+  };
+  RAVE_TRY(change(make));
   return secret;
 }
 
 Result<std::string> Accounts::join(std::string_view secret, const std::string& name,
-                                   std::string_view password) {
+                                   std::string_view password, const NameSet& kept) {
   constexpr const char* kUnknown =
       "this invitation is used up, has expired, or is not from this server";
   RAVE_TRY(check_user_name(name));
+  RAVE_TRY(refresh());
   // A guess does not cause slow work.
-  if (!knows_invitation(secret)) return fail(ErrorCode::kState, "{}", kUnknown);
+  if (!invitation(secret)) return fail(ErrorCode::kState, "{}", kUnknown);
   std::string hash;
   if (!password.empty()) {
     RAVE_TRY(check_password(password));
@@ -246,8 +233,12 @@ Result<std::string> Accounts::join(std::string_view secret, const std::string& n
   const auto take = [&](AccountsFile& file) -> Status {
     const auto found = std::ranges::find(file.invitations, hash_of(secret), &Invitation::hash);
     if (found == file.invitations.end()) return fail(ErrorCode::kState, "{}", kUnknown);
-    RAVE_TRY(check_free(file, name));
-    file.accounts.push_back({{name, found->role, found->teams}, hash, false, clock_()});
+    const bool given = !found->name.empty();
+    if (given && found->name != name) {
+      return fail(ErrorCode::kInvalidArgument, "this invitation is for `{}`", found->name);
+    }
+    RAVE_TRY(given ? check_free(file, name) : check_chosen(file, name, kept));
+    file.accounts.push_back({{name, found->role, found->teams, given}, hash, false, clock_()});
     // Account, uses and session change in one write: a crash cannot use up an invitation without an
     // account.
     --found->uses;
@@ -308,11 +299,13 @@ bool Accounts::has(std::string_view name) const {
   return account_of(state_, name) != state_.accounts.end();
 }
 
-bool Accounts::knows_invitation(std::string_view secret) const {
+std::optional<Invitation> Accounts::invitation(std::string_view secret) const {
   const std::string hash = hash_of(secret);
   const std::lock_guard lock(mutex_);
   const auto found = std::ranges::find(state_.invitations, hash, &Invitation::hash);
-  return found != state_.invitations.end() && found->uses > 0 && found->until_s > clock_();
+  const bool valid =
+      found != state_.invitations.end() && found->uses > 0 && found->until_s > clock_();
+  return valid ? std::optional(*found) : std::nullopt;
 }
 
 }  // namespace rave::gui_server

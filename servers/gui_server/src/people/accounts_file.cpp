@@ -59,6 +59,10 @@ Result<Number> number_at(const TabLine& line, std::size_t column, Number most) {
   return value;
 }
 
+/// Whose name was given, if no column says so. An account with a password was made by a super-user,
+/// or by versions that did not ask; without one it is that of a guest.
+bool usually_given(const Account& account) { return !account.password.empty(); }
+
 Status take_state(const TabLine& line, Account& account) {
   account.disabled = line[5] == "disabled";
   if (!account.disabled && line[5] != "enabled") {
@@ -70,7 +74,8 @@ Status take_state(const TabLine& line, Account& account) {
 
 Status take_user(const TabLine& line, AccountsFile& file) {
   // Later columns came later; a file without them is as good.
-  const bool has_state = line.columns.size() == 7;
+  const bool has_name = line.columns.size() == 8;
+  const bool has_state = has_name || line.columns.size() == 7;
   if (!has_state) RAVE_TRY(line.has(5));
   Account account;
   RAVE_TRY_ASSIGN(account.person.name, name_at(line, 1));
@@ -82,6 +87,10 @@ Status take_user(const TabLine& line, AccountsFile& file) {
     account.password = line[4];
   }
   if (has_state) RAVE_TRY(take_state(line, account));
+  account.person.name_given = has_name ? line[7] == "given" : usually_given(account);
+  if (has_name && line[7] != "given" && line[7] != "chosen") {
+    return line.wrong("expected given or chosen, found `{}`", line[7].substr(0, 40));
+  }
   // Two lines of one name could have two roles, and which counts would depend on their order.
   for (const Account& other : file.accounts) {
     if (other.person.name == account.person.name) {
@@ -93,7 +102,8 @@ Status take_user(const TabLine& line, AccountsFile& file) {
 }
 
 Status take_invitation(const TabLine& line, AccountsFile& file) {
-  RAVE_TRY(line.has(7));
+  const bool has_name = line.columns.size() == 8;
+  if (!has_name) RAVE_TRY(line.has(7));
   Invitation& invitation = file.invitations.emplace_back();
   RAVE_TRY_ASSIGN(invitation.hash, hash_at(line, 1));
   RAVE_TRY_ASSIGN(invitation.role, role_at(line, 2));
@@ -101,6 +111,9 @@ Status take_invitation(const TabLine& line, AccountsFile& file) {
   RAVE_TRY_ASSIGN(invitation.uses, number_at<int>(line, 4, 1000));
   RAVE_TRY_ASSIGN(invitation.until_s, number_at<std::int64_t>(line, 5, kLatest_s));
   RAVE_TRY_ASSIGN(invitation.by, name_at(line, 6));
+  if (has_name) {
+    RAVE_TRY_ASSIGN(invitation.name, name_at(line, 7));
+  }
   return {};
 }
 
@@ -141,15 +154,20 @@ std::string write_accounts(const AccountsFile& accounts) {
         fmt::format("user\t{}\t{}\t{}\t{}", account.person.name, to_string(account.person.role),
                     account.person.teams.text(), account.password.empty() ? "-" : account.password);
     // Only where needed, so that versions without these columns can read the file.
-    if (account.disabled || account.seen_s > 0) {
+    const bool given = account.person.name_given;
+    const bool tells_name = given != usually_given(account);
+    if (tells_name || account.disabled || account.seen_s > 0) {
       text += fmt::format("\t{}\t{}", account.disabled ? "disabled" : "enabled", account.seen_s);
     }
+    if (tells_name) text += given ? "\tgiven" : "\tchosen";
     text += "\n";
   }
   for (const Invitation& invitation : accounts.invitations) {
-    text += fmt::format("invitation\t{}\t{}\t{}\t{}\t{}\t{}\n", invitation.hash,
+    text += fmt::format("invitation\t{}\t{}\t{}\t{}\t{}\t{}", invitation.hash,
                         to_string(invitation.role), invitation.teams.text(), invitation.uses,
                         invitation.until_s, invitation.by);
+    if (!invitation.name.empty()) text += "\t" + invitation.name;
+    text += "\n";
   }
   for (const SessionEntry& session : accounts.sessions) {
     text += fmt::format("session\t{}\t{}\t{}\n", session.hash, session.user, session.until_s);
@@ -158,11 +176,8 @@ std::string write_accounts(const AccountsFile& accounts) {
 }
 
 Status check_user_name(std::string_view name) {
-  // No blanks and no control characters: names stand in columns, logs and links.
-  if (is_plain_name(name, "-_.@") && name.size() <= 32 && is_plain(name.front(), "")) return {};
-  return fail(ErrorCode::kInvalidArgument,
-              "a name has 1 to 32 letters, digits, `-`, `_`, `.` and `@`, the first a letter or "
-              "digit");
+  if (is_user_name(name)) return {};
+  return fail(ErrorCode::kInvalidArgument, "a name has {}", kUserNameRule);
 }
 
 Status check_password(std::string_view password) {

@@ -58,7 +58,18 @@ Status Accounts::remove(std::string_view name) {
 
 Status Accounts::change_person(const Person& person) {
   return change([&](AccountsFile& file) {
-    return change_account(file, person.name, [&](Account& account) { account.person = person; });
+    return change_account(file, person.name, [&](Account& account) {
+      account.person.role = person.role;
+      account.person.teams = person.teams;
+    });
+  });
+}
+
+Status Accounts::give_name(std::string_view name) {
+  return change([&](AccountsFile& file) -> Status {
+    RAVE_TRY_ASSIGN(Account* const account, known_account(file, name));
+    account->person.name_given = true;
+    return {};
   });
 }
 

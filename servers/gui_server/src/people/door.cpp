@@ -12,8 +12,10 @@ namespace {
 
 using Fields = std::map<std::string, std::string>;
 
-// Ten tries at once, then one in half a minute: a person who mistypes does not notice it. Of one
-// name, from wherever, more: else a stranger could lock the owner out.
+// Of one name from one network ten tries at once, then one in half a minute: a person who mistypes
+// does not notice it, and others at that address are not kept out. Of one name, from wherever,
+// more: else a stranger could lock the owner out. How fast many names can be tried is up to
+// SlowWork.
 constexpr double kTries = 10;
 constexpr double kTriesPerSecond = 1.0 / 30;
 constexpr double kTriesOfName = 50;
@@ -58,7 +60,7 @@ std::string sentence(std::string text) {
 
 Door::Door(Options options)
     : options_(std::move(options)),
-      by_network_(kTriesPerSecond, kTries),
+      by_place_(kTriesPerSecond, kTries),
       by_name_(kTriesOfNamePerSecond, kTriesOfName) {}
 
 void Door::set_port(std::uint16_t port) {
@@ -71,7 +73,7 @@ std::string Door::new_session() { return entrance_.enter(entrance_.new_key()).va
 std::string Door::session_of(const web::Request& request) const { return request.cookie(cookie_); }
 
 std::optional<Person> Door::whose(std::string_view session) const {
-  if (entrance_.knows(session)) return Person{"you", Role::kSuperUser, {}};
+  if (entrance_.knows(session)) return Person{"you", Role::kSuperUser, {}, true};
   return options_.accounts ? options_.accounts->who(session) : std::nullopt;
 }
 
@@ -94,13 +96,20 @@ std::optional<web::Response> Door::serve(const web::Request& request) {
   if (request.path == "/join" && reads) {
     const std::string secret = field(request.query, "invite");
     // It may have been made this very moment, by the command line.
-    if (!options_.accounts->knows_invitation(secret)) static_cast<void>(refresh());
-    if (options_.accounts->knows_invitation(secret)) return join_page(200, "", "", secret);
+    if (!options_.accounts->invitation(secret)) static_cast<void>(refresh());
+    const auto invitation = options_.accounts->invitation(secret);
+    if (invitation)
+      return join_page(200, {"", invitation->name, secret, !invitation->name.empty()});
     options_.audit->note("refused", {{"why", "invitation"}, {"from", request.peer}});
     return told_page(403, kUsedLink, true);
   }
   const bool page = request.path == "/" || request.path == "/index.html";
-  if (page && reads && !who(request)) return redirect("/login");
+  if (page && reads && !who(request)) {
+    // Of whom the link of another site, or of a file, has brought here, the browser withholds the
+    // cookie. It sends it with what this page asks for.
+    if (request.header("sec-fetch-site") == "cross-site") return onward_page();
+    return redirect("/login");
+  }
   return std::nullopt;
 }
 
@@ -156,12 +165,8 @@ web::Response Door::slow_down(const web::Request& request) {
 bool Door::serve_later(const web::Request& request, const web::Reply& reply) {
   if (!options_.accounts || request.method != "POST") return false;
   if (request.path != "/login" && request.path != "/join") return false;
-  // By network and before the form is read: a guesser with many addresses of one network has one
-  // budget.
   Fields fields;
-  if (!by_network_.take(web::network_of(request.peer), web::RateLimit::Clock::now())) {
-    reply(slow_down(request));
-  } else if (!web::parse_form(request.body, fields)) {
+  if (!web::parse_form(request.body, fields)) {
     reply(web::text_response(400, "malformed form\n"));
   } else if (request.path == "/login") {
     sign_in(request, fields, reply);
@@ -171,8 +176,15 @@ bool Door::serve_later(const web::Request& request, const web::Reply& reply) {
   return true;
 }
 
-void Door::work(std::function<web::Response()> what, const web::Reply& reply) {
-  const bool posted = work_.post([what = std::move(what), reply] { reply(what()); });
+bool Door::is_door(const web::Request& request) {
+  return request.path == "/enter" || request.path == "/login" || request.path == "/join" ||
+         request.path == "/login.css";
+}
+
+void Door::work(const web::Request& request, std::function<web::Response()> what,
+                const web::Reply& reply) {
+  const bool posted =
+      work_.post([what = std::move(what), reply] { reply(what()); }, web::network_of(request.peer));
   if (!posted) reply(sign_in_page(503, "Too many people are signing in. Try again.", ""));
 }
 
@@ -182,11 +194,15 @@ void Door::sign_in(const web::Request& request, const Fields& fields, const web:
     reply(redirect(*link));
     return;
   }
-  if (!by_name_.take(name, web::RateLimit::Clock::now())) {
+  const auto now = web::RateLimit::Clock::now();
+  // Names have no blank. In this order: who has used up their own tries uses up no others.
+  if (!by_place_.take(web::network_of(request.peer) + " " + name, now) ||
+      !by_name_.take(name, now)) {
     reply(slow_down(request));
     return;
   }
   work(
+      request,
       [this, name, password = field(fields, "password"), peer = request.peer] {
         // On a thread of its own, because Argon2id is slow on purpose.
         const auto session = options_.accounts->sign_in(name, password);
@@ -206,18 +222,21 @@ void Door::sign_in(const web::Request& request, const Fields& fields, const web:
 
 void Door::join(const web::Request& request, const Fields& fields, const web::Reply& reply) {
   work(
-      [this, fields, peer = request.peer] {
+      request,
+      [this, fields, kept = kept_names_, peer = request.peer] {
         const std::string name = field(fields, "name");
         const std::string secret = field(fields, "invite");
-        const auto session = options_.accounts->join(secret, name, field(fields, "password"));
+        const auto session = options_.accounts->join(secret, name, field(fields, "password"), kept);
         if (session) {
           options_.audit->note("login", {{"user", name}, {"by", "invitation"}, {"from", peer}});
           return welcome(*session);
         }
         options_.audit->note("refused", {{"why", "invitation"}, {"from", peer}});
         const std::string note = sentence(session.error().message);
-        if (!options_.accounts->knows_invitation(secret)) return told_page(403, note, true);
-        return join_page(400, note, name, secret);
+        const auto invitation = options_.accounts->invitation(secret);
+        if (!invitation) return told_page(403, note, true);
+        const bool fixed = !invitation->name.empty();
+        return join_page(400, {note, fixed ? invitation->name : name, secret, fixed});
       },
       reply);
 }

@@ -37,6 +37,9 @@ class Door {
   /// The secret of a session of a super-user, which was not opened by a link. Any thread.
   [[nodiscard]] std::string new_session();
 
+  /// Whether a request is one of those with which people sign in. They must be able to, whatever
+  /// others at their address do; what is slow about it has limits of its own.
+  [[nodiscard]] static bool is_door(const web::Request& request);
   /// Answers what is about coming in and going; nothing: another handler answers it.
   [[nodiscard]] std::optional<web::Response> serve(const web::Request& request);
   /// The same of what takes time. False: it takes none.
@@ -46,6 +49,8 @@ class Door {
   /// The secret of a session, to ask again who it is. Empty: there is none.
   [[nodiscard]] std::string session_of(const web::Request& request) const;
   [[nodiscard]] std::optional<Person> whose(std::string_view session) const;
+  /// The names that rights mention: no invited person can choose one of them.
+  void keep_names(NameSet names) { kept_names_ = std::move(names); }
   /// Takes in what others have written to the accounts; once a second. Error: see Accounts.
   [[nodiscard]] Status refresh();
   /// Does something that waits for a disk, where passwords are checked. False: too many wait.
@@ -61,12 +66,14 @@ class Door {
   using Fields = std::map<std::string, std::string>;  ///< Of a form, by name.
   void sign_in(const web::Request& request, const Fields& fields, const web::Reply& reply);
   void join(const web::Request& request, const Fields& fields, const web::Reply& reply);
-  void work(std::function<web::Response()> what, const web::Reply& reply);
+  void work(const web::Request& request, std::function<web::Response()> what,
+            const web::Reply& reply);
 
   Options options_;
   Entrance entrance_;
   std::string cookie_;
-  web::RateLimit by_network_;
+  NameSet kept_names_;
+  web::RateLimit by_place_;  ///< Of a name from one network.
   web::RateLimit by_name_;
   SlowWork work_;  ///< The last: what it does uses the others.
 };

@@ -90,26 +90,32 @@ web::Response sign_in_page(int status, std::string_view note, std::string_view n
           escaped_markup(name), focus_name, focus_password));
 }
 
-web::Response join_page(int status, std::string_view note, std::string_view name,
-                        std::string_view invitation) {
+web::Response join_page(int status, const JoinForm& form) {
+  const std::string_view fixed = form.name_is_fixed ? " readonly" : "";
   return page_of(
-      status, "RAVE", "You are invited", note,
+      status, "RAVE", "You are invited", form.note,
       fmt::format(
           "<form method=\"post\" action=\"/join\">"
           "<input type=\"hidden\" name=\"invite\" value=\"{}\">"
           "<label for=\"name\">Name that others see</label><input id=\"name\" name=\"name\" "
-          "value=\"{}\" autocomplete=\"username\" maxlength=\"32\" required autofocus>"
+          "value=\"{}\" autocomplete=\"username\" maxlength=\"32\" required autofocus{}>"
           "<label for=\"password\">Password, to come back later (may stay empty)</label>"
           "<input id=\"password\" name=\"password\" type=\"password\" "
           "autocomplete=\"new-password\" maxlength=\"256\">"
           "<button>Join</button></form>"
           "<p class=\"hint\">Without a password you are in for seven days.</p>",
-          escaped_markup(invitation), escaped_markup(name)));
+          escaped_markup(form.invitation), escaped_markup(form.name), fixed));
 }
 
 web::Response told_page(int status, std::string_view sentence, bool sign_in) {
   return page_of(status, "RAVE", "", sentence,
                  sign_in ? "<p class=\"hint\"><a href=\"/login\">Sign in</a></p>" : "");
+}
+
+web::Response onward_page() {
+  return page_of(200, "RAVE", "", "",
+                 "<meta http-equiv=\"refresh\" content=\"0;url=/\"><p><a href=\"/\">Open the "
+                 "page</a></p>");
 }
 
 web::Response sign_in_style() {

@@ -119,8 +119,10 @@ const Reach& Rights::of(Role role, InfoClass what) const {
 const Reach& Rights::of(const Person& person, InfoClass what) const {
   // First, so that no line of a file can take a right from a super-user.
   if (person.role == Role::kSuperUser) return everything();
-  // A line of the user's own goes before that of the role.
-  if (const auto user = users_.find(person.name); user != users_.end()) {
+  // A line of the user's own goes before that of the role. It is for whom the name was given to: an
+  // invited person can choose any name that is free.
+  const auto user = person.name_given ? users_.find(person.name) : users_.end();
+  if (user != users_.end()) {
     if (const auto own = user->second.find(what); own != user->second.end()) return own->second;
   }
   return of(person.role, what);

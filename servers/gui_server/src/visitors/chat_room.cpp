@@ -55,9 +55,13 @@ void ChatRoom::begin(std::span<const ChatText> recorded, const Cast& cast) {
     const auto end = all.begin() + static_cast<std::ptrdiff_t>(of_record);
     // What was said while it was recorded is in both; the line of the recording wins, since it has
     // the time of the run.
-    const bool known = std::any_of(all.begin(), end,
-                                   [&line](const Line& other) { return same_words(line, other); });
-    if (!known) all.push_back(std::move(line));
+    const auto known = std::find_if(all.begin(), end,
+                                    [&line](const Line& other) { return same_words(line, other); });
+    if (known != end) {
+      known->era = line.era;
+    } else {
+      all.push_back(std::move(line));
+    }
   }
   while (all.size() > kMostLines) all.pop_front();
   // Numbers continue, so that no page takes a new line for one that it has.
@@ -70,19 +74,30 @@ Status ChatRoom::say(Line line, std::chrono::steady_clock::time_point now) {
     return fail(ErrorCode::kState, "Too many messages at once: wait a moment.");
   }
   line.number = ++numbered_;
+  line.era = era_;
   lines_.push_back(std::move(line));
   if (lines_.size() > kMostLines) lines_.pop_front();
   return {};
 }
 
-bool ChatRoom::hears(const Listener& listener, const Line& line) {
+void ChatRoom::arrived(const std::string& name) { arrivals_[name] = ++era_; }
+
+bool ChatRoom::means(const std::string& name, const Line& line, const Person& person) const {
+  if (person.name != name) return false;
+  // A name that was given stays with its person, and with a record of what they said.
+  if (person.name_given) return true;
+  const auto arrival = arrivals_.find(name);
+  return line.era >= (arrival == arrivals_.end() ? 1 : arrival->second);
+}
+
+bool ChatRoom::hears(const Listener& listener, const Line& line) const {
   const auto& [person, view] = listener;
   // The sender sees what was said, whatever the rights of the sender are.
-  if (person.name == line.from.name) return true;
+  if (means(line.from.name, line, person)) return true;
   switch (line.to) {
     case ChatMessage::To::kUser:
       // A line to one person needs no right: the sender chose the receiver.
-      return person.name == line.name;
+      return means(line.name, line, person);
     case ChatMessage::To::kRole:
       return view.may_any(InfoClass::kChat) &&
              // Super-users see the lines of all roles.
@@ -107,7 +122,7 @@ std::string ChatRoom::text_for(const Listener& listener, std::uint64_t number, b
         {{"number", line.number},
          {"t", line.t_s},
          {"from", {{"name", line.from.name}, {"role", to_string(line.from.role)}}},
-         {"yours", line.from.name == listener.person.name},
+         {"yours", means(line.from.name, line, listener.person)},
          {"to", kChatTo.of(line.to)},
          {"name", line.name},
          {"text", line.text}});

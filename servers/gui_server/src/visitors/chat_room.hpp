@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -31,6 +32,8 @@ class ChatRoom {
     std::string name;                   ///< Of the role, user, team or robot that it is for.
     std::vector<std::uint32_t> robots;  ///< That it is for, as the run counts them.
     std::string text;
+    /// Arrivals before it was said; 0: it comes from a record. See arrived().
+    std::uint64_t era = 0;
   };
   /// A person as the room sees them.
   struct Listener {
@@ -52,9 +55,17 @@ class ChatRoom {
   [[nodiscard]] std::string text_for(const Listener& listener, std::uint64_t number,
                                      bool all) const;
   [[nodiscard]] std::uint64_t newest() const noexcept { return numbered_; }
-  [[nodiscard]] static bool hears(const Listener& listener, const Line& line);
+  [[nodiscard]] bool hears(const Listener& listener, const Line& line) const;
+  /// A new person has this name, which they may have chosen: private lines of who had it before are
+  /// not for them.
+  void arrived(const std::string& name);
 
  private:
+  /// Whether the name in a line means this person.
+  [[nodiscard]] bool means(const std::string& name, const Line& line, const Person& person) const;
+
+  std::uint64_t era_ = 1;
+  std::map<std::string, std::uint64_t, std::less<>> arrivals_;  ///< The era of each, by name.
   std::deque<Line> lines_;
   std::uint64_t numbered_ = 0;
   web::RateLimit limit_{2, 20};

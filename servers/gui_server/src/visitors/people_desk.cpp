@@ -77,11 +77,11 @@ PeopleDesk::Outcome outcome_of(const PeopleDesk::Options& at, const InvitationMe
     return done(asked, text);
   }
   const auto secret = at.accounts->invite(asked.role, asked.teams, static_cast<int>(asked.uses),
-                                          static_cast<int>(asked.days), by);
+                                          static_cast<int>(asked.days), by, asked.name);
   if (!secret) return refused(asked, secret.error().message);
   const std::string text =
-      fmt::format("made: {}, {} uses, {} days", role_and_teams(asked.role, asked.teams), asked.uses,
-                  asked.days);
+      fmt::format("made: {}, {} uses, {} days{}", role_and_teams(asked.role, asked.teams),
+                  asked.uses, asked.days, asked.name.empty() ? "" : ", for " + asked.name);
   at.audit->note("invitation", {{"user", by}, {"detail", text}});
   PeopleDesk::Outcome outcome = done(asked, text);
   outcome.message = json_text(DeskJson{
@@ -156,6 +156,7 @@ std::string PeopleDesk::message(const std::map<std::string, unsigned>& pages,
                                  {"role", to_string(account.person.role)},
                                  {"teams", account.person.teams.text()},
                                  {"guest", account.password.empty()},
+                                 {"name_given", account.person.name_given},
                                  {"disabled", account.disabled},
                                  {"pages", open == pages.end() ? 0 : open->second},
                                  {"sessions", sessions[account.person.name]},
@@ -167,7 +168,8 @@ std::string PeopleDesk::message(const std::map<std::string, unsigned>& pages,
                                       {"teams", invitation.teams.text()},
                                       {"uses", invitation.uses},
                                       {"until_s", invitation.until_s},
-                                      {"by", invitation.by}});
+                                      {"by", invitation.by},
+                                      {"name", invitation.name}});
   }
   return json_text(message);
 }
@@ -181,6 +183,21 @@ void PeopleDesk::note_gone(const std::string& name) {
   // If too many wait, the sign-in stays as the moment.
   static_cast<void>(options_.work(
       [accounts = options_.accounts, name] { static_cast<void>(accounts->note_seen(name)); }));
+}
+
+void PeopleDesk::give_name(const std::string& name) {
+  if (!options_.accounts) return;
+  const AccountsFile state = options_.accounts->state();
+  // Only to who has it at this moment: who takes the name later was not meant.
+  const bool chosen = std::ranges::any_of(state.accounts, [&name](const Account& account) {
+    return account.person.name == name && !account.person.name_given;
+  });
+  if (!chosen) return;
+  const bool posted = options_.work([accounts = options_.accounts, audit = options_.audit, name] {
+    const Status given = accounts->give_name(name);
+    if (!given) audit->note("accounts", {{"why", given.error().text()}});
+  });
+  if (!posted) options_.audit->note("accounts", {{"why", "too busy to give a name"}});
 }
 
 }  // namespace rave::gui_server

@@ -50,6 +50,8 @@ class PeopleDesk {
   [[nodiscard]] std::uint64_t revision() const;
   /// The last page of a person was closed.
   void note_gone(const std::string& name);
+  /// A super-user gave this person a right of their own, and with that the name that they chose.
+  void give_name(const std::string& name);
 
  private:
   Options options_;

@@ -78,7 +78,17 @@ Status RightsDesk::change(const RightChange& change) {
   if (kept_.size() > kMostKept) kept_.erase(kept_.begin());
   renew();
   if (folder_.empty()) return {};
-  return write_file_atomically(folder_ / "rights", write_rights(kept_));
+  return write_private_file_atomically(folder_ / "rights", write_rights(kept_));
+}
+
+std::set<std::string, std::less<>> RightsDesk::mentioned() const {
+  std::set<std::string, std::less<>> names;
+  // Those of the scenario also if a change took their rights back: the next change can return them.
+  for (const auto& [user, row] : scenario_.users()) names.insert(user);
+  for (const KeptChange& kept : kept_) {
+    if (!kept.change.role && kept.change.reach) names.insert(kept.change.user);
+  }
+  return names;
 }
 
 std::shared_ptr<const View> RightsDesk::view_of(const Person& person) {

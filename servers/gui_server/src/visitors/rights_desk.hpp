@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,6 +45,8 @@ class RightsDesk {
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
   [[nodiscard]] const Cast& cast() const noexcept { return *cast_; }
   [[nodiscard]] const Rights& rights() const noexcept { return rights_; }
+  /// The users that rights mention, of this run and of others for which changes are kept.
+  [[nodiscard]] std::set<std::string, std::less<>> mentioned() const;
   /// The message `rights`.
   [[nodiscard]] std::string message(const std::vector<Person>& people) const;
 

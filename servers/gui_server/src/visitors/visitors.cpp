@@ -60,7 +60,9 @@ Visitors::Visitors(Door& door, RightsDesk desk, std::shared_ptr<Accounts> accoun
       audit_(std::move(audit)),
       people_desk_({accounts_, audit_,
                     [&door](std::function<void()> call) { return door.later(std::move(call)); },
-                    std::move(post)}) {}
+                    std::move(post)}) {
+  door_.keep_names(desk_.mentioned());
+}
 
 void Visitors::show(std::shared_ptr<Source> source) {
   source_ = std::move(source);
@@ -69,6 +71,7 @@ void Visitors::show(std::shared_ptr<Source> source) {
   desk_.begin(
       about.name, about.rights,
       std::make_shared<const Cast>(cast_of(source_->robots_json(), source_->bodies_json())));
+  door_.keep_names(desk_.mentioned());
   if (!about.live) room_.begin(source_->chat(), desk_.cast());
   for (auto& [id, visitor] : visitors_) {
     visitor.view = desk_.view_of(visitor.eyes.value_or(visitor.person));
@@ -91,6 +94,7 @@ void Visitors::opened(std::uint64_t id, web::Socket& socket, const std::string& 
   if (const Status read = source_->refresh_components(); !read) {
     audit_->note("components", {{"why", read.error().text()}});
   }
+  note_arrivals();
   kept.view = desk_.view_of(kept.person);
   show_to(kept, false);
   if (kept.person.role == Role::kSuperUser) {
@@ -272,6 +276,7 @@ void Visitors::check() {
   }
   if (accounts_revision_ != people_desk_.revision()) {
     accounts_revision_ = people_desk_.revision();
+    note_arrivals();
     ++accounts_news_;
     changed = true;
   }
@@ -341,6 +346,8 @@ Result<std::string> Visitors::set_right(std::uint64_t id, const RightChange& cha
   // A change that could not be written holds all the same, until the server ends: it is noted and
   // shown before the error is sent.
   if (!changed && changed.error().code != ErrorCode::kIo) return tl::unexpected(changed.error());
+  door_.keep_names(desk_.mentioned());
+  if (!change.role && change.reach) people_desk_.give_name(change.user);
   audit_->note("right", {{"user", visitor.person.name}, {"detail", right_text(change)}});
   show_again_if_other();
   tell_rights();

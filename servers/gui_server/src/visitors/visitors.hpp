@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,10 @@ class Visitors {
 
   /// What a user gets, as for the recording; null: there is no run.
   [[nodiscard]] std::shared_ptr<const View> view_of(const Person& person);
+  /// Whether a person may stop some robot, there or to come.
+  [[nodiscard]] bool may_stop(const Person& person) const {
+    return desk_.rights().of(person, InfoClass::kStop).kind != Reach::Kind::kNone;
+  }
   /// The run as a view has it; one for all who have that view.
   [[nodiscard]] std::shared_ptr<Source> source_for(const std::shared_ptr<const View>& view);
   [[nodiscard]] const std::shared_ptr<Source>& source() const noexcept { return source_; }
@@ -91,6 +96,8 @@ class Visitors {
   void tell_chat();
   void tell_people();
   [[nodiscard]] std::vector<Person> people() const;
+  /// Who has come to the accounts since the last call is new to the chat.
+  void note_arrivals();
 
   Door& door_;
   RightsDesk desk_;
@@ -103,8 +110,9 @@ class Visitors {
   std::map<std::uint64_t, Visitor> visitors_;
   ChatRoom room_;
   PeopleDesk people_desk_;
-  std::uint64_t accounts_revision_ = 0;  ///< Of the file.
-  std::uint64_t accounts_news_ = 1;      ///< Of the file and of who is there.
+  std::uint64_t accounts_revision_ = 0;             ///< Of the file.
+  std::uint64_t accounts_news_ = 1;                 ///< Of the file and of who is there.
+  std::set<std::string, std::less<>> known_names_;  ///< Of the accounts.
   std::string told_people_;
   std::string trouble_;  ///< With the accounts; told once.
 };

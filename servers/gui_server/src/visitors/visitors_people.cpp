@@ -54,6 +54,15 @@ void Visitors::told_of_people(std::uint64_t id, const PeopleDesk::Outcome& outco
   visitor.page->send(payload(answer_text(outcome.answer)));
 }
 
+void Visitors::note_arrivals() {
+  std::set<std::string, std::less<>> names;
+  for (const Person& person : people()) {
+    if (!known_names_.contains(person.name)) room_.arrived(person.name);
+    names.insert(person.name);
+  }
+  known_names_ = std::move(names);
+}
+
 void Visitors::tell_accounts() {
   if (!source_) return;
   const std::uint64_t lines = audit_->written() + 1;

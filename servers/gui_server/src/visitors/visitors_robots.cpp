@@ -22,7 +22,7 @@ Result<std::string> Visitors::chat(std::uint64_t id, const ChatMessage& chat) {
     return fail(ErrorCode::kState, "Your rights do not include this.");
   }
   ChatRoom::Line line;
-  line.from = known_as(visitor.person);
+  line.from = known(visitor.person);
   line.to = chat.to;
   line.name = chat.name;
   line.text = chat.text;
@@ -85,7 +85,7 @@ Status Visitors::may_give(std::uint64_t id, const CommandMessage& give) const {
 
 bool Visitors::is_there(const std::string& name) const {
   return std::any_of(visitors_.begin(), visitors_.end(), [&name](const auto& entry) {
-    return known_as(entry.second.person).name == name;
+    return known(entry.second.person).name == name;
   });
 }
 

@@ -20,10 +20,18 @@ namespace rave {
 [[nodiscard]] Status write_file_atomically(const std::filesystem::path& path,
                                            std::string_view content);
 
+/// The same of a file that only the user can read (mode 0600), as all that a run writes.
+[[nodiscard]] Status write_private_file_atomically(const std::filesystem::path& path,
+                                                   std::string_view content);
+
 /// Creates a file that only the user can read (mode 0600), with its content on the disk. Never
 /// replaces another. Errors: kNotFound (no such folder), kIo.
 [[nodiscard]] Status write_private_file(const std::filesystem::path& path,
                                         std::string_view content);
+
+/// Whether a file with a secret, such as a private key, is one. Error kState: all users can read or
+/// change it, or it belongs to this user and its group can, unless the file is missing.
+[[nodiscard]] Status check_private_file(const std::filesystem::path& path);
 
 /// Creates a folder and those above it, where they are missing. Error: kIo.
 [[nodiscard]] Status create_folder(const std::filesystem::path& folder);

@@ -37,10 +37,28 @@ class Socket {
 /// server.
 using Reply = std::function<void(Response)>;
 
+/// Whose request it is, for limits: those of one visitor come before those of an address.
+struct Caller {
+  /// Who gets a place when others do not any more.
+  enum class Rank : std::uint8_t {
+    kAnyone,
+    kMayStop,  ///< May stop robots: has half of the reserve.
+    kAlways,   ///< A super-user: has all of it, and no limits of their own.
+  };
+  std::string session{};  ///< Of whom its handler knows; empty: a stranger.
+  std::string user{};     ///< The sessions of one user are counted together, too.
+  Rank rank = Rank::kAnyone;
+  /// The request is as cheap as its refusal, such as that of the page for signing in, which
+  /// strangers must be able to reach whatever others at their address do.
+  bool cheap = false;
+};
+
 /// The application of a server. All calls come from the thread of the server; none may block.
 class Handler {
  public:
   virtual ~Handler() = default;
+  /// Asked before everything else about a request; fast.
+  [[nodiscard]] virtual Caller caller(const Request& /*request*/) { return {}; }
   /// Returns true if the response follows through `reply`; if false, serve() is called.
   [[nodiscard]] virtual bool serve_later(const Request& /*request*/, const Reply& /*reply*/) {
     return false;
@@ -69,6 +87,8 @@ class Handler {
   [[nodiscard]] virtual bool received_binary(std::uint64_t /*id*/, std::string_view /*bytes*/) {
     return false;
   }
+  /// A WebSocket is refused with 4430 because there is no room for it.
+  virtual void crowded(const Request& /*request*/, std::string_view /*why*/) {}
   /// The socket exceeds `messages_per_s` and is closed with 4429 after this call.
   virtual void flooded(std::uint64_t /*id*/) {}
   /// The socket is closed and must not be used any more.
@@ -82,11 +102,27 @@ struct ServerOptions {
   /// Certificate chain and private key, in PEM. Both empty: no TLS, which is for loopback only.
   std::filesystem::path certificate;
   std::filesystem::path key;
-  std::size_t connections = 512;
-  std::size_t connections_per_network = 256;  ///< See network_of().
-  double requests_per_s = 100;                ///< Per network; `request_burst` at once.
+  /// HTTP connections. If there are more, the oldest of who has the most is cut.
+  std::size_t connections = 256;
+  std::size_t connections_per_session = 16;
+  /// New connections of an address, of which each may cost a TLS handshake, and three times as many
+  /// of a network (network_of()); `accept_burst` at once. No limit for this machine.
+  double accepts_per_s = 400;
+  double accept_burst = 2000;
+  /// WebSockets; see Caller. One that exceeds a limit is closed with 4430.
+  std::size_t sockets = 448;
+  std::size_t sockets_per_session = 32;
+  std::size_t sockets_per_user = 64;
+  std::size_t sockets_per_address = 224;
+  std::size_t sockets_per_network = 256;
+  std::size_t reserve =
+      64;  ///< More than these, for users who may stop robots, and for super-users.
+  /// Per session, or for strangers per address; `request_burst` at once.
+  double requests_per_s = 100;
   double request_burst = 1000;
-  double messages_per_s = 300;  ///< Per WebSocket; a socket that exceeds it is closed with 4429.
+  /// Per WebSocket, and four times as many per session; a socket that exceeds it is closed with
+  /// 4429.
+  double messages_per_s = 300;
   double message_burst = 600;
   std::size_t request_bytes = std::size_t{1} << 16U;  ///< Limit of header and body of a request.
   std::size_t message_bytes = std::size_t{1} << 16U;  ///< Limit of a message from a browser.
@@ -109,6 +145,7 @@ struct ServerCounts {
   std::uint64_t refused_requests = 0;  ///< Malformed, of a foreign origin, too large or too many.
   std::uint64_t failed_handshakes = 0;
   std::uint64_t sockets_closed_for_rate = 0;
+  std::uint64_t sockets_without_room = 0;
   std::uint64_t sent_bytes = 0;  ///< Over WebSockets.
   std::size_t open_connections = 0;
   std::size_t open_sockets = 0;

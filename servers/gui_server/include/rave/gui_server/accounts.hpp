@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,10 +35,14 @@ struct Invitation {
   int uses = 1;  ///< Remaining uses.
   std::int64_t until_s = 0;
   std::string by;  ///< Name of its creator.
+  /// Name of the one person whom it is for; empty: each person chooses one.
+  std::string name{};
 
   /// An id to show to people. The secret cannot be derived from it.
   [[nodiscard]] std::string id() const { return hash.substr(0, 16); }
 };
+
+using NameSet = std::set<std::string, std::less<>>;
 
 struct SessionEntry {
   std::string hash;
@@ -57,8 +62,7 @@ struct AccountsFile {
                                                   std::string_view file_name);
 [[nodiscard]] std::string write_accounts(const AccountsFile& accounts);
 
-/// Checks a user name: 1 to 32 letters, digits, `-`, `_`, `.` and `@`, the first a letter or digit.
-/// Error kInvalidArgument.
+/// Checks a user name (is_user_name()). Error kInvalidArgument.
 [[nodiscard]] Status check_user_name(std::string_view name);
 /// Checks the length of a password: at least 10 characters, and an upper limit. Error
 /// kInvalidArgument.
@@ -90,15 +94,19 @@ class Accounts {
   // The following functions return after the file is written. Errors of all: kIo, kParse (the
   // file), and as named.
 
-  /// Adds an account. Errors: kInvalidArgument (an invalid name, one that differs from another only
-  /// in case, or an invalid password).
+  /// Adds an account; the name is given, whatever `person` says. Errors: kInvalidArgument (an
+  /// invalid name, one that differs from another only in case, or an invalid password).
   [[nodiscard]] Status add(const Person& person, std::string_view password);
   /// Removes an account and ends its sessions. Error kNotFound, with the nearest name.
   [[nodiscard]] Status remove(std::string_view name);
-  /// Creates an invitation and returns the secret of its link. Error kInvalidArgument unless `uses`
-  /// is 1 to 1000 and `days` 1 to 365.
+  /// Creates an invitation and returns the secret of its link. `name`: the person whom it is for,
+  /// who gets this name and no other; empty: each person chooses one. Error kInvalidArgument unless
+  /// `uses` is 1 to 1000, with a name 1, and `days` 1 to 365, and for a name that is taken.
   [[nodiscard]] Result<std::string> invite(Role role, const Teams& teams, int uses, int days,
-                                           std::string_view by);
+                                           std::string_view by, std::string_view name = {});
+  /// Lets a person keep the name that they chose, as if it had been given (Person::name_given).
+  /// Error kNotFound.
+  [[nodiscard]] Status give_name(std::string_view name);
   /// Changes the role and teams of an account. Errors: kNotFound; kState: no super-user who can
   /// sign in would be left.
   [[nodiscard]] Status change_person(const Person& person);
@@ -116,10 +124,12 @@ class Accounts {
   /// Revokes all invitations; returns their number.
   [[nodiscard]] Result<std::size_t> revoke_invitations();
   /// Creates an account by an invitation and begins a session, whose secret it returns. Without a
-  /// password the account lasts as long as the session. Errors: kState (the invitation is unknown,
-  /// used up or expired), kInvalidArgument.
+  /// password the account lasts as long as the session. `kept`: names that no invited person can
+  /// choose, such as those that rights mention. Errors: kState (the invitation is unknown, used up
+  /// or expired), kInvalidArgument (the name is invalid, taken, kept or too like such a one, or not
+  /// that of the invitation).
   [[nodiscard]] Result<std::string> join(std::string_view secret, const std::string& name,
-                                         std::string_view password);
+                                         std::string_view password, const NameSet& kept = {});
   /// Begins a session and returns its secret. Error kState: a wrong name or password (neither the
   /// message nor the duration reveals which), or a disabled account if both are right.
   [[nodiscard]] Result<std::string> sign_in(std::string_view name, std::string_view password);
@@ -128,8 +138,8 @@ class Accounts {
   [[nodiscard]] std::optional<Person> who(std::string_view session) const;
   /// Whether an account has this name. Fast.
   [[nodiscard]] bool has(std::string_view name) const;
-  /// Whether an invitation is valid. Fast.
-  [[nodiscard]] bool knows_invitation(std::string_view secret) const;
+  /// A valid invitation. Fast.
+  [[nodiscard]] std::optional<Invitation> invitation(std::string_view secret) const;
 
  private:
   Accounts(std::filesystem::path folder, Clock clock);

@@ -53,6 +53,9 @@ class GuiServer {
   [[nodiscard]] std::uint16_t port() const noexcept;
   /// A link that signs in a browser once. Each call returns a new one. Any thread.
   [[nodiscard]] std::string entry();
+  /// A file that leads a browser to another such link, for its command line, which other users can
+  /// read; they cannot read the file. It is removed when the server ends. Error: kIo.
+  [[nodiscard]] Result<std::filesystem::path> entry_file(const std::filesystem::path& folder);
   /// The address for Foxglove. On loopback: `ws://...` with a super-user token that is valid for a
   /// week or until the server ends. Elsewhere: the address of the page where signed-in users get a
   /// token. Empty: not offered. Any thread.

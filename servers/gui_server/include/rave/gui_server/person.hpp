@@ -39,6 +39,9 @@ struct Person {
   std::string name;
   Role role = Role::kObserver;
   Teams teams;
+  /// Whether another person gave them the name: a super-user who added the account, or made an
+  /// invitation for this name alone. What people choose for themselves is the key of no right.
+  bool name_given = false;
   friend bool operator==(const Person&, const Person&) = default;
 };
 

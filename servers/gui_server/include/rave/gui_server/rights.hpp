@@ -60,7 +60,7 @@ class Rights {
   /// Sets a right of a role. Error kInvalidArgument: super-user.
   [[nodiscard]] Status set(Role role, InfoClass what, Reach reach);
   /// Sets a right of one user, independent of the role; empty `reach`: that of the role again. No
-  /// effect for a super-user.
+  /// effect for a super-user, nor for a person who chose the name (Person::name_given).
   void set_user(const std::string& user, InfoClass what, std::optional<Reach> reach);
 
   [[nodiscard]] const Reach& of(Role role, InfoClass what) const;

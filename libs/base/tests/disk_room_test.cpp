@@ -20,9 +20,7 @@ TEST(DiskRoom, IsTakenAndLeavesNoFile) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(DiskRoom, NoneWhereThereIsNoFolder) {
-  EXPECT_FALSE(take_disk_room("/no/such/folder", 10));
-}
+TEST(DiskRoom, NoneWhereThereIsNoFolder) { EXPECT_FALSE(take_disk_room("/no/such/folder", 10)); }
 
 }  // namespace
 }  // namespace rave

@@ -213,8 +213,8 @@ RunOutcome write_results(const RunResults& results, const std::filesystem::path&
   // A program that waits for `result.json` finds the other texts complete.
   note("summary.txt", write_summary());
   note("events.log",
-       write_private_file_atomically(folder / "events.log",
-                             events_log(results.spec, results.kinds, results.facts.events)));
+       write_private_file_atomically(
+           folder / "events.log", events_log(results.spec, results.kinds, results.facts.events)));
   note("result.json", write_json());
   if (picture) {
     const report::Picture drawn = make_picture(results, outcome);

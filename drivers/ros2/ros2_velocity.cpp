@@ -104,7 +104,7 @@ Status Ros2Velocity::write(const Command& command, SimTime /*now*/) {
   {
     const std::lock_guard lock(mutex_);
     why_not = objection();
-    // Whoever hears it is told to stand.
+    // All robots that receive it must stand.
     if (!why_not.empty()) v_mps = w_radps = 0;
     // A changed command is sent at once; an unchanged one only extends its validity, and the thread
     // repeats it at its own rate.

@@ -91,9 +91,8 @@ line::HostTime TopicSensor::attend(line::HostTime now) {
 void TopicSensor::tell_refused() {
   const std::uint64_t refused = state_.refused - refused_at_open_;
   if (refused < next_told_) return;
-  device_->log(LogLevel::kWarning,
-               fmt::format("`{}`: {} message{} refused so far: {}", topic(), refused,
-                           refused == 1 ? "" : "s", state_.trouble));
+  device_->log(LogLevel::kWarning, fmt::format("`{}`: {} message{} refused so far: {}", topic(),
+                                               refused, refused == 1 ? "" : "s", state_.trouble));
   while (next_told_ <= refused) next_told_ *= 10;
 }
 

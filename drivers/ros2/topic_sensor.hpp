@@ -101,7 +101,7 @@ class TopicSensor : public HardwareSensor, public TopicUser {
   std::int64_t last_stamp_ns_ = 0;
   std::uint64_t refused_before_ = 0;  // value at the last message
   std::uint64_t refused_at_open_ = 0;
-  std::uint64_t next_told_ = 1;  // number of refused messages at which they are told of again
+  std::uint64_t next_told_ = 1;  // number of refused messages of the next warning about them
   bool lost_ = false;
   bool alive_ = false;  // a message arrived since the last check
 };

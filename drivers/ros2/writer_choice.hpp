@@ -27,7 +27,7 @@ class WriterChoice {
 
  private:
   line::OneSender<dds_instance_handle_t> writers_;
-  ros2::RemoteId present_;  ///< Kept, because nobody says who a writer was that is gone.
+  ros2::RemoteId present_;  ///< Kept, because DDS does not say which process a lost writer was of.
 };
 
 }  // namespace rave::ros2_driver

@@ -106,7 +106,7 @@ void LocalSender::meet(std::vector<std::uint64_t> writers) {
   writers_ = std::move(writers);
   addresses_.clear();
   auto sorted = writers_;
-  // DDS goes on counting a process that was killed, for a while.
+  // DDS counts a process that was killed for some time.
   std::erase(sorted, kGoneProcess);
   for (const std::uint64_t writer : sorted) addresses_.emplace_back(run_, writer, topic_);
   std::ranges::sort(sorted);

@@ -144,7 +144,7 @@ void Participants::take_life_signs(std::vector<BusEvent>& events) {
   if (status.not_alive_count_change > 0) suspect_the_new();
 }
 
-// Whoever is suspected without reason comes back with its first sign.
+// A process that is suspected without reason is back with its first sign.
 void Participants::suspect_the_new() {
   for (const dds_instance_handle_t handle : matched(life_sign_.reader, true)) {
     const auto known = known_.find(key_of(participant_of(life_sign_.reader, true, handle)));

@@ -32,7 +32,7 @@ void write_identity(const Identity& identity, dds_qos_t* qos);
 /// writers by itself; the samples only show that a process that had fallen silent is back.
 struct LifeSignEnds {
   dds_entity_t reader = 0;
-  dds_entity_t writer = 0;   ///< 0: this process is anonymous, nobody is told of it.
+  dds_entity_t writer = 0;   ///< 0: this process is anonymous, others do not see it.
   std::uint64_t number = 0;  ///< The writer id of this process.
 };
 

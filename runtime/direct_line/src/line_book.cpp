@@ -268,7 +268,7 @@ Status LineBook::may_give(const Ticket& giver, const Request& give) const {
   }
   return fail(ErrorCode::kNotFound, "`{}` is not here, or may not command {}; {}", to, give.robot,
               able.empty()
-                  ? std::string("nobody else who may is here")
+                  ? std::string("no other person who may is here")
                   : "it can be given to " +
                         join_names(std::vector<std::string_view>(able.begin(), able.end()), "or"));
 }

@@ -220,9 +220,10 @@ TEST_F(DirectLine, ALeaseIsGivenOnlyToAPersonWhoIsHere) {
         fmt::format(R"({{"type":"order","id":1,"kind":"give","robot":"green-1","to":"{}"}})", to));
     return anna.text_with("\"answer\"");
   };
-  EXPECT_NE(give("ben").find("`ben` is not here, or may not command green-1; nobody else who may "
-                             "is here"),
-            std::string::npos);
+  EXPECT_NE(
+      give("ben").find("`ben` is not here, or may not command green-1; no other person who may "
+                       "is here"),
+      std::string::npos);
   Ticket of_ben = ticket();
   of_ben.user = "ben";
   of_ben.nonce = "second";

@@ -171,8 +171,9 @@ TEST_F(Hostile, ALeaseIsGivenOnlyToAPersonWhoIsHereAndMayCommand) {
         fmt::format(R"({{"type":"lease","request":1,"do":"give","slots":[0],"to":"{}"}})", to));
     return ben.text_with("\"to\":\"give\"");
   };
-  EXPECT_NE(give("zoe").find("`zoe` is not here; nobody else who may command this robot is here"),
-            std::string::npos);
+  EXPECT_NE(
+      give("zoe").find("`zoe` is not here; no other person who may command this robot is here"),
+      std::string::npos);
   RawSocket ada = socket(guest(Role::kCommander, "ada"));
   RawSocket eve = socket(guest(Role::kObserver, "eve"));
   EXPECT_NE(ada.text_with("\"hello\""), "");

@@ -78,7 +78,7 @@ Status Visitors::may_give(std::uint64_t id, const CommandMessage& give) const {
       ErrorCode::kNotFound, "`{}` {}; {}", give.value,
       is_there(give.value) ? fmt::format("may not command {}", robots) : "is not here",
       able.empty()
-          ? fmt::format("nobody else who may command {} is here", robots)
+          ? fmt::format("no other person who may command {} is here", robots)
           : fmt::format("{} can be given to {}", robots,
                         join_names(std::vector<std::string_view>(able.begin(), able.end()), "or")));
 }

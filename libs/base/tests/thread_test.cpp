@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <vector>
 
 namespace rave {
 namespace {
@@ -26,8 +27,13 @@ TEST(StartThread, RunsWhatItIsGiven) {
 // Sanitizers need more of the address space than this leaves.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
+std::vector<char> heap_room;
+
 /// In a process that has no room for the stack of one more.
 [[noreturn]] void ask_for_threads_without_room() {
+  // Room on the heap for the texts of errors, which stays when it is given back.
+  std::vector<char>(100'000).swap(heap_room);
+  heap_room = {};
   const rlimit none{1, 1};
   if (::setrlimit(RLIMIT_AS, &none) != 0) std::exit(2);
   std::thread thread;

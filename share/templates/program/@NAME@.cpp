@@ -5,7 +5,7 @@
 #include <rave/robot/plugin_entry.hpp>
 
 // Looks up once what decide() uses. A robot without it is refused with a message.
-rave::Status @CLASS @ ::start(const rave::Setup& setup) {
+rave::Status @CLASS@::start(const rave::Setup& setup) {
   RAVE_TRY(setup.sensor<float>());
   scan_ = rave::Scan(setup);
   RAVE_TRY_ASSIGN(drive_, setup.controller(rave::CommandKind::kVelocity));
@@ -13,7 +13,7 @@ rave::Status @CLASS @ ::start(const rave::Setup& setup) {
 }
 
 // Called again when somebody sets a parameter during a run. An error refuses the new values.
-rave::Status @CLASS @ ::parameters_changed(const rave::Params& params) {
+rave::Status @CLASS@::parameters_changed(const rave::Params& params) {
   speed_mps_ = params.number("speed_mps");
   stop_m_ = params.number("stop_m");
   return {};
@@ -21,7 +21,7 @@ rave::Status @CLASS @ ::parameters_changed(const rave::Params& params) {
 
 // Fill this in. Called once a period: what the robot knows goes in, what it wants comes out.
 // As it stands the robot drives ahead, and turns on the spot while something is near.
-void @CLASS @ ::decide(const rave::Percepts& percepts, rave::Commands& commands) {
+void @CLASS@::decide(const rave::Percepts& percepts, rave::Commands& commands) {
   scan_.update(percepts);
   // A sensor that fell silent says nothing about the present: the robot waits for it.
   if (scan_.is_old()) {
@@ -45,6 +45,6 @@ constexpr rave::ParamSpec kParams[] = {
 }  // namespace
 
 RAVE_PLUGIN("@NAME@") {
-  rave::add_program<@CLASS @>(
+  rave::add_program<@CLASS@>(
       registry, {.name = "@NAME@", .summary = "Says what it does.", .params = kParams});
 }

@@ -6,7 +6,7 @@
 
 /// A program for any robot with a range sensor (laser, sonar, infra-red) and a controller that
 /// takes velocities.
-class @CLASS @ : public rave::DecisionProcess {
+class @CLASS@ : public rave::DecisionProcess {
  public:
   rave::Status start(const rave::Setup& setup) override;
   void decide(const rave::Percepts& percepts, rave::Commands& commands) override;

@@ -45,7 +45,7 @@ rave::Command command_at(float range_m, double age_s, std::string& error) {
   item.now_ns = static_cast<std::int64_t>(age_s * 1e9);
   item.commands = &command;
 
-  @CLASS @program;
+  @CLASS@program;
   const rave::Status started = program.start(rave::Setup(setup));
   if (!started) {
     error = started.error().text();
@@ -76,7 +76,7 @@ std::string problem() {
 
 #if defined(WITH_GTEST)
 #include <gtest/gtest.h>
-TEST(@CLASS @, DrivesAndStops) { EXPECT_EQ(problem(), ""); }
+TEST(@CLASS@, DrivesAndStops) { EXPECT_EQ(problem(), ""); }
 #else
 #include <cstdio>
 int main() {

@@ -165,7 +165,7 @@ TEST_F(Hosts, ASecondManagerEndsAndTheRunGoesOn) {
   wait_for_more("two");
   EXPECT_EQ(console("one").find("is gone"), std::string::npos) << console("one");
   signal("env", SIGINT);
-  EXPECT_EQ(end_of("env"), 1);
+  EXPECT_EQ(end_of("env"), 0);
   EXPECT_EQ(end_of("one"), 0) << console("one");
 }
 
@@ -180,7 +180,7 @@ TEST_F(Hosts, ASecondProcessForAHostIsRefusedAndTheFirstGoesOn) {
       << second.err;
   wait_for_more("one");
   signal("env", SIGINT);
-  EXPECT_EQ(end_of("env"), 1);
+  EXPECT_EQ(end_of("env"), 0);
   EXPECT_EQ(end_of("one"), 0);
 }
 

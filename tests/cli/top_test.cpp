@@ -147,7 +147,7 @@ TEST_F(Top, ARunOfOneProcess) {
   EXPECT_EQ(seen["hosts"][0]["process"], id_of("run")) << seen.dump();
   EXPECT_EQ(seen["hosts"][0]["robots"], 2);
   signal("run", SIGINT);
-  EXPECT_EQ(end_of("run"), 1);
+  EXPECT_EQ(end_of("run"), 0);
 }
 
 TEST_F(Top, AWordThatIsNoRun) {

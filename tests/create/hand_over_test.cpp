@@ -123,7 +123,7 @@ TEST_F(HandOver, ToTheRealRobotAndBackKeepsPlaceAndProgram) {
   EXPECT_NEAR(run.state()["path_m"].get<double>(), left["path_m"].get<double>(), 1e-3);
   EXPECT_EQ(run.state()["mode"], "passive") << "it is left at rest";
   run.rave->interrupt();
-  EXPECT_EQ(run.rave->wait(), 1);
+  EXPECT_EQ(run.rave->wait(), 0);
   const Json result = run.result();
   ASSERT_TRUE(result.is_object());
   ASSERT_EQ(result["hand_overs"].size(), 2U) << result["hand_overs"].dump();
@@ -194,7 +194,7 @@ TEST_F(HandOver, OnAHostOfItsOwnIsSeenByTheOthers) {
   const auto simulated = CreateRun::rave_says("hand-over rosie simulated");
   EXPECT_EQ(simulated.exit_code, 0) << simulated.text;
   run.rave->interrupt();
-  EXPECT_EQ(run.rave->wait(), 1);
+  EXPECT_EQ(run.rave->wait(), 0);
   const Json result = run.result();
   ASSERT_TRUE(result.is_object());
   ASSERT_EQ(result["hand_overs"].size(), 2U) << result["hand_overs"].dump();
@@ -232,7 +232,7 @@ TEST_F(HandOver, ToARobotThatIsNotThereIsRefusedAndTheRunGoesOn) {
   EXPECT_EQ(far.exit_code, 1);
   EXPECT_NE(far.text.find("from its present pose"), std::string::npos) << far.text;
   run.rave->interrupt();
-  EXPECT_EQ(run.rave->wait(), 1);
+  EXPECT_EQ(run.rave->wait(), 0);
   const Json result = run.result();
   ASSERT_TRUE(result.is_object());
   EXPECT_EQ(result["events"]["hand_over_refused"], 2) << result["events"].dump();
@@ -254,7 +254,7 @@ TEST_F(HandOver, ARobotThatVanishesAfterwardsIsALossAsAnyOther) {
   EXPECT_EQ(simulated.exit_code, 1);
   EXPECT_NE(simulated.text.find("did not come to rest"), std::string::npos) << simulated.text;
   run.rave->interrupt();
-  EXPECT_EQ(run.rave->wait(), 1);
+  EXPECT_EQ(run.rave->wait(), 0);
   const Json result = run.result();
   ASSERT_TRUE(result.is_object());
   EXPECT_EQ(result["events"]["driver_failed"], 3) << "odometry, bumper and wheels";

@@ -111,7 +111,7 @@ TEST(Shadow, IsALiveNumberThatCanBeginAnew) {
   EXPECT_EQ(CreateRun::rave_says("shadow " + run.run_name() + " --reset --robot rosy").exit_code,
             1);
   run.rave->interrupt();
-  EXPECT_EQ(run.rave->wait(), 1);
+  EXPECT_EQ(run.rave->wait(), 0);
   const Json result = run.result();
   ASSERT_TRUE(result.is_object());
   EXPECT_EQ(result["shadows"][0]["starts"], 2);

@@ -74,7 +74,7 @@ void expect_both_are_seen(const std::string& pace) {
     EXPECT_EQ(names_of(seen["nodes"]), (std::set<std::string>{"rave_pair_one", "rave_pair_two"}));
   }
   run.rave->interrupt();
-  EXPECT_EQ(run.rave->wait(), 1);
+  EXPECT_EQ(run.rave->wait(), 0);
 }
 
 TEST(Ros2Hosts, EachShowsItsOwnRobotsAndOneTheTimeInLockStep) {
@@ -122,7 +122,7 @@ TEST(Ros2Hosts, CommandsReachARobotOnWhicheverHostItIs) {
     return std::hypot(said(s, "x") - 1, said(s, "y") - 0.5) < 0.12 && said(s, "v") == 0;
   });
   run.rave->interrupt();
-  EXPECT_EQ(run.rave->wait(), 1);
+  EXPECT_EQ(run.rave->wait(), 0);
 }
 
 }  // namespace

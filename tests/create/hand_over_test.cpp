@@ -254,7 +254,7 @@ TEST_F(HandOver, ARobotThatVanishesAfterwardsIsALossAsAnyOther) {
   EXPECT_EQ(simulated.exit_code, 1);
   EXPECT_NE(simulated.text.find("did not come to rest"), std::string::npos) << simulated.text;
   run.rave->interrupt();
-  EXPECT_EQ(run.rave->wait(), 0);
+  EXPECT_EQ(run.rave->wait(), 1);
   const Json result = run.result();
   ASSERT_TRUE(result.is_object());
   EXPECT_EQ(result["events"]["driver_failed"], 3) << "odometry, bumper and wheels";

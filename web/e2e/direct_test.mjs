@@ -83,6 +83,8 @@ try {
   await check('a drive by the line moves the robot, and so does the stick of the panel', async () => {
     const first = await drive('anna', 0.3);
     assert.equal(first.good, true, first.text);
+    // A driver who falls silent must let the stick go first.
+    await drive('anna', 0);
     const stick = page.locator('rave-joystick');
     await holdStick(page, 'anna', 0.26);
     await stick.getByText('dead-man held').waitFor();

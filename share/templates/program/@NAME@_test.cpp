@@ -8,8 +8,8 @@
 
 namespace {
 
-// What the program commands when every ray of its sensor has read `range_m`, so long ago; `error`
-// if it refuses.
+// What the program commands when every ray of its sensor has read `range_m`, so long ago; `error` if
+// it refuses.
 rave::Command command_at(float range_m, double age_s, std::string& error) {
   const double bearings_rad[] = {-0.5, 0.0, 0.5};
   rave::SensorInfo laser;
@@ -45,7 +45,7 @@ rave::Command command_at(float range_m, double age_s, std::string& error) {
   item.now_ns = static_cast<std::int64_t>(age_s * 1e9);
   item.commands = &command;
 
-  @CLASS@program;
+  @CLASS@ program;
   const rave::Status started = program.start(rave::Setup(setup));
   if (!started) {
     error = started.error().text();

@@ -59,7 +59,7 @@ class LiveHosts : public SharedWorld {
     for (const std::string& who : whom) {
       signal(who, SIGINT);
       // A manager that is ended leaves the run to its hosts; a host that is ended has ended.
-      const bool manages = who == "env" || who == "second";
+      const bool manages = who == "env" || who == "second" || who == "again";
       EXPECT_EQ(end_of(who), manages ? 1 : 0) << who << console(who);
     }
   }

@@ -51,13 +51,8 @@ TEST_F(LiveEdits, AnEditIsAroundAllRobotsWithinAMeasuredTime) {
   EXPECT_EQ(result["edits"], 3) << result.dump();
   EXPECT_EQ(result["edits_confirmed_by_all"], 3) << result.dump();
   EXPECT_TRUE(result["edit_slowest_s"].is_number()) << result.dump();
-  // The same of poses, which the hosts measure.
-  EXPECT_GT(result["poses_of_others"], 0) << result.dump();
-  EXPECT_GT(result["pose_mean_s"], 0) << result.dump();
-  EXPECT_GE(result["pose_slowest_s"], result["pose_mean_s"]) << result.dump();
   const std::string summary = content_of(folder("env") + "/summary.txt");
   EXPECT_NE(summary.find("edits to other hosts"), std::string::npos) << summary;
-  EXPECT_NE(summary.find("poses to other hosts"), std::string::npos) << summary;
 }
 
 TEST_F(LiveEdits, WhoComesLateHasAllObstaclesBeforeItsFirstStep) {

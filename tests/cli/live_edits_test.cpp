@@ -46,7 +46,7 @@ TEST_F(LiveEdits, AnEditIsAroundAllRobotsWithinAMeasuredTime) {
   for (const char* const host : {"@one", "@two"}) {
     EXPECT_NE(stop.out.find(host), std::string::npos) << stop.out;
   }
-  end_by_hand("env");
+  end_by_hand("env", 1);
   const auto result = this->result("env");
   EXPECT_EQ(result["edits"], 3) << result.dump();
   EXPECT_EQ(result["edits_confirmed_by_all"], 3) << result.dump();
@@ -83,7 +83,7 @@ TEST_F(LiveEdits, WhoComesLateHasAllObstaclesBeforeItsFirstStep) {
   EXPECT_NEAR(std::stod(time_of("obstacle added `bale`")), late["first_step"].get<double>() * 0.01,
               0.0051)
       << events;
-  end_by_hand("env");
+  end_by_hand("env", 1);
 }
 
 TEST_F(LiveEdits, AManagerThatTakesOverKnowsTheObstacles) {
@@ -105,7 +105,7 @@ TEST_F(LiveEdits, AManagerThatTakesOverKnowsTheObstacles) {
   for (const char* const host : {"one", "two"}) {
     EXPECT_TRUE(host_has(host, "(0.100, 5.000) m")) << host;
   }
-  end_by_hand("second");
+  end_by_hand("second", 1);
 }
 
 TEST_F(LiveEdits, WhatTheScenarioCannotChangeIsAProblemOfTheRun) {
@@ -142,7 +142,7 @@ TEST_F(LiveEdits, ARobotIsHandedOverByTheHostThatRunsIt) {
   const Ended again = rave({"hand-over", "left", "twin"});
   EXPECT_EQ(again.exit_code, 1) << again.out;
   EXPECT_NE(again.err.find("already has its"), std::string::npos) << again.err;
-  end_by_hand("env");
+  end_by_hand("env", 1);
 }
 
 TEST_F(LiveEdits, NonsenseIsRefusedWithALogLine) {
@@ -156,7 +156,7 @@ TEST_F(LiveEdits, NonsenseIsRefusedWithALogLine) {
   EXPECT_EQ(add_box("bale", "0,5").exit_code, 0);
   EXPECT_TRUE(host_has("one", "bale"));
   EXPECT_FALSE(host_has("one", "nonsense"));
-  end_by_hand("env");
+  end_by_hand("env", 1);
 }
 
 }  // namespace

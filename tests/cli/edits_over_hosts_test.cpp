@@ -189,7 +189,7 @@ TEST_F(EditsOverHosts, AHostThatIsKilledAndComesBackHasWhatWasEdited) {
         return rave({"edit", "crowd@one", "list"}).out.find("crate") != std::string::npos;
       },
       "the edit that waited is there, too");
-  end_by_hand("env");
+  end_by_hand("env", 1);
 }
 
 TEST_F(Garbage, NonsenseOfAStrangerIsRefusedAndTheRunGoesOn) {

@@ -18,9 +18,9 @@ constexpr double kSpeed_mps = 0.3;
 constexpr double kRadius_m = 0.174;
 constexpr double kFence_m = 2;
 constexpr double kWall_m = 3;  ///< In the world of the run alone: the room goes on behind it.
-/// From its command until the robot stands, by the formula of the guard (docs/explanation/guard.md)
-/// with its usual reaction of 0.1 s, deceleration of 0.5 m/s2 and a period of 0.02 s.
-constexpr double kStop_m = kSpeed_mps * (0.02 + 0.1) + kSpeed_mps * kSpeed_mps / (2 * 0.5);
+/// The guard keeps out of the fence by itself; what is measured lies within the rounding of the
+/// peers.
+constexpr double kBeyond_m = 0.01;
 
 struct Load {
   const char* name;
@@ -178,11 +178,16 @@ TEST_P(Overload, TheRobotKeepsOutOfWhatItMayNotEnterAndTheResultSaysWhatWasLate)
     if (c.wall) {
       EXPECT_LT(x_m, kWall_m - kRadius_m) << "in the wall";
     } else {
-      EXPECT_LT(x_m, kFence_m - kRadius_m + kStop_m) << "beyond the fence";
+      EXPECT_LT(x_m, kFence_m - kRadius_m + kBeyond_m) << "beyond the fence";
+      RecordProperty("farthest_m", std::to_string(x_m));
     }
     run.rave->interrupt();
-    EXPECT_EQ(run.rave->wait(), 1);
+    const int code = run.rave->wait();
     const Json result = run.result();
+    ASSERT_TRUE(result.is_object());
+    // An end by hand is no failure; late steps are one, on whatever machine.
+    EXPECT_EQ(code, result["whole"] == true ? 0 : 1) << result["problems"].dump();
+    EXPECT_TRUE(c.load.burn_ms == 0 || code == 1) << result["lateness"].dump();
     if (c.load.burn_ms > 0) {
       ASSERT_NO_FATAL_FAILURE(expect_told(result));
       // Of two processes the other one may be late, too, if the machine is: then the guard stops
@@ -193,7 +198,6 @@ TEST_P(Overload, TheRobotKeepsOutOfWhatItMayNotEnterAndTheResultSaysWhatWasLate)
                             : result["lateness"]["robots_stopped"].get<int>();
       EXPECT_GE(stops, c.wall ? 1 : 0) << result["lateness"].dump() << guard.dump();
     } else {
-      ASSERT_TRUE(result.is_object());
       EXPECT_GT(result["lateness"]["deadlines"], 100) << result["lateness"].dump();
     }
   }

@@ -48,10 +48,6 @@ class BusRequests : public SharedWorld {
     const std::string log = console(who);
     return log.find("over the bus: " + line) != std::string::npos;
   }
-  void end_by_hand(const std::string& manager) {
-    signal(manager, SIGINT);
-    EXPECT_EQ(end_of(manager), 1) << console(manager);
-  }
 };
 
 }  // namespace rave::cli_test

@@ -88,7 +88,7 @@ TEST_F(BusRequests, ARunInRealTimeDoesWhatIsAskedFromElsewhere) {
   const Ended stopped = far({"stop", "live_twins@one"});
   EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
   EXPECT_TRUE(logged("one", R"({"rave":1,"do":"stop"})")) << console("one");
-  end_by_hand("env");
+  end_by_hand("env", 1);
 }
 
 TEST_F(BusRequests, ARobotIsHandedOverByItsHostWhoeverAsks) {
@@ -101,7 +101,7 @@ TEST_F(BusRequests, ARobotIsHandedOverByItsHostWhoeverAsks) {
   EXPECT_NE(console("one").find("handed over"), std::string::npos);
   refused({"hand-over", "left", "twin"}, "already has its");
   refused({"shadow", "--robot", "left"}, "has no shadow");
-  end_by_hand("env");
+  end_by_hand("env", 1);
 }
 
 TEST_F(BusRequests, RunsOfOtherMachinesAreListedWhenTheyAreAskedFor) {
@@ -233,7 +233,7 @@ TEST_F(SecretRequests, AHostInRealTimeHearsAMemberToo) {
   EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
   EXPECT_TRUE(logged("one", R"({"rave":1,"do":"stop"})")) << console("one");
   not_found({"stop"});
-  end_by_hand("env");
+  end_by_hand("env", 1);
 }
 
 TEST_F(SecretRequests, WithKeysARunWithoutIsNotHeard) {

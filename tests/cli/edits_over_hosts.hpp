@@ -66,11 +66,6 @@ class EditsOverHosts : public SharedWorld {
     EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
     EXPECT_NE(ended.out.find("equal: "), std::string::npos) << ended.out;
   }
-  /// `code`: 1 if hosts were lost, and in real time, where they continue without it.
-  void end_by_hand(const std::string& manager, int code = 0) {
-    signal(manager, SIGINT);
-    EXPECT_EQ(end_of(manager), code) << console(manager);
-  }
 };
 
 /// A run of a known name, and a bus in this process from which anything can be sent to it.

@@ -102,6 +102,11 @@ bool SharedWorld::runs(const std::string& name) {
   return ::waitid(P_PID, process, &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == 0;
 }
 
+void SharedWorld::end_by_hand(const std::string& manager, int code) {
+  signal(manager, SIGINT);
+  EXPECT_EQ(end_of(manager), code) << console(manager);
+}
+
 nlohmann::json SharedWorld::result(const std::string& name) const {
   return nlohmann::json::parse(content_of(folder(name) + "/result.json"), nullptr, false);
 }

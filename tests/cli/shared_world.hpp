@@ -37,6 +37,9 @@ class SharedWorld : public ::testing::Test {
   [[nodiscard]] std::string crowd_with_policy(const std::string& policy, double timeout_s) const;
   /// Its exit code; -1 if a signal ended it.
   int end_of(const std::string& name);
+  /// Interrupts the process of a manager. `code`: 1 if hosts were lost, and in real time, where
+  /// they continue without it.
+  void end_by_hand(const std::string& manager, int code = 0);
   void signal(const std::string& name, int number);
   [[nodiscard]] pid_t id_of(const std::string& name) const { return processes_.at(name); }
   [[nodiscard]] bool runs(const std::string& name);

@@ -65,7 +65,7 @@ TEST_F(Stops, ALiveRunIsStoppedAndReleasedAtAllItsHosts) {
     EXPECT_EQ(rave({"arm", "--release", "--robot", "left"}).exit_code, 0);
     expect_released();
   }
-  end_by_hand("env");
+  end_by_hand("env", 1);
 }
 
 /// A host of the run that is not heard from here keeps its robots, and that is said.
@@ -80,7 +80,7 @@ TEST_F(Stops, AHostThatIsNotHereIsNotSaidToBeStopped) {
   EXPECT_NE(stopped.out.find("@one"), std::string::npos) << stopped.out;
   EXPECT_NE(stopped.err.find("each host controls its own robots"), std::string::npos)
       << stopped.err;
-  end_by_hand("env");
+  end_by_hand("env", 1);
 }
 
 TEST_F(Stops, AStopIsDoneWhileItIsStillLookedForOthersThatAreMeant) {

@@ -59,8 +59,11 @@ class LiveHosts : public SharedWorld {
     for (const std::string& who : whom) {
       signal(who, SIGINT);
       // A manager that is ended leaves the run to its hosts; a host that is ended has ended.
-      const bool manages = who == "env" || who == "second" || who == "again";
-      EXPECT_EQ(end_of(who), manages ? 1 : 0) << who << console(who);
+      const bool manages = who == "env" || who == "second";
+      const int code = end_of(who);
+      // One that came back may have noticed the end of the host before it, which is a loss.
+      EXPECT_TRUE(who == "again" ? code == 0 || code == 1 : code == (manages ? 1 : 0))
+          << code << who << console(who);
     }
   }
   /// What a robot's laser read straight ahead, as its host recorded it.

@@ -248,8 +248,9 @@ TEST_P(AHostOfASticksRobotIsKilled, TheOtherRobotIsDrivenOnAndItComesBack) {
   wait_until([&] { return newest_ns(other) > gone_ns + kQuiet_ns; }, "time passes");
   for (Side& side : sides_) {
     signal(side.host, SIGINT);
-    // The one that came back has not the whole run.
-    EXPECT_EQ(end_of(side.host), &side == &gone ? 1 : 0) << console(side.host);
+    const int code = end_of(side.host);
+    // The one that came back may have noticed that the other one ended, which is a loss.
+    EXPECT_TRUE(code == 0 || (code == 1 && &side == &gone)) << code << console(side.host);
   }
   expect_stood(other, gone_ns);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstring>
 #include <utility>
 
@@ -244,7 +245,32 @@ void Bus::meet(Endpoint& endpoint) {
   if (endpoint.sender) endpoint.sender->meet(std::move(writers));
 }
 
+Status Bus::await_arrival(dds_entity_t writer, Duration patience) {
+  using Clock = Standstill::Clock;
+  // How often it looks whether the readers are still alive.
+  constexpr std::chrono::milliseconds kLook{50};
+  const auto end = Clock::now() + std::chrono::nanoseconds(patience.ns);
+  while (true) {
+    const std::chrono::nanoseconds left = end - Clock::now();
+    const dds_return_t code = dds_wait_for_acks(
+        writer, std::clamp<std::int64_t>(left.count(), 0, DDS_MSECS(kLook.count())));
+    if (code == DDS_RETCODE_OK) return {};
+    if (code != DDS_RETCODE_TIMEOUT) return fail(ErrorCode::kIo, "{}", dds_strretcode(code));
+    participants_->collect(events_);
+    const auto readers = matched(writer, false);
+    if (std::ranges::all_of(readers, [&](dds_instance_handle_t reader) {
+          return participants_->gone(participant_of(writer, false, reader));
+        })) {
+      return fail(ErrorCode::kState, "all readers are lost");
+    }
+    if (left.count() <= 0) return fail(ErrorCode::kTimeout, "a reader does not keep up");
+  }
+}
+
 void Bus::remove_endpoint(dds_entity_t entity) {
+  const Endpoint* const end = endpoint(entity);
+  // Nobody is told if they do not arrive: this is the last that is heard of the writer.
+  if (end != nullptr && !end->reads) static_cast<void>(await_arrival(entity, kLastWords));
   std::erase_if(endpoints_, [&](const Endpoint& e) { return e.entity == entity; });
   dds_delete(entity);
 }

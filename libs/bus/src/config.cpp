@@ -109,11 +109,13 @@ std::string discovery(const BusConfig& config, int hub) {
 /// count as lost. Longer intervals would delay two processes that just miss each other. One thread
 /// receives at all sockets and is ended through a descriptor. Threads with one socket each would be
 /// ended by a packet that the process sends to itself; if its address is gone or a packet filter
-/// drops it, closing the domain would block forever. Receive buffers fill slowly and are replaced
+/// drops it, closing the domain would block forever. Writers that end do not linger, since that
+/// would be for the dead, too; Bus::remove_endpoint() waits for the living. Receive buffers fill slowly and are replaced
 /// when full. With the default size of 1 MiB, an idle process touches new pages for more than an
 /// hour, which looks like a leak.
 std::string internals() {
   return "<Internal><SocketReceiveBufferSize max=\"8MiB\"/>"
+         "<WriterLingerDuration>0s</WriterLingerDuration>"
          "<HeartbeatInterval>200ms</HeartbeatInterval>"
          "<MultipleReceiveThreads>false</MultipleReceiveThreads>"
          "<Watermarks><WhcHigh>16MB</WhcHigh><WhcHighInit>16MB</WhcHighInit>"

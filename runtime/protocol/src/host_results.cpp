@@ -66,14 +66,12 @@ Status HostResultsSender::send(std::uint32_t host, std::span<const std::byte> by
   }
   if (readers() == 0) return nobody(listened);
   const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(end - Clock::now());
-  const dds_return_t confirmed =
-      dds_wait_for_acks(writer_.handle(), std::max<std::int64_t>(0, left.count()));
-  if (confirmed == DDS_RETCODE_TIMEOUT) return too_late(patience);
-  if (confirmed == DDS_RETCODE_OK) {
-    // If the readers have gone, stop waiting.
-    return readers() > 0 ? Status{} : nobody(true);
+  if (const Status arrived = writer_.await_arrival({left.count()}); !arrived) {
+    if (arrived.error().code == ErrorCode::kTimeout) return too_late(patience);
+    if (arrived.error().code == ErrorCode::kState) return nobody(true);
+    return fail(ErrorCode::kIo, "their arrival was not confirmed: {}", arrived.error().message);
   }
-  return fail(ErrorCode::kIo, "their arrival was not confirmed: {}", dds_strretcode(confirmed));
+  return readers() > 0 ? Status{} : nobody(true);
 }
 
 Status HostResultsParts::add(const bus::HostResultsPart& part) {

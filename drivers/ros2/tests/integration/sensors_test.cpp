@@ -87,8 +87,9 @@ TEST(Ros2Sensors, GarbageIsRefusedAndTheRestGoesOn) {
   const auto laser = bench.laser.report();
   EXPECT_GE(laser["refused"], 6) << "a long one may get lost on its way";
   EXPECT_NE(laser["trouble"], "");
-  EXPECT_NE(bench.said().find("refused so far: intensities has 181 entries"), std::string::npos)
-      << bench.said();
+  // How many of them are looked at together, and so which one is named, is not certain.
+  EXPECT_NE(bench.said().find("`/cart/scan`: "), std::string::npos) << bench.said();
+  EXPECT_NE(bench.said().find(" refused so far: "), std::string::npos) << bench.said();
   for (const auto& scan : bench.scans->samples()) {
     EXPECT_NEAR(scan.records[90], 4.95, 1e-5);
   }

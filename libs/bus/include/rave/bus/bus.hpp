@@ -67,6 +67,8 @@ class Bus {
   [[nodiscard]] std::uint64_t refused_samples() const noexcept { return refused_samples_; }
 
   static constexpr std::size_t kMaxEvents = 1000;
+  /// How long a writer that ends waits for readers that are alive, but do not confirm its samples.
+  static constexpr Duration kLastWords{1'000'000'000};
 
  private:
   friend class EndpointOwner;
@@ -100,7 +102,12 @@ class Bus {
   [[nodiscard]] Result<dds_entity_t> make_topic(const TopicSpec& spec);
   /// Creates a reader or writer of a topic.
   [[nodiscard]] Result<dds_entity_t> add_endpoint(const TopicSpec& topic, bool reads);
+  /// A writer first waits until its last samples have arrived.
   void remove_endpoint(dds_entity_t entity);
+  /// Waits until all readers of a writer that are alive have its samples, at most for `patience`.
+  /// DDS knows a silent process for much longer than that process counts as present, so it alone
+  /// would wait for the dead.
+  [[nodiscard]] Status await_arrival(dds_entity_t writer, Duration patience);
   /// The record of an entity, valid until the next one is created; null if there is none.
   [[nodiscard]] Endpoint* endpoint(dds_entity_t entity);
   void open_local_transport(Endpoint& endpoint, const TopicSpec& topic);

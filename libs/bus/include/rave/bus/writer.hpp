@@ -18,6 +18,9 @@ class WriterCore : public EndpointOwner {
   [[nodiscard]] Status write(const void* sample);
   [[nodiscard]] Status dispose(const void* key);
   [[nodiscard]] std::size_t readers() const;
+  [[nodiscard]] Status await_arrival(Duration patience) {
+    return bus_->await_arrival(entity_, patience);
+  }
 
  private:
   [[nodiscard]] bool goes_locally(const void* sample);
@@ -58,6 +61,9 @@ class Writer {
     return core_.dispose(&sample);
   }
 
+  /// Waits until all present readers have what was written. Errors: kTimeout, kState (all readers
+  /// were lost meanwhile), kIo.
+  [[nodiscard]] Status await_arrival(Duration patience) { return core_.await_arrival(patience); }
   /// The number of matched readers.
   [[nodiscard]] std::size_t readers() const { return core_.readers(); }
   /// The DDS writer, for what this class does not offer. Still owned by this object.

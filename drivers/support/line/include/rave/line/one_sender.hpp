@@ -14,6 +14,7 @@ namespace rave::line {
 template <class Key>
 class OneSender {
  public:
+  /// What is to be done with a message, and what to say of its sender.
   struct Verdict {
     bool counts = false;     ///< Whether the message is to be used.
     bool changed = false;    ///< It is the first of a sender that took the place of another.

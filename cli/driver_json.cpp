@@ -9,7 +9,7 @@
 namespace rave::cli {
 namespace {
 
-using config::RawNode;
+using codec::RawNode;
 
 RawNode default_of(const ParamSpec& spec) {
   switch (spec.type) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "rave/config/raw_node.hpp"
+#include "rave/codec/raw_node.hpp"
 #include "rave/plugin/catalogue.hpp"
 
 namespace rave::cli {
 
 /// The description of a driver, for other programs.
-[[nodiscard]] config::RawNode driver_json(const plugin::Driver& driver);
+[[nodiscard]] codec::RawNode driver_json(const plugin::Driver& driver);
 
 }  // namespace rave::cli

@@ -15,7 +15,7 @@
 namespace rave::cli {
 namespace {
 
-using config::RawNode;
+using codec::RawNode;
 
 constexpr std::array<std::string_view, 8> kRobotKeys = {"body",         "sensors",  "actuators",
                                                         "controllers",  "program",  "pose_from",
@@ -31,7 +31,7 @@ std::size_t count_keys(const RawNode& root, std::span<const std::string_view> ke
 }
 
 Result<RawNode> parse(const std::string& text, const std::filesystem::path& path) {
-  config::Diagnostics diagnostics;
+  codec::Diagnostics diagnostics;
   auto root = config::parse_yaml(text, path.string(), diagnostics);
   if (!root) return tl::unexpected(diagnostics.joined());
   return *std::move(root);
@@ -55,7 +55,7 @@ Result<config::ExpandedScenario> around(std::string_view rest, const std::filesy
 std::string quoted(const std::string& file_name) {
   RawNode name = RawNode::mapping();
   name.append("file", RawNode::text(file_name));
-  return config::to_yaml(name);
+  return codec::to_yaml(name);
 }
 
 }  // namespace

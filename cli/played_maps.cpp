@@ -8,14 +8,14 @@ namespace rave::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using config::RawNode;
+using codec::RawNode;
 
 /// The YAML of a map whose image is beside it.
 std::string with_image(const std::string& yaml, const std::string& image) {
-  config::Diagnostics diagnostics;
+  codec::Diagnostics diagnostics;
   auto root = config::parse_yaml(yaml, "map", diagnostics);
   root->set("image", RawNode::text(image));
-  return config::to_yaml(*root);
+  return codec::to_yaml(*root);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "rave/config/diagnostics.hpp"
+#include "rave/codec/diagnostics.hpp"
 #include "rave/config/yaml.hpp"
 #include "rave/control/obstacle_edits.hpp"
 #include "rave/record/run_reader.hpp"
@@ -17,7 +17,7 @@
 namespace rave::cli {
 namespace {
 
-using config::RawNode;
+using codec::RawNode;
 
 /// What one kind of change is called: in scenarios and requests, as an event.
 struct Words {
@@ -67,7 +67,7 @@ Status add_by_hand(const record::McapReader& reader, std::vector<Change>& change
       return fail(ErrorCode::kParse, "step {}: the recording has an unknown `{}`: {}", input.step,
                   input.kind, edit->error().message);
     }
-    config::Diagnostics diagnostics;
+    codec::Diagnostics diagnostics;
     const auto node = config::parse_yaml(config::write_edit(**edit), "edit", diagnostics);
     changes.push_back({input.step, node->key(0), node->child(0)});
     return {};
@@ -76,7 +76,7 @@ Status add_by_hand(const record::McapReader& reader, std::vector<Change>& change
 }
 
 void add_scheduled(const record::RunInfo& run, const Made& made, std::vector<Change>& changes) {
-  config::Diagnostics diagnostics;
+  codec::Diagnostics diagnostics;
   const auto scenario = config::parse_yaml(run.expanded_scenario, "scenario.yaml", diagnostics);
   const RawNode* const all = scenario ? scenario->find("changes") : nullptr;
   for (std::size_t i = 0; all != nullptr && i < all->size(); ++i) {

@@ -22,7 +22,7 @@ namespace rave::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using config::RawNode;
+using codec::RawNode;
 
 constexpr double kProgramPeriod_s = 0.1;
 
@@ -156,7 +156,7 @@ class Playing {
       const auto kind = static_cast<ReadingKind>(found->kind);
       const bool was_virtual = is_virtual(sensor);
       if (kind == ReadingKind::kRanges) seen_.note(recorded.name, sensor, was_virtual);
-      sensor.driver = config::Located<std::string>(fmt::format("playback_{}", to_string(kind)));
+      sensor.driver = codec::Located<std::string>(fmt::format("playback_{}", to_string(kind)));
       sensor.params = player_params(recorded.name, sensor.name.value);
       // Of a virtual camera the newest picture counts; a real one hands over sighting by sighting.
       if (kind == ReadingKind::kSightings && was_virtual) {
@@ -248,11 +248,11 @@ class Playing {
       name += "_";
     }
     config::SensorFile sensor;
-    sensor.name = config::Located<std::string>(name);
-    sensor.driver = config::Located<std::string>("playback_pose");
+    sensor.name = codec::Located<std::string>(name);
+    sensor.driver = codec::Located<std::string>("playback_pose");
     sensor.params = player_params(recorded.name, "");
     robot.sensors.push_back(std::move(sensor));
-    robot.pose_from = config::Located<std::string>(name);
+    robot.pose_from = codec::Located<std::string>(name);
   }
 
   void replace_actuators(const record::RecordedRobot& recorded, config::RobotFile& robot) {
@@ -262,7 +262,7 @@ class Playing {
       const bool velocity =
           driver && static_cast<CommandKind>((*driver)->info.data_kind) == CommandKind::kVelocity;
       if (velocity) {
-        actuator.driver = config::Located<std::string>("replay_ignored");
+        actuator.driver = codec::Located<std::string>("replay_ignored");
         actuator.params = RawNode();
         actuator.device.reset();
         return false;
@@ -296,8 +296,8 @@ class Playing {
       return;
     }
     config::ProgramFile program;
-    program.driver = config::Located<std::string>(*arguments_.program);
-    program.period_s = config::Located<double>(kProgramPeriod_s);
+    program.driver = codec::Located<std::string>(*arguments_.program);
+    program.period_s = codec::Located<double>(kProgramPeriod_s);
     if (robot.program && robot.program->period_s) {
       program.period_s = robot.program->period_s;
       program.phase_s = robot.program->phase_s;
@@ -343,7 +343,7 @@ class Playing {
     picture.append("title", RawNode::text(played_.name));
     root.append("picture", std::move(picture));
     return "# Recorded robots, made by `rave play`. Simulated ones can be added to `robots`.\n" +
-           config::to_yaml(root);
+           codec::to_yaml(root);
   }
 
   const PlayArguments& arguments_;

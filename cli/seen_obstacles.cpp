@@ -11,7 +11,7 @@ namespace {
 using config::ObstacleLayer;
 using config::SensedLayer;
 
-bool senses_virtual(const std::optional<config::Located<std::vector<SensedLayer>>>& senses) {
+bool senses_virtual(const std::optional<codec::Located<std::vector<SensedLayer>>>& senses) {
   return !senses ||
          std::ranges::find(senses->value, SensedLayer::kVirtualObstacles) != senses->value.end();
 }
@@ -46,14 +46,14 @@ std::string SeenObstacles::put_on_layer(config::WorldFile& world) {
   return "obstacles have the layer `mapped_real`, because the played range sensors had sensed them";
 }
 
-void SeenObstacles::put_on_layer(config::RawNode& changes) const {
+void SeenObstacles::put_on_layer(codec::RawNode& changes) const {
   if (!all_saw()) return;
   for (std::size_t i = 0; i < changes.size(); ++i) {
-    config::RawNode& change = changes.child(i);
-    const config::RawNode* const added = change.find("add_obstacle");
+    codec::RawNode& change = changes.child(i);
+    const codec::RawNode* const added = change.find("add_obstacle");
     if (added == nullptr || !added->is_mapping()) continue;
-    config::RawNode obstacle = *added;
-    obstacle.set("layer", config::RawNode::text("mapped_real"));
+    codec::RawNode obstacle = *added;
+    obstacle.set("layer", codec::RawNode::text("mapped_real"));
     change.set("add_obstacle", std::move(obstacle));
   }
 }

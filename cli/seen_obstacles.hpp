@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "rave/config/raw_node.hpp"
+#include "rave/codec/raw_node.hpp"
 #include "rave/config/robot_devices.hpp"
 #include "rave/config/world_file.hpp"
 
@@ -22,7 +22,7 @@ class SeenObstacles {
   /// them. Returns a sentence for the user; empty if nothing was to be done.
   [[nodiscard]] std::string put_on_layer(config::WorldFile& world);
   /// The same for what `changes:` adds later.
-  void put_on_layer(config::RawNode& changes) const;
+  void put_on_layer(codec::RawNode& changes) const;
 
  private:
   [[nodiscard]] bool all_saw() const { return !saw_.empty() && missed_.empty(); }

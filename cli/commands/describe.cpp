@@ -51,7 +51,7 @@ Result<int> describe(const DescribeCommand& options) {
   RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.plugins));
   const Drivers found = drivers_named(options.driver, *catalogue);
   if (found.empty()) return nothing_named(options.driver, *catalogue);
-  config::RawNode list = config::RawNode::sequence();
+  codec::RawNode list = codec::RawNode::sequence();
   std::string text;
   for (const plugin::Driver* driver : found) {
     if (!text.empty()) text += "\n";
@@ -59,7 +59,7 @@ Result<int> describe(const DescribeCommand& options) {
     text += options.markdown ? plugin::markdown(*driver, facts) : plugin::describe(*driver, facts);
     list.push_back(driver_json(*driver));
   }
-  put(stdout, options.json ? config::to_json(list) : text);
+  put(stdout, options.json ? codec::to_json(list) : text);
   return kGood;
 }
 

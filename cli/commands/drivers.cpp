@@ -88,19 +88,19 @@ std::string reference_of(const Drivers& drivers) {
 }
 
 std::string json_of(const Drivers& drivers, const plugin::Catalogue& catalogue) {
-  config::RawNode list = config::RawNode::sequence();
+  codec::RawNode list = codec::RawNode::sequence();
   for (const plugin::Driver* driver : drivers) list.push_back(driver_json(*driver));
-  config::RawNode refused = config::RawNode::sequence();
+  codec::RawNode refused = codec::RawNode::sequence();
   for (const plugin::RejectedPlugin& plugin : catalogue.rejected()) {
-    config::RawNode entry = config::RawNode::mapping();
-    entry.append("file", config::RawNode::text(plugin.file.string()));
-    entry.append("reason", config::RawNode::text(plugin.error.text()));
+    codec::RawNode entry = codec::RawNode::mapping();
+    entry.append("file", codec::RawNode::text(plugin.file.string()));
+    entry.append("reason", codec::RawNode::text(plugin.error.text()));
     refused.push_back(std::move(entry));
   }
-  config::RawNode root = config::RawNode::mapping();
+  codec::RawNode root = codec::RawNode::mapping();
   root.append("drivers", std::move(list));
   root.append("rejected", std::move(refused));
-  return config::to_json(root);
+  return codec::to_json(root);
 }
 
 }  // namespace

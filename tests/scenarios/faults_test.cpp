@@ -30,7 +30,7 @@ class Faults : public ScenarioTest {
     config::ProgramFile& file = *scenario->groups[0].robot.program;
     file.driver.value = program;
     file.isolate = isolate;
-    file.params = config::RawNode();
+    file.params = codec::RawNode();
     return *scenario;
   }
 

@@ -56,11 +56,11 @@ class HybridLaser : public ScenarioTest {
         twin.name = std::string("laser_twin");
         twin.driver = std::string("virtual_laser");
         twin.mount = laser.mount;
-        twin.period_s = config::Located<double>(0.2);
+        twin.period_s = codec::Located<double>(0.2);
         twin.senses = std::vector{config::SensedLayer::kMappedReal};
         twin.params = laser.imagined->params;
-        twin.params.set("rays", config::RawNode::number(360));
-        twin.params.set("fov_deg", config::RawNode::number(179.5));
+        twin.params.set("rays", codec::RawNode::number(360));
+        twin.params.set("fov_deg", codec::RawNode::number(179.5));
         group.robot.sensors.push_back(twin);
         return;
       }

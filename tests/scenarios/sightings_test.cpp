@@ -15,7 +15,7 @@ class Sightings : public ScenarioTest {
  protected:
   /// Sets a parameter of a sensor of every robot that has it.
   static void set_param(config::ExpandedScenario& scenario, std::string_view sensor,
-                        std::string_view param, const config::RawNode& value) {
+                        std::string_view param, const codec::RawNode& value) {
     int found = 0;
     for (config::RobotGroup& group : scenario.groups) {
       for (config::SensorFile& file : group.robot.sensors) {
@@ -52,7 +52,7 @@ TEST_F(Sightings, TheVirtualCameraConfirmsTheRealOnes) {
 
 TEST_F(Sightings, AClockThatIsOneSecondOffIsNoticed) {
   auto scenario = load("mixed-reality");
-  set_param(scenario, "camera", "clock_offset_s", config::RawNode::number(1.0));
+  set_param(scenario, "camera", "clock_offset_s", codec::RawNode::number(1.0));
   const auto outcome = run(scenario);
   EXPECT_FALSE(outcome.checks_hold);
   const auto within = result()["sightings"]["within_pct"].get<double>();
@@ -64,7 +64,7 @@ TEST_F(Sightings, AClockThatIsOneSecondOffIsNoticed) {
 
 TEST_F(Sightings, CodesReadAsSubjectsAreNoticed) {
   auto scenario = load("mixed-reality");
-  set_param(scenario, "camera", "codes", config::RawNode::text("subject"));
+  set_param(scenario, "camera", "codes", codec::RawNode::text("subject"));
   const auto outcome = run(scenario);
   EXPECT_FALSE(outcome.checks_hold);
   EXPECT_LT(result()["sightings"]["within_pct"].get<double>(), 40);
@@ -86,7 +86,7 @@ TEST_F(Sightings, HoldsOnTheOtherStretchToo) {
 TEST_F(Sightings, ARecordingCanPlayInRealTime) {
   auto scenario = load("mixed-reality");
   for (const char* sensor : {"mocap", "commanded", "camera"}) {
-    set_param(scenario, sensor, "clock", config::RawNode::text("live"));
+    set_param(scenario, sensor, "clock", codec::RawNode::text("live"));
   }
   scenario.scenario.duration_s = 2;
   scenario.scenario.picture.reset();

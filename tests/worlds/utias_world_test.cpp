@@ -18,33 +18,33 @@ namespace {
 const std::filesystem::path kRoot = RAVE_SOURCE_DIR;
 
 /// The mappings under `obstacles:`, by name.
-std::map<std::string, config::RawNode> read_obstacles() {
+std::map<std::string, codec::RawNode> read_obstacles() {
   const std::filesystem::path path = kRoot / "worlds" / "utias.yaml";
   const auto text = read_file(path, config::kMaxFileBytes);
   EXPECT_TRUE(text);
   if (!text) return {};
-  config::Diagnostics diagnostics;
+  codec::Diagnostics diagnostics;
   const auto world = config::parse_yaml(*text, path.string(), diagnostics);
   EXPECT_TRUE(diagnostics.ok()) << (diagnostics.ok() ? "" : diagnostics.joined().text());
   if (!world || world->find("obstacles") == nullptr) return {};
-  std::map<std::string, config::RawNode> obstacles;
-  for (const config::RawNode& obstacle : world->find("obstacles")->children()) {
-    const config::RawNode* name = obstacle.find("name");
+  std::map<std::string, codec::RawNode> obstacles;
+  for (const codec::RawNode& obstacle : world->find("obstacles")->children()) {
+    const codec::RawNode* name = obstacle.find("name");
     EXPECT_TRUE(name != nullptr && obstacles.emplace(name->scalar(), obstacle).second);
   }
   return obstacles;
 }
 
-double number(const config::RawNode& obstacle, const std::string& key) {
-  const config::RawNode* node = obstacle.find(key);
+double number(const codec::RawNode& obstacle, const std::string& key) {
+  const codec::RawNode* node = obstacle.find(key);
   const auto value = node == nullptr ? std::nullopt : node->as_double();
   EXPECT_TRUE(value) << key;
   return value.value_or(-1e9);
 }
 
 /// The two ends of a range.
-std::pair<double, double> ends(const config::RawNode& obstacle, const std::string& key) {
-  const config::RawNode* node = obstacle.find(key);
+std::pair<double, double> ends(const codec::RawNode& obstacle, const std::string& key) {
+  const codec::RawNode* node = obstacle.find(key);
   if (node == nullptr || node->size() != 2) {
     ADD_FAILURE() << key;
     return {};

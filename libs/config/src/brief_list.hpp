@@ -28,7 +28,7 @@ template <class T>
 RawNode brief_list(const std::vector<T>& items) {
   std::vector<RawNode> nodes;
   nodes.reserve(items.size());
-  for (const T& item : items) nodes.push_back(brief(write_node(item)));
+  for (const T& item : items) nodes.push_back(brief(codec::write_node(item)));
   return RawNode::sequence(std::move(nodes));
 }
 

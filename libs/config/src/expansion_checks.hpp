@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "rave/config/diagnostics.hpp"
+#include "rave/config/described.hpp"
 #include "rave/config/expanded_scenario.hpp"
 
 namespace rave::config {

@@ -7,8 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rave/config/codec_base.hpp"
-#include "rave/config/located.hpp"
+#include "rave/config/described.hpp"
 #include "rave/config/shape_file.hpp"
 
 // Checks common to robot, world and scenario files. Each reports to the context.

@@ -56,23 +56,14 @@ void allow_variables(RawNode& schema) {
 
 }  // namespace
 
-std::string json_schema(const RawNode& body, std::string_view title, std::string_view id) {
-  RawNode schema =
-      RawNode::mapping({{"$schema", RawNode::text("http://json-schema.org/draft-07/schema#")},
-                        {"$id", RawNode::text(std::string(id))},
-                        {"title", RawNode::text(std::string(title))}});
-  for (std::size_t i = 0; i < body.size(); ++i) schema.append(body.key(i), body.child(i));
-  return to_json(schema);
-}
-
 std::string robot_schema() {
   RawNode schema = Codec<RobotFile>::schema({});
   allow_variables(schema);
-  return json_schema(schema, "RAVE robot file", "robot.schema.json");
+  return codec::json_schema(schema, "RAVE robot file", "robot.schema.json");
 }
 
 std::string world_schema() {
-  return json_schema(Codec<WorldFile>::schema({}), "RAVE world file", "world.schema.json");
+  return codec::json_schema(Codec<WorldFile>::schema({}), "RAVE world file", "world.schema.json");
 }
 
 std::string scenario_schema() {
@@ -83,7 +74,7 @@ std::string scenario_schema() {
   }
   // Robots written into a scenario have variables as those in files of their own do.
   for (const char* key : {"robot", "twin_robot"}) allow_variables(*entry->find(key));
-  return json_schema(schema, "RAVE scenario file", "scenario.schema.json");
+  return codec::json_schema(schema, "RAVE scenario file", "scenario.schema.json");
 }
 
 }  // namespace rave::config

@@ -35,8 +35,11 @@ struct MapServerFile {
 
 }  // namespace
 
+}  // namespace rave::config
+
 template <>
-struct Codec<MapFlag> {
+struct rave::codec::Codec<rave::config::MapFlag> {
+  using MapFlag = config::MapFlag;
   static void read(const ReadContext& context, const RawNode& node, MapFlag& value) {
     const auto number = node.as_int();
     if (const auto flag = node.as_bool()) {
@@ -52,6 +55,7 @@ struct Codec<MapFlag> {
   static std::string expectation(const FieldOptions&) { return "0, 1, false or true"; }
 };
 
+namespace rave::config {
 namespace {
 
 template <class V>

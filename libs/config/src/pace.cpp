@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "numbers.hpp"
-#include "rave/config/raw_node.hpp"
+#include "rave/codec/numbers.hpp"
+#include "rave/config/described.hpp"
 
 namespace rave::config {
 
@@ -23,7 +23,7 @@ Result<Pace> parse_pace(std::string_view text) {
 
 std::string to_string(const Pace& pace) {
   if (pace.is_max()) return "max";
-  return pace.factor == 1 ? "realtime" : number_text(pace.factor) + "x";
+  return pace.factor == 1 ? "realtime" : codec::number_text(pace.factor) + "x";
 }
 
 }  // namespace rave::config

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "rave/config/codecs.hpp"
+#include "rave/config/described.hpp"
 
 namespace rave::config {
 namespace {
@@ -36,7 +36,7 @@ auto with_type(ParamType type, F&& f) {
 
 ParamValue read_value(const ReadContext& context, const RawNode& node, const FieldSpec& spec) {
   if (spec.type == ParamType::kEnum) {
-    const int row = detail::read_enum(context, node, views_of(spec.choices));
+    const int row = codec::detail::read_enum(context, node, views_of(spec.choices));
     return row < 0 ? std::string{} : spec.choices[static_cast<std::size_t>(row)];
   }
   return with_type(spec.type, [&]<class T>(std::type_identity<T> /*type*/) -> ParamValue {
@@ -47,7 +47,7 @@ ParamValue read_value(const ReadContext& context, const RawNode& node, const Fie
 }
 
 std::string expectation_of(const FieldSpec& spec) {
-  if (spec.type == ParamType::kEnum) return detail::enum_expectation(views_of(spec.choices));
+  if (spec.type == ParamType::kEnum) return codec::detail::enum_expectation(views_of(spec.choices));
   return with_type(spec.type, [&]<class T>(std::type_identity<T> /*type*/) -> std::string {
     return Codec<T>::expectation(spec);
   });
@@ -72,7 +72,7 @@ ParamValues read_params(const RawNode& node, std::span<const FieldSpec> specs,
     report(node.where(), fmt::format("found {}, expected a mapping", node.found_text()));
     return values;
   }
-  std::vector<detail::KnownKey> known;
+  std::vector<codec::detail::KnownKey> known;
   for (const FieldSpec& spec : specs) {
     known.push_back({spec.name, spec.unit});
     if (const RawNode* given = node.find(spec.name)) {
@@ -88,7 +88,7 @@ ParamValues read_params(const RawNode& node, std::span<const FieldSpec> specs,
              fmt::format("missing key `{}`: expected {}", spec.name, expectation_of(spec)));
     }
   }
-  detail::report_unknown_keys(node, known, prefix, diagnostics);
+  codec::detail::report_unknown_keys(node, known, prefix, diagnostics);
   return values;
 }
 

@@ -6,7 +6,7 @@
 
 #include "rave/base/names.hpp"
 #include "rave/base/time.hpp"
-#include "rave/config/diagnostics.hpp"
+#include "rave/config/described.hpp"
 #include "rave/config/expanded_scenario.hpp"
 
 namespace rave::config {

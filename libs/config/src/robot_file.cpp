@@ -18,9 +18,9 @@ Result<RobotFile> read_robot_file(const std::filesystem::path& path, const Varia
 }
 
 std::string write_robot(const RobotFile& robot) {
-  RawNode tree = write_node(robot);
+  RawNode tree = codec::write_node(robot);
   escape_variables(tree);
-  return to_yaml(tree);
+  return codec::to_yaml(tree);
 }
 
 }  // namespace rave::config

@@ -3,11 +3,13 @@
 #include "rave/base/plain_name.hpp"
 #include "scenario_fields.hpp"
 
-namespace rave::config {
+namespace rave::codec {
+
+using config::Pace;
 
 void Codec<Pace>::read(const ReadContext& context, const RawNode& node, Pace& value) {
   const auto text = node.as_text();
-  const auto pace = text ? parse_pace(*text) : Result<Pace>(Pace{});
+  const auto pace = text ? config::parse_pace(*text) : Result<Pace>(Pace{});
   if (text && pace) {
     value = *pace;
   } else {
@@ -23,6 +25,10 @@ RawNode Codec<Pace>::schema(const FieldOptions& /*options*/) {
 std::string Codec<Pace>::expectation(const FieldOptions& /*options*/) {
   return "`max`, `realtime` or a positive number followed by `x`, such as `10x`";
 }
+
+}  // namespace rave::codec
+
+namespace rave::config {
 
 void validate(const ScatterFile& c, CheckContext& check) {
   for (const auto& [key, range] : {std::pair("x_m", c.x_m), std::pair("y_m", c.y_m)}) {

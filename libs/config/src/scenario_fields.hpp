@@ -11,13 +11,18 @@ namespace rave::config {
 
 inline constexpr double kMaxRobots = 100000;
 
+}  // namespace rave::config
+
 template <>
-struct Codec<Pace> {
+struct rave::codec::Codec<rave::config::Pace> {
+  using Pace = config::Pace;
   static void read(const ReadContext& context, const RawNode& node, Pace& value);
   static RawNode write(const Pace& value) { return RawNode::text(to_string(value)); }
   static RawNode schema(const FieldOptions& options);
   static std::string expectation(const FieldOptions& options);
 };
+
+namespace rave::config {
 
 /// A time of a run.
 constexpr FieldOptions instant_s(std::string_view doc) {

@@ -15,15 +15,15 @@ Result<ObstacleEdit> read_edit(std::string_view text, std::string_view source) {
 }
 
 std::string write_edit(const ObstacleEdit& edit) {
-  RawNode node = write_node(edit);
+  RawNode node = codec::write_node(edit);
   for (const char* const key : {"add_obstacle", "move_obstacle", "remove_obstacle"}) {
     if (node.find(key)->is_null()) node.erase(key);
   }
-  return to_json_line(node);
+  return codec::to_json_line(node);
 }
 
 Status check_edit(const ObstacleEdit& edit) {
-  RAVE_TRY(read_node<ObstacleEdit>(write_node(edit)));
+  RAVE_TRY(codec::read_node<ObstacleEdit>(codec::write_node(edit)));
   return {};
 }
 
@@ -32,7 +32,7 @@ Result<WorldFile> read_world_file(const std::filesystem::path& path) {
 }
 
 std::string write_world(const WorldFile& world) {
-  RawNode tree = write_node(WorldFile{world.description, {}, world.maps});
+  RawNode tree = codec::write_node(WorldFile{world.description, {}, world.maps});
   tree.set("obstacles", brief_list(world.obstacles));
   return to_yaml(tree);
 }

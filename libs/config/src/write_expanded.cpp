@@ -58,7 +58,7 @@ std::string write_expanded(const ExpandedScenario& expanded) {
     first = end;
   }
   const auto changes = std::exchange(scenario.changes, {});
-  RawNode tree = write_node(scenario);
+  codec::RawNode tree = codec::write_node(scenario);
   tree.set("obstacles", brief_list(expanded.world.obstacles));
   tree.set("changes", brief_list(changes));
   // `$(` in values must not be taken for a variable when the text is read again.
@@ -70,7 +70,7 @@ std::string write_expanded(const ExpandedScenario& expanded) {
     }
   }
   tree.set("robots", std::move(robots));
-  return to_yaml(tree);
+  return codec::to_yaml(tree);
 }
 
 }  // namespace rave::config

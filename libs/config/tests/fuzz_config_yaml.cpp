@@ -6,16 +6,16 @@
 
 namespace {
 
-using rave::config::Diagnostics;
+using rave::codec::Diagnostics;
 
 /// Whatever can be read can be written, and what is written reads back as the same.
 void check_tree(std::string_view text) {
   Diagnostics diagnostics;
   const auto tree = rave::config::parse_yaml(text, "fuzz", diagnostics);
   if (!tree || !diagnostics.ok()) return;
-  const auto again = rave::config::parse_yaml(rave::config::to_yaml(*tree), "again", diagnostics);
+  const auto again = rave::config::parse_yaml(rave::codec::to_yaml(*tree), "again", diagnostics);
   if (!again || !diagnostics.ok() || !(*again == *tree)) std::abort();
-  (void)rave::config::to_json(*tree);
+  (void)rave::codec::to_json(*tree);
 }
 
 void check_struct(std::string_view text) {

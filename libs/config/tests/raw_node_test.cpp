@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rave/config/raw_node.hpp"
+#include "rave/codec/raw_node.hpp"
 
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ TEST(RawNode, EntriesAreSetAndErased) {
   node.set("a", RawNode::integer(1));
   node.set("b", RawNode::integer(2));
   node.set("a", RawNode::integer(3));
-  EXPECT_EQ(to_yaml(node), "a: 3\nb: 2\n");
+  EXPECT_EQ(codec::to_yaml(node), "a: 3\nb: 2\n");
   EXPECT_TRUE(node.erase("a"));
   EXPECT_FALSE(node.erase("a"));
   EXPECT_EQ(node.keys(), std::vector<std::string_view>{"b"});

@@ -8,10 +8,10 @@ namespace rave::sample {
 
 enum class Role { kObserver, kCommander, kSuperUser };
 
-constexpr auto enum_names(config::EnumTag<Role>) {
-  return std::array{config::EnumName{Role::kObserver, "observer"},
-                    config::EnumName{Role::kCommander, "commander"},
-                    config::EnumName{Role::kSuperUser, "super_user"}};
+constexpr auto enum_names(codec::EnumTag<Role>) {
+  return std::array{codec::EnumName{Role::kObserver, "observer"},
+                    codec::EnumName{Role::kCommander, "commander"},
+                    codec::EnumName{Role::kSuperUser, "super_user"}};
 }
 
 struct Mount {
@@ -34,7 +34,7 @@ struct Laser {
   std::int64_t offset = 0;
   bool enabled = true;
   std::string frame;
-  config::Located<std::string> driver;
+  codec::Located<std::string> driver;
   std::optional<double> fov_deg;
   double horizon_s = 0;
   std::vector<Mount> mounts;
@@ -42,7 +42,7 @@ struct Laser {
   std::map<std::string, Mount> named;
   Role role = Role::kObserver;
   std::optional<Mount> spare;
-  config::RawNode params;
+  codec::RawNode params;
 
   bool operator==(const Laser& o) const {
     return range_m == o.range_m && min_range_m == o.min_range_m && rays == o.rays &&
@@ -74,7 +74,7 @@ void describe(V& v, Laser& c) {
   v.field("params", c.params, {.doc = "What the driver takes."});
 }
 
-inline void validate(const Laser& c, config::CheckContext& check) {
+inline void validate(const Laser& c, codec::CheckContext& check) {
   if (c.min_range_m >= c.range_m) {
     check.error("min_range_m", "`min_range_m`: found {}, expected less than `range_m` ({})",
                 c.min_range_m, c.range_m);

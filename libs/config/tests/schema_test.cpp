@@ -9,7 +9,7 @@ namespace rave::config {
 namespace {
 
 TEST(Schema, TextOfASmallStruct) {
-  EXPECT_EQ(json_schema(Codec<std::vector<std::optional<double>>>::schema({}), "T", "i"),
+  EXPECT_EQ(codec::json_schema(Codec<std::vector<std::optional<double>>>::schema({}), "T", "i"),
             "{\n"
             "  \"$schema\": \"http://json-schema.org/draft-07/schema#\",\n"
             "  \"$id\": \"i\",\n"
@@ -29,8 +29,8 @@ TEST(Schema, TextOfASmallStruct) {
 }
 
 TEST(Schema, SaysWhatTheDescriptionSays) {
-  const auto schema =
-      nlohmann::json::parse(json_schema(Codec<sample::Laser>::schema({}), "Laser", "laser.json"));
+  const auto schema = nlohmann::json::parse(
+      codec::json_schema(Codec<sample::Laser>::schema({}), "Laser", "laser.json"));
   EXPECT_EQ(schema["type"], "object");
   EXPECT_EQ(schema["additionalProperties"], false);
   EXPECT_EQ(schema["required"], nlohmann::json::array({"frame"}));

@@ -46,7 +46,7 @@ TEST(Yaml, EscapesGiveTextThatReadsBack) {
   EXPECT_EQ(node.find("a")->as_text(),
             "\u00A0\u00E9\u00A0\xC2\x85"
             "1\u2028\u2029\u00FF\u00E9\U0001F916");
-  EXPECT_EQ(tree_of(to_yaml(node)), node) << to_yaml(node);
+  EXPECT_EQ(tree_of(codec::to_yaml(node)), node) << codec::to_yaml(node);
 }
 
 TEST(Yaml, AQuoteIsClosedWhateverStandsInIt) {
@@ -61,18 +61,18 @@ TEST(Yaml, WrittenTextIsQuotedWhereItMustBe) {
        {"plain", "a b", "yes", "3", "", "null", "a: b", "#x", "x\ny", "ü", "-"}) {
     node.set(fmt::format("k{}", node.size()), RawNode::text(word));
   }
-  EXPECT_EQ(to_yaml(node),
+  EXPECT_EQ(codec::to_yaml(node),
             "k0: plain\nk1: \"a b\"\nk2: \"yes\"\nk3: \"3\"\nk4: \"\"\nk5: \"null\"\n"
             "k6: \"a: b\"\nk7: \"#x\"\nk8: \"x\\ny\"\nk9: \"ü\"\nk10: \"-\"\n");
-  EXPECT_EQ(tree_of(to_yaml(node)), node);
+  EXPECT_EQ(tree_of(codec::to_yaml(node)), node);
 }
 
 TEST(Yaml, NestedBlocksReadBack) {
   const RawNode node = tree_of(
       "a:\n  - b: {c: 1, d: [1, {e: 2}]}\n    f: []\n  -\n    - {g: 3}\n    - [x, \"4\"]\n  - ~\n");
-  const std::string text = to_yaml(node);
+  const std::string text = codec::to_yaml(node);
   EXPECT_EQ(tree_of(text), node) << text;
-  EXPECT_EQ(to_yaml(tree_of(text)), text);
+  EXPECT_EQ(codec::to_yaml(tree_of(text)), text);
 }
 
 TEST(Yaml, ShortItemsOfListsHaveOneLine) {
@@ -86,12 +86,12 @@ TEST(Yaml, CommentsStandBehindTheLineOrAboveIt) {
   RawNode node = RawNode::mapping();
   node.append("a", RawNode::integer(1), "short");
   node.append("b", RawNode::integer(2), std::string(120, 'x'));
-  EXPECT_EQ(to_yaml(node), "a: 1  # short\n# " + std::string(120, 'x') + "\nb: 2\n");
+  EXPECT_EQ(codec::to_yaml(node), "a: 1  # short\n# " + std::string(120, 'x') + "\nb: 2\n");
 }
 
 TEST(Yaml, JsonIsOrderedAndIndented) {
   const RawNode node = tree_of("z: 1.50\na: [true, .inf, \"3\", 18446744073709551615]\nm: {}\n");
-  EXPECT_EQ(to_json(node),
+  EXPECT_EQ(codec::to_json(node),
             "{\n  \"z\": 1.5,\n  \"a\": [\n    true,\n    null,\n    \"3\",\n"
             "    18446744073709551615\n  ],\n  \"m\": {}\n}\n");
 }

@@ -14,11 +14,11 @@ namespace rave::runtime {
 /// Like read_params(), for a sensor. A missing parameter `geo_origin` is set from the scenario.
 [[nodiscard]] Result<plugin::ParamSet> read_sensor_params(const DeviceContext& context,
                                                           const plugin::Driver& driver,
-                                                          const config::RawNode& params);
+                                                          const codec::RawNode& params);
 /// The driver with this name. Errors: kNotFound at `name`, with the nearest existing name.
 [[nodiscard]] Result<const plugin::Driver*> find_driver(const DeviceContext& context,
                                                         std::span<const DriverKind> kinds,
-                                                        const config::Located<std::string>& name);
+                                                        const codec::Located<std::string>& name);
 [[nodiscard]] LayerMask layer_mask(const std::vector<config::SensedLayer>& layers);
 [[nodiscard]] NoiseSpec noise_of(const config::NoiseFile& noise);
 /// Records the first driver that follows the wall clock.
@@ -26,7 +26,7 @@ void note_clock(const DeviceContext& context, const config::RobotGroup& group,
                 const std::string& device, const DriverInfo& info, const plugin::ParamSet& params);
 /// A time of the scenario in steps; 1 if unset.
 [[nodiscard]] std::uint32_t in_steps(const DeviceContext& context,
-                                     const std::optional<config::Located<double>>& time_s);
+                                     const std::optional<codec::Located<double>>& time_s);
 
 /// Sets name, driver and function table of a device. Errors: those of find_driver().
 template <class File, class Spec>

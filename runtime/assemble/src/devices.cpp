@@ -19,7 +19,7 @@ using plugin::Driver;
 }  // namespace
 
 Result<const Driver*> find_driver(const DeviceContext& context, std::span<const DriverKind> kinds,
-                                  const config::Located<std::string>& name) {
+                                  const codec::Located<std::string>& name) {
   auto driver = context.catalogue.find(kinds, name.value);
   if (driver) return driver;
   Error error = std::move(driver).error();
@@ -65,7 +65,7 @@ void note_clock(const DeviceContext& context, const config::RobotGroup& group,
 }
 
 std::uint32_t in_steps(const DeviceContext& context,
-                       const std::optional<config::Located<double>>& time_s) {
+                       const std::optional<codec::Located<double>>& time_s) {
   if (!time_s) return 1;
   // The expansion has checked that the time is a multiple of the step; lround() removes the error
   // of the division, for example of 0.3 / 0.1.
@@ -269,7 +269,7 @@ Status set_pose_source(const config::RobotGroup& group, sim::RobotType& type) {
                    "`pose_from:` with the name of a sensor that gives a pose or odometry",
                    group.name.value);
   }
-  const config::Located<std::string>& name = *group.robot.pose_from;
+  const codec::Located<std::string>& name = *group.robot.pose_from;
   for (std::uint32_t s = 0; s < type.sensors.size(); ++s) {
     if (type.sensors[s].name != name.value) continue;
     const ReadingKind kind = type.sensors[s].kind;

@@ -22,7 +22,7 @@ struct AddValue {
 
 }  // namespace
 
-Result<plugin::ParamSet> read_params(const plugin::Driver& driver, const config::RawNode& params) {
+Result<plugin::ParamSet> read_params(const plugin::Driver& driver, const codec::RawNode& params) {
   const auto specs = field_specs(driver.info);
   RAVE_TRY_ASSIGN(const auto values,
                   config::read_params(params, specs, fmt::format("driver `{}`", driver.info.name)));
@@ -35,7 +35,7 @@ Result<plugin::ParamSet> read_params(const plugin::Driver& driver, const config:
 
 Result<plugin::ParamSet> read_sensor_params(const DeviceContext& context,
                                             const plugin::Driver& driver,
-                                            const config::RawNode& params) {
+                                            const codec::RawNode& params) {
   // A sensor with geographic coordinates needs the point of the Earth at which the world has its
   // origin. All sensors of a scenario must agree on it, so the scenario states it once; a value in
   // the robot file takes precedence.
@@ -45,12 +45,12 @@ Result<plugin::ParamSet> read_sensor_params(const DeviceContext& context,
   const bool wants = std::any_of(specs.begin(), specs.end(),
                                  [&](const ParamSpec& spec) { return spec.name == kOrigin; });
   if (!wants || !origin || params.find(kOrigin) != nullptr) return read_params(driver, params);
-  config::RawNode numbers = config::RawNode::sequence();
+  codec::RawNode numbers = codec::RawNode::sequence();
   for (const double number :
        {origin->latitude_deg, origin->longitude_deg, origin->altitude_m, origin->yaw_deg}) {
-    numbers.push_back(config::RawNode::number(number));
+    numbers.push_back(codec::RawNode::number(number));
   }
-  config::RawNode all = params.is_mapping() ? params : config::RawNode::mapping();
+  codec::RawNode all = params.is_mapping() ? params : codec::RawNode::mapping();
   all.append(std::string(kOrigin), std::move(numbers));
   return read_params(driver, all);
 }

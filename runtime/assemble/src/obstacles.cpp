@@ -102,7 +102,7 @@ Status add_obstacle_changes(const config::ExpandedScenario& scenario, sim::Engin
   }
   for (const config::ChangeFile& file : scenario.scenario.changes) {
     if (file.robot) continue;
-    const config::Located<std::string>& name = file.obstacle.name();
+    const codec::Located<std::string>& name = file.obstacle.name();
     if (std::find(names.begin(), names.end(), *name) == names.end()) {
       return fail_at(name.where, ErrorCode::kNotFound, "there is no obstacle `{}`{}", *name,
                      suggestion(*name, names));

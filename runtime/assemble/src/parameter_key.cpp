@@ -96,13 +96,13 @@ Result<RobotId> find_robot(const sim::EngineSpec& spec, std::string_view name) {
 }
 
 Result<sim::ParameterChange> parse_change(const sim::RobotType& type, std::string_view key,
-                                          const config::RawNode& value) {
+                                          const codec::RawNode& value) {
   const std::vector<Known> all = known_parameters(type);
   for (const Known& known : all) {
     if (known.key != key) continue;
     // The value passes the same reader as a robot file: same types, ranges and messages.
     const std::vector<config::FieldSpec> specs{field_spec(*known.spec)};
-    config::RawNode params = config::RawNode::mapping();
+    codec::RawNode params = codec::RawNode::mapping();
     params.append(known.spec->name, value);
     auto values = config::read_params(params, specs, fmt::format("`{}`", key));
     if (!values) {

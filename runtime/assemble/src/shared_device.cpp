@@ -39,8 +39,8 @@ Status check_same_plugin(const DeviceContext& context, const Driver& user,
 }  // namespace
 
 Result<std::optional<std::uint32_t>> shared_device(
-    const DeviceContext& context, const Driver& user, const config::Located<std::string>& driver,
-    const std::optional<config::Located<std::string>>& named, const sim::RobotType& type) {
+    const DeviceContext& context, const Driver& user, const codec::Located<std::string>& driver,
+    const std::optional<codec::Located<std::string>>& named, const sim::RobotType& type) {
   const DriverInfo& info = user.info;
   const std::string_view wanted = info.device;
   if (wanted.empty()) {

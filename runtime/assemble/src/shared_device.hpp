@@ -14,7 +14,7 @@ namespace rave::runtime {
 /// missing, or not needed), kPlugin (the two come from different plug-ins).
 Result<std::optional<std::uint32_t>> shared_device(
     const DeviceContext& context, const plugin::Driver& user,
-    const config::Located<std::string>& driver,
-    const std::optional<config::Located<std::string>>& named, const sim::RobotType& type);
+    const codec::Located<std::string>& driver,
+    const std::optional<codec::Located<std::string>>& named, const sim::RobotType& type);
 
 }  // namespace rave::runtime

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "rave/assemble/obstacles.hpp"
-#include "rave/config/diagnostics.hpp"
+#include "rave/codec/diagnostics.hpp"
 #include "rave/config/yaml.hpp"
 
 namespace rave::runtime {
@@ -22,16 +22,16 @@ constexpr std::array kOldKinds = {std::pair{"add", "add_obstacle"},
 /// The edit of an older recording: its name is the key, or its value an entry in YAML.
 Result<config::ObstacleEdit> old_edit(std::string_view member, std::string_view key,
                                       std::string_view value) {
-  config::RawNode entry = config::RawNode::text(std::string(key));
+  codec::RawNode entry = codec::RawNode::text(std::string(key));
   if (key.empty()) {
-    config::Diagnostics diagnostics;
+    codec::Diagnostics diagnostics;
     auto parsed = config::parse_yaml(value, "value", diagnostics);
     if (!parsed || !diagnostics.ok()) return tl::unexpected<Error>(diagnostics.joined());
     entry = *std::move(parsed);
   }
-  config::RawNode edit = config::RawNode::mapping();
+  codec::RawNode edit = codec::RawNode::mapping();
   edit.append(std::string(member), std::move(entry));
-  return config::read_edit(config::to_json_line(edit), "value");
+  return config::read_edit(codec::to_json_line(edit), "value");
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "rave/assemble/parameter_key.hpp"
-#include "rave/config/diagnostics.hpp"
+#include "rave/codec/diagnostics.hpp"
 #include "rave/config/yaml.hpp"
 #include "rave/control/obstacle_edits.hpp"
 #include "rave/control/order_words.hpp"
@@ -32,7 +32,7 @@ Result<sim::ParameterChange> requested_parameter(const sim::EngineSpec& spec, Ro
                                                  const RunRequest& request) {
   if (!robot.valid())
     return fail(ErrorCode::kInvalidArgument, "expected the robot whose parameter changes");
-  config::Diagnostics diagnostics;
+  codec::Diagnostics diagnostics;
   const auto value = config::parse_yaml(request.value, "value", diagnostics);
   if (!value || !diagnostics.ok() || (!value->is_scalar() && !value->is_sequence())) {
     return fail(ErrorCode::kInvalidArgument, "`{}` is not a value of a parameter", request.value);

@@ -50,7 +50,7 @@ TEST(Changes, ParametersHaveTheValuesOfTheFilesAtFirst) {
   EXPECT_EQ(named(first, "body.scale"), "1");
   ASSERT_NE(named(first, "program.cruise_mps"), "missing");
   const auto change = parse_change((*engine)->spec().types[anna], "program.cruise_mps",
-                                   config::RawNode::number(0.25));
+                                   codec::RawNode::number(0.25));
   ASSERT_TRUE(change) << change.error().text();
   const auto now = [&] {
     return (*engine)->parameter(RobotId(0), change->part, change->index, change->name);
@@ -63,10 +63,10 @@ TEST(Changes, ParametersHaveTheValuesOfTheFilesAtFirst) {
   EXPECT_EQ(changed_values(**engine, RobotId(0)), (Values{{"program.cruise_mps", "0.25"}}));
   EXPECT_TRUE(changed_values(**engine, RobotId(1)).empty());
   const auto scale =
-      parse_change((*engine)->spec().types[anna], "body.scale", config::RawNode::number(1.5));
+      parse_change((*engine)->spec().types[anna], "body.scale", codec::RawNode::number(1.5));
   const auto back =
       parse_change((*engine)->spec().types[anna], "program.cruise_mps",
-                   config::RawNode::number(std::stod(named(first, "program.cruise_mps"))));
+                   codec::RawNode::number(std::stod(named(first, "program.cruise_mps"))));
   ASSERT_TRUE(scale && back);
   ASSERT_TRUE((*engine)->set_parameters(RobotId(0), std::vector{*scale, *back}));
   EXPECT_EQ(changed_values(**engine, RobotId(0)), (Values{{"body.scale", "1.5"}}));

@@ -10,11 +10,11 @@
 
 namespace rave {
 
-constexpr auto enum_names(config::EnumTag<Layer> /*tag*/) {
-  return std::array{config::EnumName{Layer::kVirtualObstacles, "virtual_obstacles"},
-                    config::EnumName{Layer::kMappedReal, "mapped_real"},
-                    config::EnumName{Layer::kSimulatedRobots, "simulated_robots"},
-                    config::EnumName{Layer::kRealRobots, "real_robots"}};
+constexpr auto enum_names(codec::EnumTag<Layer> /*tag*/) {
+  return std::array{codec::EnumName{Layer::kVirtualObstacles, "virtual_obstacles"},
+                    codec::EnumName{Layer::kMappedReal, "mapped_real"},
+                    codec::EnumName{Layer::kSimulatedRobots, "simulated_robots"},
+                    codec::EnumName{Layer::kRealRobots, "real_robots"}};
 }
 
 namespace probe {
@@ -34,13 +34,13 @@ struct ProbeFile {
   std::string driver;
   ProbeMount mount;
   std::optional<std::vector<Layer>> senses;
-  config::RawNode params;
+  codec::RawNode params;
 };
 
 template <class V>
 void describe(V& v, ProbeMount& c) {
   // Larger than any robot.
-  constexpr config::FieldOptions kLength{.min = -100, .max = 100, .unit = "m"};
+  constexpr codec::FieldOptions kLength{.min = -100, .max = 100, .unit = "m"};
   v.field("x_m", c.x_m, kLength);
   v.field("y_m", c.y_m, kLength);
   v.field("z_m", c.z_m, kLength);

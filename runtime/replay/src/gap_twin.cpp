@@ -45,8 +45,8 @@ class Instance {
 config::ExpandedScenario alone(config::RobotFile robot, const std::filesystem::path& file,
                                double step_s, std::uint64_t seed) {
   config::ExpandedScenario scenario;
-  scenario.scenario.name = config::Located<std::string>("twin");
-  scenario.scenario.step_s = config::Located<double>(step_s);
+  scenario.scenario.name = codec::Located<std::string>("twin");
+  scenario.scenario.step_s = codec::Located<double>(step_s);
   scenario.scenario.seed = seed;
   // Without sensors and program no hardware is opened and no other robot is needed.
   robot.sensors.clear();
@@ -54,7 +54,7 @@ config::ExpandedScenario alone(config::RobotFile robot, const std::filesystem::p
   robot.program.reset();
   robot.pose_from.reset();
   config::RobotGroup& group = scenario.groups.emplace_back();
-  group.name = config::Located<std::string>("twin", robot.body.where);
+  group.name = codec::Located<std::string>("twin", robot.body.where);
   group.file = file.string();
   group.robot = std::move(robot);
   scenario.robots.push_back({"twin", 0, config::PoseFile{}});

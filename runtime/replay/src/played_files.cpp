@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 /// Where a file was when the run read it, and where it is now.
 using Places = std::map<std::string, std::string>;
 
-void replace(const std::string& robot_file, const Places& places, config::RawNode& params) {
+void replace(const std::string& robot_file, const Places& places, codec::RawNode& params) {
   if (!params.is_mapping()) return;
   for (std::size_t i = 0; i < params.size(); ++i) {
     const auto text = params.child(i).as_text();
@@ -25,7 +25,7 @@ void replace(const std::string& robot_file, const Places& places, config::RawNod
         fs::absolute(named_path(fs::path(robot_file).parent_path(), *text), error);
     const auto place = places.find(named.lexically_normal().string());
     if (place == places.end()) continue;
-    params.set(params.key(i), config::RawNode::text(place->second));
+    params.set(params.key(i), codec::RawNode::text(place->second));
   }
 }
 

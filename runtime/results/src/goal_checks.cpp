@@ -7,7 +7,7 @@
 namespace rave::runtime {
 namespace {
 
-std::string listed(const std::vector<config::Located<std::string>>& names) {
+std::string listed(const std::vector<codec::Located<std::string>>& names) {
   std::string text;
   for (const auto& name : names) text += (text.empty() ? "" : ", ") + *name;
   return text;

@@ -94,7 +94,7 @@ TEST(RightsOfAScenario, ChangeTheUsualOnes) {
                         config::GuiReach::kTeams,
                         {"green"}});
   gui.rights.push_back({{},
-                        config::Located<std::string>("eve"),
+                        codec::Located<std::string>("eve"),
                         {config::GuiClass::kStop},
                         config::GuiReach::kAll,
                         {}});
@@ -106,7 +106,7 @@ TEST(RightsOfAScenario, ChangeTheUsualOnes) {
 
 TEST(RightsOfAScenario, AreNoPartOfWhatProcessesCompare) {
   config::ExpandedScenario plain;
-  plain.scenario.name = config::Located<std::string>("a");
+  plain.scenario.name = codec::Located<std::string>("a");
   config::ExpandedScenario shared = plain;
   shared.scenario.gui.rights.push_back(
       {config::GuiRole::kObserver, {}, {config::GuiClass::kPose}, config::GuiReach::kNone, {}});

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
-#include "rave/config/located.hpp"
+#include "rave/config/described.hpp"
 
 namespace rave::config {
 

@@ -10,9 +10,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
-#include "rave/config/diagnostics.hpp"
-#include "rave/config/field_options.hpp"
-#include "rave/config/raw_node.hpp"
+#include "rave/config/described.hpp"
 
 namespace rave::config {
 

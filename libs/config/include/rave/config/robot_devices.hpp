@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "rave/config/located.hpp"
-#include "rave/config/raw_node.hpp"
+#include "rave/config/described.hpp"
 #include "rave/config/shape_file.hpp"
 
 // The devices of a robot as a robot file describes them. Plain values; driver names and parameters

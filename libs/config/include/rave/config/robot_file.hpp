@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
-#include "rave/config/located.hpp"
+#include "rave/config/described.hpp"
 #include "rave/config/robot_devices.hpp"
 #include "rave/config/shape_file.hpp"
 #include "rave/config/variables.hpp"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/config/described.hpp"
 #include "rave/config/gui_file.hpp"
-#include "rave/config/located.hpp"
 #include "rave/config/pace.hpp"
 #include "rave/config/robot_file.hpp"
 #include "rave/config/world_file.hpp"

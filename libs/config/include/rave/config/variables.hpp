@@ -4,8 +4,7 @@
 #include <map>
 #include <string>
 
-#include "rave/config/diagnostics.hpp"
-#include "rave/config/raw_node.hpp"
+#include "rave/config/described.hpp"
 
 namespace rave::config {
 

@@ -6,8 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "rave/config/diagnostics.hpp"
-#include "rave/config/raw_node.hpp"
+#include "rave/config/described.hpp"
 
 namespace rave::config {
 
@@ -25,14 +24,5 @@ inline constexpr std::size_t kMaxKeyBytes = 200;
 /// keys it returns the tree with the first of each, so that the caller can find further errors.
 [[nodiscard]] std::optional<RawNode> parse_yaml(std::string_view text, std::string_view file_name,
                                                 Diagnostics& diagnostics);
-
-/// YAML in block style with the comments of the entries; items of lists that are short mappings
-/// without comments have one line each. parse_yaml gives an equal node.
-[[nodiscard]] std::string to_yaml(const RawNode& node);
-
-/// JSON with an indent of two, keys in their order, and a final newline. Infinities become null.
-[[nodiscard]] std::string to_json(const RawNode& node);
-/// The same in one line, without a newline.
-[[nodiscard]] std::string to_json_line(const RawNode& node);
 
 }  // namespace rave::config

@@ -24,7 +24,7 @@ struct DeviceContext {
 
 /// The values of a driver's parameters, defaults filled in. Errors: with file, line and column.
 [[nodiscard]] Result<plugin::ParamSet> read_params(const plugin::Driver& driver,
-                                                   const config::RawNode& params);
+                                                   const codec::RawNode& params);
 
 /// Adds transmitters and communicators to `type`. In radio_devices.cpp.
 Status add_radio(const DeviceContext& context, const config::RobotGroup& group,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
-#include "rave/config/raw_node.hpp"
+#include "rave/codec/raw_node.hpp"
 #include "rave/sim/engine.hpp"
 #include "rave/sim/engine_spec.hpp"
 
@@ -21,7 +21,7 @@ namespace rave::runtime {
 /// kInvalidArgument; with the place of the value if it has one.
 [[nodiscard]] Result<sim::ParameterChange> parse_change(const sim::RobotType& type,
                                                         std::string_view key,
-                                                        const config::RawNode& value);
+                                                        const codec::RawNode& value);
 
 /// A parameter that parse_change() accepts, with the description of its driver.
 struct ChangeableParameter {

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "rave/base/result.hpp"
+#include "rave/math/pose.hpp"
+#include "rave/robot/order.hpp"
+
+// Orders: what a robot is asked to do. Each needs a robot, and a person needs its lease. Points are
+// in the world frame, m; headings are rad, counter-clockwise from x.
+namespace rave::request {
+
+/// A velocity instead of the program's commands to velocity controllers. It ends by itself if it is
+/// not repeated; only the newest counts, and it is not answered.
+struct Drive {
+  static constexpr std::string_view kName = "drive";
+  double v_mps = 0;    ///< Forward.
+  double w_radps = 0;  ///< Counter-clockwise.
+  [[nodiscard]] bool stands() const noexcept { return v_mps == 0 && w_radps == 0; }
+  friend bool operator==(const Drive&, const Drive&) = default;
+};
+
+/// A point to drive to.
+struct Goal {
+  static constexpr std::string_view kName = "goal";
+  Vec2 p_W;
+  std::optional<double> yaw_rad;  ///< Heading there; empty: any.
+  double speed_mps = 0;           ///< The largest; 0: the robot decides.
+  friend bool operator==(const Goal&, const Goal&) = default;
+};
+
+/// A path to follow: 2 to kMostOrderPoints points.
+struct Path {
+  static constexpr std::string_view kName = "path";
+  std::vector<Vec2> points_W;
+  double speed_mps = 0;  ///< The largest; 0: the robot decides.
+  friend bool operator==(const Path&, const Path&) = default;
+};
+
+/// Ends the present order. Without a robot: of all robots.
+struct Cancel {
+  static constexpr std::string_view kName = "cancel";
+  friend bool operator==(const Cancel&, const Cancel&) = default;
+};
+
+/// A text for the program: 1 to kMostOrderText bytes of UTF-8.
+struct Text {
+  static constexpr std::string_view kName = "text";
+  std::string text;
+  friend bool operator==(const Text&, const Text&) = default;
+};
+
+/// Places a simulated robot elsewhere.
+struct Place {
+  static constexpr std::string_view kName = "place";
+  Vec2 p_W;
+  std::optional<double> yaw_rad;  ///< Empty: as before.
+  friend bool operator==(const Place&, const Place&) = default;
+};
+
+using Order = std::variant<Drive, Goal, Path, Cancel, Text, Place>;
+
+/// The kind that programs know. The plug-in interface numbers them in the order of the variant.
+[[nodiscard]] constexpr OrderKind order_kind(const Order& order) noexcept {
+  return static_cast<OrderKind>(order.index() + 1);
+}
+static_assert(static_cast<std::size_t>(OrderKind::kPlace) == std::variant_size_v<Order>);
+
+/// Whether the number of points makes a path. Error kInvalidArgument with what was expected.
+[[nodiscard]] Status check_path_size(std::size_t points);
+
+}  // namespace rave::request

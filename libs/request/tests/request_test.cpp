@@ -60,7 +60,7 @@ TEST(Request, RefusesWithReasons) {
   EXPECT_EQ(error_of(R"({"do": "path", "robot": "r", "points": [[1, 2]]})"),
             "a path has 1 point; expected 2 to 1000");
   EXPECT_EQ(error_of(R"({"do": "gaol", "robot": "r"})").find("`do`: found the text \"gaol\""), 0U);
-  EXPECT_NE(error_of(R"({"do": "drive", "robot": "r", "v": 101, "w": 0})").find("at most 100"),
+  EXPECT_NE(error_of(R"({"do": "drive", "robot": "r", "v": 101, "w": 0})").find("100"),
             std::string::npos);
   EXPECT_NE(error_of(R"({"do": "stop", "speed": 1})").find("unknown key `speed`"),
             std::string::npos);

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <array>
+#include <concepts>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "rave/codec/codec_support.hpp"
 #include "rave/codec/struct_codec.hpp"
@@ -15,12 +18,9 @@ namespace rave::codec {
 /// A struct that names itself, so that it can be one of a variant; it is described, or has a codec:
 ///   struct Goal { static constexpr std::string_view kName = "goal"; … };
 template <class T>
-concept Named = requires(const RawNode& node) {
+concept Named = requires {
   { T::kName } -> std::convertible_to<std::string_view>;
-  { Codec<T>::schema({}) } -> std::same_as<RawNode>;
 };
-template <class T>
-concept Named = Described<T> && requires { { T::kName } -> std::convertible_to<std::string_view>; };
 
 /// The key of a mapping that says which of a variant it is.
 inline constexpr std::string_view kVariantKey = "do";

@@ -62,8 +62,7 @@ class Builder : public nlohmann::json_sax<Json> {
     return false;
   }
   bool count() {
-    return ++nodes_ <= limits_.nodes ||
-           refuse(fmt::format("more than {} values", limits_.nodes));
+    return ++nodes_ <= limits_.nodes || refuse(fmt::format("more than {} values", limits_.nodes));
   }
   bool add(RawNode node) {
     if (open_.empty()) {

@@ -18,8 +18,8 @@ int read_variant_name(const ReadContext& context, const RawNode& node,
   }
   const RawNode* const name = node.find(kVariantKey);
   if (name == nullptr) {
-    context.error(node, fmt::format("missing key `{}`: expected {}", kVariantKey,
-                                    enum_expectation(names)));
+    context.error(
+        node, fmt::format("missing key `{}`: expected {}", kVariantKey, enum_expectation(names)));
     return -1;
   }
   return read_enum({context.diagnostics, context.options, fmt::format("`{}`", kVariantKey)}, *name,

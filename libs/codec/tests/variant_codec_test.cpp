@@ -49,7 +49,8 @@ TEST(VariantCodec, RefusesWithReasons) {
   EXPECT_EQ(step_error(R"({"x_m": 1})"), "missing key `do`: expected one of wait and go");
   EXPECT_EQ(step_error(R"({"do": "goo", "x_m": 1})"),
             "`do`: found the text \"goo\", expected one of wait and go; did you mean `go`?");
-  EXPECT_EQ(step_error(R"({"do": "go"})"), "missing key `x_m`: expected a number (at most 10, in metres)");
+  EXPECT_EQ(step_error(R"({"do": "go"})"),
+            "missing key `x_m`: expected a number (at most 10, in metres)");
   EXPECT_EQ(step_error(R"({"do": "wait", "x_m": 1})"), "unknown key `x_m`; there are none");
   EXPECT_EQ(step_error(R"({"do": "go", "x_m": 11})"),
             "`x_m`: found the number 11, expected a number (at most 10, in metres)");

@@ -11,8 +11,8 @@ namespace rave::codec {
 
 /// Limits that bound the cost of a malicious text.
 struct JsonLimits {
-  std::size_t depth = 16;        ///< Nesting of lists and objects.
-  std::size_t nodes = 100'000;   ///< Values and keys.
+  std::size_t depth = 16;       ///< Nesting of lists and objects.
+  std::size_t nodes = 100'000;  ///< Values and keys.
 };
 
 /// Parses one JSON value, strictly (RFC 8259). Errors kParse: no JSON, a key twice in one object, a

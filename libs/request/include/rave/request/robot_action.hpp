@@ -49,7 +49,7 @@ struct ResetShadow {
 /// Takes the lease of a robot.
 struct Take {
   static constexpr std::string_view kName = "take";
-  bool force = false;  ///< Takes it over from another person, who is told.
+  bool force = false;  ///< Takes it over from another person.
   friend bool operator==(const Take&, const Take&) = default;
 };
 

@@ -194,6 +194,7 @@ Result<dds_entity_t> Bus::add_endpoint(const TopicSpec& topic, bool reads) {
   Endpoint endpoint;
   endpoint.reads = reads;
   endpoint.topic = topic.name;
+  endpoint.recalls = reads && topic.qos.recalls;
   open_local_transport(endpoint, topic);
   // A reader without a socket does not announce its process: the address could belong to another
   // reader.
@@ -285,7 +286,11 @@ std::vector<BusEvent> Bus::take_events() {
   participants_->collect(events_);
   const std::uint64_t seen = std::exchange(silences_, participants_->silences());
   const bool silence = seen != silences_;
+  const std::vector<dds_guid_t> returned = participants_->take_returned();
   for (Endpoint& endpoint : endpoints_) {
+    if (endpoint.recalls) {
+      endpoint.returned.insert(endpoint.returned.end(), returned.begin(), returned.end());
+    }
     collect_incompatible(endpoint);
     collect_matches(endpoint, silence);
   }

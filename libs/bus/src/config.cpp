@@ -110,9 +110,9 @@ std::string discovery(const BusConfig& config, int hub) {
 /// receives at all sockets and is ended through a descriptor. Threads with one socket each would be
 /// ended by a packet that the process sends to itself; if its address is gone or a packet filter
 /// drops it, closing the domain would block forever. Writers that end do not linger, since that
-/// would be for the dead, too; Bus::remove_endpoint() waits for the living. Receive buffers fill slowly and are replaced
-/// when full. With the default size of 1 MiB, an idle process touches new pages for more than an
-/// hour, which looks like a leak.
+/// would be for the dead, too; Bus::remove_endpoint() waits for the living. Receive buffers fill
+/// slowly and are replaced when full. With the default size of 1 MiB, an idle process touches new
+/// pages for more than an hour, which looks like a leak.
 std::string internals() {
   return "<Internal><SocketReceiveBufferSize max=\"8MiB\"/>"
          "<WriterLingerDuration>0s</WriterLingerDuration>"

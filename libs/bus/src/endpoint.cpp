@@ -15,6 +15,14 @@ void take(dds_entity_t reader, Loan& loan) {
   loan.size = count > 0 ? static_cast<std::size_t>(count) : 0;
 }
 
+void read_new(dds_entity_t reader, Loan& loan) {
+  loan.samples.fill(nullptr);
+  const dds_return_t count = dds_read_mask(
+      reader, loan.samples.data(), loan.infos.data(), Loan::kBatch, std::uint32_t{Loan::kBatch},
+      DDS_NOT_READ_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_ANY_INSTANCE_STATE);
+  loan.size = count > 0 ? static_cast<std::size_t>(count) : 0;
+}
+
 void give_back(dds_entity_t reader, Loan& loan) noexcept {
   if (loan.size > 0) {
     dds_return_loan(reader, loan.samples.data(), static_cast<std::int32_t>(loan.size));

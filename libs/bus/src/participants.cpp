@@ -172,6 +172,8 @@ void Participants::come_back(std::uint64_t writer, std::vector<BusEvent>& events
   silent_.erase(back);
   ++silences_;
   const Identity who = gone_.extract(key).mapped();
+  dds_guid_t& guid = returned_.emplace_back();
+  std::ranges::copy(key, guid.v);
   learn(key, who, events);
 }
 

@@ -65,6 +65,8 @@ class Participants {
   /// How often a process has fallen silent or come back without that DDS forgot it; its readers and
   /// writers still match those of others, but gone() says that they do not count.
   [[nodiscard]] std::uint64_t silences() const noexcept { return silences_; }
+  /// The participants that have come back after a silence since the last call.
+  [[nodiscard]] std::vector<dds_guid_t> take_returned() { return std::exchange(returned_, {}); }
   /// The readers whose samples indicate a change.
   [[nodiscard]] const std::vector<dds_entity_t>& readers() const noexcept { return readers_; }
   /// One of them, whose status indicates a change, too.
@@ -108,6 +110,7 @@ class Participants {
   /// Those of `gone_` that DDS still knows, as they may come back.
   std::set<Guid> silent_;
   std::uint64_t silences_ = 0;
+  std::vector<dds_guid_t> returned_;
   std::set<std::uint64_t> heard_;  ///< Writer ids of processes whose signs of life have arrived.
   /// Apparently lost, not reported yet.
   std::map<Guid, Identity> missed_;

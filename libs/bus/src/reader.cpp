@@ -2,7 +2,10 @@
 // What arrives by DDS or by the local transport, attributed to its sender.
 #include "rave/bus/reader.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 #include "rave/bus/local_transport.hpp"
 
@@ -12,7 +15,60 @@ Result<ReaderCore> ReaderCore::create(Bus& bus, const TopicSpec& topic) {
   ReaderCore core;
   RAVE_TRY_ASSIGN(const Bus::Endpoint* const endpoint, core.add(bus, topic, true));
   core.local_ = endpoint->receiver.get();
+  core.recalled_ = endpoint->recalls ? topic.type : nullptr;
   return core;
+}
+
+void ReaderCore::recall(const Visit& visit) {
+  if (recalled_ == nullptr) return;
+  // Nothing may come twice while its writer is there, so what a process said is kept as long.
+  constexpr std::uint32_t kOfTheGone = DDS_READ_SAMPLE_STATE | DDS_ANY_VIEW_STATE |
+                                       DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE |
+                                       DDS_NOT_ALIVE_NO_WRITERS_INSTANCE_STATE;
+  Loan loan;
+  do {
+    loan.samples.fill(nullptr);
+    const dds_return_t count = dds_take_mask(entity_, loan.samples.data(), loan.infos.data(),
+                                             Loan::kBatch, std::uint32_t{Loan::kBatch}, kOfTheGone);
+    loan.size = count > 0 ? static_cast<std::size_t>(count) : 0;
+    give_back(entity_, loan);
+  } while (loan.size == Loan::kBatch);
+  const auto returned = std::exchange(bus_->endpoint(entity_)->returned, {});
+  if (returned.empty()) return;
+  read_all_again([&](const void* sample, const dds_sample_info_t& info) {
+    const dds_guid_t from = participant_of(entity_, true, info.publication_handle);
+    if (std::ranges::any_of(
+            returned, [&](const dds_guid_t& guid) { return std::ranges::equal(guid.v, from.v); })) {
+      visit(sample, info);
+    }
+  });
+}
+
+void ReaderCore::read_all_again(const Visit& visit) const {
+  std::vector<void*> samples;
+  std::vector<dds_sample_info_t> infos;
+  std::size_t count = 0;
+  // DDS begins with the first one at each call, so there must be room for all of them. They are
+  // copies: Cyclone DDS 0.10 lends a reader's memory in one size only.
+  for (std::size_t room = 64; count >= samples.size(); room *= 4) {
+    while (samples.size() < room) samples.push_back(dds_alloc(recalled_->m_size));
+    infos.resize(room);
+    const dds_return_t read =
+        dds_read_mask(entity_, samples.data(), infos.data(), room, static_cast<std::uint32_t>(room),
+                      DDS_READ_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_ALIVE_INSTANCE_STATE);
+    if (read <= 0) break;
+    count = static_cast<std::size_t>(read);
+  }
+  for (std::size_t i = 0; i < count; ++i) visit(samples[i], infos[i]);
+  for (void* const sample : samples) dds_sample_free(sample, recalled_, DDS_FREE_ALL);
+}
+
+void ReaderCore::next(Loan& loan) {
+  if (recalled_ != nullptr) {
+    read_new(entity_, loan);
+  } else {
+    take(entity_, loan);
+  }
 }
 
 std::size_t ReaderCore::begin_take() {

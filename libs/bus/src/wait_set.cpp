@@ -60,11 +60,15 @@ Status WaitSet::attach(dds_entity_t entity) {
 }
 
 Status WaitSet::add_reader(dds_entity_t reader) {
-  const dds_entity_t condition = dds_create_readcondition(reader, DDS_ANY_STATE);
+  const Bus::Endpoint* const endpoint = bus_->endpoint(reader);
+  // Where samples stay after they were read, only the others are news.
+  const bool stay = endpoint != nullptr && endpoint->recalls;
+  const dds_entity_t condition = dds_create_readcondition(
+      reader, DDS_ANY_VIEW_STATE | DDS_ANY_INSTANCE_STATE |
+                  (stay ? DDS_NOT_READ_SAMPLE_STATE : DDS_ANY_SAMPLE_STATE));
   RAVE_TRY(done(condition));
   conditions_.push_back(condition);
   RAVE_TRY(attach(condition));
-  const Bus::Endpoint* const endpoint = bus_->endpoint(reader);
   if (endpoint == nullptr || !endpoint->receiver) return {};
   // DDS and sockets cannot be waited for in one call. Where a reader has a socket, a relay waits
   // for DDS in a thread and makes it a descriptor.

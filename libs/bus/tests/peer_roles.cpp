@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/bus_testing/peer_roles.hpp"
 
+#include <poll.h>
+
 #include <cmath>
 #include <limits>
 
@@ -63,6 +65,9 @@ void furnish(Bus& bus, const Arguments& arguments) {
     static_cast<void>(roster->write(entry));
   }
   say("ready");
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  // A sign of life now and then, as every process gives it.
+  while (::poll(&input, 1, 100) == 0) static_cast<void>(bus.take_events());
   // A byte on the input: the first obstacle is no more.
   char byte = 0;
   if (::read(STDIN_FILENO, &byte, 1) != 1) return;

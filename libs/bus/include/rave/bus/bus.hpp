@@ -87,6 +87,9 @@ class Bus {
     };
     std::vector<Peer> peers;
     std::vector<Peer> heard;  ///< Readers only: the writers whose samples have been received.
+    bool recalls = false;     ///< Readers only; see QosProfile::recalls.
+    /// The participants whose samples are to be handed out again.
+    std::vector<dds_guid_t> returned;
     std::unique_ptr<LocalSender> sender;
     std::unique_ptr<LocalReceiver> receiver;
   };

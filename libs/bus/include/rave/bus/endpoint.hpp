@@ -24,6 +24,8 @@ struct Loan {
 
 /// Takes up to Loan::kBatch samples; none after an error. Call give_back() before the next take().
 void take(dds_entity_t reader, Loan& loan);
+/// The same, but they stay in the reader as samples that have been read.
+void read_new(dds_entity_t reader, Loan& loan);
 void give_back(dds_entity_t reader, Loan& loan) noexcept;
 
 /// The entities that currently match a reader or writer.

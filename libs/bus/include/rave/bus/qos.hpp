@@ -20,14 +20,22 @@ struct QosProfile {
   /// Whether a write blocks, for up to half a second, while 16 MB are not acknowledged. If there is
   /// still no room, the sample is dropped and the write fails.
   bool waits = false;
+  /// Whether a reader keeps the newest sample of each instance, and hands those of a process out
+  /// again when that one is back after a silence. Whoever forgets a silent process needs it: DDS
+  /// repeats a durable sample only to readers that it takes for new.
+  bool recalls = false;
 };
 
 /// Reliable; keeps the newest sample of each instance.
 inline constexpr QosProfile kNewest{};
 /// Reliable and durable; keeps the newest sample of each instance. Writers may block.
 inline constexpr QosProfile kDurable{.durable = true, .waits = true};
+/// Like kDurable, for what a process is known by to the others.
+inline constexpr QosProfile kIntroduction{.durable = true, .waits = true, .recalls = true};
 /// Like kDurable, for writers that must not block. They repeat what was not delivered.
 inline constexpr QosProfile kDescription{.durable = true};
+/// Like kDescription, for what a process says of its robots.
+inline constexpr QosProfile kRoster{.durable = true, .recalls = true};
 /// Reliable and durable; keeps the last 256 samples of each instance. Writers do not block.
 inline constexpr QosProfile kPast{.durable = true, .depth = 256};
 /// Reliable; keeps the last 8 samples of each instance. What one instance lost is in another.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -30,6 +31,13 @@ class ReaderCore : public EndpointOwner {
   /// Whether a take that has (`got`) received a sample by the local transport may skip DDS this
   /// time.
   [[nodiscard]] bool leaves_dds(bool got);
+  /// Called with a sample and what DDS knows of it.
+  using Visit = std::function<void(const void*, const dds_sample_info_t&)>;
+  /// Begins to take what came through DDS: hands out again what processes have said that are back,
+  /// and forgets what those said that have left. Only of topics with QosProfile::recalls.
+  void recall(const Visit& visit);
+  /// The next samples that came through DDS. Give them back before the next call.
+  void next(Loan& loan);
   void note_foreign() { bus().note_foreign(topic_); }
   /// Whether the sample comes from the process whose id it carries; if not, it is refused.
   [[nodiscard]] bool is_of(std::uint64_t writer, const dds_sample_info_t& info);
@@ -37,8 +45,13 @@ class ReaderCore : public EndpointOwner {
   [[nodiscard]] std::size_t writers() const;
 
  private:
+  /// Visits what has been read before and is still there.
+  void read_all_again(const Visit& visit) const;
+
   LocalReceiver* local_ = nullptr;  ///< Owned by the bus; null: all samples come through DDS.
-  std::uint64_t sender_ = 0;        ///< The sender of the last sample of the local transport.
+  /// The type of the samples of a topic with QosProfile::recalls; null: of another.
+  const dds_topic_descriptor_t* recalled_ = nullptr;
+  std::uint64_t sender_ = 0;  ///< The sender of the last sample of the local transport.
 };
 
 /// Reads one topic. Destroy it before its bus; thread: that of the bus.
@@ -82,9 +95,12 @@ class Reader {
   std::size_t take(Visit&& visit, Gone&& gone) {
     std::size_t visited = take_local(visit, gone);
     if (core_.leaves_dds(visited > 0)) return visited;
+    core_.recall([&](const void* sample, const dds_sample_info_t& info) {
+      visited += hand_over(*static_cast<const Message*>(sample), info, visit, gone);
+    });
     Loan loan;
     for (std::size_t taken = 0; taken < ReaderCore::kMostAtOnce; taken += Loan::kBatch) {
-      bus::take(handle(), loan);
+      core_.next(loan);
       for (std::size_t i = 0; i < loan.size; ++i) {
         const auto& sample = *static_cast<const Message*>(loan.samples[i]);
         visited += hand_over(sample, loan.infos[i], visit, gone);

@@ -72,7 +72,7 @@ template <>
 inline constexpr TopicSpec kTopic<LastWorld> = {"rave/last_world", &rave_wire_WorldStep_desc,
                                                 kNewest};
 template <>
-inline constexpr TopicSpec kTopic<RunState> = {"rave/run", &rave_wire_RunState_desc, kDurable};
+inline constexpr TopicSpec kTopic<RunState> = {"rave/run", &rave_wire_RunState_desc, kIntroduction};
 template <>
 inline constexpr TopicSpec kTopic<HostRun> = {"rave/host_run", &rave_wire_RunState_desc, kNewest};
 template <>
@@ -82,7 +82,7 @@ template <>
 inline constexpr TopicSpec kTopic<World> = {"rave/world", &rave_wire_World_desc, kNewest};
 template <>
 inline constexpr TopicSpec kTopic<RosterEntry> = {"rave/roster", &rave_wire_RosterEntry_desc,
-                                                  kDescription};
+                                                  kRoster};
 template <>
 inline constexpr TopicSpec kTopic<Obstacle> = {"rave/obstacle", &rave_wire_Obstacle_desc, kDurable};
 template <>
@@ -96,7 +96,8 @@ inline constexpr TopicSpec kTopic<CommandAnswer> = {"rave/command_answer",
 template <>
 inline constexpr TopicSpec kTopic<Packet> = {"rave/radio", &rave_wire_Packet_desc, kCrowd};
 template <>
-inline constexpr TopicSpec kTopic<HostInfo> = {"rave/host", &rave_wire_HostInfo_desc, kDurable};
+inline constexpr TopicSpec kTopic<HostInfo> = {"rave/host", &rave_wire_HostInfo_desc,
+                                               kIntroduction};
 template <>
 inline constexpr TopicSpec kTopic<LifeSign> = {"rave/life_sign", &rave_wire_LifeSign_desc,
                                                kDescription};

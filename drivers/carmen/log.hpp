@@ -8,6 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "carmen/log_text.hpp"
+#include "carmen/no_return.hpp"
+#include "carmen/stamps.hpp"
 #include "rave/base/result.hpp"
 #include "rave/math/pose.hpp"
 #include "recording/pose_track.hpp"
@@ -36,8 +39,15 @@ struct LoadOptions {
   recording::WindowOptions window;
   double clock_offset_s = 0;  ///< Added to all stamps, within +-1000.
   bool accept_cut = false;
+  LaserSide side = LaserSide::kFront;
   /// A range this long or longer is "no return", metres.
   double range_max_m = 80;
+  /// The same, for the range that the log writes for it. Negative: found by find_no_return(); 0:
+  /// there is none.
+  double no_return_m = -1;
+  /// As of StampOptions.
+  double rate_hz = 0;
+  bool order_suffices = false;
 };
 
 /// A part of a CARMEN log in memory. A plain value. Scans and odometry ascend in time, extend
@@ -48,17 +58,29 @@ struct Log {
   std::int64_t end_ns = 0;
   std::uint32_t beams = 0;
   std::vector<Scan> scans;
-  /// As logged, metres; values of at least `range_max_m` are +infinity (REP-117).
+  /// Whether scans have poses: of their own, or those of odometry.
+  bool poses = true;
+  /// As logged, metres; +infinity: no return; NaN: not known (REP-117).
   std::vector<float> ranges_m;
   std::vector<OdometrySample> odometry;
   recording::StreamReport scan_report;
   recording::StreamReport odometry_report;
   /// Number of ranges without return in the window.
   std::int64_t no_returns = 0;
-  /// Number of rows with messages that are not used.
-  std::int64_t passed_over = 0;
-  /// The stamps are those of the logger, because the message stamps repeat.
-  bool by_logger = false;
+  /// Number of NaN and negative ranges in the window.
+  std::int64_t unknown_rays = 0;
+  /// What find_no_return() found.
+  std::optional<NoReturn> no_return;
+  /// The largest range by the rows themselves, if rays of the log reach it; otherwise 0.
+  double maximum_m = 0;
+  const ScanMessage* message = nullptr;  ///< Of the scans.
+  /// Direction of the first ray, and from ray to ray, by the rows. A step of 0: they do not say.
+  double start_rad = 0;
+  double step_rad = 0;
+  StampedBy stamped_by = StampedBy::kMessage;
+  bool mixed_clocks = false;  ///< As of ParsedLog.
+  std::vector<PassedOver> passed_over;
+  std::vector<std::string> refusals;  ///< The errors of the first rows that were refused.
 
   [[nodiscard]] std::span<const float> ranges(const Scan& scan) const {
     return std::span(ranges_m).subspan(scan.first, beams);
@@ -67,12 +89,12 @@ struct Log {
   [[nodiscard]] recording::PoseTrack track() const;
 };
 
-/// Reads a log, plain or gzipped. A `stretch.txt` beside it (tools/cut_carmen.py) gives origin and
-/// window; without it the origin is the earliest stamp. Stamps are the `ipc_timestamp`. Exception:
-/// in a log without `stretch.txt`, if more than 5 % of the scans share an `ipc_timestamp` and at
-/// most 5 % share a `logger_timestamp`, all rows use the latter. Errors: kNotFound, kIo,
-/// kInvalidArgument (options), kParse (with file:line:column; a file that differs from the one in
-/// `stretch.txt`; a log without scans).
+/// Reads the scans of one laser and the odometry of a log, plain or gzipped. A `stretch.txt` beside
+/// it (tools/cut_carmen.py) gives origin and window; without it the origin is the earliest stamp.
+/// set_stamps() says which stamps those are, keep_one_laser() which scans. Scans without poses get
+/// those of the odometry, if there is any, moved by the offset of the laser. Errors: kNotFound,
+/// kIo, kInvalidArgument (options; a log without times and without `rate_hz`), kParse (with
+/// file:line:column; a file that differs from the one in `stretch.txt`; a log without scans).
 [[nodiscard]] Result<Log> load(const std::filesystem::path& path, const LoadOptions& options = {});
 
 /// Does what load() does, for the text of a log. `file` is used in messages.
@@ -83,5 +105,9 @@ struct Log {
 /// Direction of each ray of a scan in the laser frame, radians, counter-clockwise: evenly spaced
 /// over the field and symmetric about the x axis, as in `virtual_laser`.
 [[nodiscard]] std::vector<double> bearings_rad(std::uint32_t beams, double fov_deg);
+/// The directions that the rows of a log give: those of CARMEN, start_angle + i *
+/// angular_resolution. With `fov_deg` above 0 those of the function above. Error kInvalidArgument:
+/// neither says anything.
+[[nodiscard]] Result<std::vector<double>> bearings_rad(const Log& log, double fov_deg);
 
 }  // namespace rave::carmen

@@ -2,12 +2,11 @@
 #include "carmen/log_text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <utility>
 
-#include "rave/base/names.hpp"
 #include "recording/line_parser.hpp"
 #include "recording/stamp.hpp"
 
@@ -21,22 +20,25 @@ using recording::RepairKind;
 using recording::shown;
 
 constexpr double kLargestReal = 1e6;
-constexpr double kLongestRange_m = 1000;
+constexpr double kLargestAngle_rad = 1e4;
+constexpr double kWholeTurn = 6.3;
 constexpr std::uint32_t kMostBeams = 100'000;
 // Corrected logs are full of ODOM rows with an invalid stamp right behind a scan. One second
 // separates them from rows that are merely out of order.
 constexpr std::int64_t kJunkLimit_ns = 1'000'000'000;
 /// The words after the content of every message: ipc_timestamp, ipc_hostname, logger_timestamp.
 constexpr std::size_t kTail = 3;
-
-constexpr std::array<std::string_view, 20> kMessages{
-    "FLASER",    "ODOM",      "PARAM",       "SYNC",        "RLASER",    "TRUEPOS",   "NEFF",
-    "LASER3",    "LASER4",    "ROBOTLASER1", "ROBOTLASER2", "RAWLASER1", "RAWLASER2", "RAWLASER3",
-    "RAWLASER4", "RAWLASER5", "BASEODOM",    "SIM_TRUE",    "NMEAGGA",   "NMEARMC"};
+constexpr std::size_t kPoseWords = 3;
+/// tv, rv, two safety distances and turn_axis of a ROBOTLASER message.
+constexpr std::size_t kMotionWords = 5;
+/// A file that is no log has a new name in every line.
+constexpr std::size_t kMostKinds = 24;
+constexpr std::size_t kMostRefusals = 3;
 
 class LogParser final : recording::LineParser {
  public:
-  LogParser(const std::string& file, bool accept_cut) : LineParser(file, accept_cut) {}
+  LogParser(const std::string& file, bool accept_cut, LaserSide side)
+      : LineParser(file, accept_cut), side_(side) {}
 
   Result<ParsedLog> parse(const recording::UnpackedText& log) {
     RAVE_TRY(parse_lines(log));
@@ -49,51 +51,96 @@ class LogParser final : recording::LineParser {
     // Only the row right behind a scan can be such a leftover, so the flag holds for one line.
     const bool behind_scan = behind_scan_;
     behind_scan_ = false;
-    if (name == "FLASER") return take_scan();
-    if (name == "ODOM") return take_odometry(behind_scan);
-    if (std::find(kMessages.begin(), kMessages.end(), name) == kMessages.end()) {
-      return refuse(0, fmt::format("`{}` is not a message of a CARMEN log{}", shown(name),
-                                   suggestion(name, kMessages)));
+    const ScanMessage* message = scan_message(name);
+    if (message != nullptr && message->side == side_) {
+      const std::size_t held = log_.ranges_m.size();
+      const Status taken = take_scan(*message);
+      behind_scan_ = taken.has_value();
+      if (taken) return {};
+      log_.ranges_m.resize(held);
+      log_.refuse(log_.scan_repairs, line_, taken.error().text());
+    } else if (name == "ODOM") {
+      const Status taken = take_odometry(behind_scan);
+      if (!taken) log_.refuse(log_.odometry_repairs, line_, taken.error().text());
+    } else {
+      if (name == "PARAM") take_parameter();
+      log_.pass_over(shown(name), std::ranges::find(kKnownMessages, name) != kKnownMessages.end());
     }
-    ++log_.passed_over;
     return {};
   }
 
-  /// FLASER n r1 … rn x y theta odom_x odom_y odom_theta.
-  Status take_scan() {
-    RAVE_TRY_ASSIGN(const std::uint32_t beams, beams_of_line());
-    // The number of words follows from the number of ranges, so a line that lost a word is noticed.
-    RAVE_TRY(expect_words(2 + beams + 6 + kTail));
+  /// The messages are described at ScanLayout.
+  Status take_scan(const ScanMessage& message) {
     ScanRow row;
     row.line = line_;
-    RAVE_TRY_ASSIGN(row.stamp_ns, stamp());
-    row.logged_ns = parse_stamp_ns(words_.back().text);
-    row.first = log_.ranges_m.size();
-    for (std::size_t i = 2; i < 2 + beams; ++i) {
-      RAVE_TRY_ASSIGN(const double range_m, number(i, "range [m]", 0, kLongestRange_m));
-      log_.ranges_m.push_back(static_cast<float>(range_m));
+    row.message = &message;
+    std::size_t at = 1;
+    if (message.layout != ScanLayout::kOld) {
+      RAVE_TRY(take_configuration(row));
+      at = 8;
     }
-    RAVE_TRY_ASSIGN(row.X_WL, pose(2 + beams));
-    RAVE_TRY(pose(5 + beams));  // of odometry; equal in a corrected log
-    log_.beams = beams;
+    RAVE_TRY_ASSIGN(row.beams, count(at, 1, "the number of ranges"));
+    const std::size_t first_range = at + 1;
+    at = first_range + row.beams;
+    if (message.layout != ScanLayout::kOld) {
+      RAVE_TRY_ASSIGN(const std::uint32_t remissions, count(at, 0, "the number of remissions"));
+      at += 1 + remissions;
+    }
+    const std::size_t pose_at = at;
+    if (message.layout != ScanLayout::kRaw) at += 2 * kPoseWords;
+    if (message.layout == ScanLayout::kRobot) at += kMotionWords;
+    // The number of words follows from the number of ranges, so a line that lost a word is noticed.
+    RAVE_TRY(expect_words(at + kTail));
+    row.stamps = stamps();
+    RAVE_TRY(take_ranges(row, first_range));
+    if (message.layout != ScanLayout::kRaw) {
+      RAVE_TRY_ASSIGN(row.X_WL, pose(pose_at));
+    }
     log_.scans.push_back(row);
-    behind_scan_ = true;
     return {};
   }
 
-  Result<std::uint32_t> beams_of_line() {
-    if (words_.size() < 2) return refuse_count("the number of ranges");
-    const auto beams = parse_number<std::uint32_t>(words_[1].text);
-    if (!beams || *beams == 0 || *beams > kMostBeams) {
-      return refuse(1, fmt::format("the number of ranges is `{}`: expected 1 to {}",
-                                   shown(words_[1].text), kMostBeams));
+  /// laser_type start_angle field_of_view angular_resolution maximum_range accuracy remission_mode.
+  Status take_configuration(ScanRow& row) {
+    if (words_.size() < 9) return refuse_count("the configuration of a laser");
+    RAVE_TRY_ASSIGN(row.start_rad, number(2, "start_angle [rad]", -kWholeTurn, kWholeTurn));
+    RAVE_TRY_ASSIGN(row.step_rad, number(4, "angular_resolution [rad]", 0, kWholeTurn));
+    RAVE_TRY_ASSIGN(row.maximum_m, number(5, "maximum_range [m]", 0, kLargestReal));
+    return {};
+  }
+
+  Status take_ranges(ScanRow& row, std::size_t at) {
+    row.first = log_.ranges_m.size();
+    for (std::size_t i = at; i < at + row.beams; ++i) {
+      const auto range_m = parse_number<double>(words_[i].text);
+      if (!range_m) {
+        return refuse(i,
+                      fmt::format("range [m] is `{}`: expected a number", shown(words_[i].text)));
+      }
+      // Devices write NaN or a negative number for what they could not measure.
+      const bool measured = *range_m >= 0;
+      constexpr double kMost = std::numeric_limits<float>::max();
+      log_.ranges_m.push_back(measured ? static_cast<float>(std::min(*range_m, kMost))
+                                       : std::numeric_limits<float>::quiet_NaN());
     }
-    // One sensor has one set of bearings; the log of two lasers under one name cannot be played.
-    if (!log_.scans.empty() && *beams != log_.beams) {
-      return refuse(
-          1, fmt::format("this scan has {} ranges, the scans before it {}", *beams, log_.beams));
-    }
-    return *beams;
+    return {};
+  }
+
+  Result<std::uint32_t> count(std::size_t at, std::uint32_t least, std::string_view what) {
+    if (words_.size() <= at) return refuse_count(what);
+    const auto count = parse_number<std::uint32_t>(words_[at].text);
+    if (count && *count >= least && *count <= kMostBeams) return *count;
+    return refuse(at, fmt::format("{} is `{}`: expected {} to {}", what, shown(words_[at].text),
+                                  least, kMostBeams));
+  }
+
+  /// PARAM name value; where the laser is on the robot.
+  void take_parameter() {
+    const std::string_view name =
+        side_ == LaserSide::kFront ? "robot_frontlaser_offset" : "robot_rearlaser_offset";
+    if (words_.size() < 3 || words_[1].text != name) return;
+    const auto offset_m = parse_number<double>(words_[2].text);
+    if (offset_m && std::abs(*offset_m) <= kLargestReal) log_.laser_offset_m = *offset_m;
   }
 
   /// ODOM x y theta tv rv accel.
@@ -104,38 +151,31 @@ class LogParser final : recording::LineParser {
     RAVE_TRY_ASSIGN(row.X_WR, pose(1));
     RAVE_TRY_ASSIGN(row.v_mps, number(4, "tv [m/s]", -kLargestReal, kLargestReal));
     RAVE_TRY_ASSIGN(row.w_radps, number(5, "rv [rad/s]", -kLargestReal, kLargestReal));
-    if (behind_scan && is_junk()) {
+    row.stamps = stamps();
+    if (behind_scan && is_junk(row)) {
       add_repair(log_.odometry_repairs, RepairKind::kJunkStamp, 1, line_);
       return {};
     }
-    RAVE_TRY_ASSIGN(row.stamp_ns, stamp());
-    row.logged_ns = parse_stamp_ns(words_.back().text);
     log_.odometry.push_back(row);
     return {};
   }
 
   /// Whether the stamp of this row is invalid, given the stamp of the scan before it.
-  [[nodiscard]] bool is_junk() const {
-    const std::string_view text = words_[words_.size() - kTail].text;
-    const auto stamp_ns = parse_stamp_ns(text);
-    if (!stamp_ns) return parse_number<double>(text).has_value();
-    return *stamp_ns < log_.scans.back().stamp_ns - kJunkLimit_ns;
+  [[nodiscard]] bool is_junk(const OdometryRow& row) const {
+    const std::optional<std::int64_t> scan_ns = log_.scans.back().stamps.message_ns;
+    if (!scan_ns) return false;
+    return !row.stamps.message_ns || *row.stamps.message_ns < *scan_ns - kJunkLimit_ns;
   }
 
-  Result<std::int64_t> stamp() {
-    const std::size_t at = words_.size() - kTail;
-    const auto stamp_ns = parse_stamp_ns(words_[at].text);
-    if (stamp_ns) return *stamp_ns;
-    return refuse(at, fmt::format("ipc_timestamp is `{}`: expected seconds with at most nine "
-                                  "decimals",
-                                  shown(words_[at].text)));
+  [[nodiscard]] RowStamps stamps() const {
+    return {parse_stamp_ns(words_[words_.size() - kTail].text), parse_stamp_ns(words_.back().text)};
   }
 
   Result<Pose2> pose(std::size_t at) {
     Pose2 pose;
     RAVE_TRY_ASSIGN(pose.x, number(at, "x [m]", -kLargestReal, kLargestReal));
     RAVE_TRY_ASSIGN(pose.y, number(at + 1, "y [m]", -kLargestReal, kLargestReal));
-    RAVE_TRY_ASSIGN(pose.yaw, number(at + 2, "theta [rad]", -1e4, 1e4));
+    RAVE_TRY_ASSIGN(pose.yaw, number(at + 2, "theta [rad]", -kLargestAngle_rad, kLargestAngle_rad));
     return pose;
   }
 
@@ -164,15 +204,37 @@ class LogParser final : recording::LineParser {
   std::string whole() const override { return fmt::format("{} whole scans", log_.scans.size()); }
   std::vector<recording::Repair>& cut_repairs() override { return log_.scan_repairs; }
 
+  LaserSide side_;
   ParsedLog log_;
   bool behind_scan_ = false;
 };
 
 }  // namespace
 
+void ParsedLog::pass_over(std::string_view name, bool known) {
+  if (passed_over.size() == kMostKinds &&
+      std::ranges::find(passed_over, name, &PassedOver::name) == passed_over.end()) {
+    passed_over.push_back({"others", 0, false});
+  }
+  if (passed_over.size() > kMostKinds &&
+      std::ranges::find(passed_over, name, &PassedOver::name) == passed_over.end()) {
+    name = passed_over.back().name;
+  }
+  auto kind = std::ranges::find(passed_over, name, &PassedOver::name);
+  if (kind == passed_over.end()) {
+    kind = passed_over.insert(kind, {std::string(name), 0, known});
+  }
+  ++kind->count;
+}
+
+void ParsedLog::refuse(std::vector<recording::Repair>& repairs, int line, std::string why) {
+  add_repair(repairs, RepairKind::kRefusedRow, 1, line);
+  if (refusals.size() < kMostRefusals) refusals.push_back(std::move(why));
+}
+
 Result<ParsedLog> parse_log(const recording::UnpackedText& log, const std::string& file,
-                            bool accept_cut) {
-  return LogParser(file, accept_cut).parse(log);
+                            bool accept_cut, LaserSide side) {
+  return LogParser(file, accept_cut, side).parse(log);
 }
 
 }  // namespace rave::carmen

@@ -64,6 +64,17 @@ TEST_F(StreamLoss, OfACarmenLogWhoseStampsRepeatIsTold) {
             json({{"count", 98}, {"of", 100}, {"because", "duplicate_stamp"}}));
 }
 
+TEST_F(StreamLoss, WhatAPlayerRemarksIsToldOnce) {
+  write_log(0, true);
+  std::ofstream(folder_.path() / "a.log", std::ios::app) << "REMISSIONFLASER 1 2 3 4 h 4\n";
+  const Ended ended = run_log();
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  const std::string note = "robot `it`: log `" + folder_.path().string() +
+                           "/a.log`: passed over rows of unknown messages: 1 x REMISSIONFLASER";
+  EXPECT_NE(ended.err.find("note: " + note), std::string::npos) << ended.err;
+  EXPECT_EQ(result()["problems"], json::array({note}));
+}
+
 TEST_F(StreamLoss, FromSixPercentOnIsTold) {
   write_log(6, true);
   expect_told(run_log(),

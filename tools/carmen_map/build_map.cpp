@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "carmen/notes.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/math/trigonometry.hpp"
 
@@ -15,6 +16,8 @@ namespace rave::tools {
 namespace {
 
 constexpr int kMarginCells = 4;
+constexpr std::int64_t kLeastScans = 10;
+constexpr float kFar_m = std::numeric_limits<float>::infinity();
 
 /// The smallest rectangle around what the scans saw.
 struct Bounds {
@@ -53,14 +56,37 @@ estimate::GridFrame frame_of(const Bounds& bounds, double resolution_m) {
           cell(bounds.high.y) + kMarginCells + 1 - bottom};
 }
 
+/// MapFiles::poor.
+std::string poor(const carmen::Log& log) {
+  const auto used = static_cast<std::int64_t>(log.scans.size());
+  const std::int64_t of = used + log.scan_report.dropped() +
+                          log.scan_report.repaired(recording::RepairKind::kJunkStamp);
+  const bool any =
+      std::ranges::any_of(log.ranges_m, [](float range_m) { return range_m < kFar_m; });
+  if (!any) return "a map without a ray that met something: each one is without return";
+  if (used >= kLeastScans && 2 * used >= of) return {};
+  std::string text = fmt::format("a map of {} of the {} scans of the log", used, of);
+  for (const std::string& why : log.refusals) text += "\n  refused: " + why;
+  return text;
+}
+
 }  // namespace
 
 Result<MapFiles> build_map(const MapOptions& options, const std::string& image_name) {
-  RAVE_TRY_ASSIGN(carmen::Log log, carmen::load(options.log));
+  carmen::LoadOptions load;
+  load.side = options.side;
+  load.no_return_m = options.no_return_m;
+  load.order_suffices = true;
+  RAVE_TRY_ASSIGN(carmen::Log log, carmen::load(options.log, load));
+  if (!log.poses) {
+    return fail(ErrorCode::kInvalidArgument,
+                "`{}`: {} rows have no pose, and there is no ODOM row to take it from",
+                options.log.string(), log.message->name);
+  }
   std::erase_if(log.scans, [&](const carmen::Scan& scan) {
     return scan.t_ns < log.start_ns || scan.t_ns > log.end_ns;
   });
-  std::vector<double> bearings_rad = carmen::bearings_rad(log.beams, options.fov_deg);
+  RAVE_TRY_ASSIGN(std::vector<double> bearings_rad, carmen::bearings_rad(log, options.fov_deg));
   for (double& bearing_rad : bearings_rad) bearing_rad += deg_to_rad(options.yaw_deg);
   const Bounds bounds = bounds_of(log, bearings_rad, options.beams.range_max_m);
   RAVE_TRY_ASSIGN(
@@ -75,7 +101,8 @@ Result<MapFiles> build_map(const MapOptions& options, const std::string& image_n
   return MapFiles{estimate::map_image(grid, options.thresholds),
                   estimate::map_yaml(grid.frame(), options.thresholds, image_name, comment),
                   fmt::format("{} scans, {} x {} cells of {} m", log.scans.size(),
-                              grid.frame().columns, grid.frame().rows, options.resolution_m)};
+                              grid.frame().columns, grid.frame().rows, options.resolution_m),
+                  carmen::notes(log, log.scan_report.file, log.scan_report), poor(log)};
 }
 
 }  // namespace rave::tools

@@ -13,14 +13,17 @@ namespace {
 
 constexpr auto kParams = recording::join_params(
     kLogParams,
-    std::array<ParamSpec, 3>{
-        required(number_param("fov_deg", "deg", 180, 0, 360,
-                              "Angle from the first ray to the last, symmetric about the sensor's "
-                              "x axis.")),
+    std::array<ParamSpec, 4>{
+        number_param("fov_deg", "deg", 0, 0, 360,
+                     "Angle from the first ray to the last, symmetric about the sensor's x axis; "
+                     "0: the directions that the rows give. FLASER and RLASER rows give none."),
         number_param("range_min_m", "m", 0.02, 0, 1000,
                      "Smallest range; nearer bodies read as this."),
         number_param("range_max_m", "m", 80, 0.1, 1000,
                      "Ranges from this value on count as no return."),
+        number_param("no_return_m", "m", -1, -1, 1000,
+                     "The range that the log writes for no return; -1: found in the log, as the "
+                     "largest range if it is far more frequent than others; 0: none."),
     });
 
 /// The scans of the front laser.
@@ -37,13 +40,9 @@ class Laser {
     RAVE_TRY(check_ascending(params, "range_min_m", "range_max_m"));
     range_min_m_ = params.number("range_min_m");
     range_max_m_ = params.number("range_max_m");
-    RAVE_TRY_ASSIGN(const LogPlay play, load_play(setup, range_max_m_));
-    const double fov_deg = params.number("fov_deg");
-    if (play.log.beams > 1 && !(fov_deg > 0)) {
-      return fail(ErrorCode::kInvalidArgument, "`fov_deg` is {}, so all {} rays coincide", fov_deg,
-                  play.log.beams);
-    }
-    bearings_rad_ = bearings_rad(play.log.beams, fov_deg);
+    RAVE_TRY_ASSIGN(const LogPlay play,
+                    load_play(setup, {range_max_m_, params.number("no_return_m")}));
+    RAVE_TRY_ASSIGN(bearings_rad_, bearings_rad(play.log, params.number("fov_deg")));
     return recording::Played<float>{
         timeline(play.log), report_json(play, "scans", play.log.scan_report), play.options.live};
   }
@@ -65,7 +64,10 @@ class Laser {
       const bool held = i + 1 < log.scans.size() && log.scans[i + 1].t_ns <= log.start_ns;
       if (before && held) continue;
       timeline.begin(std::max(SimTime{}, SimTime{log.scans[i].t_ns - log.start_ns}));
-      for (const float range_m : log.ranges(log.scans[i])) timeline.add(std::max(least, range_m));
+      // NaN stays what it is.
+      for (const float range_m : log.ranges(log.scans[i])) {
+        timeline.add(range_m < least ? least : range_m);
+      }
     }
     return timeline;
   }

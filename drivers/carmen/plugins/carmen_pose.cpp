@@ -25,6 +25,11 @@ struct Poses {
 
   static Result<recording::Played<PoseReading>> load(const HardwareSetup& setup) {
     RAVE_TRY_ASSIGN(const LogPlay play, load_play(setup));
+    if (!play.log.poses) {
+      return fail(ErrorCode::kInvalidArgument,
+                  "`{}`: {} rows have no pose, and there is no ODOM row to take it from", play.path,
+                  play.log.message->name);
+    }
     const pose_doubt::Doubt doubt = pose_doubt::read_doubt(setup.parameters());
     const auto convert = [=](const Scan& scan) {
       return PoseReading{scan.X_WL.x, scan.X_WL.y, scan.X_WL.yaw, doubt.variance_xy_m2,

@@ -75,21 +75,44 @@ std::string still_log(int scans, bool logger_too) {
 TEST(Log, TakesTheStampsOfTheLoggerIfThoseOfTheMessagesRepeat) {
   const auto log = load_text({still_log(2008, false), false}, "f", std::nullopt, {});
   ASSERT_TRUE(log) << log.error().text();
-  EXPECT_TRUE(log->by_logger);
+  EXPECT_EQ(log->stamped_by, StampedBy::kLogger);
   EXPECT_EQ(log->scan_report.rows, 2008);
   EXPECT_EQ(log->scan_report.dropped(), 0);
   EXPECT_EQ(log->odometry_report.rows, 2008);
   EXPECT_EQ(log->scans[3].t_ns, 750 * kMillisecond_ns);
   EXPECT_EQ(log->odometry[3].t_ns, 850 * kMillisecond_ns);
-  EXPECT_FALSE(load_small()->by_logger);
+  EXPECT_EQ(load_small()->stamped_by, StampedBy::kMessage);
 }
 
-TEST(Log, CountsWhatItDropsIfAllStampsRepeat) {
-  const auto log = load_text({still_log(2008, true), false}, "f", std::nullopt, {});
+TEST(Log, OfOneStampIsPlayedAtAGivenRate) {
+  const recording::UnpackedText text{still_log(2008, true), false};
+  const auto none = load_text(text, "f", std::nullopt, {});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(
+      none.error().text(),
+      "`f`: all 2008 scans have the same stamp, so their times are not known; `rate_hz` gives "
+      "the number of scans in a second");
+  LoadOptions options;
+  options.rate_hz = 4;
+  const auto log = load_text(text, "f", std::nullopt, options);
   ASSERT_TRUE(log) << log.error().text();
-  EXPECT_FALSE(log->by_logger);
-  EXPECT_EQ(log->scan_report.rows, 1);
-  EXPECT_EQ(log->scan_report.dropped(), 2007);
+  EXPECT_EQ(log->stamped_by, StampedBy::kRate);
+  ASSERT_EQ(log->scans.size(), 2008U);
+  EXPECT_EQ(log->scans[7].t_ns, 1750 * kMillisecond_ns);
+  EXPECT_EQ(log->ranges(log->scans[3])[0], 4) << "in the order of the file";
+  ASSERT_EQ(log->odometry.size(), 2008U);
+  EXPECT_EQ(log->odometry[1].t_ns, 375 * kMillisecond_ns) << "between two scans";
+  options.rate_hz = -1;
+  EXPECT_EQ(load_text(text, "f", std::nullopt, options).error().text(),
+            "rate_hz is -1: expected 0, or 0.001 to 1000");
+}
+
+TEST(Log, WhereOnlyTheOrderCountsNoScanIsLost) {
+  LoadOptions options;
+  options.order_suffices = true;
+  const auto log = load_text({still_log(2008, true), false}, "f", std::nullopt, options);
+  ASSERT_TRUE(log) << log.error().text();
+  EXPECT_EQ(log->scans.size(), 2008U);
 }
 
 TEST(Log, CountsWhatItDropsInTheWindowOnly) {
@@ -108,7 +131,14 @@ TEST(Log, CountsWhatItDropsInTheWindowOnly) {
 TEST(Log, RefusesWhatItCannotUse) {
   const auto none = load_text({"ODOM 0 0 0 0 0 0 1 h 1\n", false}, "f", std::nullopt, {});
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().text(), "f: the log has no FLASER row; other messages are not read");
+  EXPECT_EQ(none.error().text(),
+            "f: the log has no scan of the front laser (FLASER, ROBOTLASER1, RAWLASER1)");
+  const auto other = load_text({"BLASER 1\nBLASER 2\nFLASER 1 x\n", false}, "f", std::nullopt, {});
+  ASSERT_FALSE(other);
+  EXPECT_EQ(
+      other.error().text(),
+      "f: the log has no scan of the front laser (FLASER, ROBOTLASER1, RAWLASER1); it has 2 x "
+      "BLASER; 1 rows are refused, the first: f:3:11: FLASER: expected 12 words, found 3 words");
   LoadOptions options;
   options.window.end_s = 5;
   EXPECT_EQ(load_small(options).error().text(),

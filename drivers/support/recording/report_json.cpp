@@ -11,11 +11,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr WordTable<RepairKind, 5> kRepairs = {{{"duplicate_stamp", RepairKind::kDuplicateStamp},
+constexpr WordTable<RepairKind, 7> kRepairs = {{{"duplicate_stamp", RepairKind::kDuplicateStamp},
                                                 {"step_back", RepairKind::kStepBack},
                                                 {"heading_wrapped", RepairKind::kHeadingWrapped},
                                                 {"cut_line", RepairKind::kCutLine},
-                                                {"junk_stamp", RepairKind::kJunkStamp}}};
+                                                {"junk_stamp", RepairKind::kJunkStamp},
+                                                {"refused_row", RepairKind::kRefusedRow},
+                                                {"other_clock", RepairKind::kOtherClock}}};
 constexpr WordTable<GapKind, 3> kGaps = {{{"inside", GapKind::kInside},
                                           {"late_start", GapKind::kLateStart},
                                           {"early_end", GapKind::kEarlyEnd}}};
@@ -50,6 +52,8 @@ Json dropped_of(const StreamReport& report) {
   std::string because;
   for (const Repair& repair : report.repairs) {
     const bool drops = repair.kind == RepairKind::kDuplicateStamp ||
+                       repair.kind == RepairKind::kRefusedRow ||
+                       repair.kind == RepairKind::kOtherClock ||
                        (repair.kind == RepairKind::kJunkStamp && report.rows == 0);
     if (drops) because += (because.empty() ? "" : ", ") + std::string(kRepairs.of(repair.kind));
   }

@@ -20,7 +20,8 @@ std::int64_t StreamReport::repaired(RepairKind repair) const noexcept {
 }
 
 std::int64_t StreamReport::dropped() const noexcept {
-  std::int64_t count = duplicates_in_window;
+  std::int64_t count =
+      duplicates_in_window + repaired(RepairKind::kRefusedRow) + repaired(RepairKind::kOtherClock);
   // Junk rows are normally extra rows beside good ones. If nothing else is left, they were the
   // stream.
   if (rows == 0) count += repaired(RepairKind::kJunkStamp);

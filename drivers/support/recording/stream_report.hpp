@@ -18,6 +18,8 @@ enum class RepairKind : std::uint8_t {
   kHeadingWrapped,  ///< Headings outside (-pi, pi], wrapped.
   kCutLine,         ///< A truncated last line, left out.
   kJunkStamp,       ///< Rows dropped because their stamp is invalid.
+  kRefusedRow,      ///< Rows dropped because they cannot be read.
+  kOtherClock,      ///< Rows dropped because their stamp is far from those around them.
 };
 
 /// The position of a gap in the window.
@@ -81,8 +83,8 @@ struct StreamReport : LogIdentity {
   /// The count of a kind of repair.
   [[nodiscard]] std::int64_t repaired(RepairKind repair) const noexcept;
   /// Rows of the window that are not played. Rows without a usable stamp cannot be assigned to the
-  /// window, so all of them count; those added by a mapping program (`junk_stamp`) count only if
-  /// there are no others.
+  /// window, so all of them count (`refused_row`, `other_clock`); those added by a mapping program
+  /// (`junk_stamp`) count only if there are no others.
   [[nodiscard]] std::int64_t dropped() const noexcept;
 };
 

@@ -70,6 +70,7 @@ void OccupancyGrid::add(const ScanView& scan) {
   }
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range_m = static_cast<double>(scan.ranges_m[i]);
+    if (std::isnan(range_m)) continue;
     const bool returned = range_m < kFar;
     const double free_m =
         returned ? std::min(range_m, model_.range_max_m) : model_.no_return_free_m;

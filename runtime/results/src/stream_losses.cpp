@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace rave::runtime {
@@ -37,6 +38,25 @@ std::string loss_of(const RunResults& results, const InstrumentFacts& stream) {
                      said ? ": " + because->get<std::string>() : "");
 }
 
+/// The largest number of remarks of a driver that are passed on.
+constexpr std::size_t kMostNotes = 16;
+
+/// The remarks of a driver on what it plays. Sensors that play one log make the same ones.
+void add_notes(const RunResults& results, const InstrumentFacts& stream,
+               std::vector<std::string>& texts) {
+  const Json report = Json::parse(stream.report, nullptr, false);
+  if (!report.is_object()) return;
+  const auto notes = report.find("notes");
+  if (notes == report.end() || !notes->is_array()) return;
+  std::size_t count = 0;
+  for (const Json& note : *notes) {
+    if (!note.is_string() || ++count > kMostNotes) continue;
+    std::string text = fmt::format("robot `{}`: {}", results.spec.robots[stream.robot].name,
+                                   note.get_ref<const std::string&>());
+    if (std::ranges::find(texts, text) == texts.end()) texts.push_back(std::move(text));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> stream_losses(const RunResults& results) {
@@ -46,6 +66,7 @@ std::vector<std::string> stream_losses(const RunResults& results) {
       losses.push_back(std::move(loss));
     }
   }
+  for (const InstrumentFacts& stream : results.facts.streams) add_notes(results, stream, losses);
   return losses;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plug-ins of the build tree, called as an engine calls them.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,7 @@
 namespace rave::carmen {
 namespace {
 
+using nlohmann::json;
 using recording::Given;
 using recording::kSecond_ns;
 using recording::play_all;
@@ -69,6 +71,99 @@ TEST(CarmenLaser, LongRangesAreNoReturnAndShortOnesTheLeast) {
     }
   }
   EXPECT_GT(none, 1000);
+}
+
+const std::string kOwn = RAVE_SOURCE_DIR "/drivers/carmen/tests/logs";
+
+json report_of(const std::string& driver, const Given& given) {
+  Player player(driver);
+  EXPECT_EQ(player.configure(given, kOwn), "");
+  return json::parse(player.report());
+}
+
+bool noted(const json& report, const std::string& part) {
+  return std::ranges::any_of(report["notes"], [&](const json& note) {
+    return note.get<std::string>().find(part) != std::string::npos;
+  });
+}
+
+/// Rows since 2007, with what other people's logs have: unknown messages, a stamp of another clock,
+/// one out of order, a NaN, and 5.60 m for no return.
+TEST(CarmenLaser, PlaysNewerRowsAndSaysWhatItMended) {
+  const Given log = {{"log", "robotlaser.log"}};
+  const auto scans = play_all<float>("carmen_laser", log, kOwn);
+  ASSERT_EQ(scans.size(), 29U) << "of 30, one is of another clock";
+  int none = 0;
+  int unknown = 0;
+  for (const auto& scan : scans) {
+    for (const float range_m : scan.records) {
+      none += std::isinf(range_m) ? 1 : 0;
+      unknown += std::isnan(range_m) ? 1 : 0;
+      EXPECT_FALSE(range_m >= 4.01F && !std::isinf(range_m)) << range_m;
+    }
+  }
+  EXPECT_GT(none, 100);
+  EXPECT_EQ(unknown, 1);
+  Player player("carmen_laser");
+  ASSERT_EQ(player.configure(log, kOwn), "");
+  EXPECT_DOUBLE_EQ(player.declaration().bearings_rad[0], -1.5);
+  EXPECT_DOUBLE_EQ(player.declaration().bearings_rad[60], 1.5);
+  const json report = report_of("carmen_laser", log);
+  EXPECT_EQ(report["message"], "ROBOTLASER1");
+  EXPECT_EQ(report["passed_over"]["REMISSIONFLASER"], 3);
+  EXPECT_EQ(report["passed_over"]["NMEAGGA"], 3);
+  EXPECT_TRUE(noted(report,
+                    "passed over rows of unknown messages: 1 x COMMENT, 3 x "
+                    "REMISSIONFLASER, 3 x NMEA"))
+      << report["notes"];
+  EXPECT_TRUE(noted(report, "refused 1 rows, the first: ")) << report["notes"];
+  EXPECT_TRUE(noted(report, "dropped 1 rows with stamps of another clock")) << report["notes"];
+  EXPECT_TRUE(noted(report, "sorted 1 rows with stamps out of order")) << report["notes"];
+  EXPECT_TRUE(noted(report, "1 ranges are NaN or negative")) << report["notes"];
+  EXPECT_TRUE(noted(report, "have a range of exactly 5.6 m, which is taken for no return"))
+      << report["notes"];
+}
+
+TEST(CarmenLaser, TheRangeOfNoReturnCanBeGiven) {
+  const auto infinite = [](double no_return_m) {
+    const auto scans = play_all<float>(
+        "carmen_laser", {{"log", "robotlaser.log"}, {"no_return_m", no_return_m}}, kOwn);
+    std::ptrdiff_t count = 0;
+    for (const auto& scan : scans) {
+      count +=
+          std::ranges::count_if(scan.records, [](float range_m) { return std::isinf(range_m); });
+    }
+    return count;
+  };
+  EXPECT_EQ(infinite(0), 0);
+  EXPECT_GT(infinite(2), infinite(-1));
+}
+
+TEST(CarmenPlayers, PlayALogOfOneStampAtAGivenRate) {
+  const Given log = {{"log", "one_stamp.log"}};
+  Player player("carmen_pose");
+  EXPECT_NE(player.configure(log, kOwn).find("`rate_hz` gives the number of scans in a second"),
+            std::string::npos);
+  const auto poses = play_all<PoseReading>("carmen_pose", with(log, {{"rate_hz", 4.0}}), kOwn);
+  ASSERT_EQ(poses.size(), 30U);
+  EXPECT_EQ(poses[6].stamp_ns, kSecond_ns * 3 / 2);
+  Player laser("carmen_laser");
+  EXPECT_EQ(laser.configure(with(log, {{"rate_hz", 4.0}}), kOwn),
+            "`fov_deg` is needed: FLASER rows do not say where their 61 rays point");
+}
+
+TEST(CarmenPose, OfRawScansIsThatOfTheOdometryAndTheOffset) {
+  const auto raw = play_all<PoseReading>("carmen_pose", {{"log", "rawlaser.log"}}, kOwn);
+  const auto merged =
+      play_all<PoseReading>("carmen_pose", {{"log", "one_stamp.log"}, {"rate_hz", 5.0}}, kOwn);
+  ASSERT_EQ(raw.size(), 30U);
+  ASSERT_EQ(merged.size(), 30U);
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    EXPECT_EQ(raw[i].stamp_ns, merged[i].stamp_ns);
+    EXPECT_NEAR(raw[i].records[0].x_m, merged[i].records[0].x_m, 2e-4);
+    EXPECT_NEAR(raw[i].records[0].y_m, merged[i].records[0].y_m, 2e-4);
+    EXPECT_NEAR(raw[i].records[0].yaw_rad, merged[i].records[0].yaw_rad, 2e-4);
+  }
 }
 
 TEST(CarmenPose, GivesThePoseOfEachScanAtItsStamp) {
@@ -152,6 +247,8 @@ TEST(CarmenPlayers, ReportWhatTheyMended) {
   EXPECT_EQ(report["unchanged"], true);
   EXPECT_EQ(report["beside"].dump(), "[\"stretch.txt\"]");
   EXPECT_EQ(report["beams"], 360);
+  EXPECT_EQ(report["passed_over"].dump(), R"({"NEFF":560,"PARAM":187})");
+  EXPECT_EQ(report["notes"].dump(), "[]") << "nothing in a good log needs a remark";
   EXPECT_EQ(report["start_s"], 104.0);
   bool junk = false;
   for (const auto& repair : report["repairs"]) junk = junk || repair["what"] == "junk_stamp";

@@ -37,7 +37,7 @@ struct BeamModel {
 struct ScanView {
   Pose2 X_WS;
   std::span<const double> bearings_rad;
-  std::span<const float> ranges_m;  ///< One per bearing; +infinity: no return.
+  std::span<const float> ranges_m;  ///< One per bearing; +infinity: no return; NaN: not known.
 };
 
 /// An occupancy grid by the log-odds form of Bayes' rule, cells independent of one another:

@@ -9,11 +9,11 @@
 namespace rave::cli_test {
 namespace {
 
-// A process under a sanitizer takes 330 MB: eighty of them are more than most machines have.
+// A process under a sanitizer takes 330 MB: a hundred of them are more than most machines have.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr std::size_t kMany = 8;
 #else
-constexpr std::size_t kMany = 80;
+constexpr std::size_t kMany = 100;
 #endif
 
 class ManyHosts : public SharedWorld {

@@ -146,7 +146,8 @@ TEST_F(EditsOverHosts, AManagerThatIsKilledIsReplacedByOneThatKnowsTheObstacles)
 TEST_F(EditsOverHosts, ASuccessorGoesOnWithWhatWasEditedByHand) {
   start_all("crowd.yaml", {"--duration", "100000"});
   wait_until_it_runs();
-  ASSERT_EQ(add_box("bale", "33,0,90").exit_code, 0);
+  const Ended added = add_box("bale", "33,0,90");
+  ASSERT_EQ(added.exit_code, 0) << added.err;
   ASSERT_EQ(rave({"edit", "remove", "pillar"}).exit_code, 0);
   signal("env", SIGKILL);
   EXPECT_EQ(end_of("env"), -1);

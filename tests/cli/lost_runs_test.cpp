@@ -143,7 +143,8 @@ TEST_F(LostRuns, AForgottenHostInRealTimeIsNotTakenIntoANewRun) {
   wait_for_line("second", "takes over at");
   const Ended ended = rave({"end", "live"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  for (const char* const who : {"second", "one", "two"}) wait_for_end(who);
+  // By themselves, whether or not the host that was in no run yet counts as a part that is missing.
+  for (const char* const who : {"second", "one", "two"}) EXPECT_NE(end_of(who), -1) << console(who);
 }
 
 TEST_F(LostRuns, EndEndsARunWithItsHosts) {

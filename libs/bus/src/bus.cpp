@@ -270,7 +270,7 @@ Status Bus::await_arrival(dds_entity_t writer, Duration patience) {
 
 void Bus::remove_endpoint(dds_entity_t entity) {
   const Endpoint* const end = endpoint(entity);
-  // Nobody is told if they do not arrive: this is the last that is heard of the writer.
+  // Samples that do not arrive are lost without a word: no caller could do anything about it.
   if (end != nullptr && !end->reads) static_cast<void>(await_arrival(entity, kLastWords));
   std::erase_if(endpoints_, [&](const Endpoint& e) { return e.entity == entity; });
   dds_delete(entity);

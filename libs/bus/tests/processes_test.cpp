@@ -244,37 +244,6 @@ TEST(Processes, ASilentProcessIsLostButNotForgottenAndComesBack) {
   EXPECT_TRUE(eventually([&] { return reader->writers() == 0; })) << "it said good-bye";
 }
 
-// Whoever forgot it needs to hear again what it said of itself, though DDS repeats nothing.
-TEST(Processes, WhatAProcessSaidIsHeardAgainWhenItIsBack) {
-  constexpr std::size_t kRobots = 100;
-  const TestDomain domain;
-  const auto bus = Bus::open(domain.config());
-  ASSERT_TRUE(bus) << bus.error().text();
-  auto roster = Reader<RosterEntry>::create(**bus);
-  auto obstacles = Reader<Obstacle>::create(**bus);
-  const auto entries = [&] { return roster->take([](const RosterEntry&) {}); };
-  PeerProcess lasting(domain, "furnish", "lasting", {"count=" + std::to_string(kRobots)});
-  std::size_t heard = 0;
-  EXPECT_TRUE(eventually([&] { return (heard += entries()) == kRobots; }));
-  PeerProcess peer(domain, "furnish", "sleeper", {"count=" + std::to_string(kRobots)});
-  EXPECT_TRUE(eventually([&] { return (heard += entries()) == 2 * kRobots; }));
-  std::size_t seen = 0;
-  EXPECT_TRUE(eventually(
-      [&] { return (seen += obstacles->take([](const Obstacle&) {})) == 2 * kRobots; }));
-  peer.pause();
-  EXPECT_EQ(await_event(**bus, EventKind::kParticipantLost).participant, "sleeper");
-  EXPECT_EQ(entries(), 0U);
-  peer.resume();
-  EXPECT_EQ(await_event(**bus, EventKind::kParticipantAppeared).participant, "sleeper");
-  EXPECT_EQ(entries(), kRobots) << "those of the one that is back, and each once";
-  EXPECT_EQ(entries(), 0U);
-  EXPECT_EQ(obstacles->take([](const Obstacle&) {}), 0U) << "nobody forgets them with their writer";
-  EXPECT_EQ(peer.end(), 0);
-  EXPECT_EQ(await_event(**bus, EventKind::kParticipantLost).participant, "sleeper");
-  EXPECT_EQ(entries(), 0U);
-  EXPECT_EQ(lasting.end(), 0);
-}
-
 TEST(Processes, TwoRunsOnOneMachineDoNotMeet) {
   const TestDomain ours;
   TestDomain theirs = ours;

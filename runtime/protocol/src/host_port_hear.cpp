@@ -30,6 +30,7 @@ void HostPort::Impl::hear(const RunWord& word) {
   if (manager != 0 && word.writer != manager) return;
   if (word.without_us) {
     ending = RunEnding{false, "the run continued without this host, which was late or lost"};
+    return;
   }
   switch (word.phase) {
     case rave_wire_RUN_RUNNING:

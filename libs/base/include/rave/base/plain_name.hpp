@@ -17,9 +17,9 @@ namespace rave {
   return !name.empty() && std::ranges::all_of(name, [signs](char c) { return is_plain(c, signs); });
 }
 
-/// Whether a user may have this name: 1 to 32 letters, digits and the signs of kUserNameRule, the first a letter or
-/// digit. No blanks and no control characters, since names stand in columns, logs and links; and
-/// ASCII alone, where no two letters look the same on purpose.
+/// Whether a user may have this name: 1 to 32 letters, digits and the signs of kUserNameRule, the
+/// first a letter or digit. No blanks and no control characters, since names stand in columns, logs
+/// and links; and ASCII alone, where no two letters look the same on purpose.
 [[nodiscard]] constexpr bool is_user_name(std::string_view name) noexcept {
   return is_plain_name(name, "-_.@") && name.size() <= 32 && is_plain(name.front(), "");
 }

@@ -21,8 +21,8 @@ struct QosProfile {
   /// still no room, the sample is dropped and the write fails.
   bool waits = false;
   /// Whether a reader keeps the newest sample of each instance, and hands those of a process out
-  /// again when that one is back after a silence. Whoever forgets a silent process needs it: DDS
-  /// repeats a durable sample only to readers that it takes for new.
+  /// again when that one is back after a silence. A process that forgets what silent ones said
+  /// needs it: DDS repeats a durable sample only to readers that it takes for new.
   bool recalls = false;
 };
 

@@ -5,16 +5,28 @@
 import {ReactiveElement, adoptStyles, type CSSResultOrNative} from 'lit';
 
 type Sheets = Map<CSSResultOrNative, CSSStyleSheet>;
-type Dressed = {shadowRoot: ShadowRoot | null; ownerDocument: Document; constructor: typeof ReactiveElement};
+type Dressed = {
+  shadowRoot: ShadowRoot | null;
+  ownerDocument: Document;
+  constructor: typeof ReactiveElement;
+};
 
 /** One copy of each sheet for each window, however many elements share it. */
 const copies = new WeakMap<Document, Sheets>();
 
-function copyOf(style: CSSResultOrNative, view: Window & typeof globalThis, known: Sheets): CSSStyleSheet {
+function copyOf(
+  style: CSSResultOrNative,
+  view: Window & typeof globalThis,
+  known: Sheets,
+): CSSStyleSheet {
   let sheet = known.get(style);
   if (sheet === undefined) {
     sheet = new view.CSSStyleSheet();
-    sheet.replaceSync('cssText' in style ? style.cssText : [...style.cssRules].map((rule) => rule.cssText).join('\n'));
+    sheet.replaceSync(
+      'cssText' in style
+        ? style.cssText
+        : [...style.cssRules].map((rule) => rule.cssText).join('\n'),
+    );
     known.set(style, sheet);
   }
   return sheet;
@@ -26,10 +38,15 @@ function dress(root: ShadowRoot, styles: readonly CSSResultOrNative[]): void {
   let known = copies.get(root.ownerDocument);
   if (known === undefined) copies.set(root.ownerDocument, (known = new Map()));
   const sheets = known;
-  root.adoptedStyleSheets = styles.map((style) => copyOf(style, view as Window & typeof globalThis, sheets));
+  root.adoptedStyleSheets = styles.map((style) =>
+    copyOf(style, view as Window & typeof globalThis, sheets),
+  );
 }
 
-const prototype = ReactiveElement.prototype as unknown as {createRenderRoot(): ShadowRoot; adoptedCallback(): void};
+const prototype = ReactiveElement.prototype as unknown as {
+  createRenderRoot(): ShadowRoot;
+  adoptedCallback(): void;
+};
 prototype.createRenderRoot = function (this: HTMLElement): ShadowRoot {
   const type = (this as unknown as Dressed).constructor;
   const root = this.shadowRoot ?? this.attachShadow(type.shadowRootOptions);
@@ -37,5 +54,6 @@ prototype.createRenderRoot = function (this: HTMLElement): ShadowRoot {
   return root;
 };
 prototype.adoptedCallback = function (this: HTMLElement): void {
-  if (this.shadowRoot !== null) dress(this.shadowRoot, (this as unknown as Dressed).constructor.elementStyles);
+  if (this.shadowRoot !== null)
+    dress(this.shadowRoot, (this as unknown as Dressed).constructor.elementStyles);
 };

@@ -41,7 +41,10 @@ export class Bell extends LiveElement {
   private alerts(): Event[] {
     const {model} = this.context;
     const now_s = model.live ? Infinity : nowOf(model);
-    return foldSame(model.events.filter((event) => event.level !== 'info' && event.t <= now_s), model.robots.map((robot) => robot.name));
+    return foldSame(
+      model.events.filter((event) => event.level !== 'info' && event.t <= now_s),
+      model.robots.map((robot) => robot.name),
+    );
   }
 
   private toggle(): void {
@@ -61,29 +64,111 @@ export class Bell extends LiveElement {
     const alerts = this.alerts();
     this.count = alerts.length;
     const fresh = Math.max(0, alerts.length - this.seen);
-    return html`<button class="icon-button" title="Alerts" aria-label=${fresh > 0 ? `Alerts, ${fresh} new` : 'Alerts'} aria-expanded=${this.open}
-        @click=${() => this.toggle()}>${icon('bell')}${fresh > 0 ? html`<i>${fresh > 99 ? '99+' : fresh}</i>` : nothing}</button>
-      ${this.open ? html`<div class="pop" role="dialog" aria-label="Alerts" @keydown=${(event: KeyboardEvent) => { if (event.key === 'Escape') this.toggle(); }}>
-        ${alerts.length === 0 ? html`<p>No warnings, no faults.</p>` : nothing}
-        ${alerts.slice(-kShown).reverse().map((event) => html`<button class=${event.level} @click=${() => this.go(event)}>
-          <time>${clockText(event.t)}</time>${icon(event.level === 'alert' ? 'circleX' : 'triangleAlert', 14)}<span>${event.text}</span>
-          ${event.count > 1 ? html`<em>×${event.count}</em>` : nothing}</button>`)}
-        ${alerts.length > kShown ? html`<p>${alerts.length - kShown} more in the log.</p>` : nothing}</div>` : nothing}`;
+    return html`<button
+        class="icon-button"
+        title="Alerts"
+        aria-label=${fresh > 0 ? `Alerts, ${fresh} new` : 'Alerts'}
+        aria-expanded=${this.open}
+        @click=${() => this.toggle()}>
+        ${icon('bell')}${fresh > 0 ? html`<i>${fresh > 99 ? '99+' : fresh}</i>` : nothing}
+      </button>
+      ${this.open
+        ? html`<div
+            class="pop"
+            role="dialog"
+            aria-label="Alerts"
+            @keydown=${(event: KeyboardEvent) => {
+              if (event.key === 'Escape') this.toggle();
+            }}>
+            ${alerts.length === 0 ? html`<p>No warnings, no faults.</p>` : nothing}
+            ${alerts
+              .slice(-kShown)
+              .reverse()
+              .map(
+                (event) =>
+                  html`<button class=${event.level} @click=${() => this.go(event)}>
+                    <time>${clockText(event.t)}</time>${icon(
+                      event.level === 'alert' ? 'circleX' : 'triangleAlert',
+                      14,
+                    )}<span>${event.text}</span> ${event.count > 1
+                      ? html`<em>×${event.count}</em>`
+                      : nothing}
+                  </button>`,
+              )}
+            ${alerts.length > kShown
+              ? html`<p>${alerts.length - kShown} more in the log.</p>`
+              : nothing}
+          </div>`
+        : nothing}`;
   }
 
   static override styles = [
     controls,
     css`
-      :host { position: relative; display: inline-block; }
-      .icon-button { position: relative; }
-      .icon-button i { position: absolute; right: -2px; top: -2px; min-width: 15px; height: 15px; padding: 0 4px; border-radius: 8px; background: var(--warn); color: var(--bg-1); font: 600 10px/15px var(--font-ui); }
-      .pop { position: absolute; right: 0; top: 36px; z-index: 15; width: min(360px, 92vw); padding: 6px; background: var(--bg-2); border: 1px solid var(--line-2); border-radius: var(--r-4); box-shadow: var(--shadow-pop); }
-      .pop button { display: grid; grid-template-columns: 52px 16px 1fr auto; gap: 6px; width: 100%; padding: 6px 8px; border-radius: var(--r-3); text-align: left; font-size: var(--fs-12); }
-      .pop button:hover { background: var(--bg-3); }
-      .pop time { text-align: right; color: var(--text-3); }
-      .warn svg { color: var(--warn); } .alert svg { color: var(--danger); }
-      em { font-style: normal; color: var(--text-2); font-size: var(--fs-11); }
-      p { margin: 8px; color: var(--text-3); font-size: var(--fs-12); }
+      :host {
+        position: relative;
+        display: inline-block;
+      }
+      .icon-button {
+        position: relative;
+      }
+      .icon-button i {
+        position: absolute;
+        right: -2px;
+        top: -2px;
+        min-width: 15px;
+        height: 15px;
+        padding: 0 4px;
+        border-radius: 8px;
+        background: var(--warn);
+        color: var(--bg-1);
+        font: 600 10px/15px var(--font-ui);
+      }
+      .pop {
+        position: absolute;
+        right: 0;
+        top: 36px;
+        z-index: 15;
+        width: min(360px, 92vw);
+        padding: 6px;
+        background: var(--bg-2);
+        border: 1px solid var(--line-2);
+        border-radius: var(--r-4);
+        box-shadow: var(--shadow-pop);
+      }
+      .pop button {
+        display: grid;
+        grid-template-columns: 52px 16px 1fr auto;
+        gap: 6px;
+        width: 100%;
+        padding: 6px 8px;
+        border-radius: var(--r-3);
+        text-align: left;
+        font-size: var(--fs-12);
+      }
+      .pop button:hover {
+        background: var(--bg-3);
+      }
+      .pop time {
+        text-align: right;
+        color: var(--text-3);
+      }
+      .warn svg {
+        color: var(--warn);
+      }
+      .alert svg {
+        color: var(--danger);
+      }
+      em {
+        font-style: normal;
+        color: var(--text-2);
+        font-size: var(--fs-11);
+      }
+      p {
+        margin: 8px;
+        color: var(--text-3);
+        font-size: var(--fs-12);
+      }
     `,
   ];
 }

@@ -7,7 +7,8 @@ export function clockText(time_s: number): string {
   const seconds = (total % 60).toFixed(2).padStart(5, '0');
   const minutes = Math.floor(total / 60) % 60;
   const hours = Math.floor(total / 3600);
-  if (hours > 0) return `${sign}${hours}:${String(minutes).padStart(2, '0')}:${seconds.slice(0, 2)}`;
+  if (hours > 0)
+    return `${sign}${hours}:${String(minutes).padStart(2, '0')}:${seconds.slice(0, 2)}`;
   return minutes > 0 ? `${sign}${minutes}:${seconds}` : `${sign}${seconds}`;
 }
 

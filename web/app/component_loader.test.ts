@@ -5,10 +5,14 @@ import {LoadedComponent} from './component_loader';
 
 const context = {} as PanelContext;
 class Panel extends HTMLElement {}
-const panels = [{id: 'heat', title: 'Heat map', element: Panel as unknown as new () => PanelElement}];
+const panels = [
+  {id: 'heat', title: 'Heat map', element: Panel as unknown as new () => PanelElement},
+];
 
 it('makes a kind of each panel, under a tag of its own', async () => {
-  const loaded = new LoadedComponent('heat_map', 'components/0/heat_map.js', context, () => Promise.resolve({component: {api: 1, name: 'heat_map', version: '1.2', panels}}));
+  const loaded = new LoadedComponent('heat_map', 'components/0/heat_map.js', context, () =>
+    Promise.resolve({component: {api: 1, name: 'heat_map', version: '1.2', panels}}),
+  );
   await loaded.load();
   expect(loaded.error).toBe('');
   expect(loaded.kinds().map(({id, title}) => [id, title])).toEqual([['heat_map/heat', 'Heat map']]);
@@ -27,7 +31,9 @@ it.each([
 
 it('takes back what a component added before it loads it again, from another address', async () => {
   const back = vi.fn();
-  const fetch = vi.fn((_: string) => Promise.resolve({component: {api: 1, name: 'a', version: '1', extend: () => back}}));
+  const fetch = vi.fn((_: string) =>
+    Promise.resolve({component: {api: 1, name: 'a', version: '1', extend: () => back}}),
+  );
   const loaded = new LoadedComponent('a', 'a.js', context, fetch);
   await loaded.load();
   expect(back).not.toHaveBeenCalled();

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import {Signal} from '../model/signal';
-import {kPanelApi, type Component, type PanelContext, type PanelElement, type PanelKind} from '../panel_api';
+import {
+  kPanelApi,
+  type Component,
+  type PanelContext,
+  type PanelElement,
+  type PanelKind,
+} from '../panel_api';
 import type {Component as Named} from '../protocol/messages';
 import type {ComponentPanelFrame} from './component_panel';
 
@@ -17,7 +23,13 @@ export class LoadedComponent {
   private tries = 0;
   private readonly url: string;
 
-  constructor(readonly name: string, url: string, private readonly context: PanelContext, private readonly fetch: (url: string) => Promise<unknown> = (from) => import(/* @vite-ignore */ from)) {
+  constructor(
+    readonly name: string,
+    url: string,
+    private readonly context: PanelContext,
+    private readonly fetch: (url: string) => Promise<unknown> = (from) =>
+      import(/* @vite-ignore */ from),
+  ) {
     this.url = new URL(url, document.baseURI).href;
   }
 
@@ -32,7 +44,9 @@ export class LoadedComponent {
     try {
       if (typeof this.takeBack === 'function') this.takeBack();
       this.takeBack = undefined;
-      const module = (await this.fetch(this.tries++ === 0 ? this.url : `${this.url}?again=${this.tries}`)) as {component?: Component};
+      const module = (await this.fetch(
+        this.tries++ === 0 ? this.url : `${this.url}?again=${this.tries}`,
+      )) as {component?: Component};
       this.adopt(module.component);
     } catch (error) {
       this.error = error instanceof Error ? `${error.name}: ${error.message}` : String(error);
@@ -42,7 +56,10 @@ export class LoadedComponent {
 
   private adopt(component: Component | undefined): void {
     if (component === undefined) throw new TypeError('the module does not export `component`');
-    if (component.api !== kPanelApi) throw new TypeError(`it was made for interface ${component.api} of panels; this page has ${kPanelApi}`);
+    if (component.api !== kPanelApi)
+      throw new TypeError(
+        `it was made for interface ${component.api} of panels; this page has ${kPanelApi}`,
+      );
     this.version = component.version;
     this.makers.clear();
     this.titles.clear();
@@ -57,9 +74,13 @@ export class LoadedComponent {
 
   /** Its panels, or where there are none because of an error, one that says so. */
   kinds(): PanelKind[] {
-    const ids = this.titles.size > 0 ? [...this.titles] : this.error === '' ? [] : [[this.name, this.name]];
+    const ids =
+      this.titles.size > 0 ? [...this.titles] : this.error === '' ? [] : [[this.name, this.name]];
     return ids.map(([id, title]) => ({
-      id: `${this.name}/${id}`, title, icon: 'layers', tag: 'rave-component',
+      id: `${this.name}/${id}`,
+      title,
+      icon: 'layers',
+      tag: 'rave-component',
       make: () => {
         const frame = document.createElement('rave-component') as ComponentPanelFrame;
         frame.loaded = this;
@@ -71,7 +92,10 @@ export class LoadedComponent {
 }
 
 /** Loads what the run brings along, each by itself: one that fails keeps none of the others. */
-export async function loadComponents(named: readonly Named[], context: PanelContext): Promise<LoadedComponent[]> {
+export async function loadComponents(
+  named: readonly Named[],
+  context: PanelContext,
+): Promise<LoadedComponent[]> {
   await import('./component_panel');
   const all = named.map(({name, url}) => new LoadedComponent(name, url, context));
   await Promise.all(all.map((component) => component.load()));

@@ -43,8 +43,19 @@ export class ComponentPanelFrame extends LiveElement {
   private stop(error: unknown): void {
     this.inner?.remove();
     this.inner = null;
-    this.error = error instanceof Error ? `${error.name}: ${error.message}\n${(error.stack ?? '').split('\n').find((line) => this.loaded.wrote(line))?.trim() ?? ''}` : String(error);
-    this.failures = [...this.failures.filter((at) => performance.now() - at < kMinute_ms), performance.now()];
+    this.error =
+      error instanceof Error
+        ? `${error.name}: ${error.message}\n${
+            (error.stack ?? '')
+              .split('\n')
+              .find((line) => this.loaded.wrote(line))
+              ?.trim() ?? ''
+          }`
+        : String(error);
+    this.failures = [
+      ...this.failures.filter((at) => performance.now() - at < kMinute_ms),
+      performance.now(),
+    ];
     this.requestUpdate();
   }
 
@@ -71,23 +82,74 @@ export class ComponentPanelFrame extends LiveElement {
     if (this.error === '') return html`<slot></slot>`;
     const {name, version} = this.loaded;
     const off = this.failures.length >= kMostFailures;
-    return html`<div class="box" role="alert"><h3>${icon('packageX', 18)} This panel stopped</h3>
-      <p>${name}${version === '' ? '' : ` ${version}`} threw an error. Nothing else is affected.${off ? ' It failed three times in a minute and stays off.' : ''}</p>
+    return html`<div class="box" role="alert">
+      <h3>${icon('packageX', 18)} This panel stopped</h3>
+      <p>
+        ${name}${version === '' ? '' : ` ${version}`} threw an error. Nothing else is
+        affected.${off ? ' It failed three times in a minute and stays off.' : ''}
+      </p>
       <pre>${this.error}</pre>
-      <div>${off ? nothing : html`<button class="main" @click=${() => void this.loaded.load()}>${icon('rotateCcw', 14)} Load again</button>`}
-        <button @click=${() => void navigator.clipboard?.writeText(`${name} ${version}\n${this.error}`)}>Copy report</button></div></div>`;
+      <div>
+        ${off
+          ? nothing
+          : html`<button class="main" @click=${() => void this.loaded.load()}>
+              ${icon('rotateCcw', 14)} Load again
+            </button>`}
+        <button
+          @click=${() => void navigator.clipboard?.writeText(`${name} ${version}\n${this.error}`)}>
+          Copy report
+        </button>
+      </div>
+    </div>`;
   }
 
   static override styles = [
     controls,
     css`
-      :host { display: block; height: 100%; background: var(--bg-1); overflow: auto; }
-      .box { padding: 18px; font-size: var(--fs-13); }
-      h3 { display: flex; align-items: center; gap: 8px; margin: 0 0 6px; color: var(--danger); font-size: var(--fs-13); }
-      p { margin: 0 0 10px; color: var(--text-2); }
-      pre { margin: 0 0 12px; padding: 10px; border-radius: var(--r-3); background: var(--bg-2); font: var(--fs-12) var(--font-code); white-space: pre-wrap; overflow-wrap: anywhere; }
-      .box > div { display: flex; gap: 8px; }
-      .box button { display: inline-flex; align-items: center; gap: 6px; height: var(--h-control); padding: 0 12px; border-radius: var(--r-3); background: var(--bg-3); }
+      :host {
+        display: block;
+        height: 100%;
+        background: var(--bg-1);
+        overflow: auto;
+      }
+      .box {
+        padding: 18px;
+        font-size: var(--fs-13);
+      }
+      h3 {
+        display: flex;
+        align-items: center;
+        gap: 8px;
+        margin: 0 0 6px;
+        color: var(--danger);
+        font-size: var(--fs-13);
+      }
+      p {
+        margin: 0 0 10px;
+        color: var(--text-2);
+      }
+      pre {
+        margin: 0 0 12px;
+        padding: 10px;
+        border-radius: var(--r-3);
+        background: var(--bg-2);
+        font: var(--fs-12) var(--font-code);
+        white-space: pre-wrap;
+        overflow-wrap: anywhere;
+      }
+      .box > div {
+        display: flex;
+        gap: 8px;
+      }
+      .box button {
+        display: inline-flex;
+        align-items: center;
+        gap: 6px;
+        height: var(--h-control);
+        padding: 0 12px;
+        border-radius: var(--r-3);
+        background: var(--bg-3);
+      }
     `,
   ];
 }

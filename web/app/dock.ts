@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-import {DockviewComponent, type DockviewPanel, type IContentRenderer, type GroupPanelPartInitParameters, type SerializedDockview} from 'dockview-core';
+import {
+  DockviewComponent,
+  type DockviewPanel,
+  type IContentRenderer,
+  type GroupPanelPartInitParameters,
+  type SerializedDockview,
+} from 'dockview-core';
 import {Signal} from '../model/signal';
 import type {PanelContext, PanelElement, PanelKind} from '../panel_api';
 import {HeaderActions} from './header_actions';
@@ -24,7 +30,10 @@ export const kLayouts: readonly LayoutName[] = ['Watch', 'Drive', 'Analyse', 'Co
 class DockedPanel implements IContentRenderer {
   readonly element = document.createElement('div');
 
-  constructor(private readonly kind: PanelKind | undefined, private readonly context: PanelContext) {
+  constructor(
+    private readonly kind: PanelKind | undefined,
+    private readonly context: PanelContext,
+  ) {
     this.element.style.height = '100%';
   }
 
@@ -56,7 +65,12 @@ export class Dock {
   private readonly width = document.documentElement.clientWidth;
   private readonly height = document.documentElement.clientHeight;
 
-  constructor(host: HTMLElement, private readonly kinds: () => readonly PanelKind[], private readonly context: PanelContext, private readonly bindKeys: (document: Document) => void) {
+  constructor(
+    host: HTMLElement,
+    private readonly kinds: () => readonly PanelKind[],
+    private readonly context: PanelContext,
+    private readonly bindKeys: (document: Document) => void,
+  ) {
     // Before the dock itself hears of it. A download says the same, and the page stays.
     window.addEventListener('beforeunload', () => {
       this.leaving = true;
@@ -65,7 +79,8 @@ export class Dock {
     this.view = new DockviewComponent(host, {
       theme: {name: 'rave', className: 'dockview-theme-rave', gap: 6},
       disableFloatingGroups: false,
-      createRightHeaderActionComponent: (group) => new HeaderActions(group, (panel) => void this.moveOut(panel)),
+      createRightHeaderActionComponent: (group) =>
+        new HeaderActions(group, (panel) => void this.moveOut(panel)),
       createComponent: (options) => {
         const kind = kinds().find((known) => known.id === options.name);
         const docked = new DockedPanel(kind, context);
@@ -96,14 +111,22 @@ export class Dock {
   /** Moves a panel to a window of its own, for another monitor. Stays where the browser opens none. */
   async moveOut(id: string, box?: WindowBox): Promise<void> {
     const panel = this.view.panels.find((open) => open.id === id);
-    const window = () => (panel?.api.location.type === 'popout' ? panel.api.location.getWindow() : null);
+    const window = () =>
+      panel?.api.location.type === 'popout' ? panel.api.location.getWindow() : null;
     if (panel === undefined || window() !== null) return;
-    const opened = await this.view.addPopoutGroup(panel as DockviewPanel, {popoutUrl: new URL('assets/popout.html', document.baseURI).href, ...(box ? {position: new DOMRect(box.left - screenX, box.top - screenY, box.width, box.height)} : {})});
+    const opened = await this.view.addPopoutGroup(panel as DockviewPanel, {
+      popoutUrl: new URL('assets/popout.html', document.baseURI).href,
+      ...(box
+        ? {position: new DOMRect(box.left - screenX, box.top - screenY, box.width, box.height)}
+        : {}),
+    });
     const view = window();
     if (!opened || view === null) return;
     const {group} = panel;
     const there = new PanelWindow(view, this.context, this.bindKeys);
-    const entitle = () => there.open && there.entitle(this.kinds().find((kind) => kind.id === group.activePanel?.id)?.title ?? '');
+    const entitle = () =>
+      there.open &&
+      there.entitle(this.kinds().find((kind) => kind.id === group.activePanel?.id)?.title ?? '');
     group.api.onDidActivePanelChange(entitle);
     this.context.model.runChanged.on(entitle);
     entitle();
@@ -113,7 +136,9 @@ export class Dock {
   async reopen(kept: KeptWindow): Promise<void> {
     this.away = this.away.filter((other) => other !== kept);
     this.changed.emit();
-    const [first, ...others] = kept.panels.filter((id) => this.view.panels.some((panel) => panel.id === id));
+    const [first, ...others] = kept.panels.filter((id) =>
+      this.view.panels.some((panel) => panel.id === id),
+    );
     if (first === undefined) return;
     await this.moveOut(first, kept.box ?? undefined);
     const group = this.view.panels.find((panel) => panel.id === first)?.group;
@@ -145,13 +170,18 @@ export class Dock {
     if (kind !== undefined) this.empty.get(id)?.fill(kind);
     this.empty.delete(id);
     if (this.view.panels.some((panel) => panel.id === id)) return;
-    const beside = this.view.panels.find((panel) => panel.id === 'sensors' || panel.id === 'robot')?.id;
-    this.add(id, beside === undefined ? undefined : {referencePanel: beside, direction: 'within'}, {inactive: true});
+    const beside = this.view.panels.find(
+      (panel) => panel.id === 'sensors' || panel.id === 'robot',
+    )?.id;
+    this.add(id, beside === undefined ? undefined : {referencePanel: beside, direction: 'within'}, {
+      inactive: true,
+    });
   }
 
   /** Everything that the run brings is here: what is still empty belongs to another run. */
   closeEmpty(): void {
-    for (const id of this.empty.keys()) this.view.panels.find((panel) => panel.id === id)?.api.close();
+    for (const id of this.empty.keys())
+      this.view.panels.find((panel) => panel.id === id)?.api.close();
     this.empty.clear();
   }
 
@@ -186,9 +216,18 @@ export class Dock {
     } else {
       const first = layout === 'Drive' ? 'joystick' : layout === 'Conduct' ? 'rights' : 'robots';
       this.add(first, {referencePanel: 'world', direction: 'below'});
-      for (const id of ['robots', 'sensors', 'log', 'hosts']) if (id !== first) this.add(id, {referencePanel: first, direction: 'within'}, {inactive: true});
+      for (const id of ['robots', 'sensors', 'log', 'hosts'])
+        if (id !== first)
+          this.add(id, {referencePanel: first, direction: 'within'}, {inactive: true});
     }
-    const first = layout === 'Drive' ? ['robots', 'joystick'] : layout === 'Conduct' ? ['robots', 'rights'] : this.width >= 900 ? ['sensors', 'robots'] : ['robots'];
+    const first =
+      layout === 'Drive'
+        ? ['robots', 'joystick']
+        : layout === 'Conduct'
+          ? ['robots', 'rights']
+          : this.width >= 900
+            ? ['sensors', 'robots']
+            : ['robots'];
     const alone = this.width < 900 && first.length > 1 ? first.slice(1) : first;
     for (const id of [...alone, 'world']) this.show(id);
     this.restoring = false;
@@ -205,23 +244,43 @@ export class Dock {
       this.layOutDrive();
     } else if (layout === 'Conduct') {
       this.add('robots', {referencePanel: 'world', direction: 'right'}, {initialWidth: 392});
-      for (const id of ['log', 'sensors']) this.add(id, {referencePanel: 'robots', direction: 'within'}, {inactive: true});
+      for (const id of ['log', 'sensors'])
+        this.add(id, {referencePanel: 'robots', direction: 'within'}, {inactive: true});
       // Over the whole width, which the classes of rights need.
       this.add('rights', {direction: 'above'}, {initialHeight: this.height < kTall_px ? 300 : 400});
     } else {
-      this.add('sensors', {referencePanel: 'world', direction: 'right'}, {initialWidth: Math.round(0.45 * this.width)});
+      this.add(
+        'sensors',
+        {referencePanel: 'world', direction: 'right'},
+        {initialWidth: Math.round(0.45 * this.width)},
+      );
       this.add('log', {referencePanel: 'sensors', direction: 'below'}, {initialHeight: 280});
       this.add('robots', {referencePanel: 'world', direction: 'below'});
     }
-    this.add('hosts', {referencePanel: layout === 'Drive' && this.height < kTall_px ? 'world' : 'robots', direction: 'within'}, {inactive: true});
+    this.add(
+      'hosts',
+      {
+        referencePanel: layout === 'Drive' && this.height < kTall_px ? 'world' : 'robots',
+        direction: 'within',
+      },
+      {inactive: true},
+    );
     this.add('map', {referencePanel: 'sensors', direction: 'within'}, {inactive: true});
   }
 
   /** On a laptop the stick has its column for itself, and what belongs to the robot lies behind it. */
   private layOutDrive(): void {
     const tall = this.height >= kTall_px;
-    this.add('robots', {referencePanel: 'world', direction: 'left'}, {initialWidth: tall ? 304 : 220});
-    this.add('joystick', {referencePanel: 'world', direction: 'right'}, {initialWidth: tall ? 376 : 350});
+    this.add(
+      'robots',
+      {referencePanel: 'world', direction: 'left'},
+      {initialWidth: tall ? 304 : 220},
+    );
+    this.add(
+      'joystick',
+      {referencePanel: 'world', direction: 'right'},
+      {initialWidth: tall ? 376 : 350},
+    );
     if (tall) {
       this.add('robot', {referencePanel: 'robots', direction: 'below'}, {initialHeight: 420});
       this.add('chat', {referencePanel: 'joystick', direction: 'below'}, {initialHeight: 340});
@@ -231,16 +290,23 @@ export class Dock {
       this.show('chat');
       return;
     }
-    for (const id of ['robot', 'chat']) this.add(id, {referencePanel: 'joystick', direction: 'within'}, {inactive: true});
-    for (const id of ['sensors', 'log']) this.add(id, {referencePanel: 'world', direction: 'within'}, {inactive: true});
+    for (const id of ['robot', 'chat'])
+      this.add(id, {referencePanel: 'joystick', direction: 'within'}, {inactive: true});
+    for (const id of ['sensors', 'log'])
+      this.add(id, {referencePanel: 'world', direction: 'within'}, {inactive: true});
   }
 
   /** Two columns. */
   private layOutMiddle(layout: LayoutName): void {
     const right = layout === 'Drive' ? 'joystick' : 'robots';
-    this.add(right, {referencePanel: 'world', direction: 'right'}, {initialWidth: Math.round(0.38 * this.width)});
+    this.add(
+      right,
+      {referencePanel: 'world', direction: 'right'},
+      {initialWidth: Math.round(0.38 * this.width)},
+    );
     if (layout === 'Drive') {
-      for (const id of ['robot', 'chat', 'log']) this.add(id, {referencePanel: 'joystick', direction: 'within'}, {inactive: true});
+      for (const id of ['robot', 'chat', 'log'])
+        this.add(id, {referencePanel: 'joystick', direction: 'within'}, {inactive: true});
       this.add('robots', {referencePanel: 'world', direction: 'below'}, {initialHeight: 180});
       this.add('sensors', {referencePanel: 'robots', direction: 'within'}, {inactive: true});
     } else {
@@ -253,7 +319,14 @@ export class Dock {
 
   private add(id: string, position?: object, size?: object): void {
     const title = this.kinds().find((kind) => kind.id === id)?.title ?? id;
-    this.view.addPanel({id, component: id, title, ...(position ? {position} : {}), ...(id === 'joystick' ? kStickRoom : {}), ...size} as never);
+    this.view.addPanel({
+      id,
+      component: id,
+      title,
+      ...(position ? {position} : {}),
+      ...(id === 'joystick' ? kStickRoom : {}),
+      ...size,
+    } as never);
   }
 
   private keep(): void {
@@ -261,7 +334,10 @@ export class Dock {
     if (this.user === '') return;
     const {layout, windows} = bringHome(this.view.toJSON());
     const about = this.about;
-    localStorage.setItem(layoutKey(about, this.name), JSON.stringify({version: kVersion, layout, windows: [...windows, ...this.away]}));
+    localStorage.setItem(
+      layoutKey(about, this.name),
+      JSON.stringify({version: kVersion, layout, windows: [...windows, ...this.away]}),
+    );
     localStorage.setItem(layoutKey(about), this.name);
   }
 
@@ -310,10 +386,15 @@ export class Dock {
 
   private restore(): boolean {
     try {
-      const kept = JSON.parse(localStorage.getItem(layoutKey(this.about, this.name)) ?? 'null') as {version: number; layout: SerializedDockview; windows?: KeptWindow[]} | null;
+      const kept = JSON.parse(localStorage.getItem(layoutKey(this.about, this.name)) ?? 'null') as {
+        version: number;
+        layout: SerializedDockview;
+        windows?: KeptWindow[];
+      } | null;
       if (kept?.version === kVersion) {
         // Of before the stick had it.
-        if (kept.layout.panels['joystick'] !== undefined) Object.assign(kept.layout.panels['joystick'], kStickRoom);
+        if (kept.layout.panels['joystick'] !== undefined)
+          Object.assign(kept.layout.panels['joystick'], kStickRoom);
         this.view.fromJSON(kept.layout);
         this.away = kept.windows ?? [];
         return true;

@@ -8,7 +8,10 @@ export class HeaderActions implements IHeaderActionsRenderer {
   readonly element = document.createElement('div');
   private readonly ends: {dispose(): void}[] = [];
 
-  constructor(private readonly group: DockviewGroupPanel, private readonly moveOut: (panel: string) => void) {}
+  constructor(
+    private readonly group: DockviewGroupPanel,
+    private readonly moveOut: (panel: string) => void,
+  ) {}
 
   init({api, containerApi}: IGroupHeaderProps): void {
     this.element.className = 'group-buttons';
@@ -19,7 +22,10 @@ export class HeaderActions implements IHeaderActionsRenderer {
 
   private show(api: IGroupHeaderProps['api']): void {
     const {location} = api;
-    const button = (name: IconName, text: string, act: () => void) => html`<button class=${name} title=${text} aria-label=${text} @click=${act}>${icon(name, 14)}</button>`;
+    const button = (name: IconName, text: string, act: () => void) =>
+      html`<button class=${name} title=${text} aria-label=${text} @click=${act}>
+        ${icon(name, 14)}
+      </button>`;
     const out = () => {
       const panel = this.group.activePanel;
       if (panel) this.moveOut(panel.id);
@@ -27,8 +33,12 @@ export class HeaderActions implements IHeaderActionsRenderer {
     render(
       location.type === 'popout'
         ? button('undo', 'Back into the page', () => location.getWindow().close())
-        : html`${location.type === 'grid' && !api.isMaximized() ? button('appWindow', 'Open in a new window', out) : nothing}
-          ${api.isMaximized() ? button('minimize2', 'Restore', () => api.exitMaximized()) : button('maximize2', 'Maximise', () => api.maximize())}`,
+        : html`${location.type === 'grid' && !api.isMaximized()
+            ? button('appWindow', 'Open in a new window', out)
+            : nothing}
+          ${api.isMaximized()
+            ? button('minimize2', 'Restore', () => api.exitMaximized())
+            : button('maximize2', 'Maximise', () => api.maximize())}`,
       this.element,
     );
   }

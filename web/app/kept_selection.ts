@@ -9,7 +9,10 @@ export class KeptSelection {
   private kept: string | null;
   private restored = false;
 
-  constructor(private readonly model: RunModel, private readonly selection: Selection) {
+  constructor(
+    private readonly model: RunModel,
+    private readonly selection: Selection,
+  ) {
     this.kept = sessionStorage.getItem(kKey);
     selection.changed.on(() => this.keep());
   }
@@ -17,7 +20,9 @@ export class KeptSelection {
   private keep(): void {
     // Before the first roster the selection is empty, since no robot is known.
     if (!this.restored) return;
-    const names = JSON.stringify(this.selection.slots.map((slot) => this.model.robots[slot]?.name ?? ''));
+    const names = JSON.stringify(
+      this.selection.slots.map((slot) => this.model.robots[slot]?.name ?? ''),
+    );
     if (names === this.kept) return;
     this.kept = names;
     sessionStorage.setItem(kKey, names);
@@ -29,6 +34,10 @@ export class KeptSelection {
     this.restored = true;
     if (this.selection.slots.length > 0 || this.kept === null) return this.keep();
     const names = JSON.parse(this.kept) as string[];
-    this.selection.set(names.map((name) => this.model.robots.findIndex((robot) => robot.name === name)).filter((slot) => slot >= 0));
+    this.selection.set(
+      names
+        .map((name) => this.model.robots.findIndex((robot) => robot.name === name))
+        .filter((slot) => slot >= 0),
+    );
   }
 }

@@ -9,8 +9,15 @@ it('gives more than nine panels a key', () => {
 
 it('knows a digit with Shift by its place, unless what it writes is a key of its own', () => {
   const [eleventh, find] = [vi.fn(), vi.fn()];
-  bindKeys(() => [{keys: ['/'], what: 'find', act: find}, {keys: ['Shift 1'], what: 'panel', act: eleventh}, {keys: ['Shift 7'], what: 'panel', act: eleventh}]);
-  const press = (key: string, code: string) => document.body.dispatchEvent(new KeyboardEvent('keydown', {key, code, shiftKey: true, bubbles: true, composed: true}));
+  bindKeys(() => [
+    {keys: ['/'], what: 'find', act: find},
+    {keys: ['Shift 1'], what: 'panel', act: eleventh},
+    {keys: ['Shift 7'], what: 'panel', act: eleventh},
+  ]);
+  const press = (key: string, code: string) =>
+    document.body.dispatchEvent(
+      new KeyboardEvent('keydown', {key, code, shiftKey: true, bubbles: true, composed: true}),
+    );
   press('!', 'Digit1');
   expect(eleventh).toHaveBeenCalledTimes(1);
   press('/', 'Digit7');

@@ -10,8 +10,13 @@ export interface KeyAction {
 }
 
 function nameOf(event: KeyboardEvent): string {
-  const key = event.key === ' ' ? 'Space' : event.key.length === 1 ? event.key.toUpperCase() : event.key;
-  return (event.ctrlKey ? 'Ctrl ' : '') + (event.shiftKey && key.startsWith('Arrow') ? 'Shift ' : '') + key;
+  const key =
+    event.key === ' ' ? 'Space' : event.key.length === 1 ? event.key.toUpperCase() : event.key;
+  return (
+    (event.ctrlKey ? 'Ctrl ' : '') +
+    (event.shiftKey && key.startsWith('Arrow') ? 'Shift ' : '') +
+    key
+  );
 }
 
 /** `Shift 1`, whatever the layout of the keyboard writes then. */
@@ -30,13 +35,27 @@ export function panelKey(index: number): string[] {
 export function bindKeys(actions: () => readonly KeyAction[], where: Document = document): void {
   where.addEventListener('keydown', (event) => {
     const target = event.composedPath()[0] as HTMLElement;
-    const typing = target.matches?.('input:not([type=checkbox]), textarea, select, [contenteditable]');
-    if (event.defaultPrevented || event.altKey || event.metaKey || (typing && event.key !== 'Escape')) return;
+    const typing = target.matches?.(
+      'input:not([type=checkbox]), textarea, select, [contenteditable]',
+    );
+    if (
+      event.defaultPrevented ||
+      event.altKey ||
+      event.metaKey ||
+      (typing && event.key !== 'Escape')
+    )
+      return;
     const name = nameOf(event);
-    if (name === 'Space' && target.matches?.('button, a, input, [role=button], [role=option], [role=slider]')) return;
+    if (
+      name === 'Space' &&
+      target.matches?.('button, a, input, [role=button], [role=option], [role=slider]')
+    )
+      return;
     const all = actions();
     const digit = digitOf(event);
-    const action = all.find((known) => known.keys.includes(name)) ?? all.find((known) => known.keys.includes(digit));
+    const action =
+      all.find((known) => known.keys.includes(name)) ??
+      all.find((known) => known.keys.includes(digit));
     if (action === undefined) return;
     event.preventDefault();
     action.act(event);
@@ -44,6 +63,8 @@ export function bindKeys(actions: () => readonly KeyAction[], where: Document = 
   where.addEventListener('keyup', (event) => {
     // Shift may be lifted first: what is held ends all the same.
     const name = nameOf(event).replace('Shift ', '');
-    actions().find((known) => known.end && known.keys.some((key) => key.replace('Shift ', '') === name))?.end?.();
+    actions()
+      .find((known) => known.end && known.keys.some((key) => key.replace('Shift ', '') === name))
+      ?.end?.();
   });
 }

@@ -3,11 +3,14 @@ import {expect, it} from 'vitest';
 import type {RunModel} from '../model/run_model';
 import {spanOf} from './moment';
 
-const at = (live: boolean, time: object) => ({live, time, poses: {newest: null}}) as unknown as RunModel;
+const at = (live: boolean, time: object) =>
+  ({live, time, poses: {newest: null}}) as unknown as RunModel;
 
 it('reaches from the begin of a live run, whose events lie before the present', () => {
   expect(spanOf(at(true, {now_s: 80, begin_s: 80, end_s: 80, duration_s: 120}))).toEqual([0, 120]);
-  expect(spanOf(at(true, {now_s: 130, begin_s: 130, end_s: 130, duration_s: 120}))).toEqual([0, 130]);
+  expect(spanOf(at(true, {now_s: 130, begin_s: 130, end_s: 130, duration_s: 120}))).toEqual([
+    0, 130,
+  ]);
 });
 
 it('reaches from the begin of a recording to its known or planned end', () => {

@@ -7,7 +7,11 @@ import type {WindowBar} from './window_bar';
 export class PanelWindow {
   private readonly ends: (() => void)[] = [];
 
-  constructor(private readonly view: Window, private readonly context: PanelContext, bindKeys: (document: Document) => void) {
+  constructor(
+    private readonly view: Window,
+    private readonly context: PanelContext,
+    bindKeys: (document: Document) => void,
+  ) {
     const {document: there} = view;
     // The dock links the sheets of the page and copies their rules as well. These ask for fonts beside the document,
     // which is why that one is beside the sheets.
@@ -19,7 +23,9 @@ export class PanelWindow {
     bindKeys(there);
     const {model, link, palette, windows} = context;
     this.ends.push(
-      palette.changed.on(() => this.dress()), model.runChanged.on(() => this.dress()), link.changed.on(() => this.dress()),
+      palette.changed.on(() => this.dress()),
+      model.runChanged.on(() => this.dress()),
+      link.changed.on(() => this.dress()),
       windows.add(view),
     );
     // A window that is killed or reloaded gives no other sign, and its panels are to come back.

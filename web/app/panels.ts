@@ -6,15 +6,51 @@ import type {PanelKind} from '../panel_api';
 /** The panels that come with the page, in the order of their keys. */
 export const kPanels: readonly PanelKind[] = [
   {id: 'world', title: 'World View', icon: 'compass', tag: 'rave-world', short: 'World'},
-  {id: 'robots', title: 'Robots', icon: 'bot', tag: 'rave-robots', short: 'Robots', count: ({model}) => model.robots.length},
+  {
+    id: 'robots',
+    title: 'Robots',
+    icon: 'bot',
+    tag: 'rave-robots',
+    short: 'Robots',
+    count: ({model}) => model.robots.length,
+  },
   {id: 'sensors', title: 'Sensor Display', icon: 'radar', tag: 'rave-sensors', short: 'Sensors'},
   {id: 'robot', title: 'Robot', icon: 'activity', tag: 'rave-robot', live: true},
-  {id: 'joystick', title: 'Joystick', icon: 'joystick', tag: 'rave-joystick', needs: 'command', live: true, beside: 'robots'},
+  {
+    id: 'joystick',
+    title: 'Joystick',
+    icon: 'joystick',
+    tag: 'rave-joystick',
+    needs: 'command',
+    live: true,
+    beside: 'robots',
+  },
   {id: 'chat', title: 'Chat', icon: 'message', tag: 'rave-chat', short: 'Chat'},
   {id: 'log', title: 'Log & alerts', icon: 'list', tag: 'rave-log', short: 'Log'},
-  {id: 'hosts', title: 'Hosts', icon: 'server', tag: 'rave-hosts', count: ({model}) => model.hosts.length},
-  {id: 'rights', title: 'Super-User', icon: 'shield', tag: 'rave-super-user', needs: 'rights', short: 'People'},
-  {id: 'probe', title: 'Probe', icon: 'flask', tag: 'rave-probe', needs: 'probe', live: true, beside: 'sensors'},
+  {
+    id: 'hosts',
+    title: 'Hosts',
+    icon: 'server',
+    tag: 'rave-hosts',
+    count: ({model}) => model.hosts.length,
+  },
+  {
+    id: 'rights',
+    title: 'Super-User',
+    icon: 'shield',
+    tag: 'rave-super-user',
+    needs: 'rights',
+    short: 'People',
+  },
+  {
+    id: 'probe',
+    title: 'Probe',
+    icon: 'flask',
+    tag: 'rave-probe',
+    needs: 'probe',
+    live: true,
+    beside: 'sensors',
+  },
   {id: 'map', title: 'Map', icon: 'map', tag: 'rave-map', needs: 'maps', beside: 'sensors'},
 ];
 
@@ -34,11 +70,20 @@ export function allPanels(): readonly PanelKind[] {
 export function withheldPanels(model: RunModel): PanelKind[] {
   return allPanels().filter(({needs, live}) => {
     const what = needs === undefined ? null : classOf(needs);
-    return what !== null && kUsualRights[what].to === 'see' && needs !== undefined && model.isWithheld(needs) && (live !== true || model.live);
+    return (
+      what !== null &&
+      kUsualRights[what].to === 'see' &&
+      needs !== undefined &&
+      model.isWithheld(needs) &&
+      (live !== true || model.live)
+    );
   });
 }
 
 /** Those that this person may see. */
 export function panelsFor(model: RunModel): PanelKind[] {
-  return [...kPanels, ...components].filter((kind) => (kind.needs === undefined || model.may(kind.needs)) && (kind.live !== true || model.live));
+  return [...kPanels, ...components].filter(
+    (kind) =>
+      (kind.needs === undefined || model.may(kind.needs)) && (kind.live !== true || model.live),
+  );
 }

@@ -28,7 +28,9 @@ export interface PhoneHost {
 export class Phone {
   private readonly small = matchMedia(`(max-width: ${kPhone_px - 1}px)`);
   /** Low as well: orders, the last message and STOP at the bottom, nothing else. */
-  private readonly low = matchMedia(`(max-width: ${kPhone_px - 1}px) and (max-height: ${kPen_px}px)`);
+  private readonly low = matchMedia(
+    `(max-width: ${kPhone_px - 1}px) and (max-height: ${kPen_px}px)`,
+  );
   private panel = 'world';
   /** The stick lies over the world. */
   driving = false;
@@ -95,29 +97,91 @@ export class Phone {
     const context = this.host.context();
     // It stays while a tool is in the hand: the picture must not move under a finger that is about to point.
     const glances = this.panel === 'world' && !this.low.matches && !this.driving;
-    return html`<div class="phone"></div>${this.driving ? html`<rave-joystick over .context=${context} @covers=${() => this.host.update()}></rave-joystick>` : nothing}
+    return html`<div class="phone"></div>
+      ${this.driving
+        ? html`<rave-joystick
+            over
+            .context=${context}
+            @covers=${() => this.host.update()}></rave-joystick>`
+        : nothing}
       ${glances ? html`<rave-sheet .context=${context}></rave-sheet>` : nothing}`;
   }
 
   renderBars(): TemplateResult {
     const context = this.host.context();
-    return html`${this.commands && this.panel === 'world' ? html`<rave-robot-bar .context=${context} .tool=${this.tool} .driving=${this.driving}
-        @tool=${(event: CustomEvent<Tool>) => { this.drive(false); this.host.world()?.chooseTool(event.detail); }} @drive=${() => this.drive(!this.driving)}></rave-robot-bar>` : nothing}
-      ${this.commands && this.low.matches ? html`<rave-pen-bar .context=${context}></rave-pen-bar>` : html`<rave-run-bar .context=${context}></rave-run-bar>${this.renderTabs()}`}`;
+    return html`${this.commands && this.panel === 'world'
+      ? html`<rave-robot-bar
+          .context=${context}
+          .tool=${this.tool}
+          .driving=${this.driving}
+          @tool=${(event: CustomEvent<Tool>) => {
+            this.drive(false);
+            this.host.world()?.chooseTool(event.detail);
+          }}
+          @drive=${() => this.drive(!this.driving)}></rave-robot-bar>`
+      : nothing}
+    ${this.commands && this.low.matches
+      ? html`<rave-pen-bar .context=${context}></rave-pen-bar>`
+      : html`<rave-run-bar .context=${context}></rave-run-bar>${this.renderTabs()}`}`;
   }
 
   private renderTabs(): TemplateResult {
     const {model} = this.host.context();
-    const alerts = model.events.filter((event) => event.level !== 'info' && (model.live || event.t <= nowOf(model))).length;
-    return html`<nav aria-label="Panels">${panelsFor(model).filter((kind) => kind.short).map((kind) => html`<button aria-pressed=${this.panel === kind.id} @click=${() => this.show(kind.id)}>
-      ${icon(kind.icon as IconName, 20)}<span>${kind.short}</span>${kind.id === 'log' && alerts > 0 ? html`<i>${alerts}</i>` : nothing}</button>`)}</nav>`;
+    const alerts = model.events.filter(
+      (event) => event.level !== 'info' && (model.live || event.t <= nowOf(model)),
+    ).length;
+    return html`<nav aria-label="Panels">
+      ${panelsFor(model)
+        .filter((kind) => kind.short)
+        .map(
+          (kind) =>
+            html`<button aria-pressed=${this.panel === kind.id} @click=${() => this.show(kind.id)}>
+              ${icon(kind.icon as IconName, 20)}<span>${kind.short}</span>${kind.id === 'log' &&
+              alerts > 0
+                ? html`<i>${alerts}</i>`
+                : nothing}
+            </button>`,
+        )}
+    </nav>`;
   }
 }
 
 export const phoneStyles = css`
-  .phone { flex: 1; min-height: 0; }
-  nav { display: flex; flex: none; background: var(--bg-1); border-top: 1px solid var(--line-1); padding-bottom: env(safe-area-inset-bottom); }
-  nav button { position: relative; flex: 1; min-height: 56px; display: flex; flex-direction: column; align-items: center; gap: 3px; padding: 8px 0; color: var(--text-3); font-size: var(--fs-12); }
-  nav button[aria-pressed='true'] { color: var(--text-1); }
-  nav i { position: absolute; left: calc(50% + 6px); top: 5px; min-width: 16px; padding: 0 4px; border-radius: 8px; background: var(--warn); color: var(--bg-1); font: 600 10px/16px var(--font-ui); }
+  .phone {
+    flex: 1;
+    min-height: 0;
+  }
+  nav {
+    display: flex;
+    flex: none;
+    background: var(--bg-1);
+    border-top: 1px solid var(--line-1);
+    padding-bottom: env(safe-area-inset-bottom);
+  }
+  nav button {
+    position: relative;
+    flex: 1;
+    min-height: 56px;
+    display: flex;
+    flex-direction: column;
+    align-items: center;
+    gap: 3px;
+    padding: 8px 0;
+    color: var(--text-3);
+    font-size: var(--fs-12);
+  }
+  nav button[aria-pressed='true'] {
+    color: var(--text-1);
+  }
+  nav i {
+    position: absolute;
+    left: calc(50% + 6px);
+    top: 5px;
+    min-width: 16px;
+    padding: 0 4px;
+    border-radius: 8px;
+    background: var(--warn);
+    color: var(--bg-1);
+    font: 600 10px/16px var(--font-ui);
+  }
 `;

@@ -26,7 +26,15 @@ import {bindKeys, panelKey, type KeyAction} from './keys';
 import {readMoment, writeMoment} from './moment_link';
 import {addPanelKind, allPanels, panelsFor} from './panels';
 import {Phone, phoneStyles} from './phone';
-import {renderLost, renderNoRun, renderOpening, renderRefused, renderSeenBy, renderWaits, stateStyles} from './page_states';
+import {
+  renderLost,
+  renderNoRun,
+  renderOpening,
+  renderRefused,
+  renderSeenBy,
+  renderWaits,
+  stateStyles,
+} from './page_states';
 import type {RunBar} from './run_bar';
 import {controls} from './styles';
 import './top_bar';
@@ -39,7 +47,12 @@ const kTheme = 'rave.theme';
 export class RaveApp extends LitElement {
   private readonly model = new RunModel();
   private readonly windows = new Windows();
-  private readonly link = new Link(this.model, socketUrl(), new DirectLines(new URL('ticket', document.baseURI).href), this.windows);
+  private readonly link = new Link(
+    this.model,
+    socketUrl(),
+    new DirectLines(new URL('ticket', document.baseURI).href),
+    this.windows,
+  );
   private readonly selection = new Selection();
   private readonly keptSelection = new KeptSelection(this.model, this.selection);
   private readonly palette = new Palette(document.documentElement);
@@ -85,13 +98,15 @@ export class RaveApp extends LitElement {
     super.connectedCallback();
     // That of the last user, until the present one is known.
     const kept = localStorage.getItem(kTheme);
-    const light = kept === null ? matchMedia('(prefers-color-scheme: light)').matches : kept === 'light';
+    const light =
+      kept === null ? matchMedia('(prefers-color-scheme: light)').matches : kept === 'light';
     this.palette.set(light ? 'light' : 'dark');
     this.model.runChanged.on(() => {
       const own = localStorage.getItem(userKey('theme', this.model.user));
       if ((own === 'light' || own === 'dark') && own !== this.palette.theme) this.palette.set(own);
     });
-    if (matchMedia('(prefers-contrast: more)').matches) document.documentElement.dataset['contrast'] = 'more';
+    if (matchMedia('(prefers-contrast: more)').matches)
+      document.documentElement.dataset['contrast'] = 'more';
     this.listen();
     bindKeys(() => this.actions());
     this.link.open();
@@ -104,7 +119,13 @@ export class RaveApp extends LitElement {
   private listen(): void {
     const {model} = this;
     const update = () => this.requestUpdate();
-    for (const signal of [model.runChanged, model.timeChanged, model.hostsChanged, this.link.changed]) signal.on(update);
+    for (const signal of [
+      model.runChanged,
+      model.timeChanged,
+      model.hostsChanged,
+      this.link.changed,
+    ])
+      signal.on(update);
     model.rosterChanged.on(() => {
       // In this order: an address names robots, and the selection must know them.
       this.palette.assign(model.robots);
@@ -115,7 +136,9 @@ export class RaveApp extends LitElement {
     });
     // A direct line bypasses the rights that the server applies, so not while looking as another
     // user.
-    model.runChanged.on(() => this.link.direct?.want(model.live && model.may('stop') && model.hello?.seen_by === undefined));
+    model.runChanged.on(() =>
+      this.link.direct?.want(model.live && model.may('stop') && model.hello?.seen_by === undefined),
+    );
     model.runChanged.on(() => void this.bringComponents());
     model.answered.on((answer) => {
       // What has a number is answered where it was asked.
@@ -199,10 +222,12 @@ export class RaveApp extends LitElement {
   }
 
   private retitle(): void {
-    const titles = new Map(allPanels().map((kind) => {
-      const count = kind.count?.(this.context);
-      return [kind.id, count ? `${kind.title}  ${count}` : kind.title];
-    }));
+    const titles = new Map(
+      allPanels().map((kind) => {
+        const count = kind.count?.(this.context);
+        return [kind.id, count ? `${kind.title}  ${count}` : kind.title];
+      }),
+    );
     this.dock?.retitle(titles);
   }
 
@@ -214,7 +239,9 @@ export class RaveApp extends LitElement {
   /** The list of people, which is a part of the panel of super-users. */
   private showPeople(): void {
     this.showPanel('rights');
-    void this.updateComplete.then(() => this.panel<SuperUserPanel>('rave-super-user')?.choose('people'));
+    void this.updateComplete.then(() =>
+      this.panel<SuperUserPanel>('rave-super-user')?.choose('people'),
+    );
   }
 
   private get world(): WorldPanel | null {
@@ -238,8 +265,16 @@ export class RaveApp extends LitElement {
     const find = () => this.open('finding');
     return [
       this.model.live
-        ? {keys: ['Space'], what: 'twice: STOP all robots', act: (event: KeyboardEvent) => this.bar?.space(event)}
-        : {keys: ['Space'], what: 'play or pause', act: (event: KeyboardEvent) => this.bar?.space(event)},
+        ? {
+            keys: ['Space'],
+            what: 'twice: STOP all robots',
+            act: (event: KeyboardEvent) => this.bar?.space(event),
+          }
+        : {
+            keys: ['Space'],
+            what: 'play or pause',
+            act: (event: KeyboardEvent) => this.bar?.space(event),
+          },
       {keys: ['K'], what: 'pause, resume', act: () => this.bar?.toggle()},
       {keys: ['.'], what: 'step forward', act: () => this.bar?.stepBy(1)},
       {keys: [','], what: 'step back (replay)', act: () => this.bar?.stepBy(-1)},
@@ -248,15 +283,34 @@ export class RaveApp extends LitElement {
       {keys: ['['], what: 'previous event', act: () => this.bar?.toEvent(-1)},
       {keys: [']'], what: 'next event', act: () => this.bar?.toEvent(1)},
       {keys: ['Ctrl K', '/'], what: 'find anything', act: find},
-      {keys: ['F'], what: 'show everything; press again: the selection', act: () => this.world?.fit()},
-      {keys: ['C'], what: 'follow the selected robot', act: () => this.selection.follow(!this.selection.following)},
+      {
+        keys: ['F'],
+        what: 'show everything; press again: the selection',
+        act: () => this.world?.fit(),
+      },
+      {
+        keys: ['C'],
+        what: 'follow the selected robot',
+        act: () => this.selection.follow(!this.selection.following),
+      },
       {keys: ['T'], what: 'top view, 3-D', act: () => this.world?.toggleMode()},
-      {keys: ['Z'], what: 'lens, while held', act: () => this.world?.lens(true), end: () => this.world?.lens(false)},
+      {
+        keys: ['Z'],
+        what: 'lens, while held',
+        act: () => this.world?.lens(true),
+        end: () => this.world?.lens(false),
+      },
       {keys: ['M'], what: 'measure', act: () => this.world?.toggleMeasure()},
       {keys: ['P'], what: 'save a picture', act: () => this.world?.picture()},
       ...kWorldKeys.map((of) => ({...of, act: () => {}})),
       ...this.orderKeys(),
-      ...panelsFor(this.model).slice(0, 19).map((kind, i) => ({keys: panelKey(i), what: kind.title, act: () => this.showPanel(kind.id)})),
+      ...panelsFor(this.model)
+        .slice(0, 19)
+        .map((kind, i) => ({
+          keys: panelKey(i),
+          what: kind.title,
+          act: () => this.showPanel(kind.id),
+        })),
       {keys: ['?'], what: 'this list', act: () => this.open('showingKeys')},
       {keys: ['Escape'], what: 'cancel, close or deselect', act: () => this.escape()},
     ];
@@ -266,14 +320,32 @@ export class RaveApp extends LitElement {
   private orderKeys(): KeyAction[] {
     const {model} = this;
     if (!model.live || !model.may('command')) return [];
-    const tool = (key: string, what: string, name: WorldPanel['tool']) => ({keys: [key], what, act: () => this.world?.chooseTool(name)});
+    const tool = (key: string, what: string, name: WorldPanel['tool']) => ({
+      keys: [key],
+      what,
+      act: () => this.world?.chooseTool(name),
+    });
     const stick = ['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight'].map((key, i) => ({
-      keys: [`Shift ${key}`], what: ['drive', 'drive backwards', 'turn left', 'turn right'][i],
-      act: () => this.joystick?.drive(key, true), end: () => this.joystick?.drive(key, false),
+      keys: [`Shift ${key}`],
+      what: ['drive', 'drive backwards', 'turn left', 'turn right'][i],
+      act: () => this.joystick?.drive(key, true),
+      end: () => this.joystick?.drive(key, false),
     }));
     return [
-      tool('V', 'select', 'select'), tool('G', 'goal', 'goal'), tool('W', 'path', 'path'),
-      ...(model.may('edit') ? [tool('O', 'obstacle', 'obstacle'), tool('B', 'place a robot', 'place'), {keys: ['Delete'], what: 'remove the selected obstacle', act: () => this.world?.removeBody()}] : []),
+      tool('V', 'select', 'select'),
+      tool('G', 'goal', 'goal'),
+      tool('W', 'path', 'path'),
+      ...(model.may('edit')
+        ? [
+            tool('O', 'obstacle', 'obstacle'),
+            tool('B', 'place a robot', 'place'),
+            {
+              keys: ['Delete'],
+              what: 'remove the selected obstacle',
+              act: () => this.world?.removeBody(),
+            },
+          ]
+        : []),
       {keys: ['Enter'], what: 'send the drawn order', act: () => this.world?.sendDraft()},
       ...stick,
     ];
@@ -316,22 +388,61 @@ export class RaveApp extends LitElement {
     if (link.state === 'refused') return renderRefused(link.refusal);
     if (link.state === 'empty') return renderNoRun();
     const old = link.state === 'lost';
-    return html`
-      <rave-top-bar .context=${this.context} .layout=${this.phone.is || innerWidth < kLayouts_px ? '' : (this.dock?.name ?? 'Watch')}
-        @layout=${(event: CustomEvent<LayoutName>) => { this.dock?.choose(event.detail); this.requestUpdate(); }} @resetlayout=${() => { this.dock?.reset(); this.requestUpdate(); }} @find=${() => this.open('finding')} @theme=${() => this.toggleTheme()} @foxglove=${() => this.open('showingFoxglove')} @people=${() => this.showPeople()} @trust=${() => this.open('showingTrust')}></rave-top-bar>
+    return html` <rave-top-bar
+        .context=${this.context}
+        .layout=${this.phone.is || innerWidth < kLayouts_px ? '' : (this.dock?.name ?? 'Watch')}
+        @layout=${(event: CustomEvent<LayoutName>) => {
+          this.dock?.choose(event.detail);
+          this.requestUpdate();
+        }}
+        @resetlayout=${() => {
+          this.dock?.reset();
+          this.requestUpdate();
+        }}
+        @find=${() => this.open('finding')}
+        @theme=${() => this.toggleTheme()}
+        @foxglove=${() => this.open('showingFoxglove')}
+        @people=${() => this.showPeople()}
+        @trust=${() => this.open('showingTrust')}></rave-top-bar>
       ${old ? renderLost(model, link) : renderWaits(model)}
       ${renderSeenBy(model, () => link.send({type: 'see_as'}))}
-      ${this.refusal === '' ? nothing : html`<div class="strip refused" role="alert">${icon('circleX', 16)}<span>${this.refusal}</span>
-        <button @click=${() => { this.refusal = ''; this.requestUpdate(); }}>Close</button></div>`}
-      ${renderAway(this.dock)}
-      ${!model.rosterCame && !old ? renderOpening() : nothing}
+      ${this.refusal === ''
+        ? nothing
+        : html`<div class="strip refused" role="alert">
+            ${icon('circleX', 16)}<span>${this.refusal}</span>
+            <button
+              @click=${() => {
+                this.refusal = '';
+                this.requestUpdate();
+              }}>
+              Close
+            </button>
+          </div>`}
+      ${renderAway(this.dock)} ${!model.rosterCame && !old ? renderOpening() : nothing}
       <main class=${old ? 'old' : ''}>
-        ${this.phone.is ? this.phone.render() : html`<div class="dock"><slot name="dock"></slot></div>`}
+        ${this.phone.is
+          ? this.phone.render()
+          : html`<div class="dock"><slot name="dock"></slot></div>`}
       </main>
-      ${this.phone.is ? this.phone.renderBars() : html`<rave-run-bar .context=${this.context}></rave-run-bar>`}
-      ${this.finding ? html`<rave-find .context=${this.context} .panels=${panelsFor(model)} @theme=${() => this.toggleTheme()} @foxglove=${() => this.open('showingFoxglove')} @done=${() => this.open('finding')}></rave-find>` : nothing}
-      ${this.showingFoxglove ? html`<rave-foxglove @done=${() => this.open('showingFoxglove')}></rave-foxglove>` : nothing}
-      ${this.showingTrust ? html`<rave-trust .context=${this.context} @done=${() => this.open('showingTrust')}></rave-trust>` : nothing}
+      ${this.phone.is
+        ? this.phone.renderBars()
+        : html`<rave-run-bar .context=${this.context}></rave-run-bar>`}
+      ${this.finding
+        ? html`<rave-find
+            .context=${this.context}
+            .panels=${panelsFor(model)}
+            @theme=${() => this.toggleTheme()}
+            @foxglove=${() => this.open('showingFoxglove')}
+            @done=${() => this.open('finding')}></rave-find>`
+        : nothing}
+      ${this.showingFoxglove
+        ? html`<rave-foxglove @done=${() => this.open('showingFoxglove')}></rave-foxglove>`
+        : nothing}
+      ${this.showingTrust
+        ? html`<rave-trust
+            .context=${this.context}
+            @done=${() => this.open('showingTrust')}></rave-trust>`
+        : nothing}
       ${this.showingKeys ? renderKeys(this.actions(), () => this.escape()) : nothing}`;
   }
 
@@ -341,13 +452,40 @@ export class RaveApp extends LitElement {
     keySheetStyles,
     phoneStyles,
     css`
-      :host { display: flex !important; flex-direction: column; height: 100%; background: var(--bg-0); }
-      main { position: relative; flex: 1; min-height: 0; padding: 0 6px 6px; }
+      :host {
+        display: flex !important;
+        flex-direction: column;
+        height: 100%;
+        background: var(--bg-0);
+      }
+      main {
+        position: relative;
+        flex: 1;
+        min-height: 0;
+        padding: 0 6px 6px;
+      }
       /* What is old has no colour. The stick still drives over a direct line. */
-      main.old .phone, main.old rave-sheet { filter: grayscale(1) opacity(.55); }
-      .dock { height: 100%; }
-      rave-run-bar { flex: none; margin: 0 6px 6px; }
-      @media (max-width: 599px) { main { display: flex; flex-direction: column; padding: 0; } rave-run-bar { margin: 0; } }
+      main.old .phone,
+      main.old rave-sheet {
+        filter: grayscale(1) opacity(0.55);
+      }
+      .dock {
+        height: 100%;
+      }
+      rave-run-bar {
+        flex: none;
+        margin: 0 6px 6px;
+      }
+      @media (max-width: 599px) {
+        main {
+          display: flex;
+          flex-direction: column;
+          padding: 0;
+        }
+        rave-run-bar {
+          margin: 0;
+        }
+      }
     `,
   ];
 }

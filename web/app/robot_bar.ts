@@ -18,7 +18,13 @@ export class RobotBar extends LiveElement {
     const {model, selection, link} = this.context;
     let shown = '';
     return [
-      ...this.renderAfter(model.rosterChanged, model.drivesChanged, model.runChanged, selection.changed, link.changed),
+      ...this.renderAfter(
+        model.rosterChanged,
+        model.drivesChanged,
+        model.runChanged,
+        selection.changed,
+        link.changed,
+      ),
       selection.changed.on(() => selection.primary === null && this.lease(false)),
       model.pictureChanged.on(() => {
         const now = String(this.stopped);
@@ -30,7 +36,10 @@ export class RobotBar extends LiveElement {
 
   private get stopped(): boolean {
     const {selection, model} = this.context;
-    return selection.primary !== null && ((model.poses.newest?.flags[selection.primary] ?? 0) & RobotFlag.stopped) !== 0;
+    return (
+      selection.primary !== null &&
+      ((model.poses.newest?.flags[selection.primary] ?? 0) & RobotFlag.stopped) !== 0
+    );
   }
 
   private lease(open: boolean): void {
@@ -52,34 +61,141 @@ export class RobotBar extends LiveElement {
   override render(): TemplateResult {
     const {model, selection} = this.context;
     const slot = selection.primary;
-    if (slot === null) return html`<p role="status">${icon('pointer', 18)}<span>Tap a robot: goal, path, drive, stop it, lease.<small>A finger held on it opens its menu.</small></span></p>`;
-    const button = (label: string, glyph: IconName, why: string, pressed: boolean | null, act: () => void, look = '') => html`
-      <button class=${look} aria-pressed=${pressed ?? nothing} ?disabled=${why !== ''} title=${why} @click=${act}>${icon(glyph, 20)}<span>${label}</span></button>`;
+    if (slot === null)
+      return html`<p role="status">
+        ${icon('pointer', 18)}<span
+          >Tap a robot: goal, path, drive, stop it, lease.<small
+            >A finger held on it opens its menu.</small
+          ></span
+        >
+      </p>`;
+    const button = (
+      label: string,
+      glyph: IconName,
+      why: string,
+      pressed: boolean | null,
+      act: () => void,
+      look = '',
+    ) =>
+      html` <button
+        class=${look}
+        aria-pressed=${pressed ?? nothing}
+        ?disabled=${why !== ''}
+        title=${why}
+        @click=${act}>
+        ${icon(glyph, 20)}<span>${label}</span>
+      </button>`;
     const drive = model.drives.get(slot);
     const path = model.whyNotTaken(slot, 'path');
     const release = this.stopped && model.may('release');
-    return html`<div class="buttons" role="toolbar" aria-label="Orders for ${model.robots[slot]?.name}">
-      ${button('Goal', 'target', model.whyNotTaken(slot, 'goal'), this.tool === 'goal', () => this.choose('goal'))}
-      ${button('Path', 'route', path, this.tool === 'path', () => this.choose('path'))}
-      ${button('Drive', 'joystick', model.whyNotTaken(slot, 'drive'), this.driving, () => { this.lease(false); this.dispatchEvent(new CustomEvent('drive')); })}
-      ${button(release ? 'Release it' : 'Stop it', release ? 'play' : 'octagonX', model.live ? model.whyNotStopped(slot) : 'This is a recording.', null, () => this.halt(), 'stop')}
-      ${button('Lease', 'hand', '', this.leasing, () => this.lease(!this.leasing), drive?.yours === true ? 'mine' : '')}</div>
-      ${this.leasing ? html`<div class="card"><rave-lease .context=${this.context} .robot=${slot}></rave-lease></div>` : nothing}`;
+    return html`<div
+        class="buttons"
+        role="toolbar"
+        aria-label="Orders for ${model.robots[slot]?.name}">
+        ${button('Goal', 'target', model.whyNotTaken(slot, 'goal'), this.tool === 'goal', () =>
+          this.choose('goal'),
+        )}
+        ${button('Path', 'route', path, this.tool === 'path', () => this.choose('path'))}
+        ${button('Drive', 'joystick', model.whyNotTaken(slot, 'drive'), this.driving, () => {
+          this.lease(false);
+          this.dispatchEvent(new CustomEvent('drive'));
+        })}
+        ${button(
+          release ? 'Release it' : 'Stop it',
+          release ? 'play' : 'octagonX',
+          model.live ? model.whyNotStopped(slot) : 'This is a recording.',
+          null,
+          () => this.halt(),
+          'stop',
+        )}
+        ${button(
+          'Lease',
+          'hand',
+          '',
+          this.leasing,
+          () => this.lease(!this.leasing),
+          drive?.yours === true ? 'mine' : '',
+        )}
+      </div>
+      ${this.leasing
+        ? html`<div class="card">
+            <rave-lease .context=${this.context} .robot=${slot}></rave-lease>
+          </div>`
+        : nothing}`;
   }
 
   static override styles = [
     controls,
     css`
-      :host { position: relative; display: block; flex: none; padding: 7px 10px; background: var(--bg-1); border-top: 1px solid var(--line-2); }
-      .buttons { display: flex; gap: 6px; }
-      .buttons button { display: flex; flex: 1; flex-direction: column; align-items: center; justify-content: center; gap: 4px; min-width: 0; height: 58px; border: 1px solid var(--line-3); border-radius: var(--r-4); background: var(--bg-2); color: var(--text-1); font-size: 12.5px; font-weight: var(--fw-medium); white-space: nowrap; }
-      .buttons button[aria-pressed='true'] { background: var(--intent-fill); border-color: var(--intent-fill); color: #fff; }
-      .buttons .stop { border-color: var(--danger); color: var(--danger); }
-      .buttons .mine { border-color: var(--intent); color: var(--intent); }
-      p { display: flex; align-items: center; gap: 12px; height: 58px; margin: 0; padding: 0 6px; color: var(--text-2); }
-      p svg { color: var(--intent); }
-      small { display: block; color: var(--text-3); font-size: 12.5px; }
-      .card { position: absolute; left: 10px; right: 10px; bottom: calc(100% + 8px); z-index: 6; border-radius: var(--r-3); background: var(--bg-1); box-shadow: var(--shadow-pop); }
+      :host {
+        position: relative;
+        display: block;
+        flex: none;
+        padding: 7px 10px;
+        background: var(--bg-1);
+        border-top: 1px solid var(--line-2);
+      }
+      .buttons {
+        display: flex;
+        gap: 6px;
+      }
+      .buttons button {
+        display: flex;
+        flex: 1;
+        flex-direction: column;
+        align-items: center;
+        justify-content: center;
+        gap: 4px;
+        min-width: 0;
+        height: 58px;
+        border: 1px solid var(--line-3);
+        border-radius: var(--r-4);
+        background: var(--bg-2);
+        color: var(--text-1);
+        font-size: 12.5px;
+        font-weight: var(--fw-medium);
+        white-space: nowrap;
+      }
+      .buttons button[aria-pressed='true'] {
+        background: var(--intent-fill);
+        border-color: var(--intent-fill);
+        color: #fff;
+      }
+      .buttons .stop {
+        border-color: var(--danger);
+        color: var(--danger);
+      }
+      .buttons .mine {
+        border-color: var(--intent);
+        color: var(--intent);
+      }
+      p {
+        display: flex;
+        align-items: center;
+        gap: 12px;
+        height: 58px;
+        margin: 0;
+        padding: 0 6px;
+        color: var(--text-2);
+      }
+      p svg {
+        color: var(--intent);
+      }
+      small {
+        display: block;
+        color: var(--text-3);
+        font-size: 12.5px;
+      }
+      .card {
+        position: absolute;
+        left: 10px;
+        right: 10px;
+        bottom: calc(100% + 8px);
+        z-index: 6;
+        border-radius: var(--r-3);
+        background: var(--bg-1);
+        box-shadow: var(--shadow-pop);
+      }
     `,
   ];
 }

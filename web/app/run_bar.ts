@@ -25,7 +25,10 @@ export class RunBar extends LiveElement {
 
   protected override listen(): (() => void)[] {
     const {model, link} = this.context;
-    return [...this.renderAfter(model.timeChanged, model.runChanged, link.changed), model.pictureChanged.on(() => this.queue())];
+    return [
+      ...this.renderAfter(model.timeChanged, model.runChanged, link.changed),
+      model.pictureChanged.on(() => this.queue()),
+    ];
   }
 
   private queue(): void {
@@ -41,7 +44,10 @@ export class RunBar extends LiveElement {
   toggle(): void {
     const {model, link} = this.context;
     if (!model.may('play')) return;
-    link.send({type: 'transport', do: model.time?.state === 'paused' || model.time?.state === 'ended' ? 'play' : 'pause'});
+    link.send({
+      type: 'transport',
+      do: model.time?.state === 'paused' || model.time?.state === 'ended' ? 'play' : 'pause',
+    });
   }
 
   /** Space: twice it stops a live run, once it plays or pauses a replay. */
@@ -52,7 +58,8 @@ export class RunBar extends LiveElement {
 
   stepBy(count: number): void {
     const {model, link} = this.context;
-    if (model.may('step') && (count > 0 || !model.live)) link.send({type: 'transport', do: 'step', value: count});
+    if (model.may('step') && (count > 0 || !model.live))
+      link.send({type: 'transport', do: 'step', value: count});
   }
 
   /** J and L: slower, faster. */
@@ -60,9 +67,10 @@ export class RunBar extends LiveElement {
     const paces = this.paces;
     const now = this.context.model.time?.pace ?? 1;
     const speed = (pace: number) => (pace === 0 ? Infinity : pace);
-    const next = direction > 0
-      ? paces.find((pace) => speed(pace) > speed(now))
-      : [...paces].reverse().find((pace) => speed(pace) < speed(now));
+    const next =
+      direction > 0
+        ? paces.find((pace) => speed(pace) > speed(now))
+        : [...paces].reverse().find((pace) => speed(pace) < speed(now));
     if (next !== undefined) this.setPace(next);
   }
 
@@ -71,14 +79,20 @@ export class RunBar extends LiveElement {
   }
 
   private setPace(value: number): void {
-    if (this.context.model.may('pace')) this.context.link.send({type: 'transport', do: 'pace', value});
+    if (this.context.model.may('pace'))
+      this.context.link.send({type: 'transport', do: 'pace', value});
   }
 
   /** [ and ]: the event before or after now. */
   toEvent(direction: number): void {
     const now = nowOf(this.context.model);
-    const times = logOf(this.context.model).map((event) => event.t).sort((a, b) => a - b);
-    const next = direction > 0 ? times.find((t) => t > now + 0.01) : times.reverse().find((t) => t < now - 0.01);
+    const times = logOf(this.context.model)
+      .map((event) => event.t)
+      .sort((a, b) => a - b);
+    const next =
+      direction > 0
+        ? times.find((t) => t > now + 0.01)
+        : times.reverse().find((t) => t < now - 0.01);
     if (next !== undefined) this.context.seek(next);
   }
 
@@ -88,22 +102,49 @@ export class RunBar extends LiveElement {
     const replay = !model.live;
     const goes = model.time?.state === 'running' || model.time?.state === 'waiting';
     const may = (power: Power) => model.may(power);
-    const button = (name: Parameters<typeof icon>[0], label: string, power: Power, act: () => void) => html`
-      <button class="icon-button" title=${may(power) ? label : model.whyNot(power)} aria-label=${label} ?disabled=${!may(power)} @click=${act}>${icon(name, 17)}</button>`;
-    return html`
-      <div class="transport">
-        ${replay ? button('skipBack', 'To the beginning', 'seek', () => this.context.seek(begin)) : nothing}
+    const button = (
+      name: Parameters<typeof icon>[0],
+      label: string,
+      power: Power,
+      act: () => void,
+    ) =>
+      html` <button
+        class="icon-button"
+        title=${may(power) ? label : model.whyNot(power)}
+        aria-label=${label}
+        ?disabled=${!may(power)}
+        @click=${act}>
+        ${icon(name, 17)}
+      </button>`;
+    return html` <div class="transport">
+        ${replay
+          ? button('skipBack', 'To the beginning', 'seek', () => this.context.seek(begin))
+          : nothing}
         ${replay ? button('stepBack', 'One step back (,)', 'step', () => this.stepBy(-1)) : nothing}
-        <button class="play" title=${may('play') ? `${goes ? 'Pause' : 'Play'} (K)` : model.whyNot('play')}
-          aria-label=${goes ? 'Pause' : 'Play'} ?disabled=${!may('play')} @click=${() => this.toggle()}>${icon(goes ? 'pause' : 'play', 20)}</button>
+        <button
+          class="play"
+          title=${may('play') ? `${goes ? 'Pause' : 'Play'} (K)` : model.whyNot('play')}
+          aria-label=${goes ? 'Pause' : 'Play'}
+          ?disabled=${!may('play')}
+          @click=${() => this.toggle()}>
+          ${icon(goes ? 'pause' : 'play', 20)}
+        </button>
         ${button('stepForward', 'One step forward (.)', 'step', () => this.stepBy(1))}
-        ${replay ? button('skipForward', 'To the end', 'seek', () => this.context.seek(end)) : nothing}
+        ${replay
+          ? button('skipForward', 'To the end', 'seek', () => this.context.seek(end))
+          : nothing}
       </div>
-      <div class="clock">${model.time === null ? html`<span>Loading ...</span>` : html`<b>${bigClock(nowOf(model))}</b>
-        <span>of ${bigClock(end)} · step ${model.poses.newest?.step ?? model.time?.step ?? 0}</span>`}</div>
+      <div class="clock">
+        ${model.time === null
+          ? html`<span>Loading ...</span>`
+          : html`<b>${bigClock(nowOf(model))}</b>
+              <span
+                >of ${bigClock(end)} · step
+                ${model.poses.newest?.step ?? model.time?.step ?? 0}</span
+              >`}
+      </div>
       <rave-timeline .context=${this.context}></rave-timeline>
-      ${this.renderPace(replay)}
-      ${this.renderMenu(replay)}
+      ${this.renderPace(replay)} ${this.renderMenu(replay)}
       <rave-stop .context=${this.context}></rave-stop>`;
   }
 
@@ -113,62 +154,221 @@ export class RunBar extends LiveElement {
       this.menuOpen = open;
       this.requestUpdate();
     };
-    return html`<div class="more" @keydown=${(event: KeyboardEvent) => {
-      if (event.key !== 'Escape' || !this.menuOpen) return;
-      event.stopPropagation();
-      toggle(false);
-      this.renderRoot.querySelector<HTMLElement>('.more > button')?.focus();
-    }}>
-      <button class="icon-button" title="Pace and link" aria-label="Pace and link" aria-expanded=${this.menuOpen} @click=${() => toggle(!this.menuOpen)}>${icon('ellipsis', 18)}</button>
-      ${this.menuOpen ? html`<div class="card" role="group" aria-label="Pace and link">${this.renderPace(replay)}</div>` : nothing}</div>`;
+    return html`<div
+      class="more"
+      @keydown=${(event: KeyboardEvent) => {
+        if (event.key !== 'Escape' || !this.menuOpen) return;
+        event.stopPropagation();
+        toggle(false);
+        this.renderRoot.querySelector<HTMLElement>('.more > button')?.focus();
+      }}>
+      <button
+        class="icon-button"
+        title="Pace and link"
+        aria-label="Pace and link"
+        aria-expanded=${this.menuOpen}
+        @click=${() => toggle(!this.menuOpen)}>
+        ${icon('ellipsis', 18)}
+      </button>
+      ${this.menuOpen
+        ? html`<div class="card" role="group" aria-label="Pace and link">
+            ${this.renderPace(replay)}
+          </div>`
+        : nothing}
+    </div>`;
   }
 
   private renderPace(replay: boolean): TemplateResult {
     const {model} = this.context;
     const may = model.may('pace');
-    const speed = replay ? nothing : html`<span>${(model.time?.speed ?? 0).toFixed(2)}× of real time</span>`;
-    const paces = html`<div class="segments" role="radiogroup" aria-label="Pace">${this.paces.map((pace) => html`
-      <button role="radio" aria-checked=${model.time?.pace === pace} ?disabled=${!may} title=${may ? '' : model.whyNot('pace')}
-        @click=${() => this.setPace(pace)}>${paceText(pace)}</button>`)}</div>`;
+    const speed = replay
+      ? nothing
+      : html`<span>${(model.time?.speed ?? 0).toFixed(2)}× of real time</span>`;
+    const paces = html`<div class="segments" role="radiogroup" aria-label="Pace">
+      ${this.paces.map(
+        (pace) =>
+          html` <button
+            role="radio"
+            aria-checked=${model.time?.pace === pace}
+            ?disabled=${!may}
+            title=${may ? '' : model.whyNot('pace')}
+            @click=${() => this.setPace(pace)}>
+            ${paceText(pace)}
+          </button>`,
+      )}
+    </div>`;
     return html`<div class="pace">
       <div><span>Pace</span>${paces}</div>
-      <small>${speed}${this.renderLink()}${model.may('recording') && replay
-        ? html` <a href="./recording" download title="Download the recording" aria-label="Download the recording">${icon('download', 14)}</a>` : replay && model.isWithheld('recording') ? html` <span class="lacking" role="note" title=${model.whyNot('recording')}>${icon('lock', 13)} recording</span>` : nothing}</small>
+      <small
+        >${speed}${this.renderLink()}${model.may('recording') && replay
+          ? html` <a
+              href="./recording"
+              download
+              title="Download the recording"
+              aria-label="Download the recording"
+              >${icon('download', 14)}</a
+            >`
+          : replay && model.isWithheld('recording')
+            ? html` <span class="lacking" role="note" title=${model.whyNot('recording')}
+                >${icon('lock', 13)} recording</span
+              >`
+            : nothing}</small
+      >
     </div>`;
   }
 
   private renderLink(): TemplateResult {
-    return html`<button class="text" title="Copy a link to this moment and camera" @click=${() => this.context.copyLink()}>${icon('link', 13)} ${this.context.model.live ? 'Link' : 'Link to this moment'}</button>`;
+    return html`<button
+      class="text"
+      title="Copy a link to this moment and camera"
+      @click=${() => this.context.copyLink()}>
+      ${icon('link', 13)} ${this.context.model.live ? 'Link' : 'Link to this moment'}
+    </button>`;
   }
 
   static override styles = [
     controls,
     css`
-      :host { display: flex; align-items: center; gap: 16px; height: var(--h-runbar); padding: 0 12px; background: var(--bg-1); border-radius: var(--r-4); }
-      .transport { display: flex; align-items: center; gap: 2px; }
-      .play { display: grid; place-items: center; width: 38px; height: 38px; margin: 0 4px; border-radius: 50%; background: var(--bg-3); }
-      .play:hover:not(:disabled) { background: var(--bg-4); }
-      .clock { display: flex; flex-direction: column; min-width: 128px; }
-      .clock b { font-size: var(--fs-20); font-weight: var(--fw-strong); line-height: 1.2; }
-      .clock span { color: var(--text-3); font-size: var(--fs-12); white-space: nowrap; }
-      .pace { display: flex; flex-direction: column; gap: 4px; font-size: var(--fs-12); color: var(--text-2); }
-      .pace > div { display: flex; align-items: center; gap: 8px; }
-      .pace small { display: flex; align-items: center; gap: 8px; color: var(--text-3); font-size: var(--fs-12); white-space: nowrap; }
-      .pace a { color: var(--text-2); }
-      .lacking { display: inline-flex; align-items: center; gap: 4px; }
-      .text { display: inline-flex; gap: 6px; align-items: center; color: var(--text-2); }
-      .text:hover { color: var(--text-1); }
-      .more { position: relative; display: none; }
-      .card { position: absolute; right: 0; bottom: calc(100% + 12px); padding: 12px 14px; border: 1px solid var(--line-2); border-radius: var(--r-4); background: var(--bg-1); box-shadow: var(--shadow-2, 0 8px 24px rgb(0 0 0 / .35)); z-index: 20; }
+      :host {
+        display: flex;
+        align-items: center;
+        gap: 16px;
+        height: var(--h-runbar);
+        padding: 0 12px;
+        background: var(--bg-1);
+        border-radius: var(--r-4);
+      }
+      .transport {
+        display: flex;
+        align-items: center;
+        gap: 2px;
+      }
+      .play {
+        display: grid;
+        place-items: center;
+        width: 38px;
+        height: 38px;
+        margin: 0 4px;
+        border-radius: 50%;
+        background: var(--bg-3);
+      }
+      .play:hover:not(:disabled) {
+        background: var(--bg-4);
+      }
+      .clock {
+        display: flex;
+        flex-direction: column;
+        min-width: 128px;
+      }
+      .clock b {
+        font-size: var(--fs-20);
+        font-weight: var(--fw-strong);
+        line-height: 1.2;
+      }
+      .clock span {
+        color: var(--text-3);
+        font-size: var(--fs-12);
+        white-space: nowrap;
+      }
+      .pace {
+        display: flex;
+        flex-direction: column;
+        gap: 4px;
+        font-size: var(--fs-12);
+        color: var(--text-2);
+      }
+      .pace > div {
+        display: flex;
+        align-items: center;
+        gap: 8px;
+      }
+      .pace small {
+        display: flex;
+        align-items: center;
+        gap: 8px;
+        color: var(--text-3);
+        font-size: var(--fs-12);
+        white-space: nowrap;
+      }
+      .pace a {
+        color: var(--text-2);
+      }
+      .lacking {
+        display: inline-flex;
+        align-items: center;
+        gap: 4px;
+      }
+      .text {
+        display: inline-flex;
+        gap: 6px;
+        align-items: center;
+        color: var(--text-2);
+      }
+      .text:hover {
+        color: var(--text-1);
+      }
+      .more {
+        position: relative;
+        display: none;
+      }
+      .card {
+        position: absolute;
+        right: 0;
+        bottom: calc(100% + 12px);
+        padding: 12px 14px;
+        border: 1px solid var(--line-2);
+        border-radius: var(--r-4);
+        background: var(--bg-1);
+        box-shadow: var(--shadow-2, 0 8px 24px rgb(0 0 0 / 0.35));
+        z-index: 20;
+      }
       @media (max-width: 900px) {
-        :host > .pace { display: none; } .more { display: block; }
-        .card .pace { gap: 10px; } .card button { min-height: var(--h-control, 28px); }
+        :host > .pace {
+          display: none;
+        }
+        .more {
+          display: block;
+        }
+        .card .pace {
+          gap: 10px;
+        }
+        .card button {
+          min-height: var(--h-control, 28px);
+        }
       }
       @media (max-width: 599px) {
-        :host { gap: 8px; padding: 0 8px; border-radius: 0; border-top: 1px solid var(--line-1); }
-        .transport .icon-button { display: none; } .more > .icon-button { width: 44px; height: 44px; }
-        .clock { position: absolute; left: 72px; top: 14px; min-width: 84px; } .clock span { display: none; }
-        :host { position: relative; } .play { width: 44px; height: 44px; } rave-timeline { margin-top: 34px; }
+        :host {
+          gap: 8px;
+          padding: 0 8px;
+          border-radius: 0;
+          border-top: 1px solid var(--line-1);
+        }
+        .transport .icon-button {
+          display: none;
+        }
+        .more > .icon-button {
+          width: 44px;
+          height: 44px;
+        }
+        .clock {
+          position: absolute;
+          left: 72px;
+          top: 14px;
+          min-width: 84px;
+        }
+        .clock span {
+          display: none;
+        }
+        :host {
+          position: relative;
+        }
+        .play {
+          width: 44px;
+          height: 44px;
+        }
+        rave-timeline {
+          margin-top: 34px;
+        }
       }
     `,
   ];

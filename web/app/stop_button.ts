@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {countStopped, Hold, kTwice_ms, lastStop, Twice, type LastStop, type StopCount} from '../model/stop_state';
+import {
+  countStopped,
+  Hold,
+  kTwice_ms,
+  lastStop,
+  Twice,
+  type LastStop,
+  type StopCount,
+} from '../model/stop_state';
 import {viewOf} from '../panel_api/windows';
 import {shortClock} from './clock';
 import {icon} from './icons';
@@ -21,7 +29,14 @@ export class StopButton extends LiveElement {
   protected override listen(): (() => void)[] {
     const {model, link} = this.context;
     return [
-      ...this.renderAfter(model.rosterChanged, model.runChanged, model.timeChanged, model.eventsChanged, link.changed, ...(link.direct ? [link.direct.changed] : [])),
+      ...this.renderAfter(
+        model.rosterChanged,
+        model.runChanged,
+        model.timeChanged,
+        model.eventsChanged,
+        link.changed,
+        ...(link.direct ? [link.direct.changed] : []),
+      ),
       model.pictureChanged.on(() => {
         const count = this.count();
         const now = `${count.stopped.join()} ${count.latched}`;
@@ -57,14 +72,17 @@ export class StopButton extends LiveElement {
   private stop(): void {
     const {model, link} = this.context;
     // Only the server knows what time it is in the run.
-    this.own = {t_s: link.state === 'open' ? (model.poses.newest?.time_s ?? model.time?.now_s ?? 0) : null};
+    this.own = {
+      t_s: link.state === 'open' ? (model.poses.newest?.time_s ?? model.time?.now_s ?? 0) : null,
+    };
     link.send({type: 'halt', do: 'stop', slots: []});
     this.requestUpdate();
   }
 
   private press(event: Event): void {
     // Events of another window have classes of their own.
-    if ('pointerId' in event) (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId as number);
+    if ('pointerId' in event)
+      (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId as number);
     this.hold.press(performance.now());
     this.grow();
   }
@@ -90,11 +108,23 @@ export class StopButton extends LiveElement {
     const count = this.count();
     if (model.hello !== null && !model.may('stop')) return this.renderViewOnly();
     const out = !link.reaches;
-    return html`<div aria-live="polite" class="spoken">${count.stopped.length > 0 ? `${this.who(count.stopped)} stopped.` : nothing}</div>
-      ${count.latched && model.may('release') ? this.renderRelease(count, true) : html`
-        ${count.stopped.length > 0 && model.may('release') ? this.renderRelease(count, false) : nothing}
-        <button class="stop" ?disabled=${out} title="Stop ${this.meant(count)} (Space Space)" @click=${() => this.stop()}>
-          ${icon('octagonX', 28)}<span><b>STOP</b><small>${this.stopText(count, out)}</small></span></button>`}`;
+    return html`<div aria-live="polite" class="spoken">
+        ${count.stopped.length > 0 ? `${this.who(count.stopped)} stopped.` : nothing}
+      </div>
+      ${count.latched && model.may('release')
+        ? this.renderRelease(count, true)
+        : html` ${count.stopped.length > 0 && model.may('release')
+              ? this.renderRelease(count, false)
+              : nothing}
+            <button
+              class="stop"
+              ?disabled=${out}
+              title="Stop ${this.meant(count)} (Space Space)"
+              @click=${() => this.stop()}>
+              ${icon('octagonX', 28)}<span
+                ><b>STOP</b><small>${this.stopText(count, out)}</small></span
+              >
+            </button>`}`;
   }
 
   private stopText(count: StopCount, out: boolean): string {
@@ -102,14 +132,22 @@ export class StopButton extends LiveElement {
     if (this.half) return 'Space again';
     if (count.latched) return 'all stand';
     const {robots} = this.context.model;
-    if (count.robots.length === robots.length) return robots.length === 1 ? 'the robot' : `all ${robots.length} robots`;
-    return count.robots.length === 1 ? `only ${robots[count.robots[0]].name}` : `${count.robots.length} of ${robots.length} robots`;
+    if (count.robots.length === robots.length)
+      return robots.length === 1 ? 'the robot' : `all ${robots.length} robots`;
+    return count.robots.length === 1
+      ? `only ${robots[count.robots[0]].name}`
+      : `${count.robots.length} of ${robots.length} robots`;
   }
 
   /** Whom STOP means, by name unless it is all. */
   private meant(count: StopCount): string {
     const {robots} = this.context.model;
-    return count.robots.length === robots.length ? 'all robots' : namesText(count.robots.map((slot) => robots[slot].name), 8);
+    return count.robots.length === robots.length
+      ? 'all robots'
+      : namesText(
+          count.robots.map((slot) => robots[slot].name),
+          8,
+        );
   }
 
   /** One robot by its name, several by their number. */
@@ -122,7 +160,10 @@ export class StopButton extends LiveElement {
     const {model, link} = this.context;
     const last = lastStop(model, (slot) => link.stops?.has(slot) ?? false);
     const you = model.knownAs;
-    if (this.own !== null && (last === null || this.isNewer(this.own.t_s, last))) return this.own.t_s === null ? 'stopped by you' : `stopped by you at ${shortClock(this.own.t_s)}`;
+    if (this.own !== null && (last === null || this.isNewer(this.own.t_s, last)))
+      return this.own.t_s === null
+        ? 'stopped by you'
+        : `stopped by you at ${shortClock(this.own.t_s)}`;
     if (last === null) return 'stopped';
     const who = last.who === '' ? '' : ` by ${last.who === you ? 'you' : last.who}`;
     return `stopped${who} at ${shortClock(last.t_s)}`;
@@ -137,9 +178,12 @@ export class StopButton extends LiveElement {
   private renderViewOnly(): TemplateResult {
     const {model} = this.context;
     // Small screens have no place for the name and size of the recording.
-    const recording = model.hello?.run.recording?.whole === false ? 'incomplete recording' : 'this is a recording';
-    return html`<div class="view-only" title=${model.whyNot('stop')}>${icon('eye', 18)}
-      <span>View only<small>${model.live ? 'observers cannot stop' : recording}</small></span></div>`;
+    const recording =
+      model.hello?.run.recording?.whole === false ? 'incomplete recording' : 'this is a recording';
+    return html`<div class="view-only" title=${model.whyNot('stop')}>
+      ${icon('eye', 18)}
+      <span>View only<small>${model.live ? 'observers cannot stop' : recording}</small></span>
+    </div>`;
   }
 
   private renderRelease(count: StopCount, large: boolean): TemplateResult {
@@ -152,38 +196,154 @@ export class StopButton extends LiveElement {
         act();
       }
     };
-    return html`<button class="release ${large ? 'large' : ''}" aria-label="Hold to release ${this.who(count.stopped)}"
-        title="Hold for 0.6 s: ${namesText(count.stopped.map((slot) => this.context.model.robots[slot].name), 8)}" @pointerdown=${this.press} @pointerup=${this.lift} @pointercancel=${this.lift} @blur=${this.lift}
-        @contextmenu=${(event: Event) => event.preventDefault()}
-        @keydown=${(event: KeyboardEvent) => key(event, () => { if (!event.repeat) this.press(event); })}
-        @keyup=${(event: KeyboardEvent) => key(event, () => this.lift())}>
-      <svg width="24" height="24" viewBox="0 0 24 24" aria-hidden="true"><circle cx="12" cy="12" r="9" class="ring"/>
-        <circle cx="12" cy="12" r="9" class="done" stroke-dasharray="${share * turn} ${turn}" transform="rotate(-90 12 12)"/></svg>
-      <span><b>Hold to release</b><small>${this.who(count.stopped)}${large ? `, ${when}` : ''}</small></span></button>`;
+    return html`<button
+      class="release ${large ? 'large' : ''}"
+      aria-label="Hold to release ${this.who(count.stopped)}"
+      title="Hold for 0.6 s: ${namesText(
+        count.stopped.map((slot) => this.context.model.robots[slot].name),
+        8,
+      )}"
+      @pointerdown=${this.press}
+      @pointerup=${this.lift}
+      @pointercancel=${this.lift}
+      @blur=${this.lift}
+      @contextmenu=${(event: Event) => event.preventDefault()}
+      @keydown=${(event: KeyboardEvent) =>
+        key(event, () => {
+          if (!event.repeat) this.press(event);
+        })}
+      @keyup=${(event: KeyboardEvent) => key(event, () => this.lift())}>
+      <svg width="24" height="24" viewBox="0 0 24 24" aria-hidden="true">
+        <circle cx="12" cy="12" r="9" class="ring" />
+        <circle
+          cx="12"
+          cy="12"
+          r="9"
+          class="done"
+          stroke-dasharray="${share * turn} ${turn}"
+          transform="rotate(-90 12 12)" />
+      </svg>
+      <span
+        ><b>Hold to release</b
+        ><small>${this.who(count.stopped)}${large ? `, ${when}` : ''}</small></span
+      >
+    </button>`;
   }
 
   static override styles = [
     controls,
     css`
-      :host { display: flex; gap: 8px; flex: none; }
-      .stop, .view-only, .release { display: flex; align-items: center; justify-content: center; gap: 12px; min-width: var(--w-stop); height: 60px; border-radius: var(--r-6); text-align: left; flex: none; touch-action: none; user-select: none; }
-      .stop { background: var(--stop-fill); border: 1px solid var(--stop-edge); color: #fff; }
-      .stop:active { filter: brightness(.88); }
-      .stop b { display: block; font-size: var(--fs-20); line-height: 1.1; letter-spacing: .02em; }
-      small { display: block; max-width: 240px; overflow: hidden; font-size: var(--fs-12); white-space: nowrap; text-overflow: ellipsis; }
-      .release { padding: 0 14px; border: 2px solid var(--danger); background: var(--bg-1); color: var(--danger); }
-      .release:hover { background: var(--danger-soft); }
-      .release b { display: block; font-size: var(--fs-13); font-weight: var(--fw-strong); white-space: nowrap; }
-      .release small { color: var(--text-1); font-size: var(--fs-11); }
-      circle { fill: none; stroke-width: 3; }
-      .ring { stroke: var(--bg-4); }
-      .done { stroke: var(--danger); }
-      .view-only { border: 1px dashed var(--line-2); padding: 0 10px; color: var(--text-2); font-size: var(--fs-13); line-height: 1.3; }
-      .view-only small { color: var(--text-3); }
-      .spoken { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
-      @media (max-width: 599px) { .stop, .view-only, .release { min-width: 140px; } .release:not(.large) { min-width: 0; padding: 0 8px; } .release:not(.large) span { display: none; } }
-      :host([pen]) button { height: 64px; }
-      :host([pen]) .stop, :host([pen]) .large { min-width: 132px; gap: 10px; padding: 0 8px; }
+      :host {
+        display: flex;
+        gap: 8px;
+        flex: none;
+      }
+      .stop,
+      .view-only,
+      .release {
+        display: flex;
+        align-items: center;
+        justify-content: center;
+        gap: 12px;
+        min-width: var(--w-stop);
+        height: 60px;
+        border-radius: var(--r-6);
+        text-align: left;
+        flex: none;
+        touch-action: none;
+        user-select: none;
+      }
+      .stop {
+        background: var(--stop-fill);
+        border: 1px solid var(--stop-edge);
+        color: #fff;
+      }
+      .stop:active {
+        filter: brightness(0.88);
+      }
+      .stop b {
+        display: block;
+        font-size: var(--fs-20);
+        line-height: 1.1;
+        letter-spacing: 0.02em;
+      }
+      small {
+        display: block;
+        max-width: 240px;
+        overflow: hidden;
+        font-size: var(--fs-12);
+        white-space: nowrap;
+        text-overflow: ellipsis;
+      }
+      .release {
+        padding: 0 14px;
+        border: 2px solid var(--danger);
+        background: var(--bg-1);
+        color: var(--danger);
+      }
+      .release:hover {
+        background: var(--danger-soft);
+      }
+      .release b {
+        display: block;
+        font-size: var(--fs-13);
+        font-weight: var(--fw-strong);
+        white-space: nowrap;
+      }
+      .release small {
+        color: var(--text-1);
+        font-size: var(--fs-11);
+      }
+      circle {
+        fill: none;
+        stroke-width: 3;
+      }
+      .ring {
+        stroke: var(--bg-4);
+      }
+      .done {
+        stroke: var(--danger);
+      }
+      .view-only {
+        border: 1px dashed var(--line-2);
+        padding: 0 10px;
+        color: var(--text-2);
+        font-size: var(--fs-13);
+        line-height: 1.3;
+      }
+      .view-only small {
+        color: var(--text-3);
+      }
+      .spoken {
+        position: absolute;
+        width: 1px;
+        height: 1px;
+        overflow: hidden;
+        clip-path: inset(50%);
+      }
+      @media (max-width: 599px) {
+        .stop,
+        .view-only,
+        .release {
+          min-width: 140px;
+        }
+        .release:not(.large) {
+          min-width: 0;
+          padding: 0 8px;
+        }
+        .release:not(.large) span {
+          display: none;
+        }
+      }
+      :host([pen]) button {
+        height: 64px;
+      }
+      :host([pen]) .stop,
+      :host([pen]) .large {
+        min-width: 132px;
+        gap: 10px;
+        padding: 0 8px;
+      }
     `,
   ];
 }

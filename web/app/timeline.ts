@@ -25,7 +25,12 @@ export class Timeline extends LiveElement {
   protected override listen(): (() => void)[] {
     const {model, palette} = this.context;
     return [
-      ...this.renderAfter(model.timeChanged, model.eventsChanged, model.runChanged, palette.changed),
+      ...this.renderAfter(
+        model.timeChanged,
+        model.eventsChanged,
+        model.runChanged,
+        palette.changed,
+      ),
       model.pictureChanged.on(() => this.queue()),
       () => this.resized.disconnect(),
     ];
@@ -64,16 +69,32 @@ export class Timeline extends LiveElement {
     const may = model.may('seek');
     const step = tickStep((end - begin) / Math.max(this.width / 90, 1));
     const ticks: number[] = [];
-    for (let t = Math.ceil(begin / step) * step; t <= end + kEndSlack * (end - begin); t += step) ticks.push(Math.min(t, end));
-    return html`<div class="line ${model.live ? 'live' : ''}" role=${may ? 'slider' : 'img'} tabindex=${may ? '0' : nothing} aria-label="Time of the run"
-        aria-valuemin=${may ? begin : nothing} aria-valuemax=${may ? end : nothing} aria-valuenow=${may ? now_s.toFixed(1) : nothing}
-        aria-valuetext=${may ? `${clockText(now_s)} s` : nothing} title=${may ? '' : model.whyNot('seek')}
-        @pointerdown=${this.down} @pointermove=${this.drag} @pointerup=${this.up} @pointercancel=${this.up} @keydown=${this.key}>
+    for (let t = Math.ceil(begin / step) * step; t <= end + kEndSlack * (end - begin); t += step)
+      ticks.push(Math.min(t, end));
+    return html`<div
+      class="line ${model.live ? 'live' : ''}"
+      role=${may ? 'slider' : 'img'}
+      tabindex=${may ? '0' : nothing}
+      aria-label="Time of the run"
+      aria-valuemin=${may ? begin : nothing}
+      aria-valuemax=${may ? end : nothing}
+      aria-valuenow=${may ? now_s.toFixed(1) : nothing}
+      aria-valuetext=${may ? `${clockText(now_s)} s` : nothing}
+      title=${may ? '' : model.whyNot('seek')}
+      @pointerdown=${this.down}
+      @pointermove=${this.drag}
+      @pointerup=${this.up}
+      @pointercancel=${this.up}
+      @keydown=${this.key}>
       <div class="marks">${this.renderMarks()}</div>
-      <div class="track"><div class="known" style="width:${Math.max(0, known)}px"></div>
+      <div class="track">
+        <div class="known" style="width:${Math.max(0, known)}px"></div>
         <div class="past" style="width:${Math.max(0, now)}px"></div>
-        <div class=${model.live ? 'head' : 'knob'} style="left:${now}px"></div></div>
-      <div class="ticks">${ticks.map((t) => html`<span style="left:${this.x(t)}px">${tickClock(t)}</span>`)}</div>
+        <div class=${model.live ? 'head' : 'knob'} style="left:${now}px"></div>
+      </div>
+      <div class="ticks">
+        ${ticks.map((t) => html`<span style="left:${this.x(t)}px">${tickClock(t)}</span>`)}
+      </div>
     </div>`;
   }
 
@@ -89,13 +110,24 @@ export class Timeline extends LiveElement {
     const taken = [...bins.keys()].sort((a, b) => a - b);
     return [...bins].map(([bin, events]) => {
       const left = `left:${bin * kMark_px}px`;
-      const worst = events.some((event) => event.level === 'alert') ? 'alert' : events.some((event) => event.level === 'warn') ? 'warn' : 'info';
-      const title = events.length === 1 ? events[0].text : `${events.length} events: ${events[0].text}`;
-      if (events.length > 3) return html`<i class="density ${worst}" style="${left};height:${Math.min(4 + 3 * events.length, 18)}px" title=${title}></i>`;
+      const worst = events.some((event) => event.level === 'alert')
+        ? 'alert'
+        : events.some((event) => event.level === 'warn')
+          ? 'warn'
+          : 'info';
+      const title =
+        events.length === 1 ? events[0].text : `${events.length} events: ${events[0].text}`;
+      if (events.length > 3)
+        return html`<i
+          class="density ${worst}"
+          style="${left};height:${Math.min(4 + 3 * events.length, 18)}px"
+          title=${title}></i>`;
       const next = taken.find((other) => other > bin) ?? Infinity;
       const room = Math.min((next - bin) * kMark_px, this.width - bin * kMark_px) > kLabel_px;
-      return html`<i class="mark ${worst}" style=${left} title=${title}></i>
-        ${worst === 'info' || !room ? nothing : html`<span class="label" style=${left}>${this.shortText(events[0])}</span>`}`;
+      return html`<i class="mark ${worst}" style=${left} title=${title}></i> ${worst === 'info' ||
+        !room
+          ? nothing
+          : html`<span class="label" style=${left}>${this.shortText(events[0])}</span>`}`;
     });
   }
 
@@ -138,30 +170,156 @@ export class Timeline extends LiveElement {
   static override styles = [
     controls,
     css`
-      :host { display: block; flex: 1; min-width: 60px; }
-      .line { position: relative; height: 58px; cursor: pointer; touch-action: none; margin: 0 8px; }
-      .line[role='img'] { cursor: default; }
-      .marks { position: absolute; inset: 0 0 34px; }
-      .marks i { position: absolute; bottom: 2px; transform: translateX(-50%); }
-      .mark.info { width: 6px; height: 6px; border-radius: 50%; background: var(--text-3); }
-      .mark.warn { border: 5px solid transparent; border-bottom: 8px solid var(--warn); border-top: 0; }
-      .mark.alert { width: 8px; height: 8px; background: var(--danger); transform: translateX(-50%) rotate(45deg) !important; }
-      .label { position: absolute; bottom: -1px; margin-left: 9px; color: var(--warn); font-size: var(--fs-11); white-space: nowrap; }
-      .density { width: 5px; background: var(--text-3); opacity: .8; }
-      .density.warn { background: var(--warn); }
-      .density.alert { background: var(--danger); }
-      .track { position: absolute; left: 0; right: 0; top: 26px; height: 8px; border-radius: 4px; background: repeating-linear-gradient(135deg, var(--line-2) 0 1px, transparent 1px 5px), var(--bg-2); }
-      .known { position: absolute; left: 0; top: 0; bottom: 0; border-radius: 4px; background: var(--bg-4); }
-      .past { position: absolute; left: 0; top: 3px; height: 2px; background: var(--intent); }
-      .live .past { background: var(--ok); }
-      .knob { position: absolute; top: -3px; width: 14px; height: 14px; margin-left: -7px; border-radius: 50%; background: var(--intent-fill); border: 3px solid var(--bg-1); box-shadow: 0 0 0 1px var(--intent); }
-      .head { position: absolute; top: -1px; width: 10px; height: 10px; margin-left: -5px; border-radius: 50%; background: var(--ok); border: 1px solid var(--bg-1); }
-      .head::after { content: ''; position: absolute; left: 3px; top: -3px; width: 2px; height: 14px; background: var(--ok); opacity: .8; }
-      .ticks { position: absolute; left: 0; right: 0; top: 38px; color: var(--text-3); font-size: var(--fs-11); }
-      .ticks span { position: absolute; transform: translateX(-50%); white-space: nowrap; }
-      .ticks span:first-child { transform: none; }
-      .ticks span:last-child:not(:first-child) { transform: translateX(-80%); }
-      @media (max-width: 599px) { .marks, .ticks { display: none; } .line { height: 24px; } .track { top: 8px; } }
+      :host {
+        display: block;
+        flex: 1;
+        min-width: 60px;
+      }
+      .line {
+        position: relative;
+        height: 58px;
+        cursor: pointer;
+        touch-action: none;
+        margin: 0 8px;
+      }
+      .line[role='img'] {
+        cursor: default;
+      }
+      .marks {
+        position: absolute;
+        inset: 0 0 34px;
+      }
+      .marks i {
+        position: absolute;
+        bottom: 2px;
+        transform: translateX(-50%);
+      }
+      .mark.info {
+        width: 6px;
+        height: 6px;
+        border-radius: 50%;
+        background: var(--text-3);
+      }
+      .mark.warn {
+        border: 5px solid transparent;
+        border-bottom: 8px solid var(--warn);
+        border-top: 0;
+      }
+      .mark.alert {
+        width: 8px;
+        height: 8px;
+        background: var(--danger);
+        transform: translateX(-50%) rotate(45deg) !important;
+      }
+      .label {
+        position: absolute;
+        bottom: -1px;
+        margin-left: 9px;
+        color: var(--warn);
+        font-size: var(--fs-11);
+        white-space: nowrap;
+      }
+      .density {
+        width: 5px;
+        background: var(--text-3);
+        opacity: 0.8;
+      }
+      .density.warn {
+        background: var(--warn);
+      }
+      .density.alert {
+        background: var(--danger);
+      }
+      .track {
+        position: absolute;
+        left: 0;
+        right: 0;
+        top: 26px;
+        height: 8px;
+        border-radius: 4px;
+        background:
+          repeating-linear-gradient(135deg, var(--line-2) 0 1px, transparent 1px 5px), var(--bg-2);
+      }
+      .known {
+        position: absolute;
+        left: 0;
+        top: 0;
+        bottom: 0;
+        border-radius: 4px;
+        background: var(--bg-4);
+      }
+      .past {
+        position: absolute;
+        left: 0;
+        top: 3px;
+        height: 2px;
+        background: var(--intent);
+      }
+      .live .past {
+        background: var(--ok);
+      }
+      .knob {
+        position: absolute;
+        top: -3px;
+        width: 14px;
+        height: 14px;
+        margin-left: -7px;
+        border-radius: 50%;
+        background: var(--intent-fill);
+        border: 3px solid var(--bg-1);
+        box-shadow: 0 0 0 1px var(--intent);
+      }
+      .head {
+        position: absolute;
+        top: -1px;
+        width: 10px;
+        height: 10px;
+        margin-left: -5px;
+        border-radius: 50%;
+        background: var(--ok);
+        border: 1px solid var(--bg-1);
+      }
+      .head::after {
+        content: '';
+        position: absolute;
+        left: 3px;
+        top: -3px;
+        width: 2px;
+        height: 14px;
+        background: var(--ok);
+        opacity: 0.8;
+      }
+      .ticks {
+        position: absolute;
+        left: 0;
+        right: 0;
+        top: 38px;
+        color: var(--text-3);
+        font-size: var(--fs-11);
+      }
+      .ticks span {
+        position: absolute;
+        transform: translateX(-50%);
+        white-space: nowrap;
+      }
+      .ticks span:first-child {
+        transform: none;
+      }
+      .ticks span:last-child:not(:first-child) {
+        transform: translateX(-80%);
+      }
+      @media (max-width: 599px) {
+        .marks,
+        .ticks {
+          display: none;
+        }
+        .line {
+          height: 24px;
+        }
+        .track {
+          top: 8px;
+        }
+      }
     `,
   ];
 }
@@ -169,7 +327,10 @@ export class Timeline extends LiveElement {
 /** Clocks are read in halves and quarters of minutes. */
 function tickStep(least_s: number): number {
   if (least_s <= 5) return roundStep(least_s);
-  return [10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600].find((step) => step >= least_s) ?? roundStep(least_s);
+  return (
+    [10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600].find((step) => step >= least_s) ??
+    roundStep(least_s)
+  );
 }
 
 customElements.define('rave-timeline', Timeline);

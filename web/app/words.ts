@@ -12,7 +12,9 @@ export function startedText(started: string): string {
   const date = new Date(started);
   if (Number.isNaN(date.getTime())) return started;
   const today = new Date().toDateString() === date.toDateString();
-  const day = today ? 'today' : date.toLocaleDateString('en-GB', {day: 'numeric', month: 'short', year: 'numeric'});
+  const day = today
+    ? 'today'
+    : date.toLocaleDateString('en-GB', {day: 'numeric', month: 'short', year: 'numeric'});
   return `${day} ${String(date.getHours()).padStart(2, '0')}:${String(date.getMinutes()).padStart(2, '0')}`;
 }
 
@@ -20,7 +22,9 @@ export function startedText(started: string): string {
 export function namesText(names: readonly string[], most = 4): string {
   const rest = names.length > most ? names.length - most + 1 : 0;
   const said = rest > 0 ? [...names.slice(0, most - 1), `${rest} others`] : names;
-  return said.length < 2 ? (said[0] ?? '') : `${said.slice(0, -1).join(', ')} and ${said[said.length - 1]}`;
+  return said.length < 2
+    ? (said[0] ?? '')
+    : `${said.slice(0, -1).join(', ')} and ${said[said.length - 1]}`;
 }
 
 export function initials(name: string): string {

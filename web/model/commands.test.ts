@@ -24,10 +24,22 @@ it('numbers requests and gives each its answer', async () => {
 
 it('refuses a path that no run takes, in the words of runs', async () => {
   const {link, commands} = made();
-  const answer = await commands.path([0], Array.from({length: 10_000}, (_, i) => [i, 0]));
+  const answer = await commands.path(
+    [0],
+    Array.from({length: 10_000}, (_, i) => [i, 0]),
+  );
   expect(answer).toMatchObject({good: false, text: 'a path has 10000 points; expected 2 to 1000'});
   expect(link.send).not.toHaveBeenCalled();
-  expect(commands.pending).toMatchObject([{state: 'refused', text: answer.text, points: [[0, 0], [9999, 0]]}]);
+  expect(commands.pending).toMatchObject([
+    {
+      state: 'refused',
+      text: answer.text,
+      points: [
+        [0, 0],
+        [9999, 0],
+      ],
+    },
+  ]);
 });
 
 it('draws an order until its robot says that nothing is under way', async () => {
@@ -49,8 +61,21 @@ it('draws an order until its robot says that nothing is under way', async () => 
 
 it('keeps a refused order with its reason until it is dropped', async () => {
   const {model, commands} = made();
-  const sent = commands.path([0], [[0, 0], [1, 1]]);
-  model.takeMessage({type: 'answer', to: 'path', good: false, text: 'r1 takes no path', request: 1, refused: [{slot: 0, text: 'r1 takes no path'}]});
+  const sent = commands.path(
+    [0],
+    [
+      [0, 0],
+      [1, 1],
+    ],
+  );
+  model.takeMessage({
+    type: 'answer',
+    to: 'path',
+    good: false,
+    text: 'r1 takes no path',
+    request: 1,
+    refused: [{slot: 0, text: 'r1 takes no path'}],
+  });
   await sent;
   expect(commands.pending[0]).toMatchObject({state: 'refused', text: 'r1 takes no path'});
   commands.drop(commands.pending[0]);

@@ -1,5 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {Answer, AskAudit, ChangeAccount, ChangeInvitation, Edit, HandOver, Lease, Order, PageMessage, Point, Robot, Say, SetParameter} from '../protocol/messages';
+import type {
+  Answer,
+  AskAudit,
+  ChangeAccount,
+  ChangeInvitation,
+  Edit,
+  HandOver,
+  Lease,
+  Order,
+  PageMessage,
+  Point,
+  Robot,
+  Say,
+  SetParameter,
+} from '../protocol/messages';
 import {Asked} from './asked';
 import type {Link} from './link';
 import type {RunModel} from './run_model';
@@ -21,7 +35,16 @@ export interface Pending {
 }
 
 type Unnumbered<T> = Omit<T, 'request'>;
-type Request = Unnumbered<Order> | Unnumbered<Lease> | Unnumbered<HandOver> | Unnumbered<SetParameter> | Unnumbered<Edit> | Unnumbered<Say> | Unnumbered<ChangeAccount> | Unnumbered<ChangeInvitation> | Unnumbered<AskAudit>;
+type Request =
+  | Unnumbered<Order>
+  | Unnumbered<Lease>
+  | Unnumbered<HandOver>
+  | Unnumbered<SetParameter>
+  | Unnumbered<Edit>
+  | Unnumbered<Say>
+  | Unnumbered<ChangeAccount>
+  | Unnumbered<ChangeInvitation>
+  | Unnumbered<AskAudit>;
 
 /** A taken order that no robot says it follows is over after so long. */
 const kTold_ms = 1200;
@@ -50,7 +73,10 @@ export class Commands {
     this.addresseeChanged.emit();
   }
 
-  constructor(private readonly model: RunModel, private readonly link: Link) {
+  constructor(
+    private readonly model: RunModel,
+    private readonly link: Link,
+  ) {
     model.answered.on((answer) => this.take(answer));
     model.drivesChanged.on(() => this.prune());
     model.rosterChanged.on(() => {
@@ -64,7 +90,8 @@ export class Commands {
     });
     link.changed.on(() => {
       if (link.reaches) return;
-      for (const [request, done] of [...this.open]) done({type: 'answer', to: 'link', good: false, text: 'The link was lost.', request});
+      for (const [request, done] of [...this.open])
+        done({type: 'answer', to: 'link', good: false, text: 'The link was lost.', request});
       this.open.clear();
     });
   }
@@ -72,8 +99,21 @@ export class Commands {
   /** Sends a request; the answer of the run. Never rejects. */
   ask(request: Request): Promise<Answer> {
     const number = ++this.number;
-    if (!this.link.reaches) return Promise.resolve({type: 'answer', to: request.type, good: false, text: 'There is no link to the server.', request: number});
-    if (request.type === 'order' && request.kind === 'drive') this.asked.note(request.slots, request.v ?? 0, request.w ?? 0, this.model.poses.newest?.time_s ?? 0);
+    if (!this.link.reaches)
+      return Promise.resolve({
+        type: 'answer',
+        to: request.type,
+        good: false,
+        text: 'There is no link to the server.',
+        request: number,
+      });
+    if (request.type === 'order' && request.kind === 'drive')
+      this.asked.note(
+        request.slots,
+        request.v ?? 0,
+        request.w ?? 0,
+        this.model.poses.newest?.time_s ?? 0,
+      );
     return new Promise((done) => {
       this.open.set(number, done);
       this.link.send({...request, request: number} as PageMessage);
@@ -82,7 +122,13 @@ export class Commands {
 
   /** Sends robots to a place: one point for all, or one for each. */
   goal(slots: readonly number[], points: Point[], yaw?: number): Promise<Answer> {
-    return this.track('goal', slots, points, {type: 'order', kind: 'goal', slots: [...slots], points, ...(yaw === undefined ? {} : {yaw})});
+    return this.track('goal', slots, points, {
+      type: 'order',
+      kind: 'goal',
+      slots: [...slots],
+      points,
+      ...(yaw === undefined ? {} : {yaw}),
+    });
   }
 
   path(slots: readonly number[], points: Point[]): Promise<Answer> {
@@ -90,23 +136,48 @@ export class Commands {
       // Only its ends are drawn, with the reason beside them.
       const order = this.begin('path', slots, [...points.slice(0, 1), ...points.slice(-1)]);
       ++this.number;
-      return Promise.resolve(this.end(order, {type: 'answer', to: 'path', good: false, text: `a path has ${points.length} points; expected 2 to ${kMostPathPoints}`}));
+      return Promise.resolve(
+        this.end(order, {
+          type: 'answer',
+          to: 'path',
+          good: false,
+          text: `a path has ${points.length} points; expected 2 to ${kMostPathPoints}`,
+        }),
+      );
     }
-    return this.track('path', slots, points, {type: 'order', kind: 'path', slots: [...slots], points});
+    return this.track('path', slots, points, {
+      type: 'order',
+      kind: 'path',
+      slots: [...slots],
+      points,
+    });
   }
 
   place(slot: number, point: Point, yaw?: number): Promise<Answer> {
-    return this.track('place', [slot], [point], {type: 'order', kind: 'place', slots: [slot], points: [point], ...(yaw === undefined ? {} : {yaw})});
+    return this.track('place', [slot], [point], {
+      type: 'order',
+      kind: 'place',
+      slots: [slot],
+      points: [point],
+      ...(yaw === undefined ? {} : {yaw}),
+    });
   }
 
   cancel(slots: readonly number[]): Promise<Answer> {
-    this.pending = this.pending.filter((order) => !order.slots.every((slot) => slots.includes(slot)));
+    this.pending = this.pending.filter(
+      (order) => !order.slots.every((slot) => slots.includes(slot)),
+    );
     this.changed.emit();
     return this.ask({type: 'order', kind: 'cancel', slots: [...slots]});
   }
 
   lease(what: 'take' | 'force' | 'give', slots: readonly number[], to?: string): Promise<Answer> {
-    return this.ask({type: 'lease', do: what, slots: [...slots], ...(to === undefined ? {} : {to})});
+    return this.ask({
+      type: 'lease',
+      do: what,
+      slots: [...slots],
+      ...(to === undefined ? {} : {to}),
+    });
   }
 
   /** The person has read why it was refused. */
@@ -115,15 +186,36 @@ export class Commands {
     this.changed.emit();
   }
 
-  private async track(kind: Pending['kind'], slots: readonly number[], points: readonly Point[], request: Request): Promise<Answer> {
+  private async track(
+    kind: Pending['kind'],
+    slots: readonly number[],
+    points: readonly Point[],
+    request: Request,
+  ): Promise<Answer> {
     const order = this.begin(kind, slots, points);
     return this.end(order, await this.ask(request));
   }
 
-  private begin(kind: Pending['kind'], slots: readonly number[], points: readonly Point[]): Pending {
-    const order: Pending = {number: this.number + 1, kind, slots, points, state: 'sent', text: '', refused: [], at_ms: performance.now()};
+  private begin(
+    kind: Pending['kind'],
+    slots: readonly number[],
+    points: readonly Point[],
+  ): Pending {
+    const order: Pending = {
+      number: this.number + 1,
+      kind,
+      slots,
+      points,
+      state: 'sent',
+      text: '',
+      refused: [],
+      at_ms: performance.now(),
+    };
     // The newest order of a robot goes before older ones.
-    this.pending = [...this.pending.filter((other) => !other.slots.every((slot) => slots.includes(slot))), order];
+    this.pending = [
+      ...this.pending.filter((other) => !other.slots.every((slot) => slots.includes(slot))),
+      order,
+    ];
     this.changed.emit();
     return order;
   }
@@ -134,7 +226,8 @@ export class Commands {
     order.state = order.refused.length < slots.length ? 'taken' : 'refused';
     order.text = answer.text;
     order.at_ms = performance.now();
-    if (kind === 'place' && answer.good) this.pending = this.pending.filter((other) => other !== order);
+    if (kind === 'place' && answer.good)
+      this.pending = this.pending.filter((other) => other !== order);
     this.changed.emit();
     setTimeout(() => this.prune(), order.state === 'refused' ? kRefused_ms + 50 : kTold_ms + 50);
     return answer;
@@ -146,7 +239,10 @@ export class Commands {
     const kept = this.pending.filter((order) => {
       if (order.state === 'sent') return true;
       if (order.state === 'refused') return now_ms - order.at_ms < kRefused_ms;
-      return now_ms - order.at_ms < kTold_ms || order.slots.some((slot) => (this.model.drives.get(slot)?.order ?? '') !== '');
+      return (
+        now_ms - order.at_ms < kTold_ms ||
+        order.slots.some((slot) => (this.model.drives.get(slot)?.order ?? '') !== '')
+      );
     });
     if (kept.length === this.pending.length) return;
     this.pending = kept;

@@ -12,7 +12,10 @@ class FakeSocket {
   onopen: (() => void) | null = null;
   onmessage: ((event: {data: string}) => void) | null = null;
   onclose: ((event: {code: number; reason: string}) => void) | null = null;
-  constructor(readonly url: string, readonly protocol: string) {
+  constructor(
+    readonly url: string,
+    readonly protocol: string,
+  ) {
     FakeSocket.all.push(this);
   }
   send(text: string): void {
@@ -34,7 +37,13 @@ class FakeSocket {
   }
 }
 
-const ticket: LineTicket = {host: 'left', url: 'wss://left:8090/ws', ticket: 'T.S', expires: 4e9, robots: ['r1']};
+const ticket: LineTicket = {
+  host: 'left',
+  url: 'wss://left:8090/ws',
+  ticket: 'T.S',
+  expires: 4e9,
+  robots: ['r1'],
+};
 const signer = {sign: (text: string) => Promise.resolve(`signed(${text})`)};
 const newest = () => FakeSocket.all[FakeSocket.all.length - 1]!;
 
@@ -60,7 +69,11 @@ afterEach(() => {
 it('shows its ticket with a proof for the challenge and the address', async () => {
   const line = await opened();
   expect(newest().protocol).toBe('rave.line.1');
-  expect(newest().sent[0]).toEqual({type: 'hello', ticket: 'T.S', proof: 'signed(rave line proof 1\nC\nleft:8090\nT.S\n)'});
+  expect(newest().sent[0]).toEqual({
+    type: 'hello',
+    ticket: 'T.S',
+    proof: 'signed(rave line proof 1\nC\nleft:8090\nT.S\n)',
+  });
   expect(line.state).toBe('open');
   line.end();
 });

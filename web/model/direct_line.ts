@@ -1,5 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-import {kLineProtocol, proofText, type HostMessage, type LineAnswer, type LineOrder, type LineTicket} from '../protocol/line';
+import {
+  kLineProtocol,
+  proofText,
+  type HostMessage,
+  type LineAnswer,
+  type LineOrder,
+  type LineTicket,
+} from '../protocol/line';
 import {Signal} from './signal';
 import {SilenceWatch} from './silence';
 
@@ -51,7 +58,10 @@ export class DirectLine {
   });
   private ended = false;
 
-  constructor(private ticket_: LineTicket, private readonly signer: Signer) {
+  constructor(
+    private ticket_: LineTicket,
+    private readonly signer: Signer,
+  ) {
     this.pinging = setInterval(() => this.ping(), kPing_ms);
     this.dial();
   }
@@ -62,12 +72,14 @@ export class DirectLine {
 
   /** Sends an order. The answer of the run; of a drive only if it is refused or `echo` is set. Never rejects. */
   order(order: LineOrder): Promise<LineAnswer> {
-    if (this.state !== 'open') return Promise.resolve({good: false, text: `There is no line to host ${this.ticket_.host}.`});
+    if (this.state !== 'open')
+      return Promise.resolve({good: false, text: `There is no line to host ${this.ticket_.host}.`});
     const id = ++this.id;
     this.send({type: 'order', id, ...order});
     if (order.kind === 'drive' && !order.echo) {
       // Most are never answered; the last of them is kept for the one that is refused.
-      for (const old of [...this.open_.keys()].filter((other) => other < id - 64)) this.open_.delete(old);
+      for (const old of [...this.open_.keys()].filter((other) => other < id - 64))
+        this.open_.delete(old);
     }
     return new Promise((done) => this.open_.set(id, done));
   }
@@ -119,7 +131,8 @@ export class DirectLine {
     this.stopped = null;
     this.silence.end();
     old?.close();
-    for (const done of this.open_.values()) done({good: false, text: `The line to host ${this.ticket_.host} was lost.`});
+    for (const done of this.open_.values())
+      done({good: false, text: `The line to host ${this.ticket_.host} was lost.`});
     this.open_.clear();
     this.pings.clear();
   }
@@ -140,7 +153,9 @@ export class DirectLine {
     switch (message.type) {
       case 'challenge': {
         const {ticket, url} = this.ticket_;
-        const proof = await this.signer.sign(proofText(message.challenge, new URL(url).host, ticket));
+        const proof = await this.signer.sign(
+          proofText(message.challenge, new URL(url).host, ticket),
+        );
         if (this.socket === socket) this.send({type: 'hello', ticket, proof});
         break;
       }
@@ -182,7 +197,8 @@ export class DirectLine {
     this.pings.delete(id);
     this.measured.push(performance.now() - sent_ms);
     if (this.measured.length > kPings) this.measured.shift();
-    this.latency_ms = [...this.measured].sort((a, b) => a - b)[Math.floor(this.measured.length / 2)] ?? null;
+    this.latency_ms =
+      [...this.measured].sort((a, b) => a - b)[Math.floor(this.measured.length / 2)] ?? null;
     this.changed.emit();
   }
 

@@ -35,7 +35,11 @@ export class DirectLines {
   constructor(private readonly url: string) {
     document.addEventListener('securitypolicyviolation', (event) => {
       for (const line of this.lines.values()) {
-        if (event.blockedURI !== '' && line.ticket.url.startsWith(event.blockedURI.replace(/\/$/, ''))) this.block(line);
+        if (
+          event.blockedURI !== '' &&
+          line.ticket.url.startsWith(event.blockedURI.replace(/\/$/, ''))
+        )
+          this.block(line);
       }
     });
   }
@@ -44,7 +48,12 @@ export class DirectLines {
   private block(line: DirectLine): void {
     line.block();
     const last_ms = Number(sessionStorage.getItem(kReloaded) ?? 0);
-    if (navigator.userActivation.hasBeenActive || performance.now() > kYoung_ms || Date.now() - last_ms < kRarely_ms) return;
+    if (
+      navigator.userActivation.hasBeenActive ||
+      performance.now() > kYoung_ms ||
+      Date.now() - last_ms < kRarely_ms
+    )
+      return;
     sessionStorage.setItem(kReloaded, String(Date.now()));
     location.reload();
   }
@@ -101,7 +110,10 @@ export class DirectLines {
     if (lines.length === 0) return null;
     return Promise.all(lines.map((line) => line.order(order))).then((answers) => {
       const bad = answers.filter((answer) => !answer.good);
-      return {good: bad.length === 0, text: (bad.length > 0 ? bad : answers).map((answer) => answer.text).join('; ')};
+      return {
+        good: bad.length === 0,
+        text: (bad.length > 0 ? bad : answers).map((answer) => answer.text).join('; '),
+      };
     });
   }
 
@@ -163,8 +175,13 @@ export class DirectLines {
     if (!this.wanted) return;
     const first_s = Math.min(...[...this.lines.values()].map((line) => line.ticket.expires));
     const half_ms = Number.isFinite(first_s) ? (first_s * 1000 - Date.now()) / 2 : kQuiet_ms;
-    const missing = [...this.lines.values()].some((line) => line.state === 'withdrawn') || (this.lines.size === 0 && !this.relay);
-    this.timer = setTimeout(() => void this.ask(), at_ms ?? (missing ? kAgain_ms : Math.max(kAgain_ms, Math.min(kQuiet_ms, half_ms))));
+    const missing =
+      [...this.lines.values()].some((line) => line.state === 'withdrawn') ||
+      (this.lines.size === 0 && !this.relay);
+    this.timer = setTimeout(
+      () => void this.ask(),
+      at_ms ?? (missing ? kAgain_ms : Math.max(kAgain_ms, Math.min(kQuiet_ms, half_ms))),
+    );
   }
 
   private end(): void {

@@ -9,7 +9,10 @@ export class LineStops {
   private readonly marked = new Set<number>();
   private picture: object | null = null;
 
-  constructor(private readonly model: RunModel, private readonly lines: DirectLines) {}
+  constructor(
+    private readonly model: RunModel,
+    private readonly lines: DirectLines,
+  ) {}
 
   /** Whether a host has stopped the robot since the last picture of the server. */
   has(slot: number): boolean {

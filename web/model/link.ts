@@ -52,7 +52,9 @@ export class Link {
   private timer = 0;
   /** For how long the line may be silent. */
   private limit_ms = kPatience_ms;
-  private readonly silence: SilenceWatch = new SilenceWatch(() => this.lose('lost', this.silence.heardAt_ms));
+  private readonly silence: SilenceWatch = new SilenceWatch(() =>
+    this.lose('lost', this.silence.heardAt_ms),
+  );
   private readonly interests = new Map<object, Interest>();
   private lastLook = '';
   private lookQueued = false;
@@ -115,7 +117,8 @@ export class Link {
       this.tellPage();
       this.queueLook();
     };
-    socket.onmessage = (message: MessageEvent<string | ArrayBuffer>) => this.take(socket, message.data);
+    socket.onmessage = (message: MessageEvent<string | ArrayBuffer>) =>
+      this.take(socket, message.data);
     socket.onclose = (event) => {
       if (this.socket !== socket) return;
       if (event.code === kNotSignedIn || event.code === kNotAllowed) {
@@ -135,7 +138,10 @@ export class Link {
 
   /** Whether orders can reach this robot. */
   reachesRobot(slot: number): boolean {
-    return this.state === 'open' || this.direct?.lineOf(this.model.robots[slot]?.name ?? '')?.state === 'open';
+    return (
+      this.state === 'open' ||
+      this.direct?.lineOf(this.model.robots[slot]?.name ?? '')?.state === 'open'
+    );
   }
 
   send(message: PageMessage): void {
@@ -193,21 +199,25 @@ export class Link {
     clearTimeout(this.probeTimer);
     this.probeTimer = window.setTimeout(() => {
       const all = this.model.probes.next();
-      if (all.probes.length > 0 || this.probesSaid) this.sendToServer({type: 'look_probes', ...all});
+      if (all.probes.length > 0 || this.probesSaid)
+        this.sendToServer({type: 'look_probes', ...all});
       this.probesSaid = all.probes.length > 0;
     }, kProbeRest_ms);
   }
 
   /** Asks once in a run which virtual sensors there are, if this person may try any. */
   askCatalogue(): void {
-    if (!this.wantsCatalogue || this.model.probes.drivers !== null || !this.model.may('probe')) return;
+    if (!this.wantsCatalogue || this.model.probes.drivers !== null || !this.model.may('probe'))
+      return;
     this.sendToServer({type: 'ask_catalogue', request: 0});
   }
 
   private lookAtMaps(): void {
     const {maps} = this.model;
     const known = new Set<MapKey>(maps.names.map((name) => name.slot ?? name.name));
-    const keys = [...new Set(this.mapInterests.values())].filter((key) => known.has(key)).slice(0, 4);
+    const keys = [...new Set(this.mapInterests.values())]
+      .filter((key) => known.has(key))
+      .slice(0, 4);
     const text = JSON.stringify(keys);
     if (text === this.lastMaps || this.socket?.readyState !== WebSocket.OPEN) return;
     this.lastMaps = text;

@@ -5,8 +5,24 @@ import {Maps, keyOf} from './maps';
 
 const kFrame = {x0: 0, y0: 0, resolution_m: 0.1, columns: 128, rows: 64};
 
-function tile(slot: number | null, column: number, stamp_s: number, more: Partial<MapTile> = {}): MapTile {
-  return {slot, name: slot === null ? 'all' : '', stamp_s, frame: kFrame, column, row: 0, width: 1, height: 1, cells: new Uint8Array(1), ...more};
+function tile(
+  slot: number | null,
+  column: number,
+  stamp_s: number,
+  more: Partial<MapTile> = {},
+): MapTile {
+  return {
+    slot,
+    name: slot === null ? 'all' : '',
+    stamp_s,
+    frame: kFrame,
+    column,
+    row: 0,
+    width: 1,
+    height: 1,
+    cells: new Uint8Array(1),
+    ...more,
+  };
 }
 
 describe('maps', () => {

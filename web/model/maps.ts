@@ -89,5 +89,11 @@ export class Maps {
 }
 
 function sameFrame(a: MapFrame, b: MapFrame): boolean {
-  return a.x0 === b.x0 && a.y0 === b.y0 && a.resolution_m === b.resolution_m && a.columns === b.columns && a.rows === b.rows;
+  return (
+    a.x0 === b.x0 &&
+    a.y0 === b.y0 &&
+    a.resolution_m === b.resolution_m &&
+    a.columns === b.columns &&
+    a.rows === b.rows
+  );
 }

@@ -33,7 +33,9 @@ it('leaves what is no order alone', () => {
 
 it('sends an order straight to the robots that have a line, and answers as the server does', async () => {
   const {router, asked, told} = made();
-  expect(router.route({type: 'order', request: 5, kind: 'drive', slots: [0], v: 0.5, w: 0})).toBeNull();
+  expect(
+    router.route({type: 'order', request: 5, kind: 'drive', slots: [0], v: 0.5, w: 0}),
+  ).toBeNull();
   expect(asked).toEqual([{kind: 'drive', robot: 'r0', v: 0.5, w: 0, echo: true}]);
   await flush();
   expect(told).toEqual([{type: 'answer', to: 'drive', request: 5, good: true, text: 'done'}]);
@@ -41,7 +43,16 @@ it('sends an order straight to the robots that have a line, and answers as the s
 
 it('splits an order, each robot with its own point', () => {
   const {router, asked} = made();
-  const message = {type: 'order', request: 6, kind: 'goal' as const, slots: [2, 1], points: [[1, 1], [2, 2]] as [number, number][]};
+  const message = {
+    type: 'order',
+    request: 6,
+    kind: 'goal' as const,
+    slots: [2, 1],
+    points: [
+      [1, 1],
+      [2, 2],
+    ] as [number, number][],
+  };
   expect(router.route(message)).toEqual({...message, slots: [2], points: [[1, 1]]});
   expect(asked).toEqual([{kind: 'goal', robot: 'r1', points: [[2, 2]]}]);
 });
@@ -57,7 +68,16 @@ it('says which robot refused', async () => {
   const {router, told} = made({good: false, text: '`ben` drives it'});
   router.route({type: 'lease', request: 8, do: 'force', slots: [1]});
   await flush();
-  expect(told).toEqual([{type: 'answer', to: 'lease', request: 8, good: false, text: '`ben` drives it', refused: [{slot: 1, text: '`ben` drives it'}]}]);
+  expect(told).toEqual([
+    {
+      type: 'answer',
+      to: 'lease',
+      request: 8,
+      good: false,
+      text: '`ben` drives it',
+      refused: [{slot: 1, text: '`ben` drives it'}],
+    },
+  ]);
 });
 
 it('sends a stop by all ways', () => {

@@ -19,6 +19,8 @@ export class PageKey {
 
   async sign(text: string): Promise<string> {
     const bytes = new TextEncoder().encode(text);
-    return base64url(await crypto.subtle.sign({name: 'ECDSA', hash: 'SHA-256'}, this.pair.privateKey, bytes));
+    return base64url(
+      await crypto.subtle.sign({name: 'ECDSA', hash: 'SHA-256'}, this.pair.privateKey, bytes),
+    );
   }
 }

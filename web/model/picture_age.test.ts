@@ -22,7 +22,7 @@ it('on one machine the age is that of the state', () => {
 it('between two machines it is counted from the fastest picture', () => {
   const age = new PictureAge(false);
   // The clock of the server is an hour ahead.
-  const server_ms = kNow_ms + 3_600_000 % 2_000_000;
+  const server_ms = kNow_ms + (3_600_000 % 2_000_000);
   age.take(frame(server_ms - 20), kNow_ms);
   age.take(frame(server_ms - 200), kNow_ms);
   expect(age.newest_ms).toBeCloseTo(180);

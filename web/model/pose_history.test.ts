@@ -5,8 +5,15 @@ import {PoseHistory, Placed, turn} from './pose_history';
 
 function frame(time_s: number, x: number, yaw = 0, past = false, flags = 1): PoseFrame {
   return {
-    sequence: 0, past, truth: false, time_s, step: 0,
-    x: Float64Array.of(x), y: Float64Array.of(0), yaw: Float32Array.of(yaw), speed: Float32Array.of(0),
+    sequence: 0,
+    past,
+    truth: false,
+    time_s,
+    step: 0,
+    x: Float64Array.of(x),
+    y: Float64Array.of(0),
+    yaw: Float32Array.of(yaw),
+    speed: Float32Array.of(0),
     flags: Uint16Array.of(flags),
   };
 }
@@ -34,7 +41,8 @@ describe('interpolation', () => {
     for (let ms = 0; ms < 3000; ms += 100) times.push(ms, ms + 40, ms + 60);
     let last = Number.NaN;
     for (let now = 0, next = 0; now < 3000; now += 4) {
-      for (; next < times.length && times[next] <= now; ++next) history.add(frame(times[next] / 1000, times[next]), now);
+      for (; next < times.length && times[next] <= now; ++next)
+        history.add(frame(times[next] / 1000, times[next]), now);
       history.interpolate(now, placed);
       if (now > 1000) {
         expect(placed.x[0] - last).toBeGreaterThanOrEqual(0);
@@ -90,7 +98,8 @@ describe('the past', () => {
   it('comes after its moment, takes its place in it, and moves nobody', () => {
     const history = new PoseHistory();
     history.add(frame(30, 7), 1000);
-    for (const time_s of [9.5, 10.5, 10.7, 29.9, 20, 31]) history.add(frame(time_s, time_s, 0, true), 1010);
+    for (const time_s of [9.5, 10.5, 10.7, 29.9, 20, 31])
+      history.add(frame(time_s, time_s, 0, true), 1010);
     expect(history.past.map((one) => one.time_s)).toEqual([10.5, 10.7, 20, 30]);
     const placed = new Placed();
     history.interpolate(1020, placed);

@@ -35,7 +35,8 @@ export class PoseHistory {
   add(frame: PoseFrame, now_ms: number, held = false): void {
     const last = this.newest ?? this.past[this.past.length - 1] ?? null;
     const other = last !== null && last.x.length !== frame.x.length;
-    if (last !== null && (other || (!frame.past && frame.time_s < last.time_s - 1e-9))) this.clear();
+    if (last !== null && (other || (!frame.past && frame.time_s < last.time_s - 1e-9)))
+      this.clear();
     this.note(frame);
     if (frame.past) {
       this.insert(frame);
@@ -61,7 +62,8 @@ export class PoseHistory {
     const wall = this.gaps.reduce((sum, gap) => sum + gap.wall_ms, 0);
     this.rate = this.gaps.reduce((sum, gap) => sum + gap.run_s, 0) / wall;
     const longest = Math.max(...this.gaps.map((gap) => gap.wall_ms));
-    this.delay_ms = this.gaps.length < 3 ? wall / this.gaps.length : (wall - longest) / (this.gaps.length - 1);
+    this.delay_ms =
+      this.gaps.length < 3 ? wall / this.gaps.length : (wall - longest) / (this.gaps.length - 1);
   }
 
   clear(): void {
@@ -82,7 +84,8 @@ export class PoseHistory {
       out.resize(0);
       return;
     }
-    const shown_s = newest.time_s - this.rate * Math.max(this.delay_ms - (now_ms - this.arrived_ms), 0);
+    const shown_s =
+      newest.time_s - this.rate * Math.max(this.delay_ms - (now_ms - this.arrived_ms), 0);
     let at = this.recent.length - 1;
     while (at > 1 && this.recent[at - 1].time_s > shown_s) --at;
     const to = this.recent[at] ?? newest;
@@ -93,7 +96,8 @@ export class PoseHistory {
     out.fresh = this.fresh;
     out.fastest = this.fastest;
     const span_s = from === null ? 0 : to.time_s - from.time_s;
-    const share = from === null || span_s <= 0 ? 1 : Math.min(Math.max((shown_s - from.time_s) / span_s, 0), 1);
+    const share =
+      from === null || span_s <= 0 ? 1 : Math.min(Math.max((shown_s - from.time_s) / span_s, 0), 1);
     out.time_s = from === null ? to.time_s : from.time_s + share * span_s;
     if (from === null || share >= 1) {
       out.x.set(to.x);
@@ -114,7 +118,11 @@ export class PoseHistory {
   moving(now_ms: number): boolean {
     const [last, newest] = this.recent.slice(-2);
     // Frames of a run that is held are all of one moment.
-    return newest !== undefined && newest.time_s > last.time_s && now_ms - this.arrived_ms < this.delay_ms;
+    return (
+      newest !== undefined &&
+      newest.time_s > last.time_s &&
+      now_ms - this.arrived_ms < this.delay_ms
+    );
   }
 
   private note(frame: PoseFrame): void {
@@ -136,7 +144,8 @@ export class PoseHistory {
     if (frame.time_s > now_s || now_s - frame.time_s > kHistory_s) return;
     let at = this.past.length;
     while (at > 0 && this.past[at - 1].time_s > frame.time_s) --at;
-    const near = (other: PoseFrame | undefined) => other !== undefined && Math.abs(other.time_s - frame.time_s) < kSpacing_s - 1e-9;
+    const near = (other: PoseFrame | undefined) =>
+      other !== undefined && Math.abs(other.time_s - frame.time_s) < kSpacing_s - 1e-9;
     if (near(this.past[at - 1]) || near(this.past[at])) return;
     this.past.splice(at, 0, frame);
   }
@@ -145,7 +154,8 @@ export class PoseHistory {
     const last = this.past[this.past.length - 1];
     if (last !== undefined && frame.time_s - last.time_s < kSpacing_s - 1e-9) return;
     this.past.push(frame);
-    while (this.past.length > 0 && frame.time_s - this.past[0].time_s > kHistory_s) this.past.shift();
+    while (this.past.length > 0 && frame.time_s - this.past[0].time_s > kHistory_s)
+      this.past.shift();
   }
 }
 

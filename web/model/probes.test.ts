@@ -3,8 +3,24 @@ import {expect, it} from 'vitest';
 import type {ProbeRequest, Sensor} from '../protocol/messages';
 import {Probes} from './probes';
 
-const asked = (driver: string): ProbeRequest => ({slot: 0, name: 'p', driver, mount: [0, 0, 0], z: 0, params: {}});
-const sensor = (name: string): Sensor => ({name, kind: 'ranges', origin: 'virtual', driver: name, mount: [0, 0, 0], z: 0, period_s: 0.1, fields: ['range [m]']});
+const asked = (driver: string): ProbeRequest => ({
+  slot: 0,
+  name: 'p',
+  driver,
+  mount: [0, 0, 0],
+  z: 0,
+  params: {},
+});
+const sensor = (name: string): Sensor => ({
+  name,
+  kind: 'ranges',
+  origin: 'virtual',
+  driver: name,
+  mount: [0, 0, 0],
+  z: 0,
+  period_s: 0.1,
+  fields: ['range [m]'],
+});
 
 it('numbers what the page tries, and knows the sensor behind a number', () => {
   const probes = new Probes();
@@ -14,7 +30,14 @@ it('numbers what the page tries, and knows the sensor behind a number', () => {
   probes.ask(two, asked('virtual_sonar'));
   const {request, probes: sent} = probes.next();
   expect(sent.map(({driver}) => driver)).toEqual(['virtual_laser', 'virtual_sonar']);
-  probes.take({type: 'probes', request, probes: [{slot: 0, sensor: sensor('a'), block: '-'}, {slot: 0, error: 'no'}]});
+  probes.take({
+    type: 'probes',
+    request,
+    probes: [
+      {slot: 0, sensor: sensor('a'), block: '-'},
+      {slot: 0, error: 'no'},
+    ],
+  });
   expect(probes.indexOf(two)).toBe(0xf001);
   expect(probes.sensor(probes.indexOf(one))?.name).toBe('a');
   expect(probes.of(two)?.error).toBe('no');

@@ -1,5 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {Catalogue, ProbeMade, Probes as ProbesMessage, ProbeRequest, Sensor, VirtualSensor} from '../protocol/messages';
+import type {
+  Catalogue,
+  ProbeMade,
+  Probes as ProbesMessage,
+  ProbeRequest,
+  Sensor,
+  VirtualSensor,
+} from '../protocol/messages';
 import {kFirstProbe} from '../protocol/frames';
 import {Signal} from './signal';
 

@@ -3,7 +3,16 @@ import {expect, it} from 'vitest';
 import type {Reading} from '../protocol/frames';
 import {Readings} from './readings';
 
-const reading = (sensor: number, stamp_s: number) => ({slot: 0, sensor, part: 0, stamp_s, rows: 1, fields: 1, values: new Float32Array([stamp_s])}) as Reading;
+const reading = (sensor: number, stamp_s: number) =>
+  ({
+    slot: 0,
+    sensor,
+    part: 0,
+    stamp_s,
+    rows: 1,
+    fields: 1,
+    values: new Float32Array([stamp_s]),
+  }) as Reading;
 
 it('fills the course with what was read before the moment, which stays what it is', () => {
   const readings = new Readings();

@@ -43,7 +43,8 @@ export class Readings {
 
   /** Visits the newest reading of each sensor, without halves of hybrids. */
   each(visit: (slot: number, sensor: number, reading: Reading) => void): void {
-    for (const reading of this.newest.values()) if (reading.part === 0) visit(reading.slot, reading.sensor, reading);
+    for (const reading of this.newest.values())
+      if (reading.part === 0) visit(reading.slot, reading.sensor, reading);
   }
 
   course(slot: number, sensor: number, part = 0): readonly CoursePoint[] {

@@ -11,7 +11,15 @@ export function beginOf(model: RunModel): Event | null {
   const t = model.live ? 0 : (time?.begin_s ?? 0);
   // A recording may have a part of its run only.
   const what = t > 1.5 * hello.run.step_s ? 'Recording begins' : 'Run begins';
-  return {t, until: t, count: 1, kind: 'begin', level: 'info', text: `${what}: ${robotsText(robots)}, seed ${hello.run.seed}`, slots: []};
+  return {
+    t,
+    until: t,
+    count: 1,
+    kind: 'begin',
+    level: 'info',
+    text: `${what}: ${robotsText(robots)}, seed ${hello.run.seed}`,
+    slots: [],
+  };
 }
 
 /** All lines of the log, oldest first. */
@@ -21,8 +29,13 @@ export function logOf(model: RunModel): readonly Event[] {
 }
 
 function robotsText(robots: readonly KnownRobot[]): string {
-  const real = robots.filter(({kind, handedOver}) => (kind === 'real') !== (handedOver === true)).length;
-  const counts = [[real, 'real'], [robots.length - real, 'simulated']].filter(([count]) => count !== 0);
+  const real = robots.filter(
+    ({kind, handedOver}) => (kind === 'real') !== (handedOver === true),
+  ).length;
+  const counts = [
+    [real, 'real'],
+    [robots.length - real, 'simulated'],
+  ].filter(([count]) => count !== 0);
   if (counts.length === 0) return 'no robots';
   return `${counts.map(([count, word]) => `${count} ${word}`).join(' and ')} robot${robots.length === 1 ? '' : 's'}`;
 }

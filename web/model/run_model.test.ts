@@ -5,13 +5,36 @@ import {RunModel} from './run_model';
 
 function hello(source: 'live' | 'replay', may: Hello['may']): Hello {
   return {
-    type: 'hello', protocol: 1, server: 'test', user: {name: 'a', role: 'commander'}, may, why_not: {seek: 'It goes on.'},
-    run: {name: 'r', source, clock: 'lock_step', started: '', step_s: 0.01, seed: 1, hash: null, recording: null},
+    type: 'hello',
+    protocol: 1,
+    server: 'test',
+    user: {name: 'a', role: 'commander'},
+    may,
+    why_not: {seek: 'It goes on.'},
+    run: {
+      name: 'r',
+      source,
+      clock: 'lock_step',
+      started: '',
+      step_s: 0.01,
+      seed: 1,
+      hash: null,
+      recording: null,
+    },
   };
 }
 
 const kTime: Time = {
-  type: 'time', now_s: 9, step: 900, begin_s: 0, end_s: 9, duration_s: 60, state: 'running', reason: '', pace: 1, speed: 1,
+  type: 'time',
+  now_s: 9,
+  step: 900,
+  begin_s: 0,
+  end_s: 9,
+  duration_s: 60,
+  state: 'running',
+  reason: '',
+  pace: 1,
+  speed: 1,
 };
 
 function body(id: number, x: number): Body {
@@ -45,7 +68,13 @@ describe('a live run', () => {
 it('forgets who is here when the rights change, as the server names them to those only who may talk', () => {
   const model = new RunModel();
   model.takeMessage(hello('live', ['chat']));
-  model.takeMessage({type: 'people', people: [{name: 'a', role: 'commander'}, {name: 'b', role: 'observer'}]});
+  model.takeMessage({
+    type: 'people',
+    people: [
+      {name: 'a', role: 'commander'},
+      {name: 'b', role: 'observer'},
+    ],
+  });
   expect(model.others.map(({name}) => name)).toEqual(['b']);
   model.takeMessage(hello('live', []));
   expect(model.others).toEqual([]);
@@ -66,8 +95,18 @@ describe('bodies', () => {
 
 it('shows a robot that was handed over as what it is now', () => {
   const model = new RunModel();
-  const robot = {name: 'r', team: '', kind: 'simulated' as const, word: '', recorded: false, program: '', drivers: [], shapes: [], sensors: [],
-    twin: {kind: 'real' as const, drivers: ['create_drive'], sensors: []}};
+  const robot = {
+    name: 'r',
+    team: '',
+    kind: 'simulated' as const,
+    word: '',
+    recorded: false,
+    program: '',
+    drivers: [],
+    shapes: [],
+    sensors: [],
+    twin: {kind: 'real' as const, drivers: ['create_drive'], sensors: []},
+  };
   model.takeMessage({type: 'roster', robots: [robot]});
   let told = 0;
   model.rosterChanged.on(() => ++told);

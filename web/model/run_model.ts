@@ -1,6 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-import {RobotFlag, decodeFrame, kFirstProbe, isMapTile, isPoseFrame, isVariances, type Variance} from '../protocol/frames';
-import type {Accounts, Answer, AuditLines, AuditWritten, Body, Chat, DriveState, Event, Hello, Host, Invited, Leases, Line, People, Person, Power, Rights, Robot, Roster, ServerMessage, Time} from '../protocol/messages';
+import {
+  RobotFlag,
+  decodeFrame,
+  kFirstProbe,
+  isMapTile,
+  isPoseFrame,
+  isVariances,
+  type Variance,
+} from '../protocol/frames';
+import type {
+  Accounts,
+  Answer,
+  AuditLines,
+  AuditWritten,
+  Body,
+  Chat,
+  DriveState,
+  Event,
+  Hello,
+  Host,
+  Invited,
+  Leases,
+  Line,
+  People,
+  Person,
+  Power,
+  Rights,
+  Robot,
+  Roster,
+  ServerMessage,
+  Time,
+} from '../protocol/messages';
 import {Maps} from './maps';
 import {PoseHistory} from './pose_history';
 import {Probes} from './probes';
@@ -124,17 +154,21 @@ export class RunModel {
     if (robot === undefined) return 'No robot is selected.';
     if (!this.live) return 'This is a recording: it takes no orders.';
     if (!this.may('command')) return this.whyNot('command');
-    if (robot.yours === false) return `You may not command ${robot.name}. ${holdersText(kUsualRights.command)} ${askText(this.others)}`;
+    if (robot.yours === false)
+      return `You may not command ${robot.name}. ${holdersText(kUsualRights.command)} ${askText(this.others)}`;
     if (robot.recorded) return `${robot.name} is recorded: it takes no orders.`;
     const takes = this.drives.get(slot)?.takes ?? [];
     if (takes.includes(what)) return '';
-    return takes.length === 0 ? `${robot.name} takes no orders.` : `${robot.name} takes no ${what}; it takes ${takes.join(', ')}.`;
+    return takes.length === 0
+      ? `${robot.name} takes no orders.`
+      : `${robot.name} takes no ${what}; it takes ${takes.join(', ')}.`;
   }
 
   /** Why something is not allowed, in words; empty if it is. Of what rights withhold: who has it, whom to ask. */
   whyNot(power: Power): string {
     if (this.may(power)) return '';
-    if (power === 'rights') return `Only super-users see rights, people and the audit log. ${askText(this.others)}`;
+    if (power === 'rights')
+      return `Only super-users see rights, people and the audit log. ${askText(this.others)}`;
     const told = this.hello?.why_not[power] ?? 'Not available.';
     const what = classOf(power);
     return told === kNotYours && what !== null ? withheldText(what, this.others) : told;
@@ -204,7 +238,8 @@ export class RunModel {
   private takeRoster(message: Roster): void {
     this.robots = message.robots;
     this.rosterCame = true;
-    for (const robot of this.robots) if (robot.twin !== undefined) robot.mixed = robot.twin.kind !== robot.kind;
+    for (const robot of this.robots)
+      if (robot.twin !== undefined) robot.mixed = robot.twin.kind !== robot.kind;
     this.mixed = this.robots.flatMap((robot, slot) => (robot.mixed === true ? [slot] : []));
     this.poses.clear();
     this.truth.clear();
@@ -250,7 +285,8 @@ export class RunModel {
 
   /** The link that a request was answered with, once; null: there is none. */
   takeInvited(request: number | undefined): string | null {
-    const told = this.invited !== null && this.invited.request === request ? this.invited.link : null;
+    const told =
+      this.invited !== null && this.invited.request === request ? this.invited.link : null;
     this.invited = null;
     return told;
   }
@@ -282,14 +318,19 @@ export class RunModel {
     const before = this.poses.newest;
     this.poses.add(frame, now_ms, this.time?.state === 'paused');
     // Readings of the moment come before its frame, so those are kept.
-    if (before !== null && !frame.past && frame.time_s < before.time_s - 1e-9) this.readings.forgetAfter(frame.time_s);
+    if (before !== null && !frame.past && frame.time_s < before.time_s - 1e-9)
+      this.readings.forgetAfter(frame.time_s);
     this.pictureChanged.emit();
     return frame.past ? null : frame.sequence;
   }
 
   /** A robot that was handed over is what it is now, everywhere. */
   private followHandOvers(flags: Uint16Array): void {
-    const changed = this.mixed.filter((slot) => (flags[slot] & RobotFlag.known) !== 0 && ((flags[slot] & RobotFlag.real) !== 0) !== (this.robots[slot].kind === 'real'));
+    const changed = this.mixed.filter(
+      (slot) =>
+        (flags[slot] & RobotFlag.known) !== 0 &&
+        ((flags[slot] & RobotFlag.real) !== 0) !== (this.robots[slot].kind === 'real'),
+    );
     for (const slot of changed) {
       const robot = this.robots[slot];
       robot.kind = robot.kind === 'real' ? 'simulated' : 'real';

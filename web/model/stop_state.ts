@@ -18,7 +18,10 @@ export interface StopCount {
 }
 
 /** Recorded robots obey no orders, so they do not keep the others from counting as all. */
-export function countStopped(model: RunModel, reaches: (slot: number) => boolean = () => true): StopCount {
+export function countStopped(
+  model: RunModel,
+  reaches: (slot: number) => boolean = () => true,
+): StopCount {
   const flags = model.poses.newest?.flags;
   const robots: number[] = [];
   const stopped: number[] = [];
@@ -44,11 +47,20 @@ export interface LastStop {
 
 /** When the robots that stand were stopped, and by whom: as the log has it, for everybody's stop alike. `unlogged`:
  * robots whose stop the log cannot have yet. */
-export function lastStop(model: RunModel, unlogged: (slot: number) => boolean = () => false): LastStop | null {
+export function lastStop(
+  model: RunModel,
+  unlogged: (slot: number) => boolean = () => false,
+): LastStop | null {
   const flags = model.poses.newest?.flags;
   for (let i = model.events.length - 1; i >= 0; --i) {
     const event = model.events[i];
-    if (event.kind !== 'stopped' || !event.slots.some((slot) => ((flags?.[slot] ?? 0) & RobotFlag.stopped) !== 0 && !unlogged(slot))) continue;
+    if (
+      event.kind !== 'stopped' ||
+      !event.slots.some(
+        (slot) => ((flags?.[slot] ?? 0) & RobotFlag.stopped) !== 0 && !unlogged(slot),
+      )
+    )
+      continue;
     return {t_s: event.until, who: kByHand.exec(event.text)?.[1] ?? ''};
   }
   return null;

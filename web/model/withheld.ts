@@ -23,7 +23,11 @@ export const kUsualRights = {
   pose: {what: 'robots', to: 'see', reach: ['all', 'all', 'all']},
   true_pose: {what: 'true poses', to: 'see', reach: ['none', 'none', 'all']},
   readings: {what: 'sensors and their readings', to: 'see', reach: ['own', 'own', 'all']},
-  hybrid_parts: {what: 'the real and the virtual half of hybrid sensors', to: 'see', reach: ['none', 'own', 'all']},
+  hybrid_parts: {
+    what: 'the real and the virtual half of hybrid sensors',
+    to: 'see',
+    reach: ['none', 'own', 'all'],
+  },
   obstacles: {what: 'virtual obstacles', to: 'see', reach: ['all', 'all', 'all']},
   maps: {what: 'maps', to: 'see', reach: ['own', 'own', 'all']},
   chat: {what: 'the chat', to: 'see', reach: ['own', 'own', 'all']},
@@ -74,5 +78,7 @@ export function askText(people: readonly Person[]): string {
 }
 
 function listed(words: readonly string[], last: string): string {
-  return words.length < 2 ? words.join('') : `${words.slice(0, -1).join(', ')} ${last} ${words[words.length - 1]}`;
+  return words.length < 2
+    ? words.join('')
+    : `${words.slice(0, -1).join(', ')} ${last} ${words[words.length - 1]}`;
 }

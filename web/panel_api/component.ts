@@ -2,7 +2,10 @@
 import type {PanelContext, PanelElement} from './index';
 
 /** Draws over the World View seen from above. `toScreen`: from metres to pixels of the picture. */
-export type WorldLayer = (ctx: CanvasRenderingContext2D, toScreen: (x: number, y: number) => [number, number]) => void;
+export type WorldLayer = (
+  ctx: CanvasRenderingContext2D,
+  toScreen: (x: number, y: number) => [number, number],
+) => void;
 
 /** A panel that a component brings along. */
 export interface ComponentPanel {

@@ -6,7 +6,12 @@ beforeEach(() => localStorage.clear());
 
 it('each user has what they kept in each layout', () => {
   const kept = new Kept();
-  const places = [['ada', 'Watch'], ['ada', 'Drive'], ['ben', 'Watch'], ['ben', '']] as const;
+  const places = [
+    ['ada', 'Watch'],
+    ['ada', 'Drive'],
+    ['ben', 'Watch'],
+    ['ben', ''],
+  ] as const;
   places.forEach(([user, layout], i) => {
     kept.belongTo(user, layout);
     expect(kept.read('world')).toBeNull();

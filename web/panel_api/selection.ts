@@ -28,7 +28,9 @@ export class Selection {
   /** Takes another roster, with its names by slot. Selected robots that it has stay selected; they are found by name. */
   adopt(names: readonly string[]): void {
     const slotOf = new Map(names.map((name, slot) => [name, slot]));
-    const kept = this.slots.map((slot) => slotOf.get(this.names[slot] ?? '')).filter((slot) => slot !== undefined);
+    const kept = this.slots
+      .map((slot) => slotOf.get(this.names[slot] ?? ''))
+      .filter((slot) => slot !== undefined);
     this.names = names;
     this.hovered = null;
     this.set(kept);

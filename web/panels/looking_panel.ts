@@ -37,7 +37,9 @@ export abstract class LookingPanel extends LiveElement {
         this.rosterChanged();
         changed();
       }),
-      ...[palette.changed, selection.changed, ...this.signals()].map((signal) => signal.on(changed)),
+      ...[palette.changed, selection.changed, ...this.signals()].map((signal) =>
+        signal.on(changed),
+      ),
       model.pictureChanged.on(() => this.draw()),
       this.every(this.refresh_ms, () => this.requestUpdate()),
       () => this.lookAway(),
@@ -66,12 +68,18 @@ export abstract class LookingPanel extends LiveElement {
   }
 
   /** Paints on a canvas of the panel, in pixels of the page; does nothing while that is not there. */
-  protected onCanvas(name: string, paint: (ctx: CanvasRenderingContext2D, w: number, h: number) => void): void {
+  protected onCanvas(
+    name: string,
+    paint: (ctx: CanvasRenderingContext2D, w: number, h: number) => void,
+  ): void {
     const canvas = this.renderRoot.querySelector<HTMLCanvasElement>(name);
     const ctx = canvas?.getContext('2d');
     if (!canvas || !ctx || canvas.clientWidth === 0) return;
     const {clientWidth, clientHeight} = canvas;
-    const [w, h] = [Math.round(clientWidth * devicePixelRatio), Math.round(clientHeight * devicePixelRatio)];
+    const [w, h] = [
+      Math.round(clientWidth * devicePixelRatio),
+      Math.round(clientHeight * devicePixelRatio),
+    ];
     if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
     ctx.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
     ctx.clearRect(0, 0, clientWidth, clientHeight);

@@ -11,6 +11,8 @@ it('is full while a reading is current: for a second, or for three periods of a 
 it('drops when it is not, falls with the age and never vanishes', () => {
   const strengths = [1.1, 2, 3, 4, 60].map((age_s) => strengthOf(age_s, 0.1));
   expect(strengths[0]).toBeLessThan(0.75);
-  strengths.forEach((strength, i) => i > 0 && expect(strength).toBeLessThanOrEqual(strengths[i - 1]));
+  strengths.forEach(
+    (strength, i) => i > 0 && expect(strength).toBeLessThanOrEqual(strengths[i - 1]),
+  );
   expect(strengths[4]).toBe(0.25);
 });

@@ -124,7 +124,11 @@ function decodePoses(buffer: ArrayBuffer, view: DataView): PoseFrame {
     throw new RangeError(`pose frame of ${n} robots has ${buffer.byteLength} bytes`);
   }
   const flags = view.getUint8(1);
-  const [x0, y0, q] = [view.getFloat64(24, true), view.getFloat64(32, true), view.getFloat32(40, true)];
+  const [x0, y0, q] = [
+    view.getFloat64(24, true),
+    view.getFloat64(32, true),
+    view.getFloat32(40, true),
+  ];
   const columns = new Int32Array(buffer, kPoseHeader, 2 * n);
   const turns = new Uint16Array(buffer, kPoseHeader + 8 * n, n);
   const speeds = new Int16Array(buffer, kPoseHeader + 10 * n, n);
@@ -180,7 +184,10 @@ function decodeVariances(buffer: ArrayBuffer, view: DataView): Variances {
   }
   const bySlot = new Map<number, Variance>();
   for (let at = kVarianceHeader; at < buffer.byteLength; at += kVarianceBytes) {
-    bySlot.set(view.getUint32(at, true), {xy_m2: view.getFloat32(at + 4, true), yaw_rad2: view.getFloat32(at + 8, true)});
+    bySlot.set(view.getUint32(at, true), {
+      xy_m2: view.getFloat32(at + 4, true),
+      yaw_rad2: view.getFloat32(at + 8, true),
+    });
   }
   return {time_s: view.getFloat64(8, true), bySlot};
 }
@@ -190,7 +197,11 @@ function decodeTile(buffer: ArrayBuffer, view: DataView): MapTile {
   const slot = view.getUint32(4, true);
   const letters = view.getUint16(2, true);
   const [width, height] = [view.getUint32(56, true), view.getUint32(60, true)];
-  if (width > kMostTileCells || height > kMostTileCells || buffer.byteLength !== kTileHeader + width * height + letters) {
+  if (
+    width > kMostTileCells ||
+    height > kMostTileCells ||
+    buffer.byteLength !== kTileHeader + width * height + letters
+  ) {
     throw new RangeError(`tile of ${width} x ${height} cells has ${buffer.byteLength} bytes`);
   }
   return {
@@ -198,8 +209,11 @@ function decodeTile(buffer: ArrayBuffer, view: DataView): MapTile {
     name: new TextDecoder().decode(new Uint8Array(buffer, kTileHeader + width * height, letters)),
     stamp_s: view.getFloat64(8, true),
     frame: {
-      x0: view.getFloat64(16, true), y0: view.getFloat64(24, true), resolution_m: view.getFloat64(32, true),
-      columns: view.getUint32(40, true), rows: view.getUint32(44, true),
+      x0: view.getFloat64(16, true),
+      y0: view.getFloat64(24, true),
+      resolution_m: view.getFloat64(32, true),
+      columns: view.getUint32(40, true),
+      rows: view.getUint32(44, true),
     },
     column: view.getUint32(48, true),
     row: view.getUint32(52, true),

@@ -4,7 +4,17 @@
 
 /** What is asked of a robot. Without a robot: of all that the ticket covers (stop, release, cancel). */
 export interface LineOrder {
-  kind: 'drive' | 'goal' | 'path' | 'cancel' | 'text' | 'place' | 'take' | 'give' | 'stop' | 'release';
+  kind:
+    | 'drive'
+    | 'goal'
+    | 'path'
+    | 'cancel'
+    | 'text'
+    | 'place'
+    | 'take'
+    | 'give'
+    | 'stop'
+    | 'release';
   robot?: string;
   v?: number;
   w?: number;

@@ -4,7 +4,16 @@ import type {Host} from '../../protocol/messages';
 import {Rates, shortTime} from './rates';
 
 const kHost: Host = {
-  name: 'host-1', machine: 'lab', state: 'here', real: 1, simulated: 2, step: 10, steps_per_s: 100, delay_s: null, cpu: null, lost: 0,
+  name: 'host-1',
+  machine: 'lab',
+  state: 'here',
+  real: 1,
+  simulated: 2,
+  step: 10,
+  steps_per_s: 100,
+  delay_s: null,
+  cpu: null,
+  lost: 0,
 };
 
 it('times are short', () => {

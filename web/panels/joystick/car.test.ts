@@ -76,11 +76,17 @@ it('let go is at rest, and slack is nothing', () => {
 it('keys and fingers come together', () => {
   expect(pedalsOf([-1, 1])).toEqual({steering: -1, throttle: 1, brake: 0});
   expect(pedalsOf([0, -1])).toEqual({steering: 0, throttle: 0, brake: 1});
-  expect(together(pedalsOf([-1, 0]), {steering: 0.3, throttle: 0.7, brake: 0})).toEqual({steering: -1, throttle: 0.7, brake: 0});
+  expect(together(pedalsOf([-1, 0]), {steering: 0.3, throttle: 0.7, brake: 0})).toEqual({
+    steering: -1,
+    throttle: 0.7,
+    brake: 0,
+  });
 });
 
 it('full throttle and full steering are both full, and the dead-man sends zero at once', () => {
-  const ask = vi.fn((_: {v: number; w: number}) => Promise.resolve({type: 'answer', to: 'drive', good: true, text: ''}));
+  const ask = vi.fn((_: {v: number; w: number}) =>
+    Promise.resolve({type: 'answer', to: 'drive', good: true, text: ''}),
+  );
   const loop = new DriveLoop({ask} as unknown as Commands, () => {});
   loop.choose(3);
   const forward = car(1);
@@ -96,13 +102,22 @@ it('full throttle and full steering are both full, and the dead-man sends zero a
 });
 
 function desk(good = true) {
-  const ask = vi.fn((_: {v: number; w: number}) => Promise.resolve({type: 'answer', to: 'drive', good, text: good ? '' : 'no'}));
+  const ask = vi.fn((_: {v: number; w: number}) =>
+    Promise.resolve({type: 'answer', to: 'drive', good, text: good ? '' : 'no'}),
+  );
   const loop = new DriveLoop({ask} as unknown as Commands, () => {});
   loop.choose(3);
   const keys = new DriveKeys();
   const made = new CarDesk(loop, keys);
   let now_ms = 0;
-  return {ask, loop, keys, made, last: () => ask.mock.calls.at(-1)?.[0], tick: () => made.tick((now_ms += 16))};
+  return {
+    ask,
+    loop,
+    keys,
+    made,
+    last: () => ask.mock.calls.at(-1)?.[0],
+    tick: () => made.tick((now_ms += 16)),
+  };
 }
 
 it('a pedal that is let go lets the robot stand at once', () => {
@@ -159,8 +174,17 @@ it('triggers are pedals, and shoulder buttons gears', () => {
   buttons[7] = {pressed: true, value: 0.6};
   buttons[6] = {pressed: true, value: 0.2};
   buttons[4] = {pressed: true, value: 1};
-  vi.stubGlobal('navigator', {getGamepads: () => [null, {id: 'pad', connected: true, axes: [-0.5, 0.9], buttons}]});
-  expect(readCarPad()).toEqual({name: 'pad', steering: -0.5, throttle: 0.6, brake: 0.2, down: true, up: false});
+  vi.stubGlobal('navigator', {
+    getGamepads: () => [null, {id: 'pad', connected: true, axes: [-0.5, 0.9], buttons}],
+  });
+  expect(readCarPad()).toEqual({
+    name: 'pad',
+    steering: -0.5,
+    throttle: 0.6,
+    brake: 0.2,
+    down: true,
+    up: false,
+  });
   vi.stubGlobal('navigator', {getGamepads: () => [null]});
   expect(readCarPad()).toBeNull();
 });

@@ -3,7 +3,9 @@
 
 export type Gear = -1 | 0 | 1;
 export const kGears: readonly {gear: Gear; letter: string; name: string}[] = [
-  {gear: 1, letter: 'F', name: 'Forward'}, {gear: 0, letter: 'N', name: 'Neutral'}, {gear: -1, letter: 'R', name: 'Reverse'},
+  {gear: 1, letter: 'F', name: 'Forward'},
+  {gear: 0, letter: 'N', name: 'Neutral'},
+  {gear: -1, letter: 'R', name: 'Reverse'},
 ];
 
 /** A full brake takes full speed away in this number of seconds, half a brake in twice as many. */
@@ -34,7 +36,10 @@ export class Car {
   /** From forward to reverse only at rest: a robot would be asked to turn round within an instant. */
   shift(gear: Gear, pedals: Pedals = kIdle): boolean {
     const stands = this.speed === 0 && pedals.throttle <= kSlack;
-    this.refusal = gear === this.gear || gear === 0 || stands ? '' : 'Let go of the throttle to change the gear.';
+    this.refusal =
+      gear === this.gear || gear === 0 || stands
+        ? ''
+        : 'Let go of the throttle to change the gear.';
     if (this.refusal !== '') return false;
     this.gear = gear;
     return true;
@@ -42,14 +47,18 @@ export class Car {
 
   /** Whether a person is at the pedals. In neutral there is nothing to hold: the robot stands. */
   held({steering, throttle, brake}: Pedals): boolean {
-    return this.gear !== 0 && (throttle > kSlack || (brake > kSlack && this.speed > 0) || Math.abs(steering) > kSlack);
+    return (
+      this.gear !== 0 &&
+      (throttle > kSlack || (brake > kSlack && this.speed > 0) || Math.abs(steering) > kSlack)
+    );
   }
 
   /** After `seconds` with the pedals as they are. The throttle is followed at once; the brake goes before it. */
   step(pedals: Pedals, dt_s: number): void {
     const throttle = pedals.throttle > kSlack ? Math.min(pedals.throttle, 1) : 0;
     const brake = pedals.brake > kSlack ? Math.min(pedals.brake, 1) : 0;
-    this.steering = Math.abs(pedals.steering) > kSlack ? Math.max(-1, Math.min(1, pedals.steering)) : 0;
+    this.steering =
+      Math.abs(pedals.steering) > kSlack ? Math.max(-1, Math.min(1, pedals.steering)) : 0;
     this.speed = brake > 0 ? Math.max(0, this.speed - (brake * dt_s) / kFullBrake_s) : throttle;
   }
 

@@ -17,7 +17,10 @@ export class CarDesk {
   private blocked = false;
   private holding = false;
 
-  constructor(private readonly loop: DriveLoop, private readonly keys: DriveKeys) {}
+  constructor(
+    private readonly loop: DriveLoop,
+    private readonly keys: DriveKeys,
+  ) {}
 
   /** As they are shown. */
   get pedals(): Pedals {
@@ -47,13 +50,19 @@ export class CarDesk {
     this.last_ms = now_ms;
     const pad = readCarPad();
     this.pad = pad?.name ?? '';
-    this.ofPad = pad === null ? kIdle : {steering: pad.steering, throttle: pad.throttle, brake: pad.brake};
+    this.ofPad =
+      pad === null ? kIdle : {steering: pad.steering, throttle: pad.throttle, brake: pad.brake};
     const shoulder = pad === null ? 0 : Number(pad.up) - Number(pad.down);
     if (shoulder !== 0 && this.shoulder === 0) this.shiftBy(shoulder);
     this.shoulder = shoulder;
     const hands = this.ofHands;
     // Keys and fingers are of the same person, who may go from one to the other.
-    const now = this.loop.held === 'keys' || this.loop.held === 'touch' ? this.loop.held : this.keys.held ? 'keys' : 'touch';
+    const now =
+      this.loop.held === 'keys' || this.loop.held === 'touch'
+        ? this.loop.held
+        : this.keys.held
+          ? 'keys'
+          : 'touch';
     const source = this.car.held(hands) ? now : this.car.held(this.ofPad) ? 'pad' : null;
     if (source === null || (this.loop.held !== null && this.loop.held !== source)) {
       // Another hand takes over only after this one has let go.

@@ -20,7 +20,10 @@ export interface DialState {
 export function renderDial(state: DialState): TemplateResult {
   const [kx, ky] = [state.x * kReach, -state.y * kReach];
   const arc = state.guard === null ? null : Math.max(0.1, Math.min(1, state.guard)) * kReach + 10;
-  return html`<svg class="dial ${state.held ? 'held' : ''} ${state.disabled ? 'off' : ''}" viewBox="-104 -104 208 208" aria-hidden="true">
+  return html`<svg
+    class="dial ${state.held ? 'held' : ''} ${state.disabled ? 'off' : ''}"
+    viewBox="-104 -104 208 208"
+    aria-hidden="true">
     <circle r="99" class="rim" />
     <circle r=${kRim} class="plate" />
     ${Array.from({length: kTicks}, (_, i) => {
@@ -28,25 +31,76 @@ export function renderDial(state: DialState): TemplateResult {
       const long = i % 6 === 0;
       return svg`<line x1=${Math.cos(a) * (long ? 76 : 81)} y1=${Math.sin(a) * (long ? 76 : 81)} x2=${Math.cos(a) * 85} y2=${Math.sin(a) * 85} class="tick" />`;
     })}
-    ${arc === null ? '' : svg`<path class="guard" d=${`M ${-arc * 0.87} ${-arc * 0.5} A ${arc} ${arc} 0 0 1 ${arc * 0.87} ${-arc * 0.5}`} />`}
-    <line x1="0" y1="0" x2=${kx} y2=${ky} class="arm" /><circle r="3" class="hub" />
-    <g transform="translate(${kx} ${ky})"><circle r="25" class="knob" /><path class="grip" d="M-6 -5H6M-6 0H6M-6 5H6" /></g>
+    ${arc === null
+      ? ''
+      : svg`<path class="guard" d=${`M ${-arc * 0.87} ${-arc * 0.5} A ${arc} ${arc} 0 0 1 ${arc * 0.87} ${-arc * 0.5}`} />`}
+    <line x1="0" y1="0" x2=${kx} y2=${ky} class="arm" />
+    <circle r="3" class="hub" />
+    <g transform="translate(${kx} ${ky})">
+      <circle r="25" class="knob" />
+      <path class="grip" d="M-6 -5H6M-6 0H6M-6 5H6" />
+    </g>
   </svg>`;
 }
 
 export const dialStyles = css`
-  .dial { display: block; width: 100%; height: 100%; }
-  .rim { fill: none; stroke: var(--bg-4); stroke-width: 3; }
-  .held .rim { stroke: var(--intent); }
-  .plate { fill: var(--bg-2); stroke: var(--line-2); }
-  .tick { stroke: var(--line-3); stroke-width: 1; }
-  .guard { fill: none; stroke: var(--warn); stroke-width: 2.5; stroke-dasharray: 5 4; }
-  .arm { stroke: var(--intent); stroke-width: 3; opacity: 0; }
-  .held .arm { opacity: 1; }
-  .hub { fill: var(--text-3); }
-  .knob { fill: var(--bg-4); stroke: var(--line-3); stroke-width: 1.5; }
-  .held .knob { fill: var(--intent-fill); stroke: var(--intent); }
-  .grip { fill: none; stroke: var(--text-2); stroke-width: 1.75; stroke-linecap: round; }
-  .held .grip { stroke: #fff; }
-  .dial.off { opacity: .4; }
+  .dial {
+    display: block;
+    width: 100%;
+    height: 100%;
+  }
+  .rim {
+    fill: none;
+    stroke: var(--bg-4);
+    stroke-width: 3;
+  }
+  .held .rim {
+    stroke: var(--intent);
+  }
+  .plate {
+    fill: var(--bg-2);
+    stroke: var(--line-2);
+  }
+  .tick {
+    stroke: var(--line-3);
+    stroke-width: 1;
+  }
+  .guard {
+    fill: none;
+    stroke: var(--warn);
+    stroke-width: 2.5;
+    stroke-dasharray: 5 4;
+  }
+  .arm {
+    stroke: var(--intent);
+    stroke-width: 3;
+    opacity: 0;
+  }
+  .held .arm {
+    opacity: 1;
+  }
+  .hub {
+    fill: var(--text-3);
+  }
+  .knob {
+    fill: var(--bg-4);
+    stroke: var(--line-3);
+    stroke-width: 1.5;
+  }
+  .held .knob {
+    fill: var(--intent-fill);
+    stroke: var(--intent);
+  }
+  .grip {
+    fill: none;
+    stroke: var(--text-2);
+    stroke-width: 1.75;
+    stroke-linecap: round;
+  }
+  .held .grip {
+    stroke: #fff;
+  }
+  .dial.off {
+    opacity: 0.4;
+  }
 `;

@@ -7,7 +7,9 @@ beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
 
 function made(good = true) {
-  const ask = vi.fn((_: {v: number; w: number; slots: number[]}) => Promise.resolve({type: 'answer', to: 'drive', good, text: good ? '' : '`ben` drives r1'}));
+  const ask = vi.fn((_: {v: number; w: number; slots: number[]}) =>
+    Promise.resolve({type: 'answer', to: 'drive', good, text: good ? '' : '`ben` drives r1'}),
+  );
   const loop = new DriveLoop({ask} as unknown as Commands, () => {});
   loop.choose(3);
   return {ask, loop, last: () => ask.mock.calls.at(-1)?.[0]};

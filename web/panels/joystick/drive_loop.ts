@@ -32,7 +32,10 @@ export class DriveLoop {
   /** The robot that refused: its host waits for a neutral stick, too. */
   private refused: number | null = null;
 
-  constructor(private readonly commands: Commands, private readonly changed: () => void) {}
+  constructor(
+    private readonly commands: Commands,
+    private readonly changed: () => void,
+  ) {}
 
   /** The velocity of the present position: forward, m/s, and to the left, rad/s. */
   get velocity(): [number, number] {
@@ -63,7 +66,8 @@ export class DriveLoop {
 
   /** As hold(), of two controls that do not limit each other; each from -1 to 1. */
   holdBoth(source: StickSource, x: number, y: number): void {
-    if (this.slot === null || source === this.spent || (this.held !== null && this.held !== source)) return;
+    if (this.slot === null || source === this.spent || (this.held !== null && this.held !== source))
+      return;
     const [from_x, from_y] = [this.x, this.y];
     [this.x, this.y] = [Math.max(-1, Math.min(1, x)), Math.max(-1, Math.min(1, y))];
     if (this.held === null) {

@@ -23,7 +23,10 @@ const kHand = 'rave.joystick.hand';
 
 /** A stick for the selected robot: pointer, finger, pen, keys or gamepad; it drives only while held. */
 export class JoystickPanel extends LiveElement {
-  static override properties = {over: {type: Boolean, reflect: true}, swapped: {type: Boolean, reflect: true}};
+  static override properties = {
+    over: {type: Boolean, reflect: true},
+    swapped: {type: Boolean, reflect: true},
+  };
   /** It lies over the World View, and shows no more than is needed there. */
   declare over: boolean;
   /** The stick over the world stands at the right. */
@@ -53,7 +56,9 @@ export class JoystickPanel extends LiveElement {
     return [
       () => this.letGo(),
       () => link.look(this, []),
-      ...[selection.changed, model.drivesChanged, model.runChanged].map((signal) => signal.on(choose)),
+      ...[selection.changed, model.drivesChanged, model.runChanged].map((signal) =>
+        signal.on(choose),
+      ),
       link.changed.on(() => {
         if (!link.reaches) this.letGo();
         choose();
@@ -83,11 +88,14 @@ export class JoystickPanel extends LiveElement {
 
   private whyNot(slot: number): string {
     const {model, link} = this.context;
-    if (model.live && !link.reachesRobot(slot)) return `No line to ${model.robots[slot]?.name ?? 'it'}: the link is lost.`;
+    if (model.live && !link.reachesRobot(slot))
+      return `No line to ${model.robots[slot]?.name ?? 'it'}: the link is lost.`;
     const drive = model.drives.get(slot);
     if (drive !== undefined && drive.lease !== '' && !drive.yours) {
       const name = model.robots[slot]?.name ?? '';
-      return drive.lease === model.knownAs ? `You drive ${name} on another page.` : `${drive.lease} drives ${name}.`;
+      return drive.lease === model.knownAs
+        ? `You drive ${name} on another page.`
+        : `${drive.lease} drives ${name}.`;
     }
     return model.whyNotTaken(slot, 'drive');
   }
@@ -130,7 +138,11 @@ export class JoystickPanel extends LiveElement {
     const box = (event.currentTarget as HTMLElement).getBoundingClientRect();
     // The dial is drawn in a view box of 208 units.
     const unit = (kReach / 208) * box.width;
-    this.loop.hold('touch', (event.clientX - box.left - box.width / 2) / unit, -(event.clientY - box.top - box.height / 2) / unit);
+    this.loop.hold(
+      'touch',
+      (event.clientX - box.left - box.width / 2) / unit,
+      -(event.clientY - box.top - box.height / 2) / unit,
+    );
   }
 
   private press(event: PointerEvent): void {
@@ -179,61 +191,143 @@ export class JoystickPanel extends LiveElement {
     const slot = selection.primary;
     const robot = slot === null ? undefined : model.robots[slot];
     if (slot === null || robot === undefined) {
-      return html`<div class="empty">${icon('joystick', 28)}<p>Select a robot to drive it.</p></div>`;
+      return html`<div class="empty">
+        ${icon('joystick', 28)}
+        <p>Select a robot to drive it.</p>
+      </div>`;
     }
     const why = this.whyNot(slot);
     const hue = palette.hue(slot);
     const guard = guardOf(model, slot, this.loop.velocity[0]);
-    const refusal = this.loop.refusal !== '' ? this.loop.refusal : this.pedals ? this.car.car.refusal : '';
+    const refusal =
+      this.loop.refusal !== '' ? this.loop.refusal : this.pedals ? this.car.car.refusal : '';
     this.toggleAttribute('pedals', this.pedals);
-    const controls = this.pedals ? this.renderPedals(robot.name, why !== '') : this.renderStick(robot.name, why !== '', guard);
+    const controls = this.pedals
+      ? this.renderPedals(robot.name, why !== '')
+      : this.renderStick(robot.name, why !== '', guard);
     if (this.over) {
-      return renderOver(this.context, {slot, loop: this.loop, guard, why: refusal || why, controls, layouts: this.renderLayouts(), swap: () => this.swap()});
+      return renderOver(this.context, {
+        slot,
+        loop: this.loop,
+        guard,
+        why: refusal || why,
+        controls,
+        layouts: this.renderLayouts(),
+        swap: () => this.swap(),
+      });
     }
-    return html`
-      <header><i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i><b>${robot.name}</b>${this.renderSources()}<span class="space"></span>${this.renderLayouts()}</header>
+    return html` <header>
+        <i
+          class="glyph ${robot.kind}"
+          style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i
+        ><b>${robot.name}</b>${this.renderSources()}<span class="space"></span
+        >${this.renderLayouts()}
+      </header>
       <rave-lease compact .context=${this.context} .robot=${slot}></rave-lease>
       ${renderFigures(model, link, this.loop, slot)}
       <div class="middle">${controls}</div>
       ${renderNotes(this.loop.held !== null, why, refusal, guard)}
-      ${renderLine(link, this.loop, robot.name)}
-      ${renderRecent(model)}`;
+      ${renderLine(link, this.loop, robot.name)} ${renderRecent(model)}`;
   }
 
   private renderStick(name: string, disabled: boolean, guard: GuardAct | null): TemplateResult {
-    return html`<div class="stick" tabindex="0" role="application" aria-label="Stick of ${name}: hold and move, or hold W A S D or the arrows" aria-disabled=${disabled}
-      @pointerdown=${this.press} @pointermove=${(event: PointerEvent) => this.loop.held === 'touch' && this.point(event)}
-      @pointerup=${() => this.loop.release('touch')} @pointercancel=${() => this.loop.release('touch')} @lostpointercapture=${() => this.loop.release('touch')}
-      @keydown=${(event: KeyboardEvent) => this.key(event, true)} @keyup=${(event: KeyboardEvent) => this.key(event, false)}
-      @blur=${() => { this.keys.clear(); this.loop.release('keys'); }} @contextmenu=${(event: Event) => event.preventDefault()}>
-      ${renderDial({x: this.loop.x, y: this.loop.y, held: this.loop.held !== null, disabled, guard: guard === null ? null : guard.limit_mps / this.loop.v_mps})}</div>`;
+    return html`<div
+      class="stick"
+      tabindex="0"
+      role="application"
+      aria-label="Stick of ${name}: hold and move, or hold W A S D or the arrows"
+      aria-disabled=${disabled}
+      @pointerdown=${this.press}
+      @pointermove=${(event: PointerEvent) => this.loop.held === 'touch' && this.point(event)}
+      @pointerup=${() => this.loop.release('touch')}
+      @pointercancel=${() => this.loop.release('touch')}
+      @lostpointercapture=${() => this.loop.release('touch')}
+      @keydown=${(event: KeyboardEvent) => this.key(event, true)}
+      @keyup=${(event: KeyboardEvent) => this.key(event, false)}
+      @blur=${() => {
+        this.keys.clear();
+        this.loop.release('keys');
+      }}
+      @contextmenu=${(event: Event) => event.preventDefault()}>
+      ${renderDial({
+        x: this.loop.x,
+        y: this.loop.y,
+        held: this.loop.held !== null,
+        disabled,
+        guard: guard === null ? null : guard.limit_mps / this.loop.v_mps,
+      })}
+    </div>`;
   }
 
   private renderPedals(robot: string, disabled: boolean): TemplateResult {
     const {car} = this;
     return renderCar({
-      pedals: car.pedals, gear: car.car.gear, disabled, robot,
+      pedals: car.pedals,
+      gear: car.car.gear,
+      disabled,
+      robot,
       touch: (control, value) => car.touch(control, value),
-      shift: (gear) => { car.shift(gear); this.requestUpdate(); },
+      shift: (gear) => {
+        car.shift(gear);
+        this.requestUpdate();
+      },
       key: (event, down) => this.key(event, down),
       blur: () => this.keys.clear(),
     });
   }
 
   private renderLayouts(): TemplateResult {
-    const layout = (pedals: boolean, text: string, title: string) => html`<button role="radio" aria-checked=${this.pedals === pedals} title=${title} @click=${() => this.setLayout(pedals)}>${text}</button>`;
-    return html`<div class="segments" role="radiogroup" aria-label="Controls">${layout(false, 'Stick', 'One stick for both velocities')}${layout(true, 'Pedals', 'Steering, throttle, brake and gear')}</div>`;
+    const layout = (pedals: boolean, text: string, title: string) =>
+      html`<button
+        role="radio"
+        aria-checked=${this.pedals === pedals}
+        title=${title}
+        @click=${() => this.setLayout(pedals)}>
+        ${text}
+      </button>`;
+    return html`<div class="segments" role="radiogroup" aria-label="Controls">
+      ${layout(false, 'Stick', 'One stick for both velocities')}${layout(
+        true,
+        'Pedals',
+        'Steering, throttle, brake and gear',
+      )}
+    </div>`;
   }
 
   /** What can hold the stick; lit: it does. */
   private renderSources(): TemplateResult {
     const {held} = this.loop;
-    const source = (on: boolean, there: boolean, name: 'gamepad' | 'keyboard' | 'hand', text: string, title: string) =>
-      html`<span class="source ${on ? 'on' : ''} ${there ? '' : 'off'}" role="img" aria-label=${text} title=${title}>${icon(name, 15)}</span>`;
+    const source = (
+      on: boolean,
+      there: boolean,
+      name: 'gamepad' | 'keyboard' | 'hand',
+      text: string,
+      title: string,
+    ) =>
+      html`<span
+        class="source ${on ? 'on' : ''} ${there ? '' : 'off'}"
+        role="img"
+        aria-label=${text}
+        title=${title}
+        >${icon(name, 15)}</span
+      >`;
     return html`<span class="sources">
-      ${source(held === 'pad', this.pad !== '', 'gamepad', 'Pad', this.pad === '' ? 'No gamepad: connect one and press a button' : this.pad)}
-      ${source(held === 'keys', true, 'keyboard', 'Keys', 'W A S D or arrows on the stick; Shift and arrows anywhere')}
-      ${source(held === 'touch', true, 'hand', 'Touch', 'Hold the stick')}</span>`;
+      ${source(
+        held === 'pad',
+        this.pad !== '',
+        'gamepad',
+        'Pad',
+        this.pad === '' ? 'No gamepad: connect one and press a button' : this.pad,
+      )}
+      ${source(
+        held === 'keys',
+        true,
+        'keyboard',
+        'Keys',
+        'W A S D or arrows on the stick; Shift and arrows anywhere',
+      )}
+      ${source(held === 'touch', true, 'hand', 'Touch', 'Hold the stick')}</span
+    >`;
   }
 
   static override styles = [
@@ -244,18 +338,81 @@ export class JoystickPanel extends LiveElement {
     driveStyles,
     overStyles,
     css`
-      :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); overflow: auto; container-type: size; }
-      header { display: flex; align-items: center; gap: 8px; height: 42px; padding: 0 12px; flex: none; }
-      header b { font-size: var(--fs-15); overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
-      rave-lease { margin: 0 12px 4px; flex: none; }
-      .sources { display: flex; gap: 2px; flex: none; }
-      .source { display: grid; place-items: center; width: 24px; height: 24px; border-radius: 5px; color: var(--text-2); }
-      .source.on { background: var(--intent-soft); color: var(--intent); }
-      .source.off { color: var(--text-3); opacity: .5; }
-      .middle { position: relative; flex: 1 0 150px; }
-      .stick { position: absolute; inset: 6px 12px; margin: auto; height: min(100% - 12px, 260px); max-width: calc(100% - 24px); aspect-ratio: 1; touch-action: none; user-select: none; cursor: grab; border-radius: 50%; }
-      .stick[aria-disabled='true'] { cursor: not-allowed; }
-      .empty { display: grid; place-content: center; justify-items: center; gap: 4px; height: 100%; color: var(--text-3); font-size: var(--fs-12); }
+      :host {
+        display: flex;
+        flex-direction: column;
+        height: 100%;
+        background: var(--bg-1);
+        overflow: auto;
+        container-type: size;
+      }
+      header {
+        display: flex;
+        align-items: center;
+        gap: 8px;
+        height: 42px;
+        padding: 0 12px;
+        flex: none;
+      }
+      header b {
+        font-size: var(--fs-15);
+        overflow: hidden;
+        text-overflow: ellipsis;
+        white-space: nowrap;
+      }
+      rave-lease {
+        margin: 0 12px 4px;
+        flex: none;
+      }
+      .sources {
+        display: flex;
+        gap: 2px;
+        flex: none;
+      }
+      .source {
+        display: grid;
+        place-items: center;
+        width: 24px;
+        height: 24px;
+        border-radius: 5px;
+        color: var(--text-2);
+      }
+      .source.on {
+        background: var(--intent-soft);
+        color: var(--intent);
+      }
+      .source.off {
+        color: var(--text-3);
+        opacity: 0.5;
+      }
+      .middle {
+        position: relative;
+        flex: 1 0 150px;
+      }
+      .stick {
+        position: absolute;
+        inset: 6px 12px;
+        margin: auto;
+        height: min(100% - 12px, 260px);
+        max-width: calc(100% - 24px);
+        aspect-ratio: 1;
+        touch-action: none;
+        user-select: none;
+        cursor: grab;
+        border-radius: 50%;
+      }
+      .stick[aria-disabled='true'] {
+        cursor: not-allowed;
+      }
+      .empty {
+        display: grid;
+        place-content: center;
+        justify-items: center;
+        gap: 4px;
+        height: 100%;
+        color: var(--text-3);
+        font-size: var(--fs-12);
+      }
     `,
   ];
 }

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 
 const kUnits: Record<string, [number, number]> = {
-  w: [0, 1], s: [0, -1], a: [-1, 0], d: [1, 0],
-  arrowup: [0, 1], arrowdown: [0, -1], arrowleft: [-1, 0], arrowright: [1, 0],
+  w: [0, 1],
+  s: [0, -1],
+  a: [-1, 0],
+  d: [1, 0],
+  arrowup: [0, 1],
+  arrowdown: [0, -1],
+  arrowleft: [-1, 0],
+  arrowright: [1, 0],
 };
 
 /** Which of the keys that drive are down. */

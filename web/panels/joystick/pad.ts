@@ -18,14 +18,25 @@ export function readPad(): {name: string; x: number; y: number; held: boolean} |
 
 /** The first gamepad as a vehicle: left stick steers, right trigger is the throttle, left one the brake,
  * shoulder buttons change the gear. Null: there is none. */
-export function readCarPad(): {name: string; steering: number; throttle: number; brake: number; down: boolean; up: boolean} | null {
+export function readCarPad(): {
+  name: string;
+  steering: number;
+  throttle: number;
+  brake: number;
+  down: boolean;
+  up: boolean;
+} | null {
   for (const pad of navigator.getGamepads?.() ?? []) {
     if (pad === null || !pad.connected) continue;
     const steering = pad.axes[0] ?? 0;
     const value = (i: number) => pad.buttons[i]?.value ?? 0;
     return {
-      name: pad.id, steering: Math.abs(steering) < kDead ? 0 : steering, throttle: value(7), brake: value(6),
-      down: pad.buttons[4]?.pressed ?? false, up: pad.buttons[5]?.pressed ?? false,
+      name: pad.id,
+      steering: Math.abs(steering) < kDead ? 0 : steering,
+      throttle: value(7),
+      brake: value(6),
+      down: pad.buttons[4]?.pressed ?? false,
+      up: pad.buttons[5]?.pressed ?? false,
     };
   }
   return null;

@@ -20,7 +20,12 @@ export class LogPanel extends LiveElement {
   protected override listen(): (() => void)[] {
     const {model, palette} = this.context;
     return [
-      ...this.renderAfter(model.eventsChanged, model.rosterChanged, model.timeChanged, palette.changed),
+      ...this.renderAfter(
+        model.eventsChanged,
+        model.rosterChanged,
+        model.timeChanged,
+        palette.changed,
+      ),
       model.pictureChanged.on(() => {
         // The line moves with the replay, but a second is fine enough for reading.
         const second = Math.floor(2 * (model.poses.newest?.time_s ?? 0));
@@ -33,7 +38,10 @@ export class LogPanel extends LiveElement {
 
   override render(): TemplateResult {
     const {model} = this.context;
-    const all = foldSame(logOf(model), model.robots.map((robot) => robot.name));
+    const all = foldSame(
+      logOf(model),
+      model.robots.map((robot) => robot.name),
+    );
     const alerts = all.filter((event) => event.level !== 'info').length;
     const shown = all.filter((event) => this.accepts(event)).reverse();
     const now_s = model.poses.newest?.time_s ?? Infinity;
@@ -43,20 +51,50 @@ export class LogPanel extends LiveElement {
       const future = replay && event.t > now_s;
       const line = !future && !lineDrawn;
       lineDrawn ||= line;
-      return html`${line ? this.renderNow(now_s) : nothing}${this.renderRow(event, future, replay && now_s >= event.t && now_s <= event.until)}`;
+      return html`${line ? this.renderNow(now_s) : nothing}${this.renderRow(
+        event,
+        future,
+        replay && now_s >= event.t && now_s <= event.until,
+      )}`;
     });
-    return html`
-      <div class="bar">
+    return html` <div class="bar">
         <div class="segments" role="radiogroup" aria-label="Which events">
-          <button role="radio" aria-checked=${!this.alertsOnly} @click=${() => this.showAlerts(false)}>All</button>
-          <button role="radio" aria-checked=${this.alertsOnly} @click=${() => this.showAlerts(true)}>Alerts ${alerts}</button>
+          <button
+            role="radio"
+            aria-checked=${!this.alertsOnly}
+            @click=${() => this.showAlerts(false)}>
+            All
+          </button>
+          <button
+            role="radio"
+            aria-checked=${this.alertsOnly}
+            @click=${() => this.showAlerts(true)}>
+            Alerts ${alerts}
+          </button>
         </div>
-        <label class="field">${icon('filter', 13)}<input placeholder="source, text" aria-label="Filter events" .value=${this.text}
-          @input=${(event: InputEvent) => { this.text = (event.target as HTMLInputElement).value.toLowerCase(); this.requestUpdate(); }}></label>
+        <label class="field"
+          >${icon('filter', 13)}<input
+            placeholder="source, text"
+            aria-label="Filter events"
+            .value=${this.text}
+            @input=${(event: InputEvent) => {
+              this.text = (event.target as HTMLInputElement).value.toLowerCase();
+              this.requestUpdate();
+            }}
+        /></label>
       </div>
-      <div class="rows">${rows}${lineDrawn || rows.length === 0 ? nothing : this.renderNow(now_s)}
-        ${shown.length > kRows ? html`<p>${shown.length - kRows} older events: filter to see them.</p>` : nothing}
-        ${shown.length > 0 ? nothing : !model.may('log') ? renderWithheld(this.context, 'log') : html`<p>${all.length === 0 ? 'Nothing has happened yet.' : 'No event matches the filter.'}</p>`}
+      <div class="rows">
+        ${rows}${lineDrawn || rows.length === 0 ? nothing : this.renderNow(now_s)}
+        ${shown.length > kRows
+          ? html`<p>${shown.length - kRows} older events: filter to see them.</p>`
+          : nothing}
+        ${shown.length > 0
+          ? nothing
+          : !model.may('log')
+            ? renderWithheld(this.context, 'log')
+            : html`<p>
+                ${all.length === 0 ? 'Nothing has happened yet.' : 'No event matches the filter.'}
+              </p>`}
       </div>`;
   }
 
@@ -77,12 +115,16 @@ export class LogPanel extends LiveElement {
   }
 
   private renderRow(event: LogRow, future: boolean, present: boolean): TemplateResult {
-    const until = event.count > 1 && event.until > event.t ? `, until ${clockText(event.until)}` : '';
-    return html`<button class="row ${event.level} ${future ? 'future' : ''} ${present ? 'present' : ''}"
-      title=${this.context.model.may('seek') ? 'Go to this moment' : event.kind} @click=${() => this.open(event)}>
+    const until =
+      event.count > 1 && event.until > event.t ? `, until ${clockText(event.until)}` : '';
+    return html`<button
+      class="row ${event.level} ${future ? 'future' : ''} ${present ? 'present' : ''}"
+      title=${this.context.model.may('seek') ? 'Go to this moment' : event.kind}
+      @click=${() => this.open(event)}>
       <time>${clockText(event.t)}</time>${icon(iconOf(event), 14)}
       <span>${this.renderText(event)}${until}</span>
-      ${event.count > 1 ? html`<em>×${event.count}</em>` : nothing}</button>`;
+      ${event.count > 1 ? html`<em>×${event.count}</em>` : nothing}
+    </button>`;
   }
 
   /** Names of robots in the colour of their robot. */
@@ -95,9 +137,12 @@ export class LogPanel extends LiveElement {
       if (name === undefined) continue;
       parts = parts.flatMap((part): (TemplateResult | string)[] => {
         if (typeof part !== 'string') return [part];
-        const pieces = part.split(new RegExp(`\\b${name.replace(/[.*+?^${}()|[\]\\]/g, '\\$&')}(?![\\w-])`));
+        const pieces = part.split(
+          new RegExp(`\\b${name.replace(/[.*+?^${}()|[\]\\]/g, '\\$&')}(?![\\w-])`),
+        );
         return pieces.flatMap((piece, i): (TemplateResult | string)[] =>
-          i === 0 ? [piece] : [html`<b style="color:${palette.hue(slot).ink}">${name}</b>`, piece]);
+          i === 0 ? [piece] : [html`<b style="color:${palette.hue(slot).ink}">${name}</b>`, piece],
+        );
       });
     }
     return parts;
@@ -106,13 +151,21 @@ export class LogPanel extends LiveElement {
   /** `real-1 … real-5: stopped`; the tooltip has all names. */
   private renderMany(event: LogRow): (TemplateResult | string)[] {
     const {model, palette} = this.context;
-    const name = (slot: number) => html`<b style="color:${palette.hue(slot).ink}">${model.robots[slot]?.name}</b>`;
+    const name = (slot: number) =>
+      html`<b style="color:${palette.hue(slot).ink}">${model.robots[slot]?.name}</b>`;
     const {first, last} = shownSlots(event.slots);
-    return [html`<span title=${event.slots.map((slot) => model.robots[slot]?.name).join(', ')}>${first.map((slot, i) => html`${i > 0 ? ', ' : ''}${name(slot)}`)}${last === null ? nothing : html` … ${name(last)}`}</span>: ${event.what}`];
+    return [
+      html`<span title=${event.slots.map((slot) => model.robots[slot]?.name).join(', ')}
+          >${first.map((slot, i) => html`${i > 0 ? ', ' : ''}${name(slot)}`)}${last === null
+            ? nothing
+            : html` … ${name(last)}`}</span
+        >: ${event.what}`,
+    ];
   }
 
   private open(event: LogRow): void {
-    if (event.slots.length > 0) this.context.selection.set(event.what === '' ? event.slots.slice(0, 2) : event.slots);
+    if (event.slots.length > 0)
+      this.context.selection.set(event.what === '' ? event.slots.slice(0, 2) : event.slots);
     this.context.seek(event.t);
   }
 
@@ -120,24 +173,94 @@ export class LogPanel extends LiveElement {
     controls,
     withheldStyles,
     css`
-      :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); }
-      .bar { display: flex; gap: 8px; padding: 8px 12px; }
-      .bar .field { flex: 1; }
-      .rows { flex: 1; overflow: auto; padding: 0 4px 8px; }
-      .row { display: grid; grid-template-columns: 58px 16px 1fr auto; gap: 6px; width: 100%; padding: 4px 8px; text-align: left; font-size: var(--fs-12); border-radius: var(--r-2); line-height: 1.4; }
-      @media (pointer: coarse) { .row { padding: 12px 8px; } }
-      .row:hover { background: var(--bg-2); }
-      .row time { text-align: right; color: var(--text-3); }
-      .row svg { margin-top: 1px; color: var(--text-3); }
-      .row.warn svg { color: var(--warn); }
-      .row.alert svg { color: var(--danger); }
-      .row em { align-self: start; padding: 0 6px; border-radius: var(--r-2); background: var(--bg-3); color: var(--text-2); font-style: normal; font-size: var(--fs-11); }
-      .row.future { color: var(--text-3); }
-      .row.present { background: var(--intent-soft); }
-      .row b { font-weight: var(--fw-strong); }
-      .now { display: flex; align-items: center; gap: 8px; padding: 2px 8px; color: var(--intent); font-size: var(--fs-12); }
-      .now i { flex: 1; height: 1px; background: var(--intent-line); }
-      p { margin: 8px 12px; color: var(--text-3); font-size: var(--fs-12); }
+      :host {
+        display: flex;
+        flex-direction: column;
+        height: 100%;
+        background: var(--bg-1);
+      }
+      .bar {
+        display: flex;
+        gap: 8px;
+        padding: 8px 12px;
+      }
+      .bar .field {
+        flex: 1;
+      }
+      .rows {
+        flex: 1;
+        overflow: auto;
+        padding: 0 4px 8px;
+      }
+      .row {
+        display: grid;
+        grid-template-columns: 58px 16px 1fr auto;
+        gap: 6px;
+        width: 100%;
+        padding: 4px 8px;
+        text-align: left;
+        font-size: var(--fs-12);
+        border-radius: var(--r-2);
+        line-height: 1.4;
+      }
+      @media (pointer: coarse) {
+        .row {
+          padding: 12px 8px;
+        }
+      }
+      .row:hover {
+        background: var(--bg-2);
+      }
+      .row time {
+        text-align: right;
+        color: var(--text-3);
+      }
+      .row svg {
+        margin-top: 1px;
+        color: var(--text-3);
+      }
+      .row.warn svg {
+        color: var(--warn);
+      }
+      .row.alert svg {
+        color: var(--danger);
+      }
+      .row em {
+        align-self: start;
+        padding: 0 6px;
+        border-radius: var(--r-2);
+        background: var(--bg-3);
+        color: var(--text-2);
+        font-style: normal;
+        font-size: var(--fs-11);
+      }
+      .row.future {
+        color: var(--text-3);
+      }
+      .row.present {
+        background: var(--intent-soft);
+      }
+      .row b {
+        font-weight: var(--fw-strong);
+      }
+      .now {
+        display: flex;
+        align-items: center;
+        gap: 8px;
+        padding: 2px 8px;
+        color: var(--intent);
+        font-size: var(--fs-12);
+      }
+      .now i {
+        flex: 1;
+        height: 1px;
+        background: var(--intent-line);
+      }
+      p {
+        margin: 8px 12px;
+        color: var(--text-3);
+        font-size: var(--fs-12);
+      }
     `,
   ];
 }

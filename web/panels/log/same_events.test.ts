@@ -10,18 +10,29 @@ function event(t: number, slots: number[], text: string, more: Partial<Event> = 
 }
 
 it('one STOP of all robots is one row that lists them', () => {
-  const rows = foldSame(kNames.map((name, slot) => event(12.3, [slot], `${name}: stopped, by hand: ben`)), kNames);
+  const rows = foldSame(
+    kNames.map((name, slot) => event(12.3, [slot], `${name}: stopped, by hand: ben`)),
+    kNames,
+  );
   expect(rows).toHaveLength(1);
-  expect(rows[0]).toMatchObject({slots: [0, 1, 2], count: 3, what: 'stopped, by hand: ben', text: 'real-1, real-2, walker-1: stopped, by hand: ben'});
+  expect(rows[0]).toMatchObject({
+    slots: [0, 1, 2],
+    count: 3,
+    what: 'stopped, by hand: ben',
+    text: 'real-1, real-2, walker-1: stopped, by hand: ben',
+  });
 });
 
 it('another text, kind or moment is another row', () => {
-  const rows = foldSame([
-    event(1, [0], 'real-1: stopped, by hand: ben'),
-    event(1, [1], 'real-2: stopped, by hand: ada'),
-    event(1, [2], 'walker-1: stopped, by hand: ben', {kind: 'guard stopped'}),
-    event(2, [1], 'real-2: stopped, by hand: ben'),
-  ], kNames);
+  const rows = foldSame(
+    [
+      event(1, [0], 'real-1: stopped, by hand: ben'),
+      event(1, [1], 'real-2: stopped, by hand: ada'),
+      event(1, [2], 'walker-1: stopped, by hand: ben', {kind: 'guard stopped'}),
+      event(2, [1], 'real-2: stopped, by hand: ben'),
+    ],
+    kNames,
+  );
   expect(rows.map((row) => row.slots)).toEqual([[0], [1], [2], [1]]);
 });
 

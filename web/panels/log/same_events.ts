@@ -14,7 +14,8 @@ export interface LogRow extends Event {
 
 /** What the event says of its only robot; null if it is of none, of several, or says it otherwise. */
 function partOf(event: Event, name: string | undefined): string | null {
-  if (event.slots.length !== 1 || name === undefined || !event.text.startsWith(`${name}: `)) return null;
+  if (event.slots.length !== 1 || name === undefined || !event.text.startsWith(`${name}: `))
+    return null;
   return event.text.slice(name.length + 2);
 }
 
@@ -30,7 +31,11 @@ export function foldSame(events: readonly Event[], names: readonly string[]): Lo
     const key = what === null ? '' : `${event.kind}\n${event.level}\n${what}`;
     const at = what === null ? undefined : last.get(key);
     const row = at === undefined || rows.length - at > kLookBack ? undefined : rows[at];
-    if (row === undefined || Math.abs(event.t - row.t) > kMoment_s || known.get(row)?.has(event.slots[0])) {
+    if (
+      row === undefined ||
+      Math.abs(event.t - row.t) > kMoment_s ||
+      known.get(row)?.has(event.slots[0])
+    ) {
       const own: LogRow = {...event, slots: [...event.slots], what: ''};
       if (what !== null) {
         last.set(key, rows.length);
@@ -55,6 +60,11 @@ function shortText(row: LogRow, names: readonly string[]): string {
 }
 
 /** The names of a row, shortened: the first and the last where they are many. */
-export function shownSlots(slots: readonly number[], most = 3): {first: number[]; last: number | null} {
-  return slots.length <= most ? {first: [...slots], last: null} : {first: [slots[0]], last: slots[slots.length - 1]};
+export function shownSlots(
+  slots: readonly number[],
+  most = 3,
+): {first: number[]; last: number | null} {
+  return slots.length <= most
+    ? {first: [...slots], last: null}
+    : {first: [slots[0]], last: slots[slots.length - 1]};
 }

@@ -18,10 +18,22 @@ describe('a map', () => {
 
   it('is as large as what is known of it', () => {
     const tile: MapTile = {
-      slot: 0, name: '', stamp_s: 0, frame: kFrame, column: 1, row: 0, width: 6, height: 2,
+      slot: 0,
+      name: '',
+      stamp_s: 0,
+      frame: kFrame,
+      column: 1,
+      row: 0,
+      width: 6,
+      height: 2,
       cells: new Uint8Array([255, 255, 255, 255, 255, 255, 255, 3, 255, 100, 255, 255]),
     };
-    expect(boundsOf({frame: kFrame, stamp_s: 0, tiles: new Map([['0 1', tile]])})).toEqual({x0: 31.5, y0: 2.5, x1: 33, y1: 3});
+    expect(boundsOf({frame: kFrame, stamp_s: 0, tiles: new Map([['0 1', tile]])})).toEqual({
+      x0: 31.5,
+      y0: 2.5,
+      x1: 33,
+      y1: 3,
+    });
     expect(boundsOf({frame: kFrame, stamp_s: 0, tiles: new Map()})).toBeNull();
   });
 });

@@ -22,11 +22,15 @@ const pictures = new WeakMap<MapTile, Picture>();
 
 /** Red, green, blue and opacity of a cell: what is free is faint, what is occupied has the colour of walls. */
 export function cellColour(
-  percent: number, free: readonly [number, number, number], wall: readonly [number, number, number],
+  percent: number,
+  free: readonly [number, number, number],
+  wall: readonly [number, number, number],
 ): [number, number, number, number] {
   if (percent > 100) return [0, 0, 0, 0];
   const sure = Math.abs(percent - 50) / 50;
-  return percent < 50 ? [...free, Math.round(255 * kFree * sure)] : [...wall, Math.round(255 * sure)];
+  return percent < 50
+    ? [...free, Math.round(255 * kFree * sure)]
+    : [...wall, Math.round(255 * sure)];
 }
 
 /** The cells of a tile in the colours of the theme, a pixel each; null: there is no canvas. */
@@ -53,7 +57,13 @@ export function pictureOf(tile: MapTile, palette: Palette): HTMLCanvasElement | 
 }
 
 /** Draws a map over what is there. Unknown cells leave it as it is. */
-export function drawMap(ctx: CanvasRenderingContext2D, camera: Camera, grid: Grid, palette: Palette, opacity = 1): void {
+export function drawMap(
+  ctx: CanvasRenderingContext2D,
+  camera: Camera,
+  grid: Grid,
+  palette: Palette,
+  opacity = 1,
+): void {
   const {frame} = grid;
   ctx.save();
   ctx.globalAlpha = opacity;
@@ -81,7 +91,8 @@ export function boundsOf(grid: Grid): {x0: number; y0: number; x1: number; y1: n
     for (let i = 0; i < tile.cells.length; ++i) {
       if (tile.cells[i] === kUnknown) continue;
       const x = frame.x0 + (tile.column * kTileCells + (i % tile.width)) * frame.resolution_m;
-      const y = frame.y0 + (tile.row * kTileCells + Math.floor(i / tile.width)) * frame.resolution_m;
+      const y =
+        frame.y0 + (tile.row * kTileCells + Math.floor(i / tile.width)) * frame.resolution_m;
       bounds.x0 = Math.min(bounds.x0, x);
       bounds.y0 = Math.min(bounds.y0, y);
       bounds.x1 = Math.max(bounds.x1, x + frame.resolution_m);

@@ -8,7 +8,10 @@ const kKeyZoom = 1.3;
 export class MapGestures {
   private readonly pointers = new Map<number, {x: number; y: number}>();
 
-  constructor(private readonly camera: Camera, private readonly moved: () => void) {}
+  constructor(
+    private readonly camera: Camera,
+    private readonly moved: () => void,
+  ) {}
 
   readonly down = (event: PointerEvent): void => {
     (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
@@ -37,16 +40,26 @@ export class MapGestures {
 
   readonly wheel = (event: WheelEvent): void => {
     event.preventDefault();
-    this.camera.zoom(Math.exp(-event.deltaY * (event.deltaMode === 1 ? 0.05 : 0.0015)), event.offsetX, event.offsetY);
+    this.camera.zoom(
+      Math.exp(-event.deltaY * (event.deltaMode === 1 ? 0.05 : 0.0015)),
+      event.offsetX,
+      event.offsetY,
+    );
     this.moved();
   };
 
   readonly key = (event: KeyboardEvent): void => {
-    const pans: Record<string, [number, number]> = {ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
+    const pans: Record<string, [number, number]> = {
+      ArrowLeft: [1, 0],
+      ArrowRight: [-1, 0],
+      ArrowUp: [0, 1],
+      ArrowDown: [0, -1],
+    };
     const pan = pans[event.key];
     if (event.ctrlKey || event.metaKey || event.altKey || event.shiftKey) return;
     if (pan !== undefined) this.camera.pan(kKeyPan_px * pan[0], kKeyPan_px * pan[1]);
-    else if (event.key === '+' || event.key === '-') this.zoom(event.key === '+' ? kKeyZoom : 1 / kKeyZoom);
+    else if (event.key === '+' || event.key === '-')
+      this.zoom(event.key === '+' ? kKeyZoom : 1 / kKeyZoom);
     else return;
     event.preventDefault();
     event.stopPropagation();

@@ -48,8 +48,19 @@ export class MapPanel extends LookingPanel {
   /** What was chosen, else that of the selected robot, else the first. */
   private get source(): MapName | null {
     const {names} = this.context.model.maps;
-    const same = names.find((name) => name.name === this.chosen?.name && (name.slot === undefined) === (this.chosen.slot === undefined));
-    return same ?? names.find((name) => name.slot !== undefined && name.slot === this.context.selection.primary) ?? names[0] ?? null;
+    const same = names.find(
+      (name) =>
+        name.name === this.chosen?.name &&
+        (name.slot === undefined) === (this.chosen.slot === undefined),
+    );
+    return (
+      same ??
+      names.find(
+        (name) => name.slot !== undefined && name.slot === this.context.selection.primary,
+      ) ??
+      names[0] ??
+      null
+    );
   }
 
   private get key(): MapKey | null {
@@ -99,29 +110,84 @@ export class MapPanel extends LookingPanel {
     const {model} = this.context;
     const {source} = this;
     if (!model.may('maps')) return renderWithheld(this.context, 'maps');
-    if (source === null) return model.seesLess && model.live ? renderNote(this.context, this.whyNone()) : html`<p class="none">${this.whyNone()}</p>`;
+    if (source === null)
+      return model.seesLess && model.live
+        ? renderNote(this.context, this.whyNone())
+        : html`<p class="none">${this.whyNone()}</p>`;
     const over = this.isOver;
     // It may have been set in the World View.
     if (over) this.opacity = model.maps.overlay?.opacity ?? this.opacity;
-    return html`
-      <div class="head">
+    return html` <div class="head">
         ${this.renderSources(source)}
         <span class="about">${this.about(source)}</span>
-        <span class="blend"><label class="over"><input type="checkbox" role="switch" .checked=${over} @change=${(event: Event) => this.setOver((event.target as HTMLInputElement).checked)}>
-          <span>over the world</span></label>
-        <input class="opacity" type="range" min="10" max="100" step="5" aria-label="Opacity over the world" .value=${String(Math.round(100 * this.opacity))}
-          ?disabled=${!over} @input=${(event: Event) => this.setOpacity(Number((event.target as HTMLInputElement).value))}>
-        <output>${Math.round(100 * this.opacity)} %</output></span>
+        <span class="blend"
+          ><label class="over"
+            ><input
+              type="checkbox"
+              role="switch"
+              .checked=${over}
+              @change=${(event: Event) =>
+                this.setOver((event.target as HTMLInputElement).checked)} />
+            <span>over the world</span></label
+          >
+          <input
+            class="opacity"
+            type="range"
+            min="10"
+            max="100"
+            step="5"
+            aria-label="Opacity over the world"
+            .value=${String(Math.round(100 * this.opacity))}
+            ?disabled=${!over}
+            @input=${(event: Event) =>
+              this.setOpacity(Number((event.target as HTMLInputElement).value))} />
+          <output>${Math.round(100 * this.opacity)} %</output></span
+        >
       </div>
       <div class="stage">
-        <canvas tabindex="0" role="img" aria-label=${this.summary(source)} @pointerdown=${this.gestures.down} @pointermove=${this.gestures.move}
-          @pointerup=${this.gestures.up} @pointercancel=${this.gestures.up} @wheel=${this.gestures.wheel} @keydown=${this.gestures.key}></canvas>
-        ${model.maps.of(keyOf(source)) === null ? html`<p class="waits">${this.waits(source)}</p>` : nothing}
-        <div class="legend" aria-hidden="true"><span><i class="free"></i>free</span><span><i class="occupied"></i>occupied</span><span><i class="unknown"></i>unknown</span></div>
+        <canvas
+          tabindex="0"
+          role="img"
+          aria-label=${this.summary(source)}
+          @pointerdown=${this.gestures.down}
+          @pointermove=${this.gestures.move}
+          @pointerup=${this.gestures.up}
+          @pointercancel=${this.gestures.up}
+          @wheel=${this.gestures.wheel}
+          @keydown=${this.gestures.key}></canvas>
+        ${model.maps.of(keyOf(source)) === null
+          ? html`<p class="waits">${this.waits(source)}</p>`
+          : nothing}
+        <div class="legend" aria-hidden="true">
+          <span><i class="free"></i>free</span><span><i class="occupied"></i>occupied</span
+          ><span><i class="unknown"></i>unknown</span>
+        </div>
         <div class="zoom">
-          <button class="icon-button" title="Larger (+)" aria-label="Larger" @click=${() => this.gestures.zoom(kZoom)}>${icon('plus')}</button>
-          <button class="icon-button" title="Smaller (-)" aria-label="Smaller" @click=${() => this.gestures.zoom(1 / kZoom)}>${icon('minus')}</button>
-          <button class="icon-button" title="Show all of the map" aria-label="Show all of the map" @click=${() => { this.moved = false; this.fittedTiles = 0; this.draw(); }}>${icon('maximize')}</button>
+          <button
+            class="icon-button"
+            title="Larger (+)"
+            aria-label="Larger"
+            @click=${() => this.gestures.zoom(kZoom)}>
+            ${icon('plus')}
+          </button>
+          <button
+            class="icon-button"
+            title="Smaller (-)"
+            aria-label="Smaller"
+            @click=${() => this.gestures.zoom(1 / kZoom)}>
+            ${icon('minus')}
+          </button>
+          <button
+            class="icon-button"
+            title="Show all of the map"
+            aria-label="Show all of the map"
+            @click=${() => {
+              this.moved = false;
+              this.fittedTiles = 0;
+              this.draw();
+            }}>
+            ${icon('maximize')}
+          </button>
         </div>
       </div>`;
   }
@@ -129,16 +195,33 @@ export class MapPanel extends LookingPanel {
   private renderSources(source: MapName): TemplateResult {
     const {names} = this.context.model.maps;
     const {palette, model} = this.context;
-    const options = (local: boolean) => names.map((name, i) => ((name.slot !== undefined) === local
-      ? html`<option value=${i} ?selected=${name === source}>${local ? 'local' : 'global'}: ${name.name}</option>` : nothing));
+    const options = (local: boolean) =>
+      names.map((name, i) =>
+        (name.slot !== undefined) === local
+          ? html`<option value=${i} ?selected=${name === source}>
+              ${local ? 'local' : 'global'}: ${name.name}
+            </option>`
+          : nothing,
+      );
     const robot = source.slot === undefined ? undefined : model.robots[source.slot];
     const hue = source.slot === undefined ? null : palette.hue(source.slot);
     return html`<span class="source">
-      ${robot === undefined || hue === null ? icon('map', 14) : html`<i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i>`}
-      <select aria-label="Map" @change=${(event: Event) => this.choose(Number((event.target as HTMLSelectElement).value))}>
-        ${names.some((name) => name.slot !== undefined) ? html`<optgroup label="Local maps of robots">${options(true)}</optgroup>` : nothing}
-        ${names.some((name) => name.slot === undefined) ? html`<optgroup label="Global maps">${options(false)}</optgroup>` : nothing}
-      </select>${icon('chevronDown', 14)}</span>`;
+      ${robot === undefined || hue === null
+        ? icon('map', 14)
+        : html`<i
+            class="glyph ${robot.kind}"
+            style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i>`}
+      <select
+        aria-label="Map"
+        @change=${(event: Event) => this.choose(Number((event.target as HTMLSelectElement).value))}>
+        ${names.some((name) => name.slot !== undefined)
+          ? html`<optgroup label="Local maps of robots">${options(true)}</optgroup>`
+          : nothing}
+        ${names.some((name) => name.slot === undefined)
+          ? html`<optgroup label="Global maps">${options(false)}</optgroup>`
+          : nothing}</select
+      >${icon('chevronDown', 14)}</span
+    >`;
   }
 
   private about(source: MapName): string {
@@ -153,8 +236,10 @@ export class MapPanel extends LookingPanel {
 
   private whyNone(): string {
     const {model} = this.context;
-    if (!model.live) return 'No program of this run has published a map, and its world has nothing to map.';
-    if (!model.seesLess) return 'There is no map: no robot has a range sensor, and there is no global map.';
+    if (!model.live)
+      return 'No program of this run has published a map, and its world has nothing to map.';
+    if (!model.seesLess)
+      return 'There is no map: no robot has a range sensor, and there is no global map.';
     return `There is no map that you may see. ${holdersText(kUsualRights.maps)} ${askText(model.others)}`;
   }
 
@@ -166,7 +251,10 @@ export class MapPanel extends LookingPanel {
 
   private summary(source: MapName): string {
     const grid = this.context.model.maps.of(keyOf(source));
-    const size = grid === null ? 'nothing yet' : `${grid.tiles.size} tiles of ${grid.frame.columns} x ${grid.frame.rows} cells, ${this.about(source)}`;
+    const size =
+      grid === null
+        ? 'nothing yet'
+        : `${grid.tiles.size} tiles of ${grid.frame.columns} x ${grid.frame.rows} cells, ${this.about(source)}`;
     return `Map of ${source.name}: ${size}. Arrows move it, + and - change its size.`;
   }
 
@@ -177,7 +265,10 @@ export class MapPanel extends LookingPanel {
     if (!canvas || !ctx || canvas.clientWidth === 0) return;
     const {camera} = this;
     [camera.width, camera.height] = [canvas.clientWidth, canvas.clientHeight];
-    const [w, h] = [Math.round(camera.width * devicePixelRatio), Math.round(camera.height * devicePixelRatio)];
+    const [w, h] = [
+      Math.round(camera.width * devicePixelRatio),
+      Math.round(camera.height * devicePixelRatio),
+    ];
     if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
     ctx.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
     ctx.fillStyle = palette.token('floor');
@@ -207,11 +298,17 @@ export class MapPanel extends LookingPanel {
   private drawRobots(ctx: CanvasRenderingContext2D): void {
     const {model, palette} = this.context;
     const {placed, camera, source} = this;
-    const slots = source?.slot === undefined ? [...model.robots.keys()].slice(0, kMostRobots) : [source.slot];
+    const slots =
+      source?.slot === undefined ? [...model.robots.keys()].slice(0, kMostRobots) : [source.slot];
     const frames = trailFrames(model.poses.past, placed, kTrail_s);
     for (const slot of slots) {
       const robot = model.robots[slot];
-      if (robot === undefined || slot >= placed.count || (placed.flags[slot] & RobotFlag.known) === 0) continue;
+      if (
+        robot === undefined ||
+        slot >= placed.count ||
+        (placed.flags[slot] & RobotFlag.known) === 0
+      )
+        continue;
       if (frames.length > 1) drawTrail(ctx, camera, placed, frames, slot, robot, palette);
       this.robots?.draw(ctx, camera, placed, slot, robot, null);
     }

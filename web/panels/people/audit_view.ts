@@ -53,7 +53,12 @@ export class AuditView extends LiveElement {
       return;
     }
     this.asking = true;
-    const answer = await commands.ask({type: 'audit', most: this.most, ...(this.kind === '' ? {} : {what: this.kind}), ...(this.typed.trim() === '' ? {} : {contains: this.typed.trim().slice(0, 90)})});
+    const answer = await commands.ask({
+      type: 'audit',
+      most: this.most,
+      ...(this.kind === '' ? {} : {what: this.kind}),
+      ...(this.typed.trim() === '' ? {} : {contains: this.typed.trim().slice(0, 90)}),
+    });
     this.asking = false;
     const told = model.audit;
     if (answer.good && told !== null && told.request === answer.request) {
@@ -72,28 +77,104 @@ export class AuditView extends LiveElement {
     const {accounts} = this.context.model;
     if (accounts?.kept === false) return html`<p>${accounts.why_not}</p>`;
     const now = new Date();
-    return html`
-      <div class="bar"><label class="field">${icon('search', 14)}<input aria-label="Filter the audit log" maxlength="90" placeholder="Name, address, word" .value=${this.typed}
-          @input=${(event: Event) => { this.typed = (event.target as HTMLInputElement).value; this.soon(); }}></label>
-        <select aria-label="Kind" @change=${(event: Event) => { this.kind = (event.target as HTMLSelectElement).value; this.soon(); }}>
-          <option value="">all kinds</option>${kAuditKinds.map((kind) => html`<option value=${kind} ?selected=${kind === this.kind}>${kind.replace('_', ' ')}</option>`)}</select></div>
+    return html` <div class="bar">
+        <label class="field"
+          >${icon('search', 14)}<input
+            aria-label="Filter the audit log"
+            maxlength="90"
+            placeholder="Name, address, word"
+            .value=${this.typed}
+            @input=${(event: Event) => {
+              this.typed = (event.target as HTMLInputElement).value;
+              this.soon();
+            }}
+        /></label>
+        <select
+          aria-label="Kind"
+          @change=${(event: Event) => {
+            this.kind = (event.target as HTMLSelectElement).value;
+            this.soon();
+          }}>
+          <option value="">all kinds</option>
+          ${kAuditKinds.map(
+            (kind) =>
+              html`<option value=${kind} ?selected=${kind === this.kind}>
+                ${kind.replace('_', ' ')}
+              </option>`,
+          )}
+        </select>
+      </div>
       ${this.note === '' ? nothing : html`<p class="note bad" role="alert">${this.note}</p>`}
       <div class="scroll" tabindex="0" role="region" aria-label="Audit log">
-        ${this.lines?.map((line) => html`<div class="line ${line.what === 'refused' ? 'refused' : ''}" title=${line.time}><time>${auditTime(line.time, now)}</time><span><b>${whoText(line)}</b> ${auditText(line)}</span></div>`) ?? html`<p>Waiting for the audit log.</p>`}
-        ${this.lines?.length === 0 ? html`<p>${this.kind === '' && this.typed === '' ? 'The audit log is empty.' : 'No line matches the filter.'}</p>` : nothing}
-        ${this.more ? (this.most < kMost ? html`<p><button class="plain" @click=${() => { this.most = kMost; void this.load(); }}>Older lines</button></p>` : html`<p>Older lines are in the file audit.jsonl beside the accounts, or filter.</p>`) : nothing}</div>`;
+        ${this.lines?.map(
+          (line) =>
+            html`<div class="line ${line.what === 'refused' ? 'refused' : ''}" title=${line.time}>
+              <time>${auditTime(line.time, now)}</time
+              ><span><b>${whoText(line)}</b> ${auditText(line)}</span>
+            </div>`,
+        ) ?? html`<p>Waiting for the audit log.</p>`}
+        ${this.lines?.length === 0
+          ? html`<p>
+              ${this.kind === '' && this.typed === ''
+                ? 'The audit log is empty.'
+                : 'No line matches the filter.'}
+            </p>`
+          : nothing}
+        ${this.more
+          ? this.most < kMost
+            ? html`<p>
+                <button
+                  class="plain"
+                  @click=${() => {
+                    this.most = kMost;
+                    void this.load();
+                  }}>
+                  Older lines
+                </button>
+              </p>`
+            : html`<p>Older lines are in the file audit.jsonl beside the accounts, or filter.</p>`
+          : nothing}
+      </div>`;
   }
 
   static override styles = [
     controls,
     peopleStyles,
     css`
-      .bar select { height: 28px; padding: 0 6px; border: 1px solid var(--line-3); border-radius: var(--r-3); background: var(--bg-2); color: var(--text-1); font: inherit; font-size: var(--fs-12); }
-      .line { display: flex; gap: 12px; padding: 4px 14px; border-top: 1px solid var(--line-1); line-height: 1.4; }
-      .line time { flex: none; color: var(--text-2); font-variant-numeric: tabular-nums; }
-      .line span { min-width: 0; overflow-wrap: anywhere; color: var(--text-2); }
-      .line b { color: var(--text-1); font-weight: var(--fw-strong); }
-      .line.refused span { color: var(--danger); }
+      .bar select {
+        height: 28px;
+        padding: 0 6px;
+        border: 1px solid var(--line-3);
+        border-radius: var(--r-3);
+        background: var(--bg-2);
+        color: var(--text-1);
+        font: inherit;
+        font-size: var(--fs-12);
+      }
+      .line {
+        display: flex;
+        gap: 12px;
+        padding: 4px 14px;
+        border-top: 1px solid var(--line-1);
+        line-height: 1.4;
+      }
+      .line time {
+        flex: none;
+        color: var(--text-2);
+        font-variant-numeric: tabular-nums;
+      }
+      .line span {
+        min-width: 0;
+        overflow-wrap: anywhere;
+        color: var(--text-2);
+      }
+      .line b {
+        color: var(--text-1);
+        font-weight: var(--fw-strong);
+      }
+      .line.refused span {
+        color: var(--danger);
+      }
     `,
   ];
 }

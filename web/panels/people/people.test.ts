@@ -1,12 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 import {expect, it} from 'vitest';
 import type {KnownPerson} from '../../protocol/messages';
-import {accountText, agoText, auditText, auditTime, endsText, peopleWith, seenText, teamsOf, teamsText, usesText, whoText} from './people';
+import {
+  accountText,
+  agoText,
+  auditText,
+  auditTime,
+  endsText,
+  peopleWith,
+  seenText,
+  teamsOf,
+  teamsText,
+  usesText,
+  whoText,
+} from './people';
 
 const kNow_s = 1_800_000_000;
 
 function person(name: string, more: Partial<KnownPerson> = {}): KnownPerson {
-  return {name, role: 'observer', teams: '*', guest: false, name_given: true, disabled: false, pages: 0, sessions: 0, seen_s: 0, ...more};
+  return {
+    name,
+    role: 'observer',
+    teams: '*',
+    guest: false,
+    name_given: true,
+    disabled: false,
+    pages: 0,
+    sessions: 0,
+    seen_s: 0,
+    ...more,
+  };
 }
 
 it('teams are said and sent', () => {
@@ -35,23 +58,43 @@ it('who is here is seen now, and who is disabled never', () => {
 });
 
 it('people are found by name, role and team, those who are here first', () => {
-  const people = [person('zoe', {pages: 1}), person('ben', {teams: 'green'}), person('Ada', {role: 'super_user'})];
+  const people = [
+    person('zoe', {pages: 1}),
+    person('ben', {teams: 'green'}),
+    person('Ada', {role: 'super_user'}),
+  ];
   expect(peopleWith(people, '').map(({name}) => name)).toEqual(['zoe', 'Ada', 'ben']);
   expect(peopleWith(people, 'GREEN').map(({name}) => name)).toEqual(['ben']);
   expect(peopleWith(people, 'super-user').map(({name}) => name)).toEqual(['Ada']);
-  expect(usesText({id: '', role: 'observer', teams: '*', uses: 1, until_s: 0, by: 'ada', name: ''})).toBe('for one person');
-  expect(usesText({id: '', role: 'observer', teams: '*', uses: 1, until_s: 0, by: 'ada', name: 'ben'})).toBe('for ben');
+  expect(
+    usesText({id: '', role: 'observer', teams: '*', uses: 1, until_s: 0, by: 'ada', name: ''}),
+  ).toBe('for one person');
+  expect(
+    usesText({id: '', role: 'observer', teams: '*', uses: 1, until_s: 0, by: 'ada', name: 'ben'}),
+  ).toBe('for ben');
   expect(accountText(person('ada'))).toBe('');
-  expect(accountText(person('eve', {guest: true, name_given: false}))).toBe('guest, no password; chose this name');
+  expect(accountText(person('eve', {guest: true, name_given: false}))).toBe(
+    'guest, no password; chose this name',
+  );
 });
 
 it('lines of the audit log are sentences', () => {
-  const line = {time: '2026-08-03T10:00:00Z', what: 'refused', user: 'eve', why: 'order', detail: 'goal: no'};
+  const line = {
+    time: '2026-08-03T10:00:00Z',
+    what: 'refused',
+    user: 'eve',
+    why: 'order',
+    detail: 'goal: no',
+  };
   expect(`${whoText(line)} ${auditText(line)}`).toBe('eve was refused: order, goal: no');
   expect(whoText({time: '', what: 'refused', from: '10.0.0.1'})).toBe('10.0.0.1');
   expect(whoText({time: '', what: 'stop', user: 'you'})).toBe('The operator');
-  expect(auditText({time: '', what: 'login', user: 'ada', by: 'password', from: '::1'})).toBe('signed in by password from ::1');
-  expect(auditText({time: '', what: 'see_as', user: 'ada', detail: 'self'})).toContain('no longer views');
+  expect(auditText({time: '', what: 'login', user: 'ada', by: 'password', from: '::1'})).toBe(
+    'signed in by password from ::1',
+  );
+  expect(auditText({time: '', what: 'see_as', user: 'ada', detail: 'self'})).toContain(
+    'no longer views',
+  );
   expect(auditText({time: '', what: 'new kind', detail: 'x'})).toBe('new kind: x');
 });
 

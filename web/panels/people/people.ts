@@ -14,7 +14,9 @@ export function teamsText(teams: string): string {
 /** Teams as the server takes them: names that were ticked and names that were typed. */
 export function teamsOf(all: boolean, ticked: Iterable<string>, typed: string): string {
   if (all) return '*';
-  const names = new Set([...ticked, ...typed.split(',').map((name) => name.trim())].filter((name) => name !== ''));
+  const names = new Set(
+    [...ticked, ...typed.split(',').map((name) => name.trim())].filter((name) => name !== ''),
+  );
   return names.size === 0 ? '-' : [...names].sort().join(',');
 }
 
@@ -45,14 +47,19 @@ export function seenText(person: KnownPerson, now_s: number): string {
 
 /** What else is to be known of an account; empty: nothing. */
 export function accountText({guest, name_given}: KnownPerson): string {
-  return [guest ? 'guest, no password' : '', name_given ? '' : 'chose this name'].filter(Boolean).join('; ');
+  return [guest ? 'guest, no password' : '', name_given ? '' : 'chose this name']
+    .filter(Boolean)
+    .join('; ');
 }
 
 /** Those whose name, role or teams have what was typed; who is here comes first. */
 export function peopleWith(people: readonly KnownPerson[], typed: string): KnownPerson[] {
   const part = typed.trim().toLowerCase();
-  const fits = ({name, role, teams}: KnownPerson) => `${name} ${role.replace('_', '-')} ${teamsText(teams)}`.toLowerCase().includes(part);
-  return people.filter(fits).sort((a, b) => Number(b.pages > 0) - Number(a.pages > 0) || a.name.localeCompare(b.name));
+  const fits = ({name, role, teams}: KnownPerson) =>
+    `${name} ${role.replace('_', '-')} ${teamsText(teams)}`.toLowerCase().includes(part);
+  return people
+    .filter(fits)
+    .sort((a, b) => Number(b.pages > 0) - Number(a.pages > 0) || a.name.localeCompare(b.name));
 }
 
 export function usesText({uses, name}: KnownInvitation): string {
@@ -61,12 +68,30 @@ export function usesText({uses, name}: KnownInvitation): string {
 }
 
 /** Kinds of lines, as the filter offers them. */
-export const kAuditKinds: readonly string[] = ['login', 'logout', 'refused', 'cut_off', 'stop', 'release', 'order', 'right', 'see_as', 'account', 'invitation', 'recording', 'accounts'];
+export const kAuditKinds: readonly string[] = [
+  'login',
+  'logout',
+  'refused',
+  'cut_off',
+  'stop',
+  'release',
+  'order',
+  'right',
+  'see_as',
+  'account',
+  'invitation',
+  'recording',
+  'accounts',
+];
 
 /** `you` is who has the link of the terminal. */
 export function whoText(line: AuditLine): string {
   const user = line.user ?? '';
-  return user === 'you' || user === 'operator' ? 'The operator' : user === '' ? (line.from ?? 'Somebody') : user;
+  return user === 'you' || user === 'operator'
+    ? 'The operator'
+    : user === ''
+      ? (line.from ?? 'Somebody')
+      : user;
 }
 
 /** A line as a sentence without its subject. */
@@ -75,19 +100,32 @@ export function auditText(line: AuditLine): string {
   const said = detail ?? '';
   const at = from === undefined || line.user === undefined ? '' : ` from ${from}`;
   switch (what) {
-    case 'login': return `signed in by ${by ?? 'link'}${at}`;
-    case 'logout': return `signed out${at}`;
-    case 'refused': return `was refused: ${[why, said].filter(Boolean).join(', ')}${at}`;
-    case 'stop': return `stopped ${said}`;
-    case 'release': return `released ${said}`;
-    case 'right': return `set the right ${said}`;
-    case 'cut_off': return `was cut off: ${why}`;
-    case 'see_as': return said === 'self' ? 'no longer views the page as another user' : `sees as ${said}`;
-    case 'order': return `ordered ${said}`;
-    case 'account': return `changed ${said}`;
-    case 'invitation': return `invitation ${said}`;
-    case 'recording': return `downloaded the recording${at}`;
-    default: return [what, why, said].filter(Boolean).join(': ');
+    case 'login':
+      return `signed in by ${by ?? 'link'}${at}`;
+    case 'logout':
+      return `signed out${at}`;
+    case 'refused':
+      return `was refused: ${[why, said].filter(Boolean).join(', ')}${at}`;
+    case 'stop':
+      return `stopped ${said}`;
+    case 'release':
+      return `released ${said}`;
+    case 'right':
+      return `set the right ${said}`;
+    case 'cut_off':
+      return `was cut off: ${why}`;
+    case 'see_as':
+      return said === 'self' ? 'no longer views the page as another user' : `sees as ${said}`;
+    case 'order':
+      return `ordered ${said}`;
+    case 'account':
+      return `changed ${said}`;
+    case 'invitation':
+      return `invitation ${said}`;
+    case 'recording':
+      return `downloaded the recording${at}`;
+    default:
+      return [what, why, said].filter(Boolean).join(': ');
   }
 }
 
@@ -97,5 +135,7 @@ export function auditTime(iso: string, now: Date): string {
   if (Number.isNaN(moment.getTime())) return iso;
   const two = (value: number) => String(value).padStart(2, '0');
   const time = `${two(moment.getHours())}:${two(moment.getMinutes())}:${two(moment.getSeconds())}`;
-  return moment.toDateString() === now.toDateString() ? time : `${moment.getFullYear()}-${two(moment.getMonth() + 1)}-${two(moment.getDate())} ${time}`;
+  return moment.toDateString() === now.toDateString()
+    ? time
+    : `${moment.getFullYear()}-${two(moment.getMonth() + 1)}-${two(moment.getDate())} ${time}`;
 }

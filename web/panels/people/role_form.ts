@@ -31,11 +31,51 @@ export class RoleDraft {
       changed();
     };
     const on = (event: Event) => (event.target as HTMLInputElement).checked;
-    return html`<label>Role<select @change=${(event: Event) => { this.role = (event.target as HTMLSelectElement).value as Role; changed(); }}>
-        ${kRoles.map((role) => html`<option value=${role} ?selected=${role === this.role}>${roleText(role)}</option>`)}</select></label>
-      <fieldset><legend>Teams</legend><div>
-        <label><input type="checkbox" .checked=${this.all} @change=${(event: Event) => { this.all = on(event); changed(); }}>all</label>
-        ${known.map((name) => html`<label><input type="checkbox" ?disabled=${this.all} .checked=${!this.all && this.ticked.has(name)} @change=${(event: Event) => tick(name, on(event))}>${name}</label>`)}
-        <input aria-label="Other teams" placeholder="others" ?disabled=${this.all} .value=${this.typed} @input=${(event: Event) => { this.typed = (event.target as HTMLInputElement).value; }}></div></fieldset>`;
+    return html`<label
+        >Role<select
+          @change=${(event: Event) => {
+            this.role = (event.target as HTMLSelectElement).value as Role;
+            changed();
+          }}>
+          ${kRoles.map(
+            (role) =>
+              html`<option value=${role} ?selected=${role === this.role}>
+                ${roleText(role)}
+              </option>`,
+          )}
+        </select></label
+      >
+      <fieldset>
+        <legend>Teams</legend>
+        <div>
+          <label
+            ><input
+              type="checkbox"
+              .checked=${this.all}
+              @change=${(event: Event) => {
+                this.all = on(event);
+                changed();
+              }} />all</label
+          >
+          ${known.map(
+            (name) =>
+              html`<label
+                ><input
+                  type="checkbox"
+                  ?disabled=${this.all}
+                  .checked=${!this.all && this.ticked.has(name)}
+                  @change=${(event: Event) => tick(name, on(event))} />${name}</label
+              >`,
+          )}
+          <input
+            aria-label="Other teams"
+            placeholder="others"
+            ?disabled=${this.all}
+            .value=${this.typed}
+            @input=${(event: Event) => {
+              this.typed = (event.target as HTMLInputElement).value;
+            }} />
+        </div>
+      </fieldset>`;
   }
 }

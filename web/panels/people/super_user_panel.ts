@@ -25,15 +25,20 @@ export class SuperUserPanel extends LiveElement {
       this.requestUpdate();
     });
     size.observe(this);
-    return [...this.renderAfter(model.accountsChanged, model.runChanged, model.peopleChanged), () => size.disconnect()];
+    return [
+      ...this.renderAfter(model.accountsChanged, model.runChanged, model.peopleChanged),
+      () => size.disconnect(),
+    ];
   }
 
   private get parts(): [Part, string][] {
     const {accounts} = this.context.model;
     const number = (count: number) => (count === 0 ? '' : `  ${count}`);
     const all: [Part, string][] = [
-      ['rights', 'Rights'], ['people', `People${number(accounts?.people.length ?? 0)}`],
-      ['invitations', `Invitations${number(accounts?.invitations.length ?? 0)}`], ['audit', 'Audit log'],
+      ['rights', 'Rights'],
+      ['people', `People${number(accounts?.people.length ?? 0)}`],
+      ['invitations', `Invitations${number(accounts?.invitations.length ?? 0)}`],
+      ['audit', 'Audit log'],
     ];
     return this.wide ? all.slice(1) : all;
   }
@@ -43,17 +48,47 @@ export class SuperUserPanel extends LiveElement {
     if (!model.may('rights')) return renderWithheld(this.context, 'rights');
     const {parts} = this;
     const shown = parts.some(([part]) => part === this.chosen) ? this.chosen : parts[0][0];
-    return html`${this.wide ? html`<section class="beside"><rave-rights .context=${this.context}></rave-rights></section>` : ''}
-      <section><div class="tabs" role="tablist" aria-label="Super-User" @keydown=${(event: KeyboardEvent) => this.key(event, shown)}>${parts.map(([part, title]) => html`
-          <button role="tab" id=${`tab-${part}`} aria-selected=${part === shown} aria-controls="part" tabindex=${part === shown ? 0 : -1} @click=${() => this.choose(part)}>${title}</button>`)}</div>
-        <div class="part" id="part" role="tabpanel" aria-labelledby=${`tab-${shown}`}>${this.renderPart(shown)}</div></section>`;
+    return html`${this.wide
+        ? html`<section class="beside">
+            <rave-rights .context=${this.context}></rave-rights>
+          </section>`
+        : ''}
+      <section>
+        <div
+          class="tabs"
+          role="tablist"
+          aria-label="Super-User"
+          @keydown=${(event: KeyboardEvent) => this.key(event, shown)}>
+          ${parts.map(
+            ([part, title]) =>
+              html` <button
+                role="tab"
+                id=${`tab-${part}`}
+                aria-selected=${part === shown}
+                aria-controls="part"
+                tabindex=${part === shown ? 0 : -1}
+                @click=${() => this.choose(part)}>
+                ${title}
+              </button>`,
+          )}
+        </div>
+        <div class="part" id="part" role="tabpanel" aria-labelledby=${`tab-${shown}`}>
+          ${this.renderPart(shown)}
+        </div>
+      </section>`;
   }
 
   private renderPart(part: Part): TemplateResult {
     const {context} = this;
-    if (part === 'people') return html`<rave-people .context=${context} @invite=${() => this.choose('invitations')}></rave-people>`;
-    if (part === 'invitations') return html`<rave-invitations .context=${context}></rave-invitations>`;
-    return part === 'audit' ? html`<rave-audit .context=${context}></rave-audit>` : html`<rave-rights .context=${context}></rave-rights>`;
+    if (part === 'people')
+      return html`<rave-people
+        .context=${context}
+        @invite=${() => this.choose('invitations')}></rave-people>`;
+    if (part === 'invitations')
+      return html`<rave-invitations .context=${context}></rave-invitations>`;
+    return part === 'audit'
+      ? html`<rave-audit .context=${context}></rave-audit>`
+      : html`<rave-rights .context=${context}></rave-rights>`;
   }
 
   choose(part: Part): void {
@@ -68,24 +103,70 @@ export class SuperUserPanel extends LiveElement {
     const {parts} = this;
     const at = parts.findIndex(([part]) => part === shown);
     this.choose(parts[(at + step + parts.length) % parts.length][0]);
-    void this.updateComplete.then(() => this.renderRoot.querySelector<HTMLElement>('[aria-selected="true"]')?.focus());
+    void this.updateComplete.then(() =>
+      this.renderRoot.querySelector<HTMLElement>('[aria-selected="true"]')?.focus(),
+    );
   }
 
   static override styles = [
     controls,
     withheldStyles,
     css`
-      :host { display: flex; height: 100%; background: var(--bg-1); font-size: var(--fs-12); }
-      section { flex: 1; min-width: 0; display: flex; flex-direction: column; }
+      :host {
+        display: flex;
+        height: 100%;
+        background: var(--bg-1);
+        font-size: var(--fs-12);
+      }
+      section {
+        flex: 1;
+        min-width: 0;
+        display: flex;
+        flex-direction: column;
+      }
       /* All classes of rights without a scrollbar. */
-      section.beside { flex: 1 0 930px; border-right: 1px solid var(--line-1); }
-      section.beside ~ section { flex: 0 1 420px; }
-      .tabs { display: flex; flex: none; gap: 2px; padding: 0 8px; border-bottom: 1px solid var(--line-1); overflow-x: auto; scrollbar-width: none; }
-      .tabs button { height: 32px; padding: 0 10px; color: var(--text-2); font-size: var(--fs-12); font-weight: var(--fw-medium); white-space: pre; border-bottom: 2px solid transparent; }
-      .tabs button[aria-selected='true'] { color: var(--text-1); border-bottom-color: var(--intent); }
-      .part { flex: 1; min-height: 0; }
-      p { margin: 12px 14px; color: var(--text-2); }
-      @media (pointer: coarse) { .tabs button { height: 44px; } }
+      section.beside {
+        flex: 1 0 930px;
+        border-right: 1px solid var(--line-1);
+      }
+      section.beside ~ section {
+        flex: 0 1 420px;
+      }
+      .tabs {
+        display: flex;
+        flex: none;
+        gap: 2px;
+        padding: 0 8px;
+        border-bottom: 1px solid var(--line-1);
+        overflow-x: auto;
+        scrollbar-width: none;
+      }
+      .tabs button {
+        height: 32px;
+        padding: 0 10px;
+        color: var(--text-2);
+        font-size: var(--fs-12);
+        font-weight: var(--fw-medium);
+        white-space: pre;
+        border-bottom: 2px solid transparent;
+      }
+      .tabs button[aria-selected='true'] {
+        color: var(--text-1);
+        border-bottom-color: var(--intent);
+      }
+      .part {
+        flex: 1;
+        min-height: 0;
+      }
+      p {
+        margin: 12px 14px;
+        color: var(--text-2);
+      }
+      @media (pointer: coarse) {
+        .tabs button {
+          height: 44px;
+        }
+      }
     `,
   ];
 }

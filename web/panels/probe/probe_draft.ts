@@ -40,11 +40,23 @@ export class ProbeDraft {
     for (const parameter of driver.parameters) {
       const value = this.set_.get(`${driver.name} ${parameter.key}`);
       // What is no number is refused with the others, by its name.
-      if (value !== undefined) params[parameter.key] = Array.isArray(value) ? value.map((number) => (Number.isFinite(number) ? number : 0)) : typeof value === 'number' && !Number.isFinite(value) ? 0 : value;
+      if (value !== undefined)
+        params[parameter.key] = Array.isArray(value)
+          ? value.map((number) => (Number.isFinite(number) ? number : 0))
+          : typeof value === 'number' && !Number.isFinite(value)
+            ? 0
+            : value;
     }
     const {x_m, y_m, z_m, yaw_deg} = this.mount;
     const yaw = (Math.max(-360, Math.min(360, yaw_deg)) * Math.PI) / 180;
-    return {slot, name: freeName(driver.name, robot), driver: driver.name, mount: [x_m, y_m, yaw], z: z_m, params};
+    return {
+      slot,
+      name: freeName(driver.name, robot),
+      driver: driver.name,
+      mount: [x_m, y_m, yaw],
+      z: z_m,
+      params,
+    };
   }
 }
 

@@ -4,9 +4,17 @@ import type {Rights} from '../../protocol/messages';
 import {className, nextReach, reachText, rowsOf} from './reach';
 
 const kRights: Rights = {
-  type: 'rights', classes: ['pose', 'readings'], teams: ['green'],
-  rows: [{role: 'observer', cells: {pose: 'all', readings: 'own'}}, {user: 'carla', cells: {pose: 'none'}}],
-  people: [{name: 'carla', role: 'observer', teams: 'green,blue'}, {name: 'ben', role: 'observer', teams: '*'}],
+  type: 'rights',
+  classes: ['pose', 'readings'],
+  teams: ['green'],
+  rows: [
+    {role: 'observer', cells: {pose: 'all', readings: 'own'}},
+    {user: 'carla', cells: {pose: 'none'}},
+  ],
+  people: [
+    {name: 'carla', role: 'observer', teams: 'green,blue'},
+    {name: 'ben', role: 'observer', teams: '*'},
+  ],
 };
 
 it('people have what their role has, but for what was set for them', () => {

@@ -18,27 +18,47 @@ export interface Row {
 
 /** Roles, then people; who has no right of their own has those of their role. */
 export function rowsOf(rights: Rights): {roles: Row[]; people: Row[]} {
-  const roles = rights.rows.filter((row) => row.role !== undefined && row.user === undefined).map((row): Row => ({
-    role: row.role, note: kNotes[row.role ?? ''] ?? '',
-    cells: new Map(rights.classes.map((what) => [what, {reach: row.cells[what] ?? 'none', own: false}])),
-  }));
+  const roles = rights.rows
+    .filter((row) => row.role !== undefined && row.user === undefined)
+    .map(
+      (row): Row => ({
+        role: row.role,
+        note: kNotes[row.role ?? ''] ?? '',
+        cells: new Map(
+          rights.classes.map((what) => [what, {reach: row.cells[what] ?? 'none', own: false}]),
+        ),
+      }),
+    );
   const people = rights.people.map((person): Row => {
     const set = rights.rows.find((row) => row.user === person.name)?.cells ?? {};
-    const role = rights.rows.find((row) => row.role === person.role && row.user === undefined)?.cells ?? {};
+    const role =
+      rights.rows.find((row) => row.role === person.role && row.user === undefined)?.cells ?? {};
     return {
-      user: person.name, note: noteOf(person),
-      cells: new Map(rights.classes.map((what) => [what, {reach: set[what] ?? role[what] ?? 'none', own: set[what] !== undefined}])),
+      user: person.name,
+      note: noteOf(person),
+      cells: new Map(
+        rights.classes.map((what) => [
+          what,
+          {reach: set[what] ?? role[what] ?? 'none', own: set[what] !== undefined},
+        ]),
+      ),
     };
   });
   return {roles, people};
 }
 
-const kNotes: Record<string, string> = {observer: 'every visitor', commander: 'rights of observers, and more', super_user: 'all rights'};
+const kNotes: Record<string, string> = {
+  observer: 'every visitor',
+  commander: 'rights of observers, and more',
+  super_user: 'all rights',
+};
 
 function noteOf({role, teams}: RightsPerson): string {
   const word = role === 'super_user' ? 'super-user' : role;
   if (teams === '*') return `${word} of all teams`;
-  return teams === '-' || teams === '' ? `${word} of no team` : `${word} of ${teams.replaceAll(',', ', ')}`;
+  return teams === '-' || teams === ''
+    ? `${word} of no team`
+    : `${word} of ${teams.replaceAll(',', ', ')}`;
 }
 
 /** What a press on a cell asks for: more, up to all, then nothing; of a user finally what the role has. */

@@ -20,7 +20,8 @@ export function lastAct(model: RunModel, slot: number): {ago_s: number; why: str
   const now_s = model.poses.newest?.time_s ?? 0;
   for (let i = model.events.length - 1; i >= 0; --i) {
     const {kind, slots, t, until, text} = model.events[i];
-    if (kind.startsWith('guard ') && slots.includes(slot) && t <= now_s) return {ago_s: Math.max(0, now_s - until), why: words(text)};
+    if (kind.startsWith('guard ') && slots.includes(slot) && t <= now_s)
+      return {ago_s: Math.max(0, now_s - until), why: words(text)};
   }
   return null;
 }

@@ -19,6 +19,12 @@ it('shows what was asked until the run tells what holds', () => {
 
 it('has what was set before the page came', () => {
   const model = new RunModel();
-  model.takeMessage({type: 'leases', reset: true, robots: [{slot: 2, lease: '', yours: false, takes: [], order: '', values: {'program.v_mps': 0.7}}]});
+  model.takeMessage({
+    type: 'leases',
+    reset: true,
+    robots: [
+      {slot: 2, lease: '', yours: false, takes: [], order: '', values: {'program.v_mps': 0.7}},
+    ],
+  });
   expect(model.drives.get(2)?.values?.['program.v_mps']).toBe(0.7);
 });

@@ -5,8 +5,18 @@ import type {PoseFrame} from '../../protocol/frames';
 import {SpeedTrace, askedLines} from './speed_trace';
 
 function frame(time_s: number, speed: number, yaw: number, flags = 1): PoseFrame {
-  return {sequence: 0, past: false, truth: false, time_s, step: 0, x: new Float64Array(1), y: new Float64Array(1),
-    yaw: Float32Array.of(yaw), speed: Float32Array.of(speed), flags: Uint16Array.of(flags)};
+  return {
+    sequence: 0,
+    past: false,
+    truth: false,
+    time_s,
+    step: 0,
+    x: new Float64Array(1),
+    y: new Float64Array(1),
+    yaw: Float32Array.of(yaw),
+    speed: Float32Array.of(speed),
+    flags: Uint16Array.of(flags),
+  };
 }
 
 it('turns headings into a rate, over the end of the circle too', () => {
@@ -40,7 +50,18 @@ it('what was asked holds until the next, and 200 ms by itself', () => {
   asked.note([3], 0.4, 0, 10);
   asked.note([3], 0.2, 0.5, 10.1);
   asked.note([3], 0, 0, 20);
-  expect(askedLines(asked.of(3), 'v', 30)).toEqual([[[10, 0.4], [10.1, 0.4], [10.1, 0.2], [10.1 + 0.2, 0.2]], [[20, 0], [20 + 0.2, 0]]]);
+  expect(askedLines(asked.of(3), 'v', 30)).toEqual([
+    [
+      [10, 0.4],
+      [10.1, 0.4],
+      [10.1, 0.2],
+      [10.1 + 0.2, 0.2],
+    ],
+    [
+      [20, 0],
+      [20 + 0.2, 0],
+    ],
+  ]);
   expect(askedLines(asked.of(3), 'w', 10.2)[0].at(-1)).toEqual([10.2, 0.5]);
   expect(askedLines(asked.of(4), 'v', 30)).toEqual([]);
 });

@@ -30,7 +30,8 @@ export class SpeedTrace {
       for (const frame of past) this.add(frame, slot);
     }
     this.add(newest, slot);
-    while (this.points.length > 0 && this.points[0].t < newest.time_s - kTrace_s) this.points.shift();
+    while (this.points.length > 0 && this.points[0].t < newest.time_s - kTrace_s)
+      this.points.shift();
   }
 
   private add(frame: PoseFrame, slot: number): void {
@@ -39,13 +40,21 @@ export class SpeedTrace {
     const dt = last === undefined ? Infinity : frame.time_s - last.t;
     if (dt < kSpacing_s - 1e-9) return;
     // Over a gap the robot may have turned more than once.
-    this.points.push({t: frame.time_s, v: frame.speed[slot], w: dt > 5 * kSpacing_s ? null : turn(this.yaw, frame.yaw[slot]) / dt});
+    this.points.push({
+      t: frame.time_s,
+      v: frame.speed[slot],
+      w: dt > 5 * kSpacing_s ? null : turn(this.yaw, frame.yaw[slot]) / dt,
+    });
     this.yaw = frame.yaw[slot];
   }
 }
 
 /** Lines of what was asked, as it held: each velocity until the next, and no longer than it holds by itself. */
-export function askedLines(asked: readonly AskedVelocity[], of: 'v' | 'w', now_s: number): [number, number][][] {
+export function askedLines(
+  asked: readonly AskedVelocity[],
+  of: 'v' | 'w',
+  now_s: number,
+): [number, number][][] {
   const lines: [number, number][][] = [];
   let line: [number, number][] = [];
   asked.forEach((point, i) => {

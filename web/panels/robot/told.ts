@@ -15,13 +15,21 @@ const kFresh_s = 1;
 export function toldOf(model: RunModel, slot: number): ToldVelocity | null {
   const reading = model.readings.of(slot, kCommandsOf);
   const now_s = model.poses.newest?.time_s ?? 0;
-  if (reading === null || reading.values.length !== 4 || now_s - reading.stamp_s > kFresh_s) return null;
+  if (reading === null || reading.values.length !== 4 || now_s - reading.stamp_s > kFresh_s)
+    return null;
   const [v, w, givenV, givenW] = reading.values;
-  return [v, w, givenV, givenW].every(Number.isFinite) ? {asked: [v, w], given: [givenV, givenW]} : null;
+  return [v, w, givenV, givenW].every(Number.isFinite)
+    ? {asked: [v, w], given: [givenV, givenW]}
+    : null;
 }
 
 /** Lines of what was asked of a robot, by whomever, as the host told it. */
-export function toldLines(model: RunModel, slot: number, of: 'v' | 'w', since_s: number): [number, number][][] {
+export function toldLines(
+  model: RunModel,
+  slot: number,
+  of: 'v' | 'w',
+  since_s: number,
+): [number, number][][] {
   const lines: [number, number][][] = [];
   let line: [number, number][] = [];
   for (const {time_s, values} of model.readings.course(slot, kCommandsOf)) {

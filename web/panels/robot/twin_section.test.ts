@@ -2,7 +2,13 @@
 import {expect, test} from 'vitest';
 import {differenceText, nextDrivers} from './twin_section';
 
-const state = (simulated: boolean, made: number) => ({simulated, under_way: false, made, refused: 0, last: ''});
+const state = (simulated: boolean, made: number) => ({
+  simulated,
+  under_way: false,
+  made,
+  refused: 0,
+  last: '',
+});
 
 test('a robot with real and simulated drivers is handed over to those that do not serve', () => {
   expect(nextDrivers(true, state(true, 0))).toBe('real');

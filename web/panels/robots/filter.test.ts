@@ -4,11 +4,20 @@ import type {Robot} from '../../protocol/messages';
 import {parseFilter} from './filter';
 
 const kRobot: Robot = {
-  name: 'walker-3', team: 'green', kind: 'simulated', word: '', recorded: false, program: 'wander', drivers: [], shapes: [], sensors: [],
+  name: 'walker-3',
+  team: 'green',
+  kind: 'simulated',
+  word: '',
+  recorded: false,
+  program: 'wander',
+  drivers: [],
+  shapes: [],
+  sensors: [],
 };
 
 describe('filter', () => {
-  const passes = (text: string, speed = 0.1, flags = 1) => parseFilter(text)({robot: kRobot, speed, flags});
+  const passes = (text: string, speed = 0.1, flags = 1) =>
+    parseFilter(text)({robot: kRobot, speed, flags});
 
   it('looks at names, teams and states', () => {
     expect(passes('walk')).toBe(true);

@@ -29,7 +29,11 @@ export function parseFilter(text: string): Filter {
   });
   for (const word of words.toLowerCase().split(/\s+/).filter(Boolean)) {
     const state = kStates[word];
-    terms.push(state ?? (({robot}) => robot.name.toLowerCase().includes(word) || robot.team.toLowerCase().includes(word)));
+    terms.push(
+      state ??
+        (({robot}) =>
+          robot.name.toLowerCase().includes(word) || robot.team.toLowerCase().includes(word)),
+    );
   }
   return (robot) => terms.every((term) => term(robot));
 }

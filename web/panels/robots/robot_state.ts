@@ -14,5 +14,7 @@ export function stateOf(robot: Robot, flags: number): string {
 
 /** Robots of a team that this person may stop and that obey it: recorded ones obey no orders. */
 export function stoppable(robots: readonly Robot[], team: string): number[] {
-  return robots.flatMap((robot, slot) => (robot.team === team && !robot.recorded && robot.stoppable !== false ? [slot] : []));
+  return robots.flatMap((robot, slot) =>
+    robot.team === team && !robot.recorded && robot.stoppable !== false ? [slot] : [],
+  );
 }

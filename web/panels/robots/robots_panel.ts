@@ -31,7 +31,10 @@ export class RobotsPanel extends LiveElement {
   protected override listen(): (() => void)[] {
     const {model, selection, palette} = this.context;
     // Speeds change with each frame; a list that changed 60 times a second could not be read.
-    return [...this.renderAfter(model.rosterChanged, selection.changed, palette.changed), this.every(kRefresh_ms, () => this.requestUpdate())];
+    return [
+      ...this.renderAfter(model.rosterChanged, selection.changed, palette.changed),
+      this.every(kRefresh_ms, () => this.requestUpdate()),
+    ];
   }
 
   private speed(slot: number): number {
@@ -61,16 +64,27 @@ export class RobotsPanel extends LiveElement {
       if (members === undefined) teams.set(team, [slot]);
       else members.push(slot);
     }
-    if (!this.context.model.rosterCame) return html`<p class="none" role="status">Loading the robots ...</p>`;
-    return html`
-      <label class="field">${icon('search', 14)}<input aria-label="Filter robots" placeholder=${robots.length > kMany ? 'Name, team, or speed < 0.02' : 'Filter by name, team, state'}
-        .value=${this.filterText} @input=${(event: Event) => this.setFilter((event.target as HTMLInputElement).value)}></label>
+    if (!this.context.model.rosterCame)
+      return html`<p class="none" role="status">Loading the robots ...</p>`;
+    return html` <label class="field"
+        >${icon('search', 14)}<input
+          aria-label="Filter robots"
+          placeholder=${robots.length > kMany
+            ? 'Name, team, or speed < 0.02'
+            : 'Filter by name, team, state'}
+          .value=${this.filterText}
+          @input=${(event: Event) => this.setFilter((event.target as HTMLInputElement).value)}
+      /></label>
       <div class="kinds">
         <span class="chip"><i class="glyph real"></i>${real} real</span>
         <span class="chip"><i class="glyph simulated"></i>${robots.length - real} simulated</span>
         <span class="space"></span><em>last ${kHistory_s} s</em>
       </div>
-      ${robots.length > kMany ? html`<div class="heads"><span>By team</span><span>speed 0 … ${this.topSpeed.toFixed(1)}</span><span>mean</span></div>` : nothing}
+      ${robots.length > kMany
+        ? html`<div class="heads">
+            <span>By team</span><span>speed 0 … ${this.topSpeed.toFixed(1)}</span><span>mean</span>
+          </div>`
+        : nothing}
       <div class="rows" role="group" aria-label="Robots">
         ${[...teams].map(([team, slots]) => this.renderTeam(team, slots, robots.length > kMany))}
         ${teams.size === 0 ? this.renderNone() : nothing}
@@ -82,7 +96,10 @@ export class RobotsPanel extends LiveElement {
     const {model} = this.context;
     if (model.robots.length > 0) return html`<p class="none">No robot matches the filter.</p>`;
     if (!model.seesLess) return html`<p class="none">No robots in this run.</p>`;
-    return renderNote(this.context, `There is no robot that you may see. ${holdersText(kUsualRights.pose)} ${askText(model.others)}`);
+    return renderNote(
+      this.context,
+      `There is no robot that you may see. ${holdersText(kUsualRights.pose)} ${askText(model.others)}`,
+    );
   }
 
   private setFilter(text: string): void {
@@ -100,34 +117,54 @@ export class RobotsPanel extends LiveElement {
       this.requestUpdate();
     };
     return html`<div class="head ${many ? 'many' : ''}">
-      <button class="team ${many ? 'many' : ''}" aria-expanded=${open} @click=${toggle}>
-        <span class="turn ${open ? 'open' : ''}">${icon('chevronDown', 13)}</span>
-        <span class="who"><span>${team === '' ? 'no team' : team} <em>${slots.length}</em></span>
-          ${many ? html`<small>${this.standText(slots)}</small>` : nothing}</span>
-        ${many ? this.renderHistogram(slots) : nothing}
-      </button>${this.renderStopTeam(team)}</div>
+        <button class="team ${many ? 'many' : ''}" aria-expanded=${open} @click=${toggle}>
+          <span class="turn ${open ? 'open' : ''}">${icon('chevronDown', 13)}</span>
+          <span class="who"
+            ><span>${team === '' ? 'no team' : team} <em>${slots.length}</em></span> ${many
+              ? html`<small>${this.standText(slots)}</small>`
+              : nothing}</span
+          >
+          ${many ? this.renderHistogram(slots) : nothing}</button
+        >${this.renderStopTeam(team)}
+      </div>
       ${open ? slots.slice(0, kRows).map((slot) => this.renderRow(slot)) : nothing}
-      ${open && slots.length > kRows ? html`<p class="none">${slots.length - kRows} more: filter to see them.</p>` : nothing}`;
+      ${open && slots.length > kRows
+        ? html`<p class="none">${slots.length - kRows} more: filter to see them.</p>`
+        : nothing}`;
   }
 
   /** Stops all robots of the team in which one is selected, whether the filter shows them or not. */
   private renderStopTeam(team: string): TemplateResult | typeof nothing {
     const {model, selection} = this.context;
-    if (team === '' || !model.live || !model.may('stop') || ![...selection.slots].some((slot) => model.robots[slot]?.team === team)) return nothing;
+    if (
+      team === '' ||
+      !model.live ||
+      !model.may('stop') ||
+      ![...selection.slots].some((slot) => model.robots[slot]?.team === team)
+    )
+      return nothing;
     const members = stoppable(model.robots, team);
     if (members.length === 0) return nothing;
     const stand = members.every((slot) => (this.flags(slot) & RobotFlag.stopped) !== 0);
-    return html`<button class="halt" ?disabled=${stand} title="Stops ${members.length} robots of ${team} at once" @click=${() => this.stopTeam(members)}>${icon('octagonX', 13)} ${stand ? 'Team stopped' : 'Stop team'}</button>`;
+    return html`<button
+      class="halt"
+      ?disabled=${stand}
+      title="Stops ${members.length} robots of ${team} at once"
+      @click=${() => this.stopTeam(members)}>
+      ${icon('octagonX', 13)} ${stand ? 'Team stopped' : 'Stop team'}
+    </button>`;
   }
 
   private stopTeam(members: readonly number[]): void {
-    for (let i = 0; i < members.length; i += kMostStopped) this.context.link.send({type: 'halt', do: 'stop', slots: members.slice(i, i + kMostStopped)});
+    for (let i = 0; i < members.length; i += kMostStopped)
+      this.context.link.send({type: 'halt', do: 'stop', slots: members.slice(i, i + kMostStopped)});
   }
 
   /** The same scale for all teams, so that they can be compared. */
   private get topSpeed(): number {
     let top = 0.4;
-    for (const speed of this.context.model.poses.newest?.speed ?? []) top = Math.max(top, Math.abs(speed));
+    for (const speed of this.context.model.poses.newest?.speed ?? [])
+      top = Math.max(top, Math.abs(speed));
     return top;
   }
 
@@ -145,9 +182,16 @@ export class RobotsPanel extends LiveElement {
     const most = Math.max(1, ...bins);
     const mean = speeds.reduce((sum, speed) => sum + speed, 0) / Math.max(1, speeds.length);
     return html`<span class="space"></span>
-      <svg width="60" height="18" role="img" aria-label="Speeds from 0 to ${top.toFixed(1)} metres per second">
-        ${bins.map((count, i) => svg`<rect x=${i * 5} y=${17 - (16 * count) / most} width="3.5" height=${1 + (16 * count) / most} />`)}
-      </svg><span class="value">${mean.toFixed(2)} m/s</span>`;
+      <svg
+        width="60"
+        height="18"
+        role="img"
+        aria-label="Speeds from 0 to ${top.toFixed(1)} metres per second">
+        ${bins.map(
+          (count, i) =>
+            svg`<rect x=${i * 5} y=${17 - (16 * count) / most} width="3.5" height=${1 + (16 * count) / most} />`,
+        )}</svg
+      ><span class="value">${mean.toFixed(2)} m/s</span>`;
   }
 
   private renderRow(slot: number): TemplateResult {
@@ -156,17 +200,36 @@ export class RobotsPanel extends LiveElement {
     const hue = palette.hue(slot);
     const marked = robot.kind === 'real' || robot.word !== '';
     const state = stateOf(robot, this.flags(slot));
-    return html`<div class="row ${selection.has(slot) ? 'selected' : ''} ${selection.hovered === slot ? 'hovered' : ''}" role="button"
-        tabindex="0" aria-pressed=${selection.has(slot)}
-        @click=${(event: MouseEvent) => (event.ctrlKey || event.metaKey ? selection.toggle(slot) : selection.set([slot]))}
-        @keydown=${(event: KeyboardEvent) => this.rowKey(event, slot)}
-        @pointerenter=${() => selection.hover(slot)} @pointerleave=${() => selection.hover(null)}>
-      <i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i>
-      <span class="name" style=${marked ? `color:${hue.ink};font-weight:600` : ''}>${robot.name}</span>
+    return html`<div
+      class="row ${selection.has(slot) ? 'selected' : ''} ${selection.hovered === slot
+        ? 'hovered'
+        : ''}"
+      role="button"
+      tabindex="0"
+      aria-pressed=${selection.has(slot)}
+      @click=${(event: MouseEvent) =>
+        event.ctrlKey || event.metaKey ? selection.toggle(slot) : selection.set([slot])}
+      @keydown=${(event: KeyboardEvent) => this.rowKey(event, slot)}
+      @pointerenter=${() => selection.hover(slot)}
+      @pointerleave=${() => selection.hover(null)}>
+      <i
+        class="glyph ${robot.kind}"
+        style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i>
+      <span class="name" style=${marked ? `color:${hue.ink};font-weight:600` : ''}
+        >${robot.name}</span
+      >
       ${sparkline(model.poses, slot, marked ? hue.ink : palette.token('text-3'), 48)}
-      ${state === '' ? html`<span class="value">${speedText(this.speed(slot))}</span>` : html`<span class="state">${state}</span>`}
+      ${state === ''
+        ? html`<span class="value">${speedText(this.speed(slot))}</span>`
+        : html`<span class="state">${state}</span>`}
       ${this.renderDriver(slot)}
-      <span class="mark" title=${robot.recorded ? 'Recorded: it obeys no orders' : ''}>${robot.recorded ? icon('lock', 13) : (this.flags(slot) & RobotFlag.touching) !== 0 ? icon('zap', 13) : nothing}</span>
+      <span class="mark" title=${robot.recorded ? 'Recorded: it obeys no orders' : ''}
+        >${robot.recorded
+          ? icon('lock', 13)
+          : (this.flags(slot) & RobotFlag.touching) !== 0
+            ? icon('zap', 13)
+            : nothing}</span
+      >
     </div>`;
   }
 
@@ -177,8 +240,14 @@ export class RobotsPanel extends LiveElement {
     if (drive === undefined || drive.lease === '') return nothing;
     const own = drive.lease === model.knownAs;
     const name = drive.yours || own ? (model.hello?.user.name ?? '') : drive.lease;
-    const title = drive.yours ? 'You drive it' : own ? 'You drive it on another page' : `${name} drives it`;
-    return html`<span class="driver ${drive.yours ? 'you' : ''}" title=${title}>${initials(name)}</span>`;
+    const title = drive.yours
+      ? 'You drive it'
+      : own
+        ? 'You drive it on another page'
+        : `${name} drives it`;
+    return html`<span class="driver ${drive.yours ? 'you' : ''}" title=${title}
+      >${initials(name)}</span
+    >`;
   }
 
   private rowKey(event: KeyboardEvent, slot: number): void {
@@ -188,7 +257,9 @@ export class RobotsPanel extends LiveElement {
     } else if (event.key === 'ArrowDown' || event.key === 'ArrowUp') {
       event.preventDefault();
       const rows = [...this.renderRoot.querySelectorAll<HTMLElement>('.row')];
-      rows[rows.indexOf(event.target as HTMLElement) + (event.key === 'ArrowDown' ? 1 : -1)]?.focus();
+      rows[
+        rows.indexOf(event.target as HTMLElement) + (event.key === 'ArrowDown' ? 1 : -1)
+      ]?.focus();
     }
   }
 
@@ -201,19 +272,36 @@ export class RobotsPanel extends LiveElement {
     const known = frame !== null && (frame.flags[slot] & RobotFlag.known) !== 0;
     const degrees = known ? Math.round(((frame.yaw[slot] * 180) / Math.PI) % 360) : 0;
     const row = (name: string, value: string, faint = '') =>
-      value === '' ? nothing : html`<dt>${name}</dt><dd>${value} <em>${faint}</em></dd>`;
+      value === ''
+        ? nothing
+        : html`<dt>${name}</dt>
+            <dd>${value} <em>${faint}</em></dd>`;
     return html`<section class="detail">
-      <h3><i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? palette.hue(slot).fill : palette.hue(slot).ink}"></i>
+      <h3>
+        <i
+          class="glyph ${robot.kind}"
+          style="--hue:${robot.kind === 'real'
+            ? palette.hue(slot).fill
+            : palette.hue(slot).ink}"></i>
         <span style="color:${palette.hue(slot).ink}">${robot.name}</span>
-        <span class="chip">${robot.kind}${robot.recorded ? ', recorded' : ''}</span></h3>
+        <span class="chip">${robot.kind}${robot.recorded ? ', recorded' : ''}</span>
+      </h3>
       <dl>
         ${row('Program', robot.program, robot.recorded ? '(ignores commands)' : '')}
-        ${row('Pose', known ? `${frame.x[slot].toFixed(2)}, ${frame.y[slot].toFixed(2)} m · ${degrees}°`.replaceAll('-', '−') : 'not known')}
+        ${row(
+          'Pose',
+          known
+            ? `${frame.x[slot].toFixed(2)}, ${frame.y[slot].toFixed(2)} m · ${degrees}°`.replaceAll(
+                '-',
+                '−',
+              )
+            : 'not known',
+        )}
         ${row('Speed', known ? speedText(frame.speed[slot]) : '')}
         ${row('Sensors', robot.sensors.map((sensor) => sensor.name).join(', '))}
-        ${row('Drivers', robot.drivers.join(', '))}
-        ${row('Host', robot.host ?? '')}
-      </dl></section>`;
+        ${row('Drivers', robot.drivers.join(', '))} ${row('Host', robot.host ?? '')}
+      </dl>
+    </section>`;
   }
 
   static override styles = [
@@ -221,49 +309,238 @@ export class RobotsPanel extends LiveElement {
     glyphs,
     withheldStyles,
     css`
-      :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); container-type: size; }
-      @container (max-height: 460px) { .detail { display: none; } }
-      .field { margin: 10px 12px 8px; }
-      .kinds { display: flex; align-items: center; gap: 6px; padding: 0 12px 8px; border-bottom: 1px solid var(--line-1); }
-      .kinds em { font-style: normal; color: var(--text-3); font-size: var(--fs-11); }
-      .rows { flex: 1; overflow: auto; padding: 4px 0; }
-      .team { display: flex; align-items: center; gap: 6px; width: 100%; height: 26px; padding: 0 12px; color: var(--text-2); font-size: var(--fs-12); text-align: left; }
-      .team.many { height: 40px; }
-      .head { display: flex; align-items: center; }
-      .head .team { flex: 1; min-width: 0; }
-      .head:has(.halt) { margin: 4px 0; }
+      :host {
+        display: flex;
+        flex-direction: column;
+        height: 100%;
+        background: var(--bg-1);
+        container-type: size;
+      }
+      @container (max-height: 460px) {
+        .detail {
+          display: none;
+        }
+      }
+      .field {
+        margin: 10px 12px 8px;
+      }
+      .kinds {
+        display: flex;
+        align-items: center;
+        gap: 6px;
+        padding: 0 12px 8px;
+        border-bottom: 1px solid var(--line-1);
+      }
+      .kinds em {
+        font-style: normal;
+        color: var(--text-3);
+        font-size: var(--fs-11);
+      }
+      .rows {
+        flex: 1;
+        overflow: auto;
+        padding: 4px 0;
+      }
+      .team {
+        display: flex;
+        align-items: center;
+        gap: 6px;
+        width: 100%;
+        height: 26px;
+        padding: 0 12px;
+        color: var(--text-2);
+        font-size: var(--fs-12);
+        text-align: left;
+      }
+      .team.many {
+        height: 40px;
+      }
+      .head {
+        display: flex;
+        align-items: center;
+      }
+      .head .team {
+        flex: 1;
+        min-width: 0;
+      }
+      .head:has(.halt) {
+        margin: 4px 0;
+      }
       /* Histogram and mean need the width: the button stands below them, under the name. */
-      .head.many { flex-wrap: wrap; } .head.many .team { flex-basis: 100%; } .head.many .halt { margin: 0 0 4px 31px; }
-      .halt { display: inline-flex; align-items: center; gap: 5px; flex: none; height: 24px; margin: 0 12px 0 8px; padding: 0 10px; white-space: nowrap; border-radius: var(--r-2); background: linear-gradient(var(--danger-soft) 0 0), var(--bg-1); color: var(--danger); font-size: var(--fs-12); }
-      .halt:disabled { opacity: 1; background: none; color: var(--text-2); }
-      @media (pointer: coarse) { .halt { height: 40px; border-radius: var(--r-3); } .team:not(.many) { height: 44px; } }
-      .who { display: flex; flex-direction: column; line-height: 1.3; }
-      .who small { color: var(--text-3); font-size: var(--fs-11); }
-      .heads { display: flex; justify-content: space-between; padding: 6px 12px 0; color: var(--text-3); font-size: var(--fs-11); }
-      .team em { font-style: normal; color: var(--text-3); }
-      .team rect { fill: var(--text-2); }
-      .turn { transform: rotate(-90deg); }
-      .turn.open { transform: none; }
-      .row { display: flex; align-items: center; gap: 10px; height: var(--h-row); padding: 0 12px 0 14px; border-left: 3px solid transparent; font-size: var(--fs-12); cursor: pointer; }
-      .row:hover, .row.hovered { background: var(--bg-2); }
-      .row.selected { background: var(--intent-soft); border-left-color: var(--intent); }
-      .name { flex: 1 0 min(8ch, 40%); min-width: 0; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
-      .value { color: var(--text-2); white-space: nowrap; }
-      .state { flex: 0 1 auto; min-width: 0; overflow: hidden; color: var(--warn); text-overflow: ellipsis; white-space: nowrap; }
+      .head.many {
+        flex-wrap: wrap;
+      }
+      .head.many .team {
+        flex-basis: 100%;
+      }
+      .head.many .halt {
+        margin: 0 0 4px 31px;
+      }
+      .halt {
+        display: inline-flex;
+        align-items: center;
+        gap: 5px;
+        flex: none;
+        height: 24px;
+        margin: 0 12px 0 8px;
+        padding: 0 10px;
+        white-space: nowrap;
+        border-radius: var(--r-2);
+        background: linear-gradient(var(--danger-soft) 0 0), var(--bg-1);
+        color: var(--danger);
+        font-size: var(--fs-12);
+      }
+      .halt:disabled {
+        opacity: 1;
+        background: none;
+        color: var(--text-2);
+      }
+      @media (pointer: coarse) {
+        .halt {
+          height: 40px;
+          border-radius: var(--r-3);
+        }
+        .team:not(.many) {
+          height: 44px;
+        }
+      }
+      .who {
+        display: flex;
+        flex-direction: column;
+        line-height: 1.3;
+      }
+      .who small {
+        color: var(--text-3);
+        font-size: var(--fs-11);
+      }
+      .heads {
+        display: flex;
+        justify-content: space-between;
+        padding: 6px 12px 0;
+        color: var(--text-3);
+        font-size: var(--fs-11);
+      }
+      .team em {
+        font-style: normal;
+        color: var(--text-3);
+      }
+      .team rect {
+        fill: var(--text-2);
+      }
+      .turn {
+        transform: rotate(-90deg);
+      }
+      .turn.open {
+        transform: none;
+      }
+      .row {
+        display: flex;
+        align-items: center;
+        gap: 10px;
+        height: var(--h-row);
+        padding: 0 12px 0 14px;
+        border-left: 3px solid transparent;
+        font-size: var(--fs-12);
+        cursor: pointer;
+      }
+      .row:hover,
+      .row.hovered {
+        background: var(--bg-2);
+      }
+      .row.selected {
+        background: var(--intent-soft);
+        border-left-color: var(--intent);
+      }
+      .name {
+        flex: 1 0 min(8ch, 40%);
+        min-width: 0;
+        overflow: hidden;
+        text-overflow: ellipsis;
+        white-space: nowrap;
+      }
+      .value {
+        color: var(--text-2);
+        white-space: nowrap;
+      }
+      .state {
+        flex: 0 1 auto;
+        min-width: 0;
+        overflow: hidden;
+        color: var(--warn);
+        text-overflow: ellipsis;
+        white-space: nowrap;
+      }
       /* What is left of a row is for the name. */
-      @container (max-width: 260px) { .row svg.spark, .kinds em { display: none; } }
-      .driver { display: grid; place-items: center; width: 20px; height: 20px; border-radius: 50%; background: var(--person-fill); color: var(--on-fill); font-size: 10px; font-weight: 600; flex: none; }
-      .driver.you { background: var(--intent-fill); color: #fff; }
-      .mark { width: 14px; color: var(--text-3); }
-      .mark svg { color: inherit; }
-      .none { margin: 12px; color: var(--text-3); font-size: var(--fs-12); }
-      .detail { border-top: 1px solid var(--line-1); padding: 10px 14px 12px; font-size: var(--fs-12); max-height: 45%; overflow: auto; }
-      h3 { display: flex; align-items: center; gap: 8px; margin: 0 0 8px; font-size: var(--fs-13); }
-      dl { display: grid; grid-template-columns: 72px 1fr; gap: 4px 8px; margin: 0; }
-      dt { color: var(--text-3); }
-      dd { margin: 0; overflow-wrap: anywhere; }
-      dd em { font-style: normal; color: var(--text-3); }
-      @media (pointer: coarse) { .row { height: 44px; } }
+      @container (max-width: 260px) {
+        .row svg.spark,
+        .kinds em {
+          display: none;
+        }
+      }
+      .driver {
+        display: grid;
+        place-items: center;
+        width: 20px;
+        height: 20px;
+        border-radius: 50%;
+        background: var(--person-fill);
+        color: var(--on-fill);
+        font-size: 10px;
+        font-weight: 600;
+        flex: none;
+      }
+      .driver.you {
+        background: var(--intent-fill);
+        color: #fff;
+      }
+      .mark {
+        width: 14px;
+        color: var(--text-3);
+      }
+      .mark svg {
+        color: inherit;
+      }
+      .none {
+        margin: 12px;
+        color: var(--text-3);
+        font-size: var(--fs-12);
+      }
+      .detail {
+        border-top: 1px solid var(--line-1);
+        padding: 10px 14px 12px;
+        font-size: var(--fs-12);
+        max-height: 45%;
+        overflow: auto;
+      }
+      h3 {
+        display: flex;
+        align-items: center;
+        gap: 8px;
+        margin: 0 0 8px;
+        font-size: var(--fs-13);
+      }
+      dl {
+        display: grid;
+        grid-template-columns: 72px 1fr;
+        gap: 4px 8px;
+        margin: 0;
+      }
+      dt {
+        color: var(--text-3);
+      }
+      dd {
+        margin: 0;
+        overflow-wrap: anywhere;
+      }
+      dd em {
+        font-style: normal;
+        color: var(--text-3);
+      }
+      @media (pointer: coarse) {
+        .row {
+          height: 44px;
+        }
+      }
     `,
   ];
 }

@@ -7,8 +7,14 @@ const kHeight_px = 16;
 const kTop_mps = 0.4;
 
 /** The speed of a robot in the last seconds, as a line. `width` is in pixels. */
-export function sparkline({past, newest}: PoseHistory, slot: number, colour: string, width: number): TemplateResult {
-  if (newest === null || past.length < 2) return html`<svg class="spark" width=${width} height=${kHeight_px}></svg>`;
+export function sparkline(
+  {past, newest}: PoseHistory,
+  slot: number,
+  colour: string,
+  width: number,
+): TemplateResult {
+  if (newest === null || past.length < 2)
+    return html`<svg class="spark" width=${width} height=${kHeight_px}></svg>`;
   const points = past
     // Frames of before a change of the run may have fewer robots.
     .filter((frame) => frame.speed.length > slot)
@@ -16,5 +22,7 @@ export function sparkline({past, newest}: PoseHistory, slot: number, colour: str
       const x = width * (1 - (newest.time_s - frame.time_s) / kHistory_s);
       return `${x.toFixed(1)},${(14 - 12 * Math.min(Math.abs(frame.speed[slot]) / kTop_mps, 1)).toFixed(1)}`;
     });
-  return html`<svg class="spark" width=${width} height=${kHeight_px} aria-hidden="true">${svg`<polyline points=${points.join(' ')} fill="none" stroke=${colour} />`}</svg>`;
+  return html`<svg class="spark" width=${width} height=${kHeight_px} aria-hidden="true">
+    ${svg`<polyline points=${points.join(' ')} fill="none" stroke=${colour} />`}
+  </svg>`;
 }

@@ -16,11 +16,27 @@ const kDegrees = 180 / Math.PI;
 /** What can be drawn of a sensor. `beam`: of a sensor with several the one that is looked at. */
 export function courseFieldsOf(sensor: Sensor, beam = 0): CourseField[] {
   if (sensor.kind === 'ranges') {
-    const nearest: CourseField = {label: 'nearest', unit: 'm', of: ({values}) => returned(sensor, values.reduce((least, value) => Math.min(least, value), Infinity))};
-    return (sensor.bearings?.length ?? 1) > 1 ? [nearest, {label: 'beam', unit: 'm', of: ({values}) => returned(sensor, values[beam] ?? NaN)}] : [nearest];
+    const nearest: CourseField = {
+      label: 'nearest',
+      unit: 'm',
+      of: ({values}) =>
+        returned(
+          sensor,
+          values.reduce((least, value) => Math.min(least, value), Infinity),
+        ),
+    };
+    return (sensor.bearings?.length ?? 1) > 1
+      ? [
+          nearest,
+          {label: 'beam', unit: 'm', of: ({values}) => returned(sensor, values[beam] ?? NaN)},
+        ]
+      : [nearest];
   }
   if (sensor.kind === 'sightings' || sensor.kind === 'neighbours') return ofTheNearest(sensor);
-  return sensor.fields.map((name, i) => ({...wordAndUnit(name), of: ({values}) => values[i] ?? NaN}));
+  return sensor.fields.map((name, i) => ({
+    ...wordAndUnit(name),
+    of: ({values}) => values[i] ?? NaN,
+  }));
 }
 
 /** The farthest that a sensor can measure means that nothing came back. */
@@ -36,7 +52,8 @@ function ofTheNearest(sensor: Sensor): CourseField[] {
     return {
       label: i + 1 === kRange ? `nearest ${label}` : label,
       unit: degrees ? '°' : unit,
-      of: (point) => (point.values[nearestRow(point) * point.fields + i + 1] ?? NaN) * (degrees ? kDegrees : 1),
+      of: (point) =>
+        (point.values[nearestRow(point) * point.fields + i + 1] ?? NaN) * (degrees ? kDegrees : 1),
     };
   });
   return [...seen, {label: 'count', unit: '', of: ({rows}) => rows}];
@@ -44,7 +61,8 @@ function ofTheNearest(sensor: Sensor): CourseField[] {
 
 function nearestRow({rows, fields, values}: CoursePoint): number {
   let nearest = 0;
-  for (let row = 1; row < rows; ++row) if (values[row * fields + kRange] < values[nearest * fields + kRange]) nearest = row;
+  for (let row = 1; row < rows; ++row)
+    if (values[row * fields + kRange] < values[nearest * fields + kRange]) nearest = row;
   return nearest;
 }
 

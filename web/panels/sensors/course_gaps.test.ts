@@ -3,7 +3,8 @@ import {expect, it} from 'vitest';
 import {gapsOf, gapsText} from './course_gaps';
 
 /** Times with this spacing. */
-const every = (spacing: number, from: number, to: number) => Array.from({length: Math.round((to - from) / spacing) + 1}, (_, i) => from + i * spacing);
+const every = (spacing: number, from: number, to: number) =>
+  Array.from({length: Math.round((to - from) / spacing) + 1}, (_, i) => from + i * spacing);
 
 it('what was before a panel showed the sensor is a gap, and so is the time while none did', () => {
   expect(gapsOf(every(0.5, -4, 0), -15, 0.5)).toEqual([[-15, -4]]);
@@ -23,5 +24,10 @@ it('a slow sensor has no gaps, and neither has a run that goes fast', () => {
 });
 
 it('says when', () => {
-  expect(gapsText([[-15, -4.2], [-2, 0]])).toBe('15 to 4 s ago, 2 to 0 s ago');
+  expect(
+    gapsText([
+      [-15, -4.2],
+      [-2, 0],
+    ]),
+  ).toBe('15 to 4 s ago, 2 to 0 s ago');
 });

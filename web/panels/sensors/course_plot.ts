@@ -47,13 +47,29 @@ export class CoursePlot {
   constructor(private readonly changed: () => void) {}
 
   /** Draws in `host`, which it fills. */
-  draw(host: HTMLElement, lines: readonly CourseLine[], field: CourseField, moment: CourseMoment, palette: Palette): void {
+  draw(
+    host: HTMLElement,
+    lines: readonly CourseLine[],
+    field: CourseField,
+    moment: CourseMoment,
+    palette: Palette,
+  ): void {
     const {clientWidth: width, clientHeight: height} = host;
     if (width === 0 || height === 0 || !this.ready()) return;
     const {now_s, begin_s, period_s} = moment;
-    this.gaps = gapsOf(shownOf(lines[0], now_s).map((point) => point.time_s - now_s), Math.max(-kCourse_s, begin_s - now_s), period_s);
-    const look = [palette.theme, field.label, field.unit, ...lines.map(({colour, dashed}) => `${colour} ${dashed ?? false}`)].join();
-    if (this.plot === null || look !== this.look || this.plot.root.parentElement !== host) this.make(host, width, height, lines, field, palette);
+    this.gaps = gapsOf(
+      shownOf(lines[0], now_s).map((point) => point.time_s - now_s),
+      Math.max(-kCourse_s, begin_s - now_s),
+      period_s,
+    );
+    const look = [
+      palette.theme,
+      field.label,
+      field.unit,
+      ...lines.map(({colour, dashed}) => `${colour} ${dashed ?? false}`),
+    ].join();
+    if (this.plot === null || look !== this.look || this.plot.root.parentElement !== host)
+      this.make(host, width, height, lines, field, palette);
     this.look = look;
     const {plot} = this;
     if (plot === null) return;
@@ -79,9 +95,16 @@ export class CoursePlot {
   }
 
   /** Times are counted from now, so that the axis stands still. */
-  private table(lines: readonly CourseLine[], field: CourseField, now_s: number): uPlot.AlignedData {
+  private table(
+    lines: readonly CourseLine[],
+    field: CourseField,
+    now_s: number,
+  ): uPlot.AlignedData {
     const tables = lines.map((line): uPlot.AlignedData => {
-      const values = shownOf(line, now_s).map((point): [number, number | null] => [point.time_s - now_s, finite(field.of(point))]);
+      const values = shownOf(line, now_s).map((point): [number, number | null] => [
+        point.time_s - now_s,
+        finite(field.of(point)),
+      ]);
       // null is a gap.
       for (const [from, to] of this.gaps) {
         const next = values.findIndex(([t]) => t >= to - 1e-6);
@@ -89,30 +112,85 @@ export class CoursePlot {
       }
       return [values.map(([t]) => t), values.map(([, value]) => value)];
     });
-    if (tables.every(([times]) => times.length === 0)) return [[], ...lines.map(() => [])] as unknown as uPlot.AlignedData;
-    return tables.length === 1 ? tables[0] : (this.library as typeof uPlot).join(tables, tables.map(() => [2, 2]));
+    if (tables.every(([times]) => times.length === 0))
+      return [[], ...lines.map(() => [])] as unknown as uPlot.AlignedData;
+    return tables.length === 1
+      ? tables[0]
+      : (this.library as typeof uPlot).join(
+          tables,
+          tables.map(() => [2, 2]),
+        );
   }
 
-  private make(host: HTMLElement, width: number, height: number, lines: readonly CourseLine[], field: CourseField, palette: Palette): void {
+  private make(
+    host: HTMLElement,
+    width: number,
+    height: number,
+    lines: readonly CourseLine[],
+    field: CourseField,
+    palette: Palette,
+  ): void {
     this.dispose();
     const faint = palette.token('text-3');
-    const axis = {stroke: faint, font: `400 ${kFont_px}px ${kFont}`, grid: {stroke: palette.token('line-1'), width: 1}, ticks: {show: false}};
+    const axis = {
+      stroke: faint,
+      font: `400 ${kFont_px}px ${kFont}`,
+      grid: {stroke: palette.token('line-1'), width: 1},
+      ticks: {show: false},
+    };
     const Plot = this.library as typeof uPlot;
-    this.plot = new Plot({
-      width, height,
-      padding: [8, 16, 0, 0],
-      legend: {show: false},
-      cursor: {y: false, drag: {x: false, y: false}, points: {size: 6}},
-      scales: {x: {time: false, range: [-kCourse_s, 0]}, y: {range: (_, low, high) => spanOf(low, high)}},
-      axes: [
-        {...axis, size: 18, gap: 3, splits: () => [-10, -5, 0], values: (_, at) => at.map((t) => (t === 0 ? 'now' : `−${-t} s`))},
-        {...axis, size: 40, gap: 4, splits: (_, __, low, high) => ticksOf(low, high, height), values: (_, at) => at.map((value, i) => tickText(value, at.length > 1 ? at[1] - at[0] : 1) + (i === at.length - 1 && field.unit !== '' ? ` ${field.unit}` : ''))},
-      ],
-      series: [{}, ...lines.map(({colour, dashed, dots}): uPlot.Series => ({
-        stroke: colour, width: 1.5, points: {show: dots === true ? true : alone, size: 4, width: 0, fill: colour}, spanGaps: false, ...(dashed === true ? {dash: [4, 3]} : {}),
-      }))],
-      hooks: {setCursor: [(plot) => this.point(plot)], drawAxes: [(plot) => this.hatch(plot, palette)]},
-    }, this.table(lines, field, 0), host);
+    this.plot = new Plot(
+      {
+        width,
+        height,
+        padding: [8, 16, 0, 0],
+        legend: {show: false},
+        cursor: {y: false, drag: {x: false, y: false}, points: {size: 6}},
+        scales: {
+          x: {time: false, range: [-kCourse_s, 0]},
+          y: {range: (_, low, high) => spanOf(low, high)},
+        },
+        axes: [
+          {
+            ...axis,
+            size: 18,
+            gap: 3,
+            splits: () => [-10, -5, 0],
+            values: (_, at) => at.map((t) => (t === 0 ? 'now' : `−${-t} s`)),
+          },
+          {
+            ...axis,
+            size: 40,
+            gap: 4,
+            splits: (_, __, low, high) => ticksOf(low, high, height),
+            values: (_, at) =>
+              at.map(
+                (value, i) =>
+                  tickText(value, at.length > 1 ? at[1] - at[0] : 1) +
+                  (i === at.length - 1 && field.unit !== '' ? ` ${field.unit}` : ''),
+              ),
+          },
+        ],
+        series: [
+          {},
+          ...lines.map(
+            ({colour, dashed, dots}): uPlot.Series => ({
+              stroke: colour,
+              width: 1.5,
+              points: {show: dots === true ? true : alone, size: 4, width: 0, fill: colour},
+              spanGaps: false,
+              ...(dashed === true ? {dash: [4, 3]} : {}),
+            }),
+          ),
+        ],
+        hooks: {
+          setCursor: [(plot) => this.point(plot)],
+          drawAxes: [(plot) => this.hatch(plot, palette)],
+        },
+      },
+      this.table(lines, field, 0),
+      host,
+    );
   }
 
   /** Where there are no readings. */
@@ -141,7 +219,13 @@ export class CoursePlot {
     ctx.restore();
   }
 
-  private labelHatch(ctx: CanvasRenderingContext2D, x: number, y: number, room: number, palette: Palette): void {
+  private labelHatch(
+    ctx: CanvasRenderingContext2D,
+    x: number,
+    y: number,
+    room: number,
+    palette: Palette,
+  ): void {
     const scale = devicePixelRatio;
     const width = ctx.measureText(kNoReadings).width + 12 * scale;
     if (width > room) return;
@@ -156,7 +240,10 @@ export class CoursePlot {
   private point(plot: uPlot): void {
     const {idx} = plot.cursor;
     const before = this.pointed;
-    this.pointed = idx === null || idx === undefined ? null : {values: plot.data.slice(1).map((line) => line[idx] ?? null), ago_s: -plot.data[0][idx]};
+    this.pointed =
+      idx === null || idx === undefined
+        ? null
+        : {values: plot.data.slice(1).map((line) => line[idx] ?? null), ago_s: -plot.data[0][idx]};
     if (before !== null || this.pointed !== null) this.changed();
   }
 }

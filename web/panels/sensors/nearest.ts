@@ -6,7 +6,11 @@ import type {Sensor} from '../../protocol/messages';
 export function nearestRay(sensor: Sensor, reading: Reading): number | null {
   let nearest: number | null = null;
   for (let ray = 0; ray < reading.rows; ++ray) {
-    if (reading.values[ray] < (nearest === null ? (sensor.range?.[1] ?? Infinity) : reading.values[nearest])) nearest = ray;
+    if (
+      reading.values[ray] <
+      (nearest === null ? (sensor.range?.[1] ?? Infinity) : reading.values[nearest])
+    )
+      nearest = ray;
   }
   return nearest;
 }

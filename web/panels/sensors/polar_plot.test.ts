@@ -17,7 +17,8 @@ describe('rings of the polar plot', () => {
     expect(ringStep(4, 45)).toBe(2);
     expect(ringStep(30, 60)).toBe(20);
     for (const max of [0.5, 1, 4, 8, 30, 100]) {
-      for (const radius of [22, 45, 90, 200]) expect((ringStep(max, radius) / max) * radius).toBeGreaterThanOrEqual(22);
+      for (const radius of [22, 45, 90, 200])
+        expect((ringStep(max, radius) / max) * radius).toBeGreaterThanOrEqual(22);
     }
   });
 });
@@ -28,13 +29,16 @@ it('a small plot has no room for texts, and reaches close to the edges of its ca
     expect(small.radius).toBeGreaterThan(large.radius);
     expect(small.oy - small.radius).toBeGreaterThanOrEqual(0);
     expect(small.oy + Math.max(0, -Math.cos(half)) * small.radius).toBeLessThanOrEqual(112);
-    expect(small.ox - Math.sin(Math.min(half, Math.PI / 2)) * small.radius).toBeGreaterThanOrEqual(0);
+    expect(small.ox - Math.sin(Math.min(half, Math.PI / 2)) * small.radius).toBeGreaterThanOrEqual(
+      0,
+    );
   }
 });
 
 it('the nearest ray is the shortest that came back', () => {
   const sensor = {range: [0, 4]} as Sensor;
-  const reading = (...values: number[]) => ({rows: values.length, fields: 1, values: Float32Array.from(values)}) as Reading;
+  const reading = (...values: number[]) =>
+    ({rows: values.length, fields: 1, values: Float32Array.from(values)}) as Reading;
   expect(nearestRay(sensor, reading(3, 1, 2))).toBe(1);
   expect(nearestRay(sensor, reading(4, 4, Infinity))).toBeNull();
   expect(nearestRay(sensor, reading())).toBeNull();

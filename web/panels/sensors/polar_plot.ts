@@ -12,7 +12,8 @@ const kRing_px = 22;
 
 /** Half of the opening that the plot shows, radians: as wide as the sensor sees. */
 function halfOpening(bearings: readonly number[], cone: number): number {
-  const widest = bearings.reduce((most, bearing) => Math.max(most, Math.abs(bearing)), 0) + cone / 2;
+  const widest =
+    bearings.reduce((most, bearing) => Math.max(most, Math.abs(bearing)), 0) + cone / 2;
   return Math.min(Math.max(widest, 0.35), Math.PI);
 }
 
@@ -29,19 +30,34 @@ export interface PolarMore {
 }
 
 /** Where the plot stands on its canvas: its origin, and the radius of the longest range. */
-export function placePolar(width: number, height: number, half: number, small: boolean): {ox: number; oy: number; radius: number} {
+export function placePolar(
+  width: number,
+  height: number,
+  half: number,
+  small: boolean,
+): {ox: number; oy: number; radius: number} {
   // What lies behind the sensor needs room below it.
   const below = half > Math.PI / 2 ? Math.max(-Math.cos(half), 0.08) : 0.08;
   const wide = half >= Math.PI / 2 ? 1 : Math.max(Math.sin(half), 0.3);
   const [sides, ends, top] = small ? [4, 8, 3] : [56, 40, 24];
-  const radius = Math.max(Math.min((width - sides) / (2 * wide), (height - ends) / (1 + below)), 20);
+  const radius = Math.max(
+    Math.min((width - sides) / (2 * wide), (height - ends) / (1 + below)),
+    20,
+  );
   return {ox: width / 2, oy: top + radius, radius};
 }
 
 /** Draws a range reading with ahead up. `met` says what a ray hit, or null. */
 export function drawPolar(
-  ctx: CanvasRenderingContext2D, width: number, height: number, sensor: Sensor, reading: Reading | null,
-  hue: {fill: string; ink: string}, palette: Palette, met: (ray: number) => Met | null, more: PolarMore = {},
+  ctx: CanvasRenderingContext2D,
+  width: number,
+  height: number,
+  sensor: Sensor,
+  reading: Reading | null,
+  hue: {fill: string; ink: string},
+  palette: Palette,
+  met: (ray: number) => Met | null,
+  more: PolarMore = {},
 ): void {
   const {real = null, beam = null, strength = 1, small = false} = more;
   const max = sensor.range?.[1] ?? 4;
@@ -56,13 +72,28 @@ export function drawPolar(
   ctx.globalAlpha = strength;
   if (reading !== null && reading.rows > 0) {
     drawArea(ctx, [ox, oy, radius], sensor, reading, bearings, hue, at);
-    if (real !== null && real.rows === reading.rows) drawHalf(ctx, real, max, radius, bearings, at, palette);
-    drawHits(ctx, reading, max, (ray) => at(bearings[ray], (reading.values[ray] / max) * radius), met, palette);
+    if (real !== null && real.rows === reading.rows)
+      drawHalf(ctx, real, max, radius, bearings, at, palette);
+    drawHits(
+      ctx,
+      reading,
+      max,
+      (ray) => at(bearings[ray], (reading.values[ray] / max) * radius),
+      met,
+      palette,
+    );
     const nearest = nearestRay(sensor, reading);
-    if (nearest !== null) drawNearest(ctx, [ox, oy], at(bearings[nearest], (reading.values[nearest] / max) * radius), palette);
+    if (nearest !== null)
+      drawNearest(
+        ctx,
+        [ox, oy],
+        at(bearings[nearest], (reading.values[nearest] / max) * radius),
+        palette,
+      );
   }
   ctx.globalAlpha = 1;
-  if (beam !== null && bearings[beam] !== undefined) drawBeam(ctx, [ox, oy], at(bearings[beam], radius), palette);
+  if (beam !== null && bearings[beam] !== undefined)
+    drawBeam(ctx, [ox, oy], at(bearings[beam], radius), palette);
   ctx.fillStyle = hue.fill;
   ctx.beginPath();
   ctx.arc(ox, oy, small ? 3.5 : 5, 0, 2 * Math.PI);
@@ -75,8 +106,13 @@ export function drawPolar(
 
 /** Up to what each ray hit. */
 function drawArea(
-  ctx: CanvasRenderingContext2D, [ox, oy, radius]: [number, number, number], sensor: Sensor, reading: Reading,
-  bearings: readonly number[], hue: {fill: string; ink: string}, at: (bearing: number, r: number) => [number, number],
+  ctx: CanvasRenderingContext2D,
+  [ox, oy, radius]: [number, number, number],
+  sensor: Sensor,
+  reading: Reading,
+  bearings: readonly number[],
+  hue: {fill: string; ink: string},
+  at: (bearing: number, r: number) => [number, number],
 ): void {
   const max = sensor.range?.[1] ?? 4;
   const cone = sensor.cone ?? 0;
@@ -88,7 +124,13 @@ function drawArea(
       const [x0, y0] = at(bearings[i] + cone / 2, r);
       ctx.moveTo(ox, oy);
       ctx.lineTo(x0, y0);
-      ctx.arc(ox, oy, r, -Math.PI / 2 - bearings[i] - cone / 2, -Math.PI / 2 - bearings[i] + cone / 2);
+      ctx.arc(
+        ox,
+        oy,
+        r,
+        -Math.PI / 2 - bearings[i] - cone / 2,
+        -Math.PI / 2 - bearings[i] + cone / 2,
+      );
       ctx.closePath();
     } else {
       ctx.lineTo(...at(bearings[i], r));
@@ -106,8 +148,12 @@ function drawArea(
 }
 
 function drawHits(
-  ctx: CanvasRenderingContext2D, reading: Reading, max: number, at: (ray: number) => [number, number],
-  met: (ray: number) => Met | null, palette: Palette,
+  ctx: CanvasRenderingContext2D,
+  reading: Reading,
+  max: number,
+  at: (ray: number) => [number, number],
+  met: (ray: number) => Met | null,
+  palette: Palette,
 ): void {
   for (let i = 0; i < reading.rows; ++i) {
     if (!(reading.values[i] < max)) continue;
@@ -118,7 +164,12 @@ function drawHits(
 }
 
 /** What the sentence beside the plot is about. */
-function drawNearest(ctx: CanvasRenderingContext2D, from: [number, number], to: [number, number], palette: Palette): void {
+function drawNearest(
+  ctx: CanvasRenderingContext2D,
+  from: [number, number],
+  to: [number, number],
+  palette: Palette,
+): void {
   ctx.strokeStyle = palette.token('text-1');
   ctx.lineWidth = 1.25;
   ctx.setLineDash([1.5, 3]);
@@ -133,7 +184,12 @@ function drawNearest(ctx: CanvasRenderingContext2D, from: [number, number], to: 
 }
 
 /** The beam that the person looks at. */
-function drawBeam(ctx: CanvasRenderingContext2D, from: [number, number], to: [number, number], palette: Palette): void {
+function drawBeam(
+  ctx: CanvasRenderingContext2D,
+  from: [number, number],
+  to: [number, number],
+  palette: Palette,
+): void {
   ctx.strokeStyle = palette.token('intent');
   ctx.lineWidth = 1.25;
   ctx.setLineDash([4, 3]);
@@ -146,8 +202,13 @@ function drawBeam(ctx: CanvasRenderingContext2D, from: [number, number], to: [nu
 
 /** What the real half of a hybrid measured: a thin line below its result. */
 function drawHalf(
-  ctx: CanvasRenderingContext2D, real: Reading, max: number, radius: number, bearings: readonly number[],
-  at: (bearing: number, r: number) => [number, number], palette: Palette,
+  ctx: CanvasRenderingContext2D,
+  real: Reading,
+  max: number,
+  radius: number,
+  bearings: readonly number[],
+  at: (bearing: number, r: number) => [number, number],
+  palette: Palette,
 ): void {
   ctx.strokeStyle = palette.token('wall-ink');
   ctx.lineWidth = 1.25;
@@ -174,8 +235,14 @@ export function ringStep(max: number, radius: number): number {
 }
 
 function drawRings(
-  ctx: CanvasRenderingContext2D, ox: number, oy: number, radius: number, half: number, max: number,
-  palette: Palette, small: boolean,
+  ctx: CanvasRenderingContext2D,
+  ox: number,
+  oy: number,
+  radius: number,
+  half: number,
+  max: number,
+  palette: Palette,
+  small: boolean,
 ): void {
   const step = ringStep(max, radius);
   const full = half > Math.PI - 0.01;
@@ -205,7 +272,11 @@ function drawRings(
     if (small) continue;
     ctx.textAlign = side < 0 ? 'right' : 'left';
     const degrees = Math.round((half * 180) / Math.PI);
-    ctx.fillText(`${side < 0 ? '' : '−'}${degrees}°`, ox + side * (radius * Math.sin(half) + 5), oy - radius * Math.cos(half));
+    ctx.fillText(
+      `${side < 0 ? '' : '−'}${degrees}°`,
+      ox + side * (radius * Math.sin(half) + 5),
+      oy - radius * Math.cos(half),
+    );
   }
   ctx.stroke();
 }

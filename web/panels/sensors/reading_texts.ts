@@ -12,7 +12,14 @@ import {nearestRay} from './nearest';
 const kTableRows = 200;
 
 /** What a ray met, as far as the page knows the world; null: nothing known. */
-export function metBy(surface: Surface | null, placed: Placed, slot: number, sensor: Sensor, reading: Reading, ray: number): Met | null {
+export function metBy(
+  surface: Surface | null,
+  placed: Placed,
+  slot: number,
+  sensor: Sensor,
+  reading: Reading,
+  ray: number,
+): Met | null {
   if (surface === null || slot >= placed.count) return null;
   const mount = mountOf(placed, slot, sensor);
   const angle = mount.yaw + bearingsOf(sensor, reading.rows)[ray];
@@ -21,33 +28,73 @@ export function metBy(surface: Surface | null, placed: Placed, slot: number, sen
 }
 
 /** The nearest range as a sentence. */
-export function nearestText(sensor: Sensor, reading: Reading | null, met: (ray: number) => Met | null, palette: Palette): TemplateResult | string {
+export function nearestText(
+  sensor: Sensor,
+  reading: Reading | null,
+  met: (ray: number) => Met | null,
+  palette: Palette,
+): TemplateResult | string {
   if (reading === null) return 'No reading yet.';
   const ray = nearestRay(sensor, reading);
   if (ray === null) return `Nothing within ${sensor.range?.[1] ?? 0} m.`;
   const degrees = Math.round((bearingsOf(sensor, reading.rows)[ray] * 180) / Math.PI);
   const side = degrees === 0 ? 'ahead' : `${Math.abs(degrees)}° ${degrees > 0 ? 'left' : 'right'}`;
   const what = met(ray);
-  return html`<b>${reading.values[ray].toFixed(2)} m</b><span>${what === null ? nothing : html`to <span style="color:${palette.token(what.token)}">${what.name}</span>, `}${side}</span>`;
+  return html`<b>${reading.values[ray].toFixed(2)} m</b
+    ><span
+      >${what === null
+        ? nothing
+        : html`to
+            <span style="color:${palette.token(what.token)}">${what.name}</span>, `}${side}</span
+    >`;
 }
 
 export function renderValues(sensor: Sensor, reading: Reading | null): TemplateResult {
-  if (reading === null || reading.rows === 0) return html`<p class="none">${reading === null ? 'No reading yet.' : 'It sees nothing at present.'}</p>`;
-  if (reading.rows > 1 || sensor.kind === 'sightings' || sensor.kind === 'neighbours') return renderTable(sensor, reading);
-  return html`<dl>${sensor.fields.map((name, i) => {
-    const [word, unit] = splitField(name);
-    return html`<div><dt>${word}</dt><dd>${numberText(reading.values[i])} <em>${unit}</em></dd></div>`;
-  })}</dl>`;
+  if (reading === null || reading.rows === 0)
+    return html`<p class="none">
+      ${reading === null ? 'No reading yet.' : 'It sees nothing at present.'}
+    </p>`;
+  if (reading.rows > 1 || sensor.kind === 'sightings' || sensor.kind === 'neighbours')
+    return renderTable(sensor, reading);
+  return html`<dl>
+    ${sensor.fields.map((name, i) => {
+      const [word, unit] = splitField(name);
+      return html`<div>
+        <dt>${word}</dt>
+        <dd>${numberText(reading.values[i])} <em>${unit}</em></dd>
+      </div>`;
+    })}
+  </dl>`;
 }
 
 export function renderTable(sensor: Sensor, reading: Reading | null): TemplateResult {
   if (reading === null) return html`<p class="none">No reading yet.</p>`;
   const bearings = sensor.kind === 'ranges' ? bearingsOf(sensor, reading.rows) : null;
   const rows = Array.from({length: Math.min(reading.rows, kTableRows)}, (_, row) => row);
-  return html`<div class="table" tabindex="0" role="region" aria-label="Numbers of ${sensor.name}"><table>
-    <thead><tr>${bearings ? html`<th>bearing [°]</th>` : nothing}${sensor.fields.map((name) => html`<th>${name}</th>`)}</tr></thead>
-    <tbody>${rows.map((row) => html`<tr>${bearings ? html`<td>${((bearings[row] * 180) / Math.PI).toFixed(1).replace('-', '−')}</td>` : nothing}
-      ${sensor.fields.map((_, i) => html`<td>${numberText(reading.values[row * reading.fields + i])}</td>`)}</tr>`)}</tbody></table></div>`;
+  return html`<div class="table" tabindex="0" role="region" aria-label="Numbers of ${sensor.name}">
+    <table>
+      <thead>
+        <tr>
+          ${bearings ? html`<th>bearing [°]</th>` : nothing}${sensor.fields.map(
+            (name) => html`<th>${name}</th>`,
+          )}
+        </tr>
+      </thead>
+      <tbody>
+        ${rows.map(
+          (row) =>
+            html`<tr>
+              ${bearings
+                ? html`<td>${((bearings[row] * 180) / Math.PI).toFixed(1).replace('-', '−')}</td>`
+                : nothing}
+              ${sensor.fields.map(
+                (_, i) => html`<td>${numberText(reading.values[row * reading.fields + i])}</td>`,
+              )}
+            </tr>`,
+        )}
+      </tbody>
+    </table>
+  </div>`;
 }
 
 /** What a sensor is, and how old its reading. */
@@ -82,16 +129,72 @@ function numberText(value: number | undefined): string {
 }
 
 export const readingStyles = css`
-  .sentence { display: flex; gap: 4px; margin: 0; padding: 0 12px; font-size: var(--fs-12); align-items: baseline; }
-  .sentence b { font-size: var(--fs-15); font-weight: var(--fw-strong); }
-  .sentence em { margin-left: auto; color: var(--text-3); font-style: normal; font-size: var(--fs-11); }
-  dl { display: flex; flex-wrap: wrap; gap: 6px 24px; margin: 8px 14px; }
-  dt { color: var(--text-3); font-size: var(--fs-11); }
-  dd { margin: 0; font-size: var(--fs-15); }
-  dd em { font-style: normal; color: var(--text-3); font-size: var(--fs-12); }
-  .table { flex: 1; min-height: 60px; overflow: auto; margin: 6px 0; }
-  table { border-collapse: collapse; width: 100%; font-size: var(--fs-12); }
-  th { position: sticky; top: 0; background: var(--bg-1); color: var(--text-3); font-weight: 400; font-size: var(--fs-11); }
-  th, td { text-align: right; padding: 2px 12px; }
-  .none { display: flex; gap: 8px; margin: 12px 14px; color: var(--text-3); font-size: var(--fs-12); }
+  .sentence {
+    display: flex;
+    gap: 4px;
+    margin: 0;
+    padding: 0 12px;
+    font-size: var(--fs-12);
+    align-items: baseline;
+  }
+  .sentence b {
+    font-size: var(--fs-15);
+    font-weight: var(--fw-strong);
+  }
+  .sentence em {
+    margin-left: auto;
+    color: var(--text-3);
+    font-style: normal;
+    font-size: var(--fs-11);
+  }
+  dl {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 6px 24px;
+    margin: 8px 14px;
+  }
+  dt {
+    color: var(--text-3);
+    font-size: var(--fs-11);
+  }
+  dd {
+    margin: 0;
+    font-size: var(--fs-15);
+  }
+  dd em {
+    font-style: normal;
+    color: var(--text-3);
+    font-size: var(--fs-12);
+  }
+  .table {
+    flex: 1;
+    min-height: 60px;
+    overflow: auto;
+    margin: 6px 0;
+  }
+  table {
+    border-collapse: collapse;
+    width: 100%;
+    font-size: var(--fs-12);
+  }
+  th {
+    position: sticky;
+    top: 0;
+    background: var(--bg-1);
+    color: var(--text-3);
+    font-weight: 400;
+    font-size: var(--fs-11);
+  }
+  th,
+  td {
+    text-align: right;
+    padding: 2px 12px;
+  }
+  .none {
+    display: flex;
+    gap: 8px;
+    margin: 12px 14px;
+    color: var(--text-3);
+    font-size: var(--fs-12);
+  }
 `;

@@ -18,7 +18,14 @@ import {gapsText} from './course_gaps';
 import {CoursePlot, type CourseLine} from './course_plot';
 import {courseStyles} from './course_styles';
 import {drawPolar} from './polar_plot';
-import {aboutText, metBy, nearestText, readingStyles, renderTable, renderValues} from './reading_texts';
+import {
+  aboutText,
+  metBy,
+  nearestText,
+  readingStyles,
+  renderTable,
+  renderValues,
+} from './reading_texts';
 import {drawSightingsPlot, pairsOf, type Named} from './sightings_plot';
 import {twinOf} from './twin';
 
@@ -81,7 +88,13 @@ export class SensorsPanel extends LookingPanel {
     const twin = twinOf(robot, index);
     // Halves are asked for where they are shown: they triple the readings.
     link.parts = robot.sensors[index].origin === 'hybrid';
-    const looked: Interest = twin === null ? [[slot, index]] : [[slot, index], [slot, twin]];
+    const looked: Interest =
+      twin === null
+        ? [[slot, index]]
+        : [
+            [slot, index],
+            [slot, twin],
+          ];
     link.courses = model.live ? [] : looked;
     link.look(this, looked);
   }
@@ -98,22 +111,61 @@ export class SensorsPanel extends LookingPanel {
     const reading = model.readings.of(slot, index);
     const now_s = model.poses.newest?.time_s ?? 0;
     const hue = palette.hue(slot);
-    return html`
-      <div class="head">
-        <i class="glyph ${robot.kind}" style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i>
+    return html` <div class="head">
+        <i
+          class="glyph ${robot.kind}"
+          style="--hue:${robot.kind === 'real' ? hue.fill : hue.ink}"></i>
         <b style="color:${hue.ink}">${robot.name}</b>
-        <button class="icon-button" title="Keep showing this robot when the selection changes" aria-label="Keep this robot" aria-pressed=${this.pinned !== null}
-          @click=${() => { this.pinned = this.pinned === null ? slot : null; this.requestUpdate(); }}>${icon('pin', 14)}</button>
+        <button
+          class="icon-button"
+          title="Keep showing this robot when the selection changes"
+          aria-label="Keep this robot"
+          aria-pressed=${this.pinned !== null}
+          @click=${() => {
+            this.pinned = this.pinned === null ? slot : null;
+            this.requestUpdate();
+          }}>
+          ${icon('pin', 14)}
+        </button>
         <span class="space"></span>
         <div class="segments" role="radiogroup" aria-label="Sensor">
-          ${robot.sensors.map((other, i) => html`<button role="radio" aria-checked=${i === index} @click=${() => this.choose(slot, i)}>${other.name}</button>`)}
+          ${robot.sensors.map(
+            (other, i) =>
+              html`<button
+                role="radio"
+                aria-checked=${i === index}
+                @click=${() => this.choose(slot, i)}>
+                ${other.name}
+              </button>`,
+          )}
         </div>
       </div>
       <div class="about">
-        ${sensor.origin === 'real' ? nothing : html`<span class="tag"><i class="glyph virtual"></i>${sensor.origin === 'virtual' ? 'virtual sensor' : 'hybrid sensor'}</span>`}
-        <span class="space"></span><span class=${reading === null || isCurrent(now_s - reading.stamp_s, sensor.period_s) ? '' : 'old'}>${aboutText(sensor, reading, now_s)}</span>
-        <button class="icon-button" title="Show the numbers" aria-label="Show the numbers" aria-pressed=${this.asTable}
-          @click=${() => { this.asTable = !this.asTable; this.requestUpdate(); }}>${icon('list', 14)}</button>
+        ${sensor.origin === 'real'
+          ? nothing
+          : html`<span class="tag"
+              ><i class="glyph virtual"></i>${sensor.origin === 'virtual'
+                ? 'virtual sensor'
+                : 'hybrid sensor'}</span
+            >`}
+        <span class="space"></span
+        ><span
+          class=${reading === null || isCurrent(now_s - reading.stamp_s, sensor.period_s)
+            ? ''
+            : 'old'}
+          >${aboutText(sensor, reading, now_s)}</span
+        >
+        <button
+          class="icon-button"
+          title="Show the numbers"
+          aria-label="Show the numbers"
+          aria-pressed=${this.asTable}
+          @click=${() => {
+            this.asTable = !this.asTable;
+            this.requestUpdate();
+          }}>
+          ${icon('list', 14)}
+        </button>
       </div>
       ${this.asTable ? renderTable(sensor, reading) : this.renderPlots(slot, sensor, reading)}`;
   }
@@ -122,8 +174,12 @@ export class SensorsPanel extends LookingPanel {
   private renderNone(whose: string): TemplateResult {
     const {model} = this.context;
     const many = whose.startsWith('No ');
-    if (!model.seesLess) return html`<p class="none">${whose} ${many ? 'has a sensor' : 'has no sensors'}.</p>`;
-    return renderNote(this.context, `${whose} has ${many ? 'a sensor' : 'no sensors'} that you may see. ${holdersText(kUsualRights.readings)} ${askText(model.others)}`);
+    if (!model.seesLess)
+      return html`<p class="none">${whose} ${many ? 'has a sensor' : 'has no sensors'}.</p>`;
+    return renderNote(
+      this.context,
+      `${whose} has ${many ? 'a sensor' : 'no sensors'} that you may see. ${holdersText(kUsualRights.readings)} ${askText(model.others)}`,
+    );
   }
 
   private choose(slot: number, index: number): void {
@@ -137,12 +193,25 @@ export class SensorsPanel extends LookingPanel {
   private renderPlots(slot: number, sensor: Sensor, reading: Reading | null): TemplateResult {
     const ranges = sensor.kind === 'ranges';
     if (sensor.kind === 'sightings') return this.renderSightings(slot, sensor, reading);
-    return html`
-      ${sensor.origin === 'hybrid' && this.context.model.isWithheld('hybrid_parts') ? renderWithheld(this.context, 'hybrid_parts') : nothing}
-      ${sensor.origin === 'hybrid' ? html`<p class="halves">${this.context.model.may('hybrid_parts') ? html`<span><i class="line"></i>real half</span>` : nothing}<span><i class="dot"></i>result from it</span><span><i class="square"></i>result from the virtual half</span></p>` : nothing}
-      ${ranges ? html`<canvas class="polar" role="img" aria-label="Ranges around the robot; the button Show the numbers shows them as a table"></canvas>` : renderValues(sensor, reading)}
-      ${ranges ? html`<p class="sentence">${this.nearest(slot, sensor, reading)}</p>` : nothing}
-      ${this.renderCourse(sensor)}`;
+    return html` ${sensor.origin === 'hybrid' && this.context.model.isWithheld('hybrid_parts')
+      ? renderWithheld(this.context, 'hybrid_parts')
+      : nothing}
+    ${sensor.origin === 'hybrid'
+      ? html`<p class="halves">
+          ${this.context.model.may('hybrid_parts')
+            ? html`<span><i class="line"></i>real half</span>`
+            : nothing}<span><i class="dot"></i>result from it</span
+          ><span><i class="square"></i>result from the virtual half</span>
+        </p>`
+      : nothing}
+    ${ranges
+      ? html`<canvas
+          class="polar"
+          role="img"
+          aria-label="Ranges around the robot; the button Show the numbers shows them as a table"></canvas>`
+      : renderValues(sensor, reading)}
+    ${ranges ? html`<p class="sentence">${this.nearest(slot, sensor, reading)}</p>` : nothing}
+    ${this.renderCourse(sensor)}`;
   }
 
   /** Which field is drawn over time, and the plot. */
@@ -151,23 +220,58 @@ export class SensorsPanel extends LookingPanel {
     const field = fields[Math.min(this.field, fields.length - 1)];
     if (field === undefined) return nothing;
     const {pointed, gaps} = this.course;
-    const choose = (i: number) => { this.field = i; this.requestUpdate(); };
-    return html`
-      <div class="fields">
-        ${fields.length > 1 ? html`<div class="segments" role="radiogroup" aria-label="Field over time">${fields.map((other, i) => html`<button role="radio"
-          aria-checked=${other === field} @click=${() => choose(i)}>${other.label}</button>`)}</div>` : html`<span>${field.label}</span>`}
+    const choose = (i: number) => {
+      this.field = i;
+      this.requestUpdate();
+    };
+    return html` <div class="fields">
+        ${fields.length > 1
+          ? html`<div class="segments" role="radiogroup" aria-label="Field over time">
+              ${fields.map(
+                (other, i) =>
+                  html`<button
+                    role="radio"
+                    aria-checked=${other === field}
+                    @click=${() => choose(i)}>
+                    ${other.label}
+                  </button>`,
+              )}
+            </div>`
+          : html`<span>${field.label}</span>`}
         ${field.label === 'beam' ? this.renderBeam(sensor) : nothing}
-        <em>${pointed === null ? '15 s' : `${pointed.values.map((value) => (value === null ? 'nothing' : `${Number(value.toFixed(3))} ${field.unit}`.trim())).join(' · ')}, ${pointed.ago_s.toFixed(1)} s ago`}</em>
+        <em
+          >${pointed === null
+            ? '15 s'
+            : `${pointed.values.map((value) => (value === null ? 'nothing' : `${Number(value.toFixed(3))} ${field.unit}`.trim())).join(' · ')}, ${pointed.ago_s.toFixed(1)} s ago`}</em
+        >
       </div>
-      <div class="course" role="img" aria-label="${field.label} of ${sensor.name} in the last 15 seconds${gaps.length === 0 ? '' : `; no readings ${gapsText(gaps)}`}"
-        title=${gaps.length > 0 && this.context.model.live ? 'A sensor is read while a panel shows it' : nothing}></div>`;
+      <div
+        class="course"
+        role="img"
+        aria-label="${field.label} of ${sensor.name} in the last 15 seconds${gaps.length === 0
+          ? ''
+          : `; no readings ${gapsText(gaps)}`}"
+        title=${gaps.length > 0 && this.context.model.live
+          ? 'A sensor is read while a panel shows it'
+          : nothing}></div>`;
   }
 
   private renderBeam(sensor: Sensor): TemplateResult {
     const bearings = sensor.bearings ?? [];
     const beam = this.beamOf(sensor);
-    return html`<label class="beam"><input type="range" min="0" max=${bearings.length - 1} .value=${String(beam)} aria-label="Beam" aria-valuetext=${beamText(bearings[beam] ?? 0)}
-      @input=${(event: Event) => { this.beam = Number((event.target as HTMLInputElement).value); this.requestUpdate(); }}>${beamText(bearings[beam] ?? 0)}</label>`;
+    return html`<label class="beam"
+      ><input
+        type="range"
+        min="0"
+        max=${bearings.length - 1}
+        .value=${String(beam)}
+        aria-label="Beam"
+        aria-valuetext=${beamText(bearings[beam] ?? 0)}
+        @input=${(event: Event) => {
+          this.beam = Number((event.target as HTMLInputElement).value);
+          this.requestUpdate();
+        }} />${beamText(bearings[beam] ?? 0)}</label
+    >`;
   }
 
   private beamOf(sensor: Sensor): number {
@@ -181,11 +285,19 @@ export class SensorsPanel extends LookingPanel {
     const twin = twinOf(robot, robot.sensors.indexOf(sensor));
     const expected = twin === null ? null : this.context.model.readings.of(slot, twin);
     const count = pairsOf(reading, expected);
-    return html`
-      <p class="halves"><span><i class="dot saw"></i>saw ${reading?.rows ?? 0}</span>
-        ${twin === null ? nothing : html`<span><i class="square"></i>${robot.sensors[twin].name} ${sensor.origin === 'virtual' ? 'saw' : 'expects'} ${expected?.rows ?? 0}</span>
-        <span class="space"></span><em>${count} of ${expected?.rows ?? 0} in both</em>`}</p>
-      <canvas class="sightings" role="img" aria-label="Ranges and bearings of the sightings of the camera; the button Show the numbers shows them as a table"></canvas>
+    return html` <p class="halves">
+        <span><i class="dot saw"></i>saw ${reading?.rows ?? 0}</span> ${twin === null
+          ? nothing
+          : html`<span
+                ><i class="square"></i>${robot.sensors[twin].name}
+                ${sensor.origin === 'virtual' ? 'saw' : 'expects'} ${expected?.rows ?? 0}</span
+              >
+              <span class="space"></span><em>${count} of ${expected?.rows ?? 0} in both</em>`}
+      </p>
+      <canvas
+        class="sightings"
+        role="img"
+        aria-label="Ranges and bearings of the sightings of the camera; the button Show the numbers shows them as a table"></canvas>
       ${this.renderCourse(sensor)}`;
   }
 
@@ -199,13 +311,19 @@ export class SensorsPanel extends LookingPanel {
     const slot = model.robots.findIndex((robot) => robot.barcode === code);
     if (slot >= 0) return {name: model.robots[slot].name, colour: palette.hue(slot).ink};
     for (const body of model.bodies.values()) {
-      if (body.barcode === code) return {name: shortName(body.name), colour: palette.token('landmark-ink')};
+      if (body.barcode === code)
+        return {name: shortName(body.name), colour: palette.token('landmark-ink')};
     }
     return {name: `code ${code}`, colour: palette.token('text-3')};
   }
 
   private nearest(slot: number, sensor: Sensor, reading: Reading | null): TemplateResult | string {
-    return nearestText(sensor, reading, (ray) => (reading === null ? null : this.met(slot, sensor, reading, ray)), this.context.palette);
+    return nearestText(
+      sensor,
+      reading,
+      (ray) => (reading === null ? null : this.met(slot, sensor, reading, ray)),
+      this.context.palette,
+    );
   }
 
   protected paint(): void {
@@ -222,13 +340,38 @@ export class SensorsPanel extends LookingPanel {
     const hue = palette.hue(slot);
     const halves = sensor.origin === 'hybrid' ? model.readings.of(slot, index, 1) : null;
     this.onCanvas('.polar', (ctx, width, height) => {
-      drawPolar(ctx, width, height, sensor, reading, hue, palette, (ray) => (reading === null ? null : this.met(slot, sensor, reading, ray)), {
-        real: halves, beam: this.field === 1 ? this.beamOf(sensor) : null, strength: reading === null ? 1 : strengthOf(this.placed.time_s - reading.stamp_s, sensor.period_s),
-      });
+      drawPolar(
+        ctx,
+        width,
+        height,
+        sensor,
+        reading,
+        hue,
+        palette,
+        (ray) => (reading === null ? null : this.met(slot, sensor, reading, ray)),
+        {
+          real: halves,
+          beam: this.field === 1 ? this.beamOf(sensor) : null,
+          strength:
+            reading === null
+              ? 1
+              : strengthOf(this.placed.time_s - reading.stamp_s, sensor.period_s),
+        },
+      );
     });
     this.onCanvas('.sightings', (ctx, width, height) => {
       const twin = twinOf(robot, index);
-      drawSightingsPlot(ctx, width, height, sensor, reading, twin === null ? null : model.readings.of(slot, twin), (code) => this.namedCode(code), palette, this.placed.time_s);
+      drawSightingsPlot(
+        ctx,
+        width,
+        height,
+        sensor,
+        reading,
+        twin === null ? null : model.readings.of(slot, twin),
+        (code) => this.namedCode(code),
+        palette,
+        this.placed.time_s,
+      );
     });
     this.paintCourse(slot, index, sensor, hue.ink);
   }
@@ -239,10 +382,23 @@ export class SensorsPanel extends LookingPanel {
     const field = fields[Math.min(this.field, fields.length - 1)];
     if (host === null || field === undefined) return;
     const {model, palette} = this.context;
-    const lines: CourseLine[] = [{points: model.readings.course(slot, index), colour: ink, dots: sensor.kind === 'sightings'}];
+    const lines: CourseLine[] = [
+      {points: model.readings.course(slot, index), colour: ink, dots: sensor.kind === 'sightings'},
+    ];
     const twin = twinOf(model.robots[slot], index);
-    if (twin !== null) lines.push({points: model.readings.course(slot, twin), colour: palette.token('virtual-ink'), dashed: true});
-    this.course.draw(host, lines, field, {now_s: this.placed.time_s, begin_s: spanOf(model)[0], period_s: sensor.period_s}, palette);
+    if (twin !== null)
+      lines.push({
+        points: model.readings.course(slot, twin),
+        colour: palette.token('virtual-ink'),
+        dashed: true,
+      });
+    this.course.draw(
+      host,
+      lines,
+      field,
+      {now_s: this.placed.time_s, begin_s: spanOf(model)[0], period_s: sensor.period_s},
+      palette,
+    );
   }
 
   static override styles = [
@@ -252,21 +408,91 @@ export class SensorsPanel extends LookingPanel {
     courseStyles,
     withheldStyles,
     css`
-      :host { display: flex; flex-direction: column; height: 100%; background: var(--bg-1); overflow: hidden; }
-      .head, .about { display: flex; align-items: center; gap: 8px; padding: 8px 12px 0; flex-wrap: wrap; }
-      .about { color: var(--text-2); font-size: var(--fs-12); padding-top: 4px; flex-wrap: nowrap; white-space: nowrap; overflow: hidden; }
-      .old { color: var(--stale-ink); }
-      :host([embedded]) .head > :is(.glyph, b, .icon-button, .space), :host([compact]) :is(.course, .fields) { display: none; }
-      .tag { display: inline-flex; align-items: center; gap: 6px; padding: 1px 8px; border-radius: var(--r-2); background: var(--virtual-fill); color: var(--virtual-ink); }
-      .polar { flex: 1 1 160px; min-height: 100px; width: 100%; }
-      .sightings { flex: 1 1 180px; min-height: 120px; width: 100%; }
-      .halves { display: flex; flex-wrap: wrap; gap: 4px 14px; margin: 6px 12px 0; color: var(--text-2); font-size: var(--fs-11); }
-      .halves span { display: inline-flex; align-items: center; gap: 6px; }
-      .halves em { color: var(--text-3); font-style: normal; }
-      .halves .dot { width: 6px; height: 6px; border-radius: 50%; background: var(--wall-ink); }
-      .halves .saw { background: var(--text-1); }
-      .halves .square { width: 7px; height: 7px; border: 1.5px solid var(--virtual-ink); }
-      .halves .line { width: 14px; height: 0; border-top: 1.5px solid var(--wall-ink); }
+      :host {
+        display: flex;
+        flex-direction: column;
+        height: 100%;
+        background: var(--bg-1);
+        overflow: hidden;
+      }
+      .head,
+      .about {
+        display: flex;
+        align-items: center;
+        gap: 8px;
+        padding: 8px 12px 0;
+        flex-wrap: wrap;
+      }
+      .about {
+        color: var(--text-2);
+        font-size: var(--fs-12);
+        padding-top: 4px;
+        flex-wrap: nowrap;
+        white-space: nowrap;
+        overflow: hidden;
+      }
+      .old {
+        color: var(--stale-ink);
+      }
+      :host([embedded]) .head > :is(.glyph, b, .icon-button, .space),
+      :host([compact]) :is(.course, .fields) {
+        display: none;
+      }
+      .tag {
+        display: inline-flex;
+        align-items: center;
+        gap: 6px;
+        padding: 1px 8px;
+        border-radius: var(--r-2);
+        background: var(--virtual-fill);
+        color: var(--virtual-ink);
+      }
+      .polar {
+        flex: 1 1 160px;
+        min-height: 100px;
+        width: 100%;
+      }
+      .sightings {
+        flex: 1 1 180px;
+        min-height: 120px;
+        width: 100%;
+      }
+      .halves {
+        display: flex;
+        flex-wrap: wrap;
+        gap: 4px 14px;
+        margin: 6px 12px 0;
+        color: var(--text-2);
+        font-size: var(--fs-11);
+      }
+      .halves span {
+        display: inline-flex;
+        align-items: center;
+        gap: 6px;
+      }
+      .halves em {
+        color: var(--text-3);
+        font-style: normal;
+      }
+      .halves .dot {
+        width: 6px;
+        height: 6px;
+        border-radius: 50%;
+        background: var(--wall-ink);
+      }
+      .halves .saw {
+        background: var(--text-1);
+      }
+      .halves .square {
+        width: 7px;
+        height: 7px;
+        border: 1.5px solid var(--virtual-ink);
+      }
+      .halves .line {
+        width: 14px;
+        height: 0;
+        border-top: 1.5px solid var(--wall-ink);
+      }
     `,
   ];
 }

@@ -7,7 +7,17 @@ import {drawSightingsPlot, pairsOf, sightingsOf} from './sightings_plot';
 import {twinOf} from './twin';
 
 function reading(...rows: [number, number, number][]): Reading {
-  return {slot: 0, sensor: 0, part: 0, past: false, stamp_s: 0, time_s: 0, rows: rows.length, fields: 3, values: Float32Array.from(rows.flat())};
+  return {
+    slot: 0,
+    sensor: 0,
+    part: 0,
+    past: false,
+    stamp_s: 0,
+    time_s: 0,
+    rows: rows.length,
+    fields: 3,
+    values: Float32Array.from(rows.flat()),
+  };
 }
 
 it('pairs what was seen with what was expected by its code', () => {
@@ -18,16 +28,45 @@ it('pairs what was seen with what was expected by its code', () => {
 });
 
 it('finds the twin of a camera, both ways', () => {
-  const sensor = (name: string, kind: Sensor['kind'], origin: Sensor['origin']): Sensor => ({name, kind, origin, driver: '', mount: [0, 0, 0], z: 0, period_s: 0, fields: []});
+  const sensor = (name: string, kind: Sensor['kind'], origin: Sensor['origin']): Sensor => ({
+    name,
+    kind,
+    origin,
+    driver: '',
+    mount: [0, 0, 0],
+    z: 0,
+    period_s: 0,
+    fields: [],
+  });
   const robot: Robot = {
-    name: 'a', team: '', kind: 'real', word: '', recorded: false, program: '', drivers: [], shapes: [],
-    sensors: [sensor('laser', 'ranges', 'virtual'), sensor('camera', 'sightings', 'real'), sensor('twin', 'sightings', 'virtual')],
+    name: 'a',
+    team: '',
+    kind: 'real',
+    word: '',
+    recorded: false,
+    program: '',
+    drivers: [],
+    shapes: [],
+    sensors: [
+      sensor('laser', 'ranges', 'virtual'),
+      sensor('camera', 'sightings', 'real'),
+      sensor('twin', 'sightings', 'virtual'),
+    ],
   };
   expect([0, 1, 2].map((index) => twinOf(robot, index))).toEqual([null, 2, 1]);
 });
 
 it('draws what was seen long ago hollow and faint, and what is current full', () => {
-  const sensor: Sensor = {name: 'camera', kind: 'sightings', origin: 'real', driver: '', mount: [0, 0, 0], z: 0, period_s: 0.1, fields: []};
+  const sensor: Sensor = {
+    name: 'camera',
+    kind: 'sightings',
+    origin: 'real',
+    driver: '',
+    mount: [0, 0, 0],
+    z: 0,
+    period_s: 0.1,
+    fields: [],
+  };
   const palette = {token: (name: string) => name} as unknown as Palette;
   const marks = (now_s: number) => {
     const drawn: [string, number][] = [];
@@ -37,13 +76,24 @@ it('draws what was seen long ago hollow and faint, and what is current full', ()
         const does = () => {
           if (name === 'beginPath') arc = false;
           if (name === 'arc') arc = true;
-          if (arc && (name === 'fill' || name === 'stroke')) drawn.push([name, known['globalAlpha'] as number]);
+          if (arc && (name === 'fill' || name === 'stroke'))
+            drawn.push([name, known['globalAlpha'] as number]);
           return {width: 20};
         };
         return name in known ? known[name as string] : does;
       },
     });
-    drawSightingsPlot(ctx as unknown as CanvasRenderingContext2D, 300, 200, sensor, reading([7, 1, 0]), null, () => ({name: 'a', colour: 'red'}), palette, now_s);
+    drawSightingsPlot(
+      ctx as unknown as CanvasRenderingContext2D,
+      300,
+      200,
+      sensor,
+      reading([7, 1, 0]),
+      null,
+      () => ({name: 'a', colour: 'red'}),
+      palette,
+      now_s,
+    );
     return drawn;
   };
   expect(marks(0.5)).toEqual([['fill', 1]]);

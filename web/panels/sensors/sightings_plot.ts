@@ -26,7 +26,11 @@ export function sightingsOf(reading: Reading | null): Sighting[] {
   if (reading === null || reading.fields < 3) return [];
   return Array.from({length: reading.rows}, (_, row) => {
     const at = row * reading.fields;
-    return {code: reading.values[at], range_m: reading.values[at + 1], bearing_rad: reading.values[at + 2]};
+    return {
+      code: reading.values[at],
+      range_m: reading.values[at + 1],
+      bearing_rad: reading.values[at + 2],
+    };
   });
 }
 
@@ -39,18 +43,28 @@ export function pairsOf(saw: Reading | null, expected: Reading | null): number {
 /** Range over bearing: discs were seen, squares are expected, a line joins a pair. What is old at `now_s` is faint and
  * hollow. */
 export function drawSightingsPlot(
-  ctx: CanvasRenderingContext2D, width: number, height: number, sensor: Sensor, reading: Reading | null,
-  twin: Reading | null, named: (code: number) => Named, palette: Palette, now_s: number,
+  ctx: CanvasRenderingContext2D,
+  width: number,
+  height: number,
+  sensor: Sensor,
+  reading: Reading | null,
+  twin: Reading | null,
+  named: (code: number) => Named,
+  palette: Palette,
+  now_s: number,
 ): void {
   const [ofCamera, ofTwin] = sensor.origin === 'virtual' ? [twin, reading] : [reading, twin];
   const [saw, expected] = [sightingsOf(ofCamera), sightingsOf(ofTwin)];
-  const strength = (of: Reading | null) => (of === null ? 1 : strengthOf(now_s - of.stamp_s, sensor.period_s));
+  const strength = (of: Reading | null) =>
+    of === null ? 1 : strengthOf(now_s - of.stamp_s, sensor.period_s);
   const [strengthOfSaw, strengthOfExpected] = [strength(ofCamera), strength(ofTwin)];
   const all = [...saw, ...expected];
   const half = Math.max(kLeast_rad, ...all.map((one) => Math.abs(one.bearing_rad))) * 1.12;
   const far = Math.max(1, ...all.map((one) => one.range_m)) * 1.1;
-  const x = (bearing: number) => kMargin.left + ((half - bearing) / (2 * half)) * (width - kMargin.left - kMargin.right);
-  const y = (range: number) => height - kMargin.bottom - (range / far) * (height - kMargin.top - kMargin.bottom);
+  const x = (bearing: number) =>
+    kMargin.left + ((half - bearing) / (2 * half)) * (width - kMargin.left - kMargin.right);
+  const y = (range: number) =>
+    height - kMargin.bottom - (range / far) * (height - kMargin.top - kMargin.bottom);
   drawAxes(ctx, width, half, far, x, y, palette);
   const seen = new Map(saw.map((one) => [one.code, one]));
   const placer = new LabelPlacer(width, height);
@@ -59,7 +73,15 @@ export function drawSightingsPlot(
     const {name, colour: own} = named(one.code);
     const colour = fresh ? own : palette.token('text-3');
     placer.block(x(one.bearing_rad), y(one.range_m), 4);
-    labels.push({text: name, x: x(one.bearing_rad), y: y(one.range_m), gap: 6, colour, weight: 400, rank});
+    labels.push({
+      text: name,
+      x: x(one.bearing_rad),
+      y: y(one.range_m),
+      gap: 6,
+      colour,
+      weight: 400,
+      rank,
+    });
   };
   ctx.globalAlpha = strengthOfExpected;
   for (const one of expected) {
@@ -92,7 +114,12 @@ export function drawSightingsPlot(
 }
 
 function drawAxes(
-  ctx: CanvasRenderingContext2D, width: number, half: number, far: number, x: (bearing: number) => number, y: (range: number) => number,
+  ctx: CanvasRenderingContext2D,
+  width: number,
+  half: number,
+  far: number,
+  x: (bearing: number) => number,
+  y: (range: number) => number,
   palette: Palette,
 ): void {
   ctx.font = `400 10px ${kFont}`;
@@ -107,7 +134,11 @@ function drawAxes(
     ctx.moveTo(kMargin.left, Math.round(y(range)) + 0.5);
     ctx.lineTo(width - kMargin.right, Math.round(y(range)) + 0.5);
     ctx.stroke();
-    ctx.fillText(range === 0 ? '0 m' : String(Number(range.toFixed(2))), kMargin.left - 5, y(range));
+    ctx.fillText(
+      range === 0 ? '0 m' : String(Number(range.toFixed(2))),
+      kMargin.left - 5,
+      y(range),
+    );
   }
   ctx.textAlign = 'center';
   const degrees = roundStep((half * 180) / Math.PI / 2.2);

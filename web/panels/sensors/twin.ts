@@ -6,7 +6,10 @@ export function twinOf(robot: Robot, index: number): number | null {
   const sensor = robot.sensors[index];
   if (sensor === undefined || sensor.kind !== 'sightings') return null;
   const other = robot.sensors.findIndex(
-    (known, i) => i !== index && known.kind === 'sightings' && (known.origin === 'virtual') !== (sensor.origin === 'virtual'),
+    (known, i) =>
+      i !== index &&
+      known.kind === 'sightings' &&
+      (known.origin === 'virtual') !== (sensor.origin === 'virtual'),
   );
   return other < 0 ? null : other;
 }

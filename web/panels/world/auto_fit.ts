@@ -44,8 +44,13 @@ export class AutoFit {
     if (this.moved) return;
     if (this.fittedRobots < placed.count) {
       let known = 0;
-      for (let slot = 0; slot < placed.count; ++slot) known += placed.flags[slot] & RobotFlag.known ? 1 : 0;
-      if (known > this.fittedRobots && stage.fit(false, this.everything ? 'all' : 'room') !== 'nothing') this.fittedRobots = known;
+      for (let slot = 0; slot < placed.count; ++slot)
+        known += placed.flags[slot] & RobotFlag.known ? 1 : 0;
+      if (
+        known > this.fittedRobots &&
+        stage.fit(false, this.everything ? 'all' : 'room') !== 'nothing'
+      )
+        this.fittedRobots = known;
     }
     if (now_ms - this.lookedAt_ms < kLook_ms) return;
     this.lookedAt_ms = now_ms;

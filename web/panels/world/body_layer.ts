@@ -78,7 +78,10 @@ export class BodyLayer {
 /** Draws in metres; lines are then given in pixels divided by the scale. */
 function inWorld(ctx: CanvasRenderingContext2D, camera: Camera, draw: () => void): void {
   ctx.save();
-  ctx.translate(camera.width / 2 - camera.x * camera.scale, camera.height / 2 + camera.y * camera.scale);
+  ctx.translate(
+    camera.width / 2 - camera.x * camera.scale,
+    camera.height / 2 + camera.y * camera.scale,
+  );
   ctx.scale(camera.scale, -camera.scale);
   draw();
   ctx.restore();

@@ -5,7 +5,15 @@ import {RobotFlag, type PoseFrame} from '../../protocol/frames';
 import {bodyState, reachOf} from './body_state';
 
 const frame = (time_s: number, flags: number, speed: number) =>
-  ({time_s, past: false, x: [0], y: [0], yaw: [0], flags: Uint16Array.of(flags), speed: [speed]}) as unknown as PoseFrame;
+  ({
+    time_s,
+    past: false,
+    x: [0],
+    y: [0],
+    yaw: [0],
+    flags: Uint16Array.of(flags),
+    speed: [speed],
+  }) as unknown as PoseFrame;
 
 it('a stale robot is a ghost whatever it waits for, and only real ones wait to be armed', () => {
   expect(bodyState('real', RobotFlag.known | RobotFlag.unarmed)).toBe('unarmed');

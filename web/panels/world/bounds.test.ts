@@ -18,13 +18,34 @@ function placed(...places: [number, number][]): Placed {
   return all;
 }
 
-const wall = (x: number, y: number, w: number, h: number): Body => ({id: 0, name: '', kind: 'wall', pose: [x, y, 0], shapes: [{polygon: [[0, 0], [w, 0], [w, h], [0, h]]}]}) as unknown as Body;
+const wall = (x: number, y: number, w: number, h: number): Body =>
+  ({
+    id: 0,
+    name: '',
+    kind: 'wall',
+    pose: [x, y, 0],
+    shapes: [
+      {
+        polygon: [
+          [0, 0],
+          [w, 0],
+          [w, h],
+          [0, h],
+        ],
+      },
+    ],
+  }) as unknown as Body;
 const room = (size: number) => boundsOfBodies([wall(0, 0, size, 0.1), wall(0, size, size, 0.1)]);
 const radius = () => 0.1;
 
 it('everything has its walls, whatever corner they are placed by', () => {
   const robots = placed([1, 1], [3, 2]);
-  expect(boundsOfAll(robots, radius, room(40), true)).toEqual({x0: 0, y0: 0, x1: 40, y1: expect.closeTo(40.1)});
+  expect(boundsOfAll(robots, radius, room(40), true)).toEqual({
+    x0: 0,
+    y0: 0,
+    x1: 40,
+    y1: expect.closeTo(40.1),
+  });
 });
 
 it('the walls of a room belong to its robots, those of a building do not', () => {
@@ -38,7 +59,12 @@ it('the walls of a room belong to its robots, those of a building do not', () =>
 function stage(robots: Placed) {
   const fits: [boolean, Extent][] = [];
   const element = {clientWidth: 100, clientHeight: 100} as HTMLElement;
-  const fake = {element, screenOf: (slot: number) => [robots.x[slot], robots.y[slot]], fit: (animate: boolean, what: Extent): Fitted => (fits.push([animate, what]) > 5 ? 'selection' : 'all')};
+  const fake = {
+    element,
+    screenOf: (slot: number) => [robots.x[slot], robots.y[slot]],
+    fit: (animate: boolean, what: Extent): Fitted =>
+      fits.push([animate, what]) > 5 ? 'selection' : 'all',
+  };
   return {stage: fake as unknown as Stage, fits};
 }
 
@@ -61,7 +87,11 @@ it('an untouched picture follows robots that leave it; one that was moved stays,
   fit.ask(shown, false);
   fit.again();
   fit.look(shown, robots, 4000, true);
-  expect(fits.slice(2)).toEqual([[false, 'closer'], [false, 'all'], [true, 'more']]);
+  expect(fits.slice(2)).toEqual([
+    [false, 'closer'],
+    [false, 'all'],
+    [true, 'more'],
+  ]);
   // The selection alone was asked for.
   fit.ask(shown, true);
   fit.look(shown, robots, 5000, true);

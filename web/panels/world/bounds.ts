@@ -23,13 +23,24 @@ const isNone = ({x0, x1}: Bounds) => x0 > x1;
 /** What holds both; either may be missing. */
 export function union(a: Bounds | null, b: Bounds | null): Bounds | null {
   if (a === null || b === null) return a ?? b;
-  return {x0: Math.min(a.x0, b.x0), y0: Math.min(a.y0, b.y0), x1: Math.max(a.x1, b.x1), y1: Math.max(a.y1, b.y1)};
+  return {
+    x0: Math.min(a.x0, b.x0),
+    y0: Math.min(a.y0, b.y0),
+    x1: Math.max(a.x1, b.x1),
+    y1: Math.max(a.y1, b.y1),
+  };
 }
 
 /** What holds these robots; null: none of them has a pose. */
-export function boundsOfRobots(placed: Placed, radius: (slot: number) => number, slots: Iterable<number>): Bounds | null {
+export function boundsOfRobots(
+  placed: Placed,
+  radius: (slot: number) => number,
+  slots: Iterable<number>,
+): Bounds | null {
   const bounds = none();
-  for (const slot of slots) if ((placed.flags[slot] & RobotFlag.known) !== 0) grow(bounds, placed.x[slot], placed.y[slot], radius(slot));
+  for (const slot of slots)
+    if ((placed.flags[slot] & RobotFlag.known) !== 0)
+      grow(bounds, placed.x[slot], placed.y[slot], radius(slot));
   return isNone(bounds) ? null : bounds;
 }
 
@@ -49,15 +60,24 @@ export function boundsOfBodies(bodies: Iterable<Body>): BodyBounds {
 }
 
 /** What holds all robots and bodies. `every`: with all walls, otherwise with those of a room, not of a building. */
-export function boundsOfAll(placed: Placed, radius: (slot: number) => number, bodies: BodyBounds, every: boolean): Bounds | null {
+export function boundsOfAll(
+  placed: Placed,
+  radius: (slot: number) => number,
+  bodies: BodyBounds,
+  every: boolean,
+): Bounds | null {
   let largest = 0;
   for (let slot = 0; slot < placed.count; ++slot) largest = Math.max(largest, radius(slot));
   const robots = boundsOfRobots(placed, radius, Array(placed.count).keys());
   // One robot alone would fill the picture: what is around it belongs to it.
-  if (robots !== null) grow(robots, (robots.x0 + robots.x1) / 2, (robots.y0 + robots.y1) / 2, kAround * largest);
+  if (robots !== null)
+    grow(robots, (robots.x0 + robots.x1) / 2, (robots.y0 + robots.y1) / 2, kAround * largest);
   const within = union(robots, bodies.others);
   const all = union(within, bodies.walls);
   if (within === null || all === null || every) return all;
-  const times = Math.max((all.x1 - all.x0) / (within.x1 - within.x0), (all.y1 - all.y0) / (within.y1 - within.y0));
+  const times = Math.max(
+    (all.x1 - all.x0) / (within.x1 - within.x0),
+    (all.y1 - all.y0) / (within.y1 - within.y0),
+  );
   return times <= kRoom ? all : within;
 }

@@ -18,7 +18,13 @@ export class Camera {
   height = 1;
   /** Pixels at the edges that something else covers: what is fitted or followed stands in the rest. */
   readonly covered = {left: 0, top: 0, right: 0, bottom: 0};
-  private goal: {x: number; y: number; scale: number; begin: number; from: [number, number, number]} | null = null;
+  private goal: {
+    x: number;
+    y: number;
+    scale: number;
+    begin: number;
+    from: [number, number, number];
+  } | null = null;
 
   toScreenX(x: number): number {
     return (x - this.x) * this.scale + this.width / 2;
@@ -27,7 +33,10 @@ export class Camera {
     return (this.y - y) * this.scale + this.height / 2;
   }
   toWorld(px: number, py: number): [number, number] {
-    return [(px - this.width / 2) / this.scale + this.x, this.y - (py - this.height / 2) / this.scale];
+    return [
+      (px - this.width / 2) / this.scale + this.x,
+      this.y - (py - this.height / 2) / this.scale,
+    ];
   }
 
   /** Zooms about a point of the screen, which stays where it is. */
@@ -50,7 +59,10 @@ export class Camera {
     const w = Math.max(bounds.x1 - bounds.x0, 0.5);
     const h = Math.max(bounds.y1 - bounds.y0, 0.5);
     const {left, top, right, bottom} = this.covered;
-    const least = Math.min((this.width - left - right - 2 * margin) / w, (this.height - top - bottom - 2 * margin) / h);
+    const least = Math.min(
+      (this.width - left - right - 2 * margin) / w,
+      (this.height - top - bottom - 2 * margin) / h,
+    );
     const scale = Math.min(Math.max(least, 0.05), 400);
     const [x, y] = this.middleFor((bounds.x0 + bounds.x1) / 2, (bounds.y0 + bounds.y1) / 2, scale);
     return {x, y, scale};

@@ -30,8 +30,14 @@ export class Density {
     ctx.drawImage(this.tile, -kCell_px, -kCell_px, w * kCell_px, h * kCell_px);
   }
 
-  private fill(counts: Float32Array, w: number, h: number, [red, green, blue]: [number, number, number]): void {
-    if (this.tile.width !== w || this.tile.height !== h) [this.tile.width, this.tile.height] = [w, h];
+  private fill(
+    counts: Float32Array,
+    w: number,
+    h: number,
+    [red, green, blue]: [number, number, number],
+  ): void {
+    if (this.tile.width !== w || this.tile.height !== h)
+      [this.tile.width, this.tile.height] = [w, h];
     const pen = this.tile.getContext('2d');
     if (pen === null) return;
     const image = pen.createImageData(w, h);
@@ -46,6 +52,7 @@ export class Density {
 function splat(counts: Float32Array, w: number, x: number, y: number): void {
   const at = Math.floor(y) * w + Math.floor(x);
   for (let dy = -1; dy <= 1; ++dy) {
-    for (let dx = -1; dx <= 1; ++dx) counts[at + dy * w + dx] += dx === 0 && dy === 0 ? 0.4 : dx === 0 || dy === 0 ? 0.15 : 0.05;
+    for (let dx = -1; dx <= 1; ++dx)
+      counts[at + dy * w + dx] += dx === 0 && dy === 0 ? 0.4 : dx === 0 || dy === 0 ? 0.15 : 0.05;
   }
 }

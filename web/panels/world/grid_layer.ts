@@ -73,5 +73,9 @@ export function drawScale(ctx: CanvasRenderingContext2D, camera: Camera, palette
   ctx.fillStyle = palette.token('text-2');
   ctx.textAlign = 'right';
   ctx.textBaseline = 'bottom';
-  ctx.fillText(step >= 1 ? `${step} m` : `${Math.round(step * 1000) / 10} cm`, x1 - length - 6, y + 4);
+  ctx.fillText(
+    step >= 1 ? `${step} m` : `${Math.round(step * 1000) / 10} cm`,
+    x1 - length - 6,
+    y + 4,
+  );
 }

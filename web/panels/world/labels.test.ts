@@ -2,12 +2,25 @@
 import {expect, it} from 'vitest';
 import {LabelPlacer, type Label} from './labels';
 
-const label = (text: string, more: Partial<Label> = {}): Label => ({text, x: 50, y: 50, gap: 4, colour: '', weight: 400, rank: 5, ...more});
+const label = (text: string, more: Partial<Label> = {}): Label => ({
+  text,
+  x: 50,
+  y: 50,
+  gap: 4,
+  colour: '',
+  weight: 400,
+  rank: 5,
+  ...more,
+});
 
 /** The names that are written where nothing is free. */
 function written(...labels: Label[]): string[] {
   const texts: string[] = [];
-  const ctx = {strokeText() {}, fillText: (text: string) => texts.push(text), measureText: () => ({width: 40})};
+  const ctx = {
+    strokeText() {},
+    fillText: (text: string) => texts.push(text),
+    measureText: () => ({width: 40}),
+  };
   const placer = new LabelPlacer(100, 100);
   placer.block(50, 50, 100);
   placer.draw(ctx as unknown as CanvasRenderingContext2D, labels, '');

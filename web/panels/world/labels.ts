@@ -29,7 +29,14 @@ interface Box {
 const kHeight = 14;
 /** Directions of the eight places, best first; y down. */
 const kPlaces: readonly [number, number][] = [
-  [1, 0], [-1, 0], [0, -1], [0, 1], [0.75, -0.75], [0.75, 0.75], [-0.75, -0.75], [-0.75, 0.75],
+  [1, 0],
+  [-1, 0],
+  [0, -1],
+  [0, 1],
+  [0.75, -0.75],
+  [0.75, 0.75],
+  [-0.75, -0.75],
+  [-0.75, 0.75],
 ];
 const kCell = 64;
 
@@ -37,7 +44,10 @@ const kCell = 64;
 export class LabelPlacer {
   private readonly cells = new Map<number, Box[]>();
 
-  constructor(private readonly width: number, private readonly height: number) {}
+  constructor(
+    private readonly width: number,
+    private readonly height: number,
+  ) {}
 
   /** Keeps a rectangle free. */
   block(x: number, y: number, half_width: number, half_height = half_width): void {
@@ -45,7 +55,12 @@ export class LabelPlacer {
   }
 
   isFree(x: number, y: number, half_width: number, half_height: number): boolean {
-    return this.free({x0: x - half_width, y0: y - half_height, x1: x + half_width, y1: y + half_height});
+    return this.free({
+      x0: x - half_width,
+      y0: y - half_height,
+      x1: x + half_width,
+      y1: y + half_height,
+    });
   }
 
   /** Draws those that find a place, in order of their rank. */
@@ -55,7 +70,8 @@ export class LabelPlacer {
     ctx.textAlign = 'left';
     ctx.lineJoin = 'round';
     for (const label of labels) {
-      if (label.x < -80 || label.y < -40 || label.x > this.width + 80 || label.y > this.height + 40) continue;
+      if (label.x < -80 || label.y < -40 || label.x > this.width + 80 || label.y > this.height + 40)
+        continue;
       ctx.font = `${label.weight} 12px ${kFont}`;
       const w = widthOf(ctx, label);
       const box = this.place(label, w);
@@ -77,7 +93,12 @@ export class LabelPlacer {
     for (const [dx, dy] of places) {
       const cx = label.x + dx * (label.gap + (dx === 0 ? 0 : w / 2 + 2));
       const cy = label.y + dy * (label.gap + kHeight / 2);
-      const box = {x0: cx - w / 2 - 2, y0: cy - kHeight / 2, x1: cx + w / 2 + 2, y1: cy + kHeight / 2};
+      const box = {
+        x0: cx - w / 2 - 2,
+        y0: cy - kHeight / 2,
+        x1: cx + w / 2 + 2,
+        y1: cy + kHeight / 2,
+      };
       if (this.free(box)) return box;
       first ??= box;
     }
@@ -87,7 +108,8 @@ export class LabelPlacer {
   private free(box: Box): boolean {
     for (const key of keys(box)) {
       for (const other of this.cells.get(key) ?? []) {
-        if (box.x0 < other.x1 && other.x0 < box.x1 && box.y0 < other.y1 && other.y0 < box.y1) return false;
+        if (box.x0 < other.x1 && other.x0 < box.x1 && box.y0 < other.y1 && other.y0 < box.y1)
+          return false;
       }
     }
     return true;
@@ -121,7 +143,8 @@ export const kFont = '"Inter Variable", Inter, system-ui, "DejaVu Sans", sans-se
 function keys(box: Box): number[] {
   const result: number[] = [];
   for (let i = Math.floor(box.x0 / kCell); i <= Math.floor(box.x1 / kCell); ++i) {
-    for (let j = Math.floor(box.y0 / kCell); j <= Math.floor(box.y1 / kCell); ++j) result.push(i * 4096 + j);
+    for (let j = Math.floor(box.y0 / kCell); j <= Math.floor(box.y1 / kCell); ++j)
+      result.push(i * 4096 + j);
   }
   return result;
 }

@@ -48,11 +48,22 @@ export const kLayers: Layers = {
 export function readLayers(kept: unknown): Layers {
   const given = typeof kept === 'object' && kept !== null ? (kept as Partial<Layers>) : {};
   const layers: Layers = {...kLayers, hidden: Array.isArray(given.hidden) ? given.hidden : []};
-  for (const name of ['trails', 'sightings', 'hits', 'uncertainty', 'shadows', 'names', 'grid', 'density', 'minimap'] satisfies Flag[]) {
+  for (const name of [
+    'trails',
+    'sightings',
+    'hits',
+    'uncertainty',
+    'shadows',
+    'names',
+    'grid',
+    'density',
+    'minimap',
+  ] satisfies Flag[]) {
     if (typeof given[name] === 'boolean') layers[name] = given[name];
   }
   if (given.poses === 'both' || given.poses === 'true') layers.poses = given.poses;
   if (given.scans === 'off' || given.scans === 'selected') layers.scans = given.scans;
-  if (given.colourBy !== undefined && kColourBy.includes(given.colourBy)) layers.colourBy = given.colourBy;
+  if (given.colourBy !== undefined && kColourBy.includes(given.colourBy))
+    layers.colourBy = given.colourBy;
   return layers;
 }

@@ -19,7 +19,12 @@ export class Lens {
   }
 
   /** `paint` draws the world through another camera. */
-  draw(ctx: CanvasRenderingContext2D, main: Camera, palette: Palette, paint: (camera: Camera) => void): void {
+  draw(
+    ctx: CanvasRenderingContext2D,
+    main: Camera,
+    palette: Palette,
+    paint: (camera: Camera) => void,
+  ): void {
     if (!this.on) return;
     const w = Math.min(kWidth, main.width - 24);
     const h = Math.min(kHeight, main.height - 60);

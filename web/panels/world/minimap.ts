@@ -34,8 +34,18 @@ export class Minimap {
     this.place = null;
   }
 
-  draw(ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed, robots: readonly Robot[], bounds: Bounds, palette: Palette): void {
-    const scale = Math.min((kWidth - 16) / (bounds.x1 - bounds.x0), (kHeight - 16) / (bounds.y1 - bounds.y0));
+  draw(
+    ctx: CanvasRenderingContext2D,
+    camera: Camera,
+    placed: Placed,
+    robots: readonly Robot[],
+    bounds: Bounds,
+    palette: Palette,
+  ): void {
+    const scale = Math.min(
+      (kWidth - 16) / (bounds.x1 - bounds.x0),
+      (kHeight - 16) / (bounds.y1 - bounds.y0),
+    );
     const left = kMargin;
     const top = camera.height - kMargin - kHeight;
     const ox = left + kWidth / 2 - (scale * (bounds.x0 + bounds.x1)) / 2;
@@ -68,8 +78,14 @@ export class Minimap {
 
   /** Simulated robots as dots, drawn anew a few times a second: thousands of them cost more than they move. */
   private drawDots(
-    ctx: CanvasRenderingContext2D, placed: Placed, robots: readonly Robot[], palette: Palette, left: number, top: number,
-    [ox, oy]: [number, number], scale: number,
+    ctx: CanvasRenderingContext2D,
+    placed: Placed,
+    robots: readonly Robot[],
+    palette: Palette,
+    left: number,
+    top: number,
+    [ox, oy]: [number, number],
+    scale: number,
   ): void {
     const now_ms = performance.now();
     const pen = this.dots.getContext('2d');
@@ -81,7 +97,12 @@ export class Minimap {
       pen.globalAlpha = placed.count > 400 ? 0.5 : 0.9;
       for (let slot = 0; slot < placed.count; ++slot) {
         if ((placed.flags[slot] & RobotFlag.known) === 0 || robots[slot].kind === 'real') continue;
-        pen.fillRect(ox + scale * placed.x[slot] - 0.5, oy - scale * placed.y[slot] - 0.5, 1.2, 1.2);
+        pen.fillRect(
+          ox + scale * placed.x[slot] - 0.5,
+          oy - scale * placed.y[slot] - 0.5,
+          1.2,
+          1.2,
+        );
       }
     }
     ctx.drawImage(this.dots, left, top, kWidth, kHeight);
@@ -91,7 +112,8 @@ export class Minimap {
   at(camera: Camera, px: number, py: number): [number, number] | null {
     const {place} = this;
     const top = camera.height - kMargin - kHeight;
-    if (place === null || px < kMargin || px > kMargin + kWidth || py < top || py > top + kHeight) return null;
+    if (place === null || px < kMargin || px > kMargin + kWidth || py < top || py > top + kHeight)
+      return null;
     return [(px - place.x) / place.scale, (place.y - py) / place.scale];
   }
 }

@@ -18,7 +18,14 @@ export function namesFit(camera: Camera, robots: number): boolean {
 
 /** The name of a robot, and how early it gets its place. */
 export function robotLabel(
-  robot: Robot, slot: number, flags: number, x: number, y: number, r: number, selection: Selection, palette: Palette,
+  robot: Robot,
+  slot: number,
+  flags: number,
+  x: number,
+  y: number,
+  r: number,
+  selection: Selection,
+  palette: Palette,
 ): Label {
   const marked = robot.kind === 'real' || robot.word !== '';
   // Its state may be part of the label, so it comes before the names of robots that are well.
@@ -31,13 +38,28 @@ export function robotLabel(
     colour: marked ? palette.hue(slot).ink : palette.token('sim-ink'),
     weight: marked ? 600 : 400,
     always: selection.hovered === slot,
-    rank: selection.hovered === slot ? -1 : slot === selection.primary ? 0 : troubled ? 0.5 : robot.kind === 'real' ? 1 : robot.word !== '' ? 2 : 5,
+    rank:
+      selection.hovered === slot
+        ? -1
+        : slot === selection.primary
+          ? 0
+          : troubled
+            ? 0.5
+            : robot.kind === 'real'
+              ? 1
+              : robot.word !== ''
+                ? 2
+                : 5,
   };
 }
 
 /** The names of bodies; tubes only where there is room. */
 export function bodyLabels(
-  groups: ReadonlyMap<string, {bodies: readonly Body[]}>, camera: Camera, layers: Layers, near: boolean, palette: Palette,
+  groups: ReadonlyMap<string, {bodies: readonly Body[]}>,
+  camera: Camera,
+  layers: Layers,
+  near: boolean,
+  palette: Palette,
   placer: LabelPlacer,
 ): Label[] {
   const labels: Label[] = [];
@@ -67,8 +89,14 @@ export function bodyLabels(
 
 /** Whom to name, in the picture `placed`. `whole` says who is drawn with an outline. */
 export function robotLabels(
-  robots: readonly Robot[], slots: readonly number[], camera: Camera, placed: Placed, radius: (slot: number) => number,
-  selection: Selection, palette: Palette, placer: LabelPlacer,
+  robots: readonly Robot[],
+  slots: readonly number[],
+  camera: Camera,
+  placed: Placed,
+  radius: (slot: number) => number,
+  selection: Selection,
+  palette: Palette,
+  placer: LabelPlacer,
 ): Label[] {
   return slots.map((slot) => {
     const x = camera.toScreenX(placed.x[slot]);
@@ -76,7 +104,8 @@ export function robotLabels(
     const r = Math.max(radius(slot) * camera.scale, 5);
     placer.block(x, y, 0.8 * r);
     // The word below it.
-    if (bodyState(robots[slot].kind, placed.flags[slot]) !== 'plain') placer.block(x, y + r + 13, 14, 8);
+    if (bodyState(robots[slot].kind, placed.flags[slot]) !== 'plain')
+      placer.block(x, y + r + 13, 14, 8);
     return robotLabel(robots[slot], slot, placed.flags[slot], x, y, r, selection, palette);
   });
 }

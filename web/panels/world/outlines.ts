@@ -5,7 +5,8 @@ import type {Pose, Shape} from '../../protocol/messages';
 export function radiusOf(shapes: readonly Shape[]): number {
   let radius = 0;
   for (const shape of shapes) {
-    if (shape.disc) radius = Math.max(radius, Math.hypot(shape.disc[0], shape.disc[1]) + shape.disc[2]);
+    if (shape.disc)
+      radius = Math.max(radius, Math.hypot(shape.disc[0], shape.disc[1]) + shape.disc[2]);
     for (const [x, y] of shape.polygon ?? []) radius = Math.max(radius, Math.hypot(x, y));
   }
   return radius;
@@ -13,12 +14,22 @@ export function radiusOf(shapes: readonly Shape[]): number {
 
 /** Middle and half lengths along x and y of the box that holds a body, metres in the world. Files may place a body by a
  * corner, so its pose need not be inside. */
-export function boxOf({pose, shapes}: {pose: Pose; shapes: readonly Shape[]}): {x: number; y: number; hx: number; hy: number} {
+export function boxOf({pose, shapes}: {pose: Pose; shapes: readonly Shape[]}): {
+  x: number;
+  y: number;
+  hx: number;
+  hy: number;
+} {
   let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];
   const [c, s] = [Math.cos(pose[2]), Math.sin(pose[2])];
   const add = ([x, y]: readonly [number, number], r = 0) => {
     const [wx, wy] = [pose[0] + c * x - s * y, pose[1] + s * x + c * y];
-    [x0, y0, x1, y1] = [Math.min(x0, wx - r), Math.min(y0, wy - r), Math.max(x1, wx + r), Math.max(y1, wy + r)];
+    [x0, y0, x1, y1] = [
+      Math.min(x0, wx - r),
+      Math.min(y0, wy - r),
+      Math.max(x1, wx + r),
+      Math.max(y1, wy + r),
+    ];
   };
   for (const {disc, polygon} of shapes) {
     if (disc) add([disc[0], disc[1]], disc[2]);
@@ -39,7 +50,10 @@ export function outlinePath(shapes: readonly Shape[]): Path2D {
 export function addShape(path: Path2D, shape: Shape, pose: Pose): void {
   const c = Math.cos(pose[2]);
   const s = Math.sin(pose[2]);
-  const at = (x: number, y: number): [number, number] => [pose[0] + c * x - s * y, pose[1] + s * x + c * y];
+  const at = (x: number, y: number): [number, number] => [
+    pose[0] + c * x - s * y,
+    pose[1] + s * x + c * y,
+  ];
   if (shape.disc) {
     const [x, y] = at(shape.disc[0], shape.disc[1]);
     path.moveTo(x + shape.disc[2], y);

@@ -18,7 +18,11 @@ export interface Team {
 }
 
 /** The middle of each large team that can be seen, with its number and mean speed. */
-export function teamsOf(robots: readonly Robot[], placed: Placed, speeds: Float32Array | undefined): Team[] {
+export function teamsOf(
+  robots: readonly Robot[],
+  placed: Placed,
+  speeds: Float32Array | undefined,
+): Team[] {
   const teams = new Map<string, Team>();
   for (let slot = 0; slot < placed.count; ++slot) {
     if ((placed.flags[slot] & RobotFlag.known) === 0) continue;
@@ -32,12 +36,21 @@ export function teamsOf(robots: readonly Robot[], placed: Placed, speeds: Float3
   }
   return [...teams.values()]
     .filter((team) => team.name !== '' && team.count >= kLeastMembers)
-    .map((team) => ({...team, x: team.x / team.count, y: team.y / team.count, speed: team.speed / team.count}));
+    .map((team) => ({
+      ...team,
+      x: team.x / team.count,
+      y: team.y / team.count,
+      speed: team.speed / team.count,
+    }));
 }
 
 /** Plates over the crowd: name, number, mean speed. */
 export function drawPlates(
-  ctx: CanvasRenderingContext2D, camera: Camera, teams: readonly Team[], palette: Palette, placer: LabelPlacer,
+  ctx: CanvasRenderingContext2D,
+  camera: Camera,
+  teams: readonly Team[],
+  palette: Palette,
+  placer: LabelPlacer,
 ): void {
   ctx.textBaseline = 'middle';
   ctx.textAlign = 'left';
@@ -50,7 +63,8 @@ export function drawPlates(
     const x = camera.toScreenX(team.x) - width / 2;
     const middle = camera.toScreenY(team.y);
     // A plate gives way to robots that matter.
-    const shift = kShifts_px.find((dy) => placer.isFree(x + width / 2, middle + dy, width / 2, 13)) ?? 0;
+    const shift =
+      kShifts_px.find((dy) => placer.isFree(x + width / 2, middle + dy, width / 2, 13)) ?? 0;
     const y = middle + shift;
     if (x + width < 0 || x > camera.width || y < 0 || y > camera.height) continue;
     ctx.globalAlpha = 0.88;

@@ -14,7 +14,11 @@ import type {Surface} from './surface';
 const kScanned = 12;
 
 /** Slot and index of the sensors that the layers ask for: those of the selection, and of a few real robots. */
-export function sensorsToRead(model: RunModel, selection: Selection, layers: Layers): [number, number][] {
+export function sensorsToRead(
+  model: RunModel,
+  selection: Selection,
+  layers: Layers,
+): [number, number][] {
   if (layers.scans === 'off') return [];
   const wanted = new Set<number>(selection.primary === null ? [] : [selection.primary]);
   if (layers.scans === 'real') {
@@ -24,7 +28,9 @@ export function sensorsToRead(model: RunModel, selection: Selection, layers: Lay
   }
   return [...wanted].flatMap((slot) => {
     const robot = model.robots[slot];
-    return robot === undefined ? [] : drawnSensors(robot).map((sensor): [number, number] => [slot, sensor]);
+    return robot === undefined
+      ? []
+      : drawnSensors(robot).map((sensor): [number, number] => [slot, sensor]);
   });
 }
 
@@ -43,7 +49,12 @@ export interface Shown {
 }
 
 /** The readings that the layers ask for. What is old is faint where it is looked at, and gone elsewhere. */
-export function shownReadings(model: RunModel, selection: Selection, placed: Placed, layers: Layers): Shown[] {
+export function shownReadings(
+  model: RunModel,
+  selection: Selection,
+  placed: Placed,
+  layers: Layers,
+): Shown[] {
   if (layers.scans === 'off') return [];
   const found: Shown[] = [];
   model.readings.each((slot, index, reading) => {
@@ -52,7 +63,16 @@ export function shownReadings(model: RunModel, selection: Selection, placed: Pla
     if ((placed.flags[slot] & (RobotFlag.known | RobotFlag.stale)) !== RobotFlag.known) return;
     const tried = model.probes.sensor(index);
     if (tried !== undefined) {
-      if (tried.kind === 'ranges' || tried.kind === 'sightings') found.push({slot, sensor: tried, reading, strong: true, fresh: placed.time_s - reading.stamp_s < 1, strength: strengthOf(placed.time_s - reading.stamp_s, 0), tried: true});
+      if (tried.kind === 'ranges' || tried.kind === 'sightings')
+        found.push({
+          slot,
+          sensor: tried,
+          reading,
+          strong: true,
+          fresh: placed.time_s - reading.stamp_s < 1,
+          strength: strengthOf(placed.time_s - reading.stamp_s, 0),
+          tried: true,
+        });
       return;
     }
     const strong = slot === selection.primary;
@@ -62,19 +82,41 @@ export function shownReadings(model: RunModel, selection: Selection, placed: Pla
     const age_s = placed.time_s - reading.stamp_s;
     const fresh = isCurrent(age_s, sensor.period_s);
     if (!fresh && (!strong || age_s > kOldest_s)) return;
-    found.push({slot, sensor, reading, strong, fresh, strength: strengthOf(age_s, sensor.period_s), tried: false});
+    found.push({
+      slot,
+      sensor,
+      reading,
+      strong,
+      fresh,
+      strength: strengthOf(age_s, sensor.period_s),
+      tried: false,
+    });
   });
   return found.sort((a, b) => Number(a.strong) - Number(b.strong) || a.slot - b.slot);
 }
 
 /** Scans, what they hit, and sightings. */
 export function drawReadings(
-  ctx: CanvasRenderingContext2D, camera: Camera, model: RunModel, selection: Selection, palette: Palette, placed: Placed,
-  layers: Layers, surface: Surface | null, hits: boolean,
+  ctx: CanvasRenderingContext2D,
+  camera: Camera,
+  model: RunModel,
+  selection: Selection,
+  palette: Palette,
+  placed: Placed,
+  layers: Layers,
+  surface: Surface | null,
+  hits: boolean,
 ): void {
-  for (const {slot, sensor, reading, strong, fresh, strength, tried} of shownReadings(model, selection, placed, layers)) {
+  for (const {slot, sensor, reading, strong, fresh, strength, tried} of shownReadings(
+    model,
+    selection,
+    placed,
+    layers,
+  )) {
     const mount = mountOf(placed, slot, sensor);
-    const hue = tried ? {fill: palette.token('virtual'), ink: palette.token('virtual-ink')} : palette.hue(slot);
+    const hue = tried
+      ? {fill: palette.token('virtual'), ink: palette.token('virtual-ink')}
+      : palette.hue(slot);
     if (sensor.kind === 'sightings') {
       if (layers.sightings) drawSightings(ctx, camera, mount, reading, hue.ink, strength);
       continue;
@@ -82,6 +124,7 @@ export function drawReadings(
     if (tried) ctx.setLineDash([4, 3]);
     drawScan(ctx, camera, mount, sensor, reading, strong ? hue.fill : hue.ink, strong && fresh);
     ctx.setLineDash([]);
-    if (fresh && hits && layers.hits && surface !== null) drawHits(ctx, camera, mount, sensor, reading, slot, surface, palette);
+    if (fresh && hits && layers.hits && surface !== null)
+      drawHits(ctx, camera, mount, sensor, reading, slot, surface, palette);
   }
 }

@@ -25,7 +25,10 @@ const kPlainRing_px = 60;
 export class RobotLayer {
   private outlines: Outline[] = [];
 
-  constructor(private readonly palette: Palette, private readonly selection: Selection) {}
+  constructor(
+    private readonly palette: Palette,
+    private readonly selection: Selection,
+  ) {}
 
   refresh(robots: readonly Robot[]): void {
     this.outlines = robots.map((robot) => ({
@@ -40,7 +43,14 @@ export class RobotLayer {
   }
 
   /** The outline of a robot as if it were at a place of the screen; `scale`: pixels per metre. */
-  strokeOutline(ctx: CanvasRenderingContext2D, slot: number, x: number, y: number, yaw: number, scale: number): void {
+  strokeOutline(
+    ctx: CanvasRenderingContext2D,
+    slot: number,
+    x: number,
+    y: number,
+    yaw: number,
+    scale: number,
+  ): void {
     const outline = this.outlines[slot];
     if (outline === undefined) return;
     const [width, dash] = [ctx.lineWidth, ctx.getLineDash()];
@@ -55,7 +65,12 @@ export class RobotLayer {
   }
 
   draw(
-    ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed, slot: number, robot: Robot, tint: string | null,
+    ctx: CanvasRenderingContext2D,
+    camera: Camera,
+    placed: Placed,
+    slot: number,
+    robot: Robot,
+    tint: string | null,
   ): void {
     const outline = this.outlines[slot];
     const flags = placed.flags[slot];
@@ -85,10 +100,18 @@ export class RobotLayer {
       ctx.globalAlpha = 1;
       ctx.lineWidth = (unarmed ? 2 : 1.25) / scale;
       if (unarmed) ctx.setLineDash([3 / scale, 3 / scale]);
-      ctx.strokeStyle = unarmed ? this.palette.token('warn') : this.palette.theme === 'light' ? hue.ink : hue.fill;
+      ctx.strokeStyle = unarmed
+        ? this.palette.token('warn')
+        : this.palette.theme === 'light'
+          ? hue.ink
+          : hue.fill;
     } else {
       const name = this.palette.hueName(slot);
-      ctx.fillStyle = stale ? 'transparent' : tint !== null ? withAlpha(tint, 0.45) : this.palette.token(`${name}-fill`) || this.palette.token('floor');
+      ctx.fillStyle = stale
+        ? 'transparent'
+        : tint !== null
+          ? withAlpha(tint, 0.45)
+          : this.palette.token(`${name}-fill`) || this.palette.token('floor');
       ctx.fill(outline.path);
       ctx.strokeStyle = tint ?? hue.ink;
     }
@@ -96,12 +119,26 @@ export class RobotLayer {
     ctx.restore();
     this.drawHeading(ctx, r, robot, stale ? null : (tint ?? hue.ink));
     ctx.restore();
-    if (stale) this.drawReach(ctx, x, y, r, r + reachOf(placed, slot) * camera.scale, placed.time_s - placed.freshAt(slot));
+    if (stale)
+      this.drawReach(
+        ctx,
+        x,
+        y,
+        r,
+        r + reachOf(placed, slot) * camera.scale,
+        placed.time_s - placed.freshAt(slot),
+      );
     if (state === 'unarmed') this.drawWord(ctx, 'arm', x, y + r + 5, this.palette.token('warn'));
-    if ((flags & RobotFlag.stopped) !== 0) drawStopped(ctx, x + 0.75 * r, y - 0.75 * r, this.palette);
+    if ((flags & RobotFlag.stopped) !== 0)
+      drawStopped(ctx, x + 0.75 * r, y - 0.75 * r, this.palette);
   }
 
-  private drawHeading(ctx: CanvasRenderingContext2D, r: number, robot: Robot, ink: string | null): void {
+  private drawHeading(
+    ctx: CanvasRenderingContext2D,
+    r: number,
+    robot: Robot,
+    ink: string | null,
+  ): void {
     if (ink === null) return;
     ctx.beginPath();
     if (robot.kind === 'real') {
@@ -119,7 +156,13 @@ export class RobotLayer {
     ctx.stroke();
   }
 
-  private drawRing(ctx: CanvasRenderingContext2D, x: number, y: number, r: number, selected: boolean): void {
+  private drawRing(
+    ctx: CanvasRenderingContext2D,
+    x: number,
+    y: number,
+    r: number,
+    selected: boolean,
+  ): void {
     const intent = this.palette.token('intent');
     ctx.beginPath();
     ctx.arc(x, y, r, 0, 2 * Math.PI);
@@ -134,7 +177,14 @@ export class RobotLayer {
   }
 
   /** A ghost: how old its pose is, and a circle about where it may be by now, pixels. */
-  private drawReach(ctx: CanvasRenderingContext2D, x: number, y: number, r: number, reach: number, age_s: number): void {
+  private drawReach(
+    ctx: CanvasRenderingContext2D,
+    x: number,
+    y: number,
+    r: number,
+    reach: number,
+    age_s: number,
+  ): void {
     const ink = this.palette.token('stale-ink');
     ctx.save();
     ctx.setLineDash([2, 4]);
@@ -151,7 +201,13 @@ export class RobotLayer {
   }
 
   /** What is not normal about a robot, under it. */
-  private drawWord(ctx: CanvasRenderingContext2D, text: string, x: number, y: number, ink: string): void {
+  private drawWord(
+    ctx: CanvasRenderingContext2D,
+    text: string,
+    x: number,
+    y: number,
+    ink: string,
+  ): void {
     ctx.font = `500 11px ${kFont}`;
     ctx.textAlign = 'center';
     ctx.textBaseline = 'top';
@@ -164,7 +220,12 @@ export class RobotLayer {
 }
 
 /** A red octagon with a bar. */
-export function drawStopped(ctx: CanvasRenderingContext2D, x: number, y: number, palette: Palette): void {
+export function drawStopped(
+  ctx: CanvasRenderingContext2D,
+  x: number,
+  y: number,
+  palette: Palette,
+): void {
   ctx.fillStyle = palette.token('stop-fill');
   ctx.beginPath();
   for (let i = 0; i < 8; ++i) {

@@ -18,7 +18,11 @@ export function mountOf(placed: Placed, slot: number, sensor: Sensor): Mount {
   const c = Math.cos(yaw);
   const s = Math.sin(yaw);
   const [mx, my, myaw] = sensor.mount;
-  return {x: placed.x[slot] + c * mx - s * my, y: placed.y[slot] + s * mx + c * my, yaw: yaw + myaw};
+  return {
+    x: placed.x[slot] + c * mx - s * my,
+    y: placed.y[slot] + s * mx + c * my,
+    yaw: yaw + myaw,
+  };
 }
 
 /** The directions of the rays of a sensor, or those of the reading's rows spread over a cone. */
@@ -30,8 +34,13 @@ export function bearingsOf(sensor: Sensor, rows: number): number[] {
 
 /** Draws what a range sensor saw: an area up to what it hit. */
 export function drawScan(
-  ctx: CanvasRenderingContext2D, camera: Camera, mount: Mount, sensor: Sensor, reading: Reading,
-  hue: string, strong: boolean,
+  ctx: CanvasRenderingContext2D,
+  camera: Camera,
+  mount: Mount,
+  sensor: Sensor,
+  reading: Reading,
+  hue: string,
+  strong: boolean,
 ): void {
   const max = sensor.range?.[1] ?? 4;
   const bearings = bearingsOf(sensor, reading.rows);
@@ -77,8 +86,14 @@ export function drawScan(
 
 /** Marks what the rays of a sensor met: disc real, diamond simulated, square virtual. */
 export function drawHits(
-  ctx: CanvasRenderingContext2D, camera: Camera, mount: Mount, sensor: Sensor, reading: Reading,
-  owner: number, surface: Surface, palette: Palette,
+  ctx: CanvasRenderingContext2D,
+  camera: Camera,
+  mount: Mount,
+  sensor: Sensor,
+  reading: Reading,
+  owner: number,
+  surface: Surface,
+  palette: Palette,
 ): void {
   const max = sensor.range?.[1] ?? Infinity;
   const bearings = bearingsOf(sensor, reading.rows);
@@ -99,7 +114,12 @@ export function drawHits(
 
 /** Lines from a camera to what it read; `strength` is 1 for what is current. */
 export function drawSightings(
-  ctx: CanvasRenderingContext2D, camera: Camera, mount: Mount, reading: Reading, hue: string, strength: number,
+  ctx: CanvasRenderingContext2D,
+  camera: Camera,
+  mount: Mount,
+  reading: Reading,
+  hue: string,
+  strength: number,
 ): void {
   ctx.save();
   ctx.strokeStyle = hue;
@@ -124,7 +144,13 @@ export function drawSightings(
 
 export type Mark = 'disc' | 'diamond' | 'square';
 
-export function drawMark(ctx: CanvasRenderingContext2D, mark: Mark, x: number, y: number, r: number): void {
+export function drawMark(
+  ctx: CanvasRenderingContext2D,
+  mark: Mark,
+  x: number,
+  y: number,
+  r: number,
+): void {
   ctx.beginPath();
   if (mark === 'disc') ctx.arc(x, y, r, 0, 2 * Math.PI);
   else if (mark === 'square') ctx.rect(x - r, y - r, 2 * r, 2 * r);

@@ -8,18 +8,32 @@ import {withAlpha} from './scan_layer';
 export type SelectionBox = readonly [number, number, number, number];
 
 /** Robots in the box. `at`: where a robot is on the screen; null: behind the eye. */
-export function slotsIn([ax, ay, bx, by]: SelectionBox, placed: Placed, at: (slot: number) => readonly [number, number] | null): number[] {
+export function slotsIn(
+  [ax, ay, bx, by]: SelectionBox,
+  placed: Placed,
+  at: (slot: number) => readonly [number, number] | null,
+): number[] {
   const slots: number[] = [];
   for (let slot = 0; slot < placed.count; ++slot) {
     const place = (placed.flags[slot] & RobotFlag.known) === 0 ? null : at(slot);
     if (place === null) continue;
     const [x, y] = place;
-    if (x >= Math.min(ax, bx) && x <= Math.max(ax, bx) && y >= Math.min(ay, by) && y <= Math.max(ay, by)) slots.push(slot);
+    if (
+      x >= Math.min(ax, bx) &&
+      x <= Math.max(ax, bx) &&
+      y >= Math.min(ay, by) &&
+      y <= Math.max(ay, by)
+    )
+      slots.push(slot);
   }
   return slots;
 }
 
-export function drawBox(ctx: CanvasRenderingContext2D, palette: Palette, [x0, y0, x1, y1]: SelectionBox): void {
+export function drawBox(
+  ctx: CanvasRenderingContext2D,
+  palette: Palette,
+  [x0, y0, x1, y1]: SelectionBox,
+): void {
   const intent = palette.token('intent');
   ctx.strokeStyle = intent;
   ctx.lineWidth = 1;

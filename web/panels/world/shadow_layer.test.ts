@@ -6,7 +6,13 @@ import {gapText, ghostsOf} from './shadow_layer';
 
 const shadow = (more: object) => ({shadow: {running: true, offset: [0.3, -0.4, 1], ...more}});
 const model = (drives: [number, object][]) => ({drives: new Map(drives)}) as unknown as RunModel;
-const placed = {count: 3, x: [1, 2, 3], y: [0, 0, 0], yaw: [0, 0.5, 0], flags: [1, 1, 0]} as unknown as Placed;
+const placed = {
+  count: 3,
+  x: [1, 2, 3],
+  y: [0, 0, 0],
+  yaw: [0, 0.5, 0],
+  flags: [1, 1, 0],
+} as unknown as Placed;
 
 it('a ghost stands where its robot is told to be, and off it', () => {
   const ghosts = ghostsOf(model([[1, shadow({})]]), placed);
@@ -16,7 +22,18 @@ it('a ghost stands where its robot is told to be, and off it', () => {
 });
 
 it('there is none without a comparison, while the robot is simulated, or of a robot that is nowhere', () => {
-  expect(ghostsOf(model([[0, shadow({offset: undefined})], [1, shadow({running: false})], [2, shadow({})], [7, shadow({})], [0, {}]]), placed)).toEqual([]);
+  expect(
+    ghostsOf(
+      model([
+        [0, shadow({offset: undefined})],
+        [1, shadow({running: false})],
+        [2, shadow({})],
+        [7, shadow({})],
+        [0, {}],
+      ]),
+      placed,
+    ),
+  ).toEqual([]);
 });
 
 it('gaps have the unit that people measure them in', () => {

@@ -28,7 +28,13 @@ export function ghostsOf(model: RunModel, placed: Placed): Ghost[] {
     if (shadow?.offset === undefined || !shadow.running) continue;
     if (slot >= placed.count || (placed.flags[slot] & RobotFlag.known) === 0) continue;
     const [x, y, yaw] = shadow.offset;
-    ghosts.push({slot, x: placed.x[slot] + x, y: placed.y[slot] + y, yaw: placed.yaw[slot] + yaw, gap_m: Math.hypot(x, y)});
+    ghosts.push({
+      slot,
+      x: placed.x[slot] + x,
+      y: placed.y[slot] + y,
+      yaw: placed.yaw[slot] + yaw,
+      gap_m: Math.hypot(x, y),
+    });
   }
   return ghosts;
 }
@@ -39,11 +45,22 @@ export function gapText(gap_m: number): string {
 }
 
 /** Dashed and empty, joined to its robot by a line with the gap. */
-export function drawShadows(ctx: CanvasRenderingContext2D, camera: Camera, model: RunModel, selection: Selection, palette: Palette, placed: Placed, robots: RobotLayer): void {
+export function drawShadows(
+  ctx: CanvasRenderingContext2D,
+  camera: Camera,
+  model: RunModel,
+  selection: Selection,
+  palette: Palette,
+  placed: Placed,
+  robots: RobotLayer,
+): void {
   for (const ghost of ghostsOf(model, placed)) {
     const {ink} = palette.hue(ghost.slot);
     const [x, y] = [camera.toScreenX(ghost.x), camera.toScreenY(ghost.y)];
-    const [rx, ry] = [camera.toScreenX(placed.x[ghost.slot]), camera.toScreenY(placed.y[ghost.slot])];
+    const [rx, ry] = [
+      camera.toScreenX(placed.x[ghost.slot]),
+      camera.toScreenY(placed.y[ghost.slot]),
+    ];
     const r = radiusOf(model.robots[ghost.slot].shapes) * camera.scale;
     ctx.save();
     ctx.strokeStyle = ink;
@@ -62,13 +79,28 @@ export function drawShadows(ctx: CanvasRenderingContext2D, camera: Camera, model
       ctx.lineTo(x, y);
       ctx.stroke();
     }
-    if (apart >= kApart_px || selection.has(ghost.slot)) drawGap(ctx, gapText(ghost.gap_m), (x + rx) / 2, Math.max(y, ry) + r + 6, ink, palette.token('floor'));
+    if (apart >= kApart_px || selection.has(ghost.slot))
+      drawGap(
+        ctx,
+        gapText(ghost.gap_m),
+        (x + rx) / 2,
+        Math.max(y, ry) + r + 6,
+        ink,
+        palette.token('floor'),
+      );
     ctx.restore();
   }
 }
 
 /** A measure, under a place of the screen. */
-export function drawGap(ctx: CanvasRenderingContext2D, text: string, x: number, y: number, ink: string, floor: string): void {
+export function drawGap(
+  ctx: CanvasRenderingContext2D,
+  text: string,
+  x: number,
+  y: number,
+  ink: string,
+  floor: string,
+): void {
   ctx.font = `500 11px ${kFont}`;
   ctx.textAlign = 'center';
   ctx.textBaseline = 'top';

@@ -56,13 +56,15 @@ export class Surface {
     const {placed} = this;
     if (placed === null || placed.count !== this.robots.length || owner >= placed.count) return [];
     const known = this.near.get(owner);
-    if (known !== undefined && known.time_s === placed.time_s && known.reach >= reach) return known.slots;
+    if (known !== undefined && known.time_s === placed.time_s && known.reach >= reach)
+      return known.slots;
     const slots: number[] = [];
     const [x, y] = [placed.x[owner], placed.y[owner]];
     for (let slot = 0; slot < placed.count; ++slot) {
       const limit = reach + this.robots[slot].radius + kNear_m;
       const [dx, dy] = [placed.x[slot] - x, placed.y[slot] - y];
-      if (dx * dx + dy * dy < limit * limit && slot !== owner && (placed.flags[slot] & 1) !== 0) slots.push(slot);
+      if (dx * dx + dy * dy < limit * limit && slot !== owner && (placed.flags[slot] & 1) !== 0)
+        slots.push(slot);
     }
     this.near.set(owner, {time_s: placed.time_s, reach, slots});
     return slots;
@@ -76,7 +78,8 @@ function metOf(body: Body): Met {
 
 function* cellsOf(x: number, y: number, radius: number): Generator<string> {
   for (let i = Math.floor((x - radius) / kCell_m); i <= Math.floor((x + radius) / kCell_m); ++i) {
-    for (let j = Math.floor((y - radius) / kCell_m); j <= Math.floor((y + radius) / kCell_m); ++j) yield `${i},${j}`;
+    for (let j = Math.floor((y - radius) / kCell_m); j <= Math.floor((y + radius) / kCell_m); ++j)
+      yield `${i},${j}`;
   }
 }
 
@@ -98,13 +101,17 @@ export function pointSurface(surface: Surface, x: number, y: number, owner: numb
       }
     }
   };
-  for (const {body, thing} of surface.cells.get(`${Math.floor(x / kCell_m)},${Math.floor(y / kCell_m)}`) ?? []) {
+  for (const {body, thing} of surface.cells.get(
+    `${Math.floor(x / kCell_m)},${Math.floor(y / kCell_m)}`,
+  ) ?? []) {
     look(thing, body.pose[0], body.pose[1], body.pose[2]);
   }
   const {placed} = surface;
   if (placed !== null && owner < placed.count) {
-    const reach = Math.ceil(Math.hypot(x - placed.x[owner], y - placed.y[owner]) / kReachStep_m) * kReachStep_m;
-    for (const slot of surface.robotsNear(owner, reach)) look(surface.robots[slot], placed.x[slot], placed.y[slot], placed.yaw[slot]);
+    const reach =
+      Math.ceil(Math.hypot(x - placed.x[owner], y - placed.y[owner]) / kReachStep_m) * kReachStep_m;
+    for (const slot of surface.robotsNear(owner, reach))
+      look(surface.robots[slot], placed.x[slot], placed.y[slot], placed.yaw[slot]);
   }
   return met;
 }
@@ -118,7 +125,10 @@ function distanceTo(shape: Shape, x: number, y: number): number {
     const [ax, ay] = polygon[i];
     const [bx, by] = polygon[(i + 1) % polygon.length];
     const [ex, ey] = [bx - ax, by - ay];
-    const along = Math.min(Math.max(((x - ax) * ex + (y - ay) * ey) / (ex * ex + ey * ey || 1), 0), 1);
+    const along = Math.min(
+      Math.max(((x - ax) * ex + (y - ay) * ey) / (ex * ex + ey * ey || 1), 0),
+      1,
+    );
     least = Math.min(least, Math.hypot(x - ax - along * ex, y - ay - along * ey));
   }
   return least;

@@ -29,7 +29,11 @@ export class SwarmGl implements Swarm {
   private buffers: {places: WebGLBuffer; tones: WebGLBuffer; heads: WebGLBuffer} | null = null;
 
   constructor() {
-    this.gl = this.canvas.getContext('webgl2', {antialias: true, alpha: true, preserveDrawingBuffer: false});
+    this.gl = this.canvas.getContext('webgl2', {
+      antialias: true,
+      alpha: true,
+      preserveDrawingBuffer: false,
+    });
     const gl = this.gl;
     if (gl === null) return;
     const program = linked(gl);
@@ -64,7 +68,12 @@ export class SwarmGl implements Swarm {
 
   addTail(points: Float32Array, count: number, tone: Tone): void {
     for (let i = 0; i + 1 < count && i < kTailParts; ++i) {
-      const [ax, ay, bx, by] = [points[2 * i], points[2 * i + 1], points[2 * i + 2], points[2 * i + 3]];
+      const [ax, ay, bx, by] = [
+        points[2 * i],
+        points[2 * i + 1],
+        points[2 * i + 2],
+        points[2 * i + 3],
+      ];
       const length = Math.hypot(bx - ax, by - ay);
       // Shorter is not seen, and longer is a jump: a robot was placed, or a replay moved on.
       if (length < 0.5 || length > 400) continue;
@@ -94,8 +103,12 @@ export class SwarmGl implements Swarm {
   draw(): void {
     const {gl, buffers, camera} = this;
     if (gl === null || buffers === null || camera === null) return;
-    const [w, h] = [Math.round(camera.width * devicePixelRatio), Math.round(camera.height * devicePixelRatio)];
-    if (this.canvas.width !== w || this.canvas.height !== h) [this.canvas.width, this.canvas.height] = [w, h];
+    const [w, h] = [
+      Math.round(camera.width * devicePixelRatio),
+      Math.round(camera.height * devicePixelRatio),
+    ];
+    if (this.canvas.width !== w || this.canvas.height !== h)
+      [this.canvas.width, this.canvas.height] = [w, h];
     gl.viewport(0, 0, w, h);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT);
@@ -110,7 +123,16 @@ export class SwarmGl implements Swarm {
   }
 
   /** Its corners lie `inset` pixels within the edges of the whole one: the factors follow from its angles. */
-  private arrowhead(v: number, x: number, y: number, c: number, s: number, r: number, inset: number, tone: Tone): void {
+  private arrowhead(
+    v: number,
+    x: number,
+    y: number,
+    c: number,
+    s: number,
+    r: number,
+    inset: number,
+    tone: Tone,
+  ): void {
     const tip = r - 2.94 * inset;
     const back = -0.8 * r + 2.12 * inset;
     const side = 0.65 * r - 1.83 * inset;
@@ -130,7 +152,12 @@ export class SwarmGl implements Swarm {
     this.tones[4 * v + 3] = alpha;
   }
 
-  private upload(gl: WebGL2RenderingContext, buffers: {places: WebGLBuffer; tones: WebGLBuffer}, from: number, vertices: number): void {
+  private upload(
+    gl: WebGL2RenderingContext,
+    buffers: {places: WebGLBuffer; tones: WebGLBuffer},
+    from: number,
+    vertices: number,
+  ): void {
     gl.bindBuffer(gl.ARRAY_BUFFER, buffers.places);
     gl.bufferSubData(gl.ARRAY_BUFFER, 8 * from, this.places, 2 * from, 2 * vertices);
     gl.bindBuffer(gl.ARRAY_BUFFER, buffers.tones);
@@ -140,7 +167,11 @@ export class SwarmGl implements Swarm {
   private reserve(): void {
     const {gl} = this;
     if (gl === null) return;
-    this.buffers ??= {places: gl.createBuffer(), tones: gl.createBuffer(), heads: gl.createBuffer()};
+    this.buffers ??= {
+      places: gl.createBuffer(),
+      tones: gl.createBuffer(),
+      heads: gl.createBuffer(),
+    };
     const indices = new Uint32Array(this.capacity * kTriangles * 3);
     for (let i = 0, at = 0; i < this.capacity; ++i) {
       for (const v of [kVertices * i, kVertices * i + 4]) {
@@ -163,7 +194,10 @@ export class SwarmGl implements Swarm {
 
 function linked(gl: WebGL2RenderingContext): WebGLProgram {
   const program = gl.createProgram();
-  for (const [type, source] of [[gl.VERTEX_SHADER, kVertex], [gl.FRAGMENT_SHADER, kFragment]] as const) {
+  for (const [type, source] of [
+    [gl.VERTEX_SHADER, kVertex],
+    [gl.FRAGMENT_SHADER, kFragment],
+  ] as const) {
     const shader = gl.createShader(type);
     if (shader === null) continue;
     gl.shaderSource(shader, source);

@@ -16,14 +16,17 @@ type Sprite = Int32Array;
 export class SwarmSprites implements Swarm {
   readonly canvas = document.createElement('canvas');
   private readonly ctx = this.canvas.getContext('2d', {willReadFrequently: true});
-  private readonly pen = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
+  private readonly pen = document
+    .createElement('canvas')
+    .getContext('2d', {willReadFrequently: true});
   private image: ImageData | null = null;
   private pixels = new Uint32Array(0);
   private width = 0;
   private height = 0;
   private count = 0;
   private readonly kinds = new Map<string, (Sprite | undefined)[]>();
-  private lastKind: {edge: Tone; inside: Tone; r: number; sprites: (Sprite | undefined)[]} | null = null;
+  private lastKind: {edge: Tone; inside: Tone; r: number; sprites: (Sprite | undefined)[]} | null =
+    null;
 
   get empty(): boolean {
     return this.count === 0;
@@ -32,7 +35,10 @@ export class SwarmSprites implements Swarm {
   begin(most: number, camera: Camera): void {
     this.count = 0;
     if (most === 0) return;
-    const [w, h] = [Math.max(1, Math.round(camera.width * devicePixelRatio)), Math.max(1, Math.round(camera.height * devicePixelRatio))];
+    const [w, h] = [
+      Math.max(1, Math.round(camera.width * devicePixelRatio)),
+      Math.max(1, Math.round(camera.height * devicePixelRatio)),
+    ];
     if (this.image === null || this.width !== w || this.height !== h) {
       [this.canvas.width, this.canvas.height] = [w, h];
       [this.width, this.height] = [w, h];
@@ -48,7 +54,13 @@ export class SwarmSprites implements Swarm {
   addTail(points: Float32Array, count: number, tone: Tone): void {
     for (let i = 0; i + 1 < count; ++i) {
       const alpha = 30 + Math.round((100 * (i + 1)) / count);
-      this.line(points[2 * i], points[2 * i + 1], points[2 * i + 2], points[2 * i + 3], packed(tone, alpha));
+      this.line(
+        points[2 * i],
+        points[2 * i + 1],
+        points[2 * i + 2],
+        points[2 * i + 3],
+        packed(tone, alpha),
+      );
     }
   }
 
@@ -58,7 +70,12 @@ export class SwarmSprites implements Swarm {
     const sprites = this.spritesOf(rounded, edge, inside);
     const turn = Math.round((heading / (2 * Math.PI)) * kHeadings) % kHeadings;
     const index = turn < 0 ? turn + kHeadings : turn;
-    const sprite = (sprites[index] ??= this.cut(rounded, (index / kHeadings) * 2 * Math.PI, edge, inside));
+    const sprite = (sprites[index] ??= this.cut(
+      rounded,
+      (index / kHeadings) * 2 * Math.PI,
+      edge,
+      inside,
+    ));
     const px = Math.round(x * devicePixelRatio);
     const py = Math.round(y * devicePixelRatio);
     const reach = Math.ceil(rounded) + 2;
@@ -79,7 +96,8 @@ export class SwarmSprites implements Swarm {
 
   private spritesOf(r: number, edge: Tone, inside: Tone): (Sprite | undefined)[] {
     const last = this.lastKind;
-    if (last !== null && last.r === r && last.edge === edge && last.inside === inside) return last.sprites;
+    if (last !== null && last.r === r && last.edge === edge && last.inside === inside)
+      return last.sprites;
     const key = `${r} ${edge.join()} ${inside.join()}`;
     let sprites = this.kinds.get(key);
     if (sprites === undefined) {
@@ -113,7 +131,8 @@ export class SwarmSprites implements Swarm {
     const data = new Uint32Array(pen.getImageData(0, 0, size, size).data.buffer);
     const kept: number[] = [];
     data.forEach((pixel, i) => {
-      if (pixel >>> 24 >= kLeastAlpha) kept.push((Math.floor(i / size) - half) * this.width + (i % size) - half, pixel);
+      if (pixel >>> 24 >= kLeastAlpha)
+        kept.push((Math.floor(i / size) - half) * this.width + (i % size) - half, pixel);
     });
     return Int32Array.from(kept);
   }

@@ -34,7 +34,11 @@ export class TopGestures {
   private long = 0;
   private pressed: {x: number; y: number; moved: boolean; box: boolean} | null = null;
 
-  constructor(element: HTMLElement, private readonly context: StageContext, private readonly hands: Hands) {
+  constructor(
+    element: HTMLElement,
+    private readonly context: StageContext,
+    private readonly hands: Hands,
+  ) {
     element.addEventListener('pointerdown', (event) => this.down(event));
     element.addEventListener('pointermove', (event) => this.move(event));
     element.addEventListener('pointerup', (event) => this.up(event));
@@ -71,7 +75,8 @@ export class TopGestures {
     this.pointers.set(event.pointerId, {x, y});
     clearTimeout(this.long);
     if (this.pointers.size > 1) this.hands.orders.cancel();
-    else if (event.pointerType !== 'mouse') this.long = window.setTimeout(() => this.pressedLong(x, y), kLong_ms);
+    else if (event.pointerType !== 'mouse')
+      this.long = window.setTimeout(() => this.pressedLong(x, y), kLong_ms);
     if (this.pointers.size === 1 && !this.hands.measure.on && this.hands.orders.down(event)) {
       this.pressed = {x, y, moved: false, box: false};
       this.context.redraw();
@@ -119,7 +124,8 @@ export class TopGestures {
       if (id === event.pointerId) continue;
       const before = Math.hypot(last.x - other.x, last.y - other.y);
       const after = Math.hypot(event.offsetX - other.x, event.offsetY - other.y);
-      if (before > 1) camera.zoom(after / before, (event.offsetX + other.x) / 2, (event.offsetY + other.y) / 2);
+      if (before > 1)
+        camera.zoom(after / before, (event.offsetX + other.x) / 2, (event.offsetY + other.y) / 2);
       camera.pan((event.offsetX - last.x) / 2, (event.offsetY - last.y) / 2);
     }
     this.context.moved();
@@ -160,15 +166,24 @@ export class TopGestures {
       selection.set(this.hands.slotsIn(this.box));
       this.box = null;
     } else if (!pressed.moved && !this.hands.measure.on) {
-      if (this.hands.orders.click(event) || this.hands.pickBody(event.offsetX, event.offsetY)) return this.context.redraw();
-      pick(selection, this.hands.slotAt(event.offsetX, event.offsetY), event.ctrlKey || event.metaKey);
+      if (this.hands.orders.click(event) || this.hands.pickBody(event.offsetX, event.offsetY))
+        return this.context.redraw();
+      pick(
+        selection,
+        this.hands.slotAt(event.offsetX, event.offsetY),
+        event.ctrlKey || event.metaKey,
+      );
     }
     this.context.redraw();
   }
 }
 
 /** A click on a robot, or beside all of them. */
-export function pick(selection: StageContext['selection'], slot: number | null, more: boolean): void {
+export function pick(
+  selection: StageContext['selection'],
+  slot: number | null,
+  more: boolean,
+): void {
   if (slot === null) selection.set([]);
   else if (more) selection.toggle(slot);
   else selection.set([slot]);

@@ -88,13 +88,29 @@ export class TopStage implements Stage {
     ctx.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
     ctx.clearRect(0, 0, camera.width, camera.height);
     this.swarm.begin(0, camera);
-    this.view.drawLife(ctx, camera, placed, context.truth, context.layers(), this.orderLayer, this.swarm);
+    this.view.drawLife(
+      ctx,
+      camera,
+      placed,
+      context.truth,
+      context.layers(),
+      this.orderLayer,
+      this.swarm,
+    );
     this.showSwarm();
     for (const layer of context.worldLayers) this.drawForeign(ctx, layer);
     this.paintMinimap(ctx);
     this.lens.draw(ctx, camera, context.palette, (other) => {
       this.view.drawBase(ctx, other, placed, context.layers());
-      this.view.drawLife(ctx, other, placed, context.truth, context.layers(), this.orderLayer, null);
+      this.view.drawLife(
+        ctx,
+        other,
+        placed,
+        context.truth,
+        context.layers(),
+        this.orderLayer,
+        null,
+      );
     });
     if (this.gestures.box !== null) drawBox(ctx, this.context.palette, this.gestures.box);
     this.measure.draw(ctx, camera, context.palette);
@@ -124,9 +140,21 @@ export class TopStage implements Stage {
   private paintBase(now_ms: number): void {
     const {camera, context} = this;
     const layers = context.layers();
-    const crowd = this.view.crowded(camera, context.placed, layers) ? Math.floor(now_ms / kDensity_ms) : 0;
-    const key = [camera.x, camera.y, camera.scale, camera.width, camera.height, this.revision, crowd, layers.grid, layers.hidden.join(),
-      context.model.maps.overlay === null ? '' : context.model.maps.revision].join(' ');
+    const crowd = this.view.crowded(camera, context.placed, layers)
+      ? Math.floor(now_ms / kDensity_ms)
+      : 0;
+    const key = [
+      camera.x,
+      camera.y,
+      camera.scale,
+      camera.width,
+      camera.height,
+      this.revision,
+      crowd,
+      layers.grid,
+      layers.hidden.join(),
+      context.model.maps.overlay === null ? '' : context.model.maps.revision,
+    ].join(' ');
     if (key === this.baseKey) return;
     this.baseKey = key;
     // Opaque: the browser need not blend the canvas with what is behind it.
@@ -140,9 +168,14 @@ export class TopStage implements Stage {
     const {camera, context} = this;
     const {placed} = context;
     const bounds = this.bounds('room');
-    const wanted = context.layers().minimap && placed.count >= kMinimapFrom && camera.width > 520 && bounds !== null &&
+    const wanted =
+      context.layers().minimap &&
+      placed.count >= kMinimapFrom &&
+      camera.width > 520 &&
+      bounds !== null &&
       (camera.scale < kMinimapBelow_px || mostAreOutside(camera, placed));
-    if (wanted && bounds !== null) this.minimap.draw(ctx, camera, placed, context.model.robots, bounds, context.palette);
+    if (wanted && bounds !== null)
+      this.minimap.draw(ctx, camera, placed, context.model.robots, bounds, context.palette);
     else this.minimap.hide();
   }
 
@@ -152,8 +185,13 @@ export class TopStage implements Stage {
     if (bounds === null) return 'nothing';
     this.fittedTo = bounds;
     const goal = camera.fitted(bounds);
-    const there = Math.abs(goal.x - camera.x) + Math.abs(goal.y - camera.y) < 1e-6 && Math.abs(goal.scale / camera.scale - 1) < 1e-6;
-    const selected = what === 'closer' && there ? boundsOfRobots(this.context.placed, this.radius, this.context.selection.slots) : null;
+    const there =
+      Math.abs(goal.x - camera.x) + Math.abs(goal.y - camera.y) < 1e-6 &&
+      Math.abs(goal.scale / camera.scale - 1) < 1e-6;
+    const selected =
+      what === 'closer' && there
+        ? boundsOfRobots(this.context.placed, this.radius, this.context.selection.slots)
+        : null;
     camera.go(selected === null ? goal : camera.fitted(selected, 120), performance.now(), animate);
     return selected === null ? 'all' : 'selection';
   }
@@ -194,7 +232,10 @@ export class TopStage implements Stage {
 
   pickBody(px: number, py: number): boolean {
     const {model, desk} = this.context;
-    const id = model.live && model.may('edit') && this.slotAt(px, py) === null ? bodyAt(model.bodies.values(), ...this.camera.toWorld(px, py)) : null;
+    const id =
+      model.live && model.may('edit') && this.slotAt(px, py) === null
+        ? bodyAt(model.bodies.values(), ...this.camera.toWorld(px, py))
+        : null;
     if (id === null && desk.body === null) return false;
     desk.pickBody(id);
     return id !== null;
@@ -233,12 +274,18 @@ export class TopStage implements Stage {
   }
 
   viewpoint(): string {
-    return ['top', this.camera.x.toFixed(3), this.camera.y.toFixed(3), this.camera.scale.toFixed(2)].join(',');
+    return [
+      'top',
+      this.camera.x.toFixed(3),
+      this.camera.y.toFixed(3),
+      this.camera.scale.toFixed(2),
+    ].join(',');
   }
 
   lookFrom(text: string): void {
     const [x, y, scale] = text.split(',').slice(1).map(Number);
-    if (Number.isFinite(x) && Number.isFinite(y) && scale > 0) this.camera.go({x, y, scale}, performance.now(), false);
+    if (Number.isFinite(x) && Number.isFinite(y) && scale > 0)
+      this.camera.go({x, y, scale}, performance.now(), false);
   }
 
   nudge(dx: number, dy: number): void {
@@ -276,7 +323,9 @@ export class TopStage implements Stage {
   private measureFrom(): [number, number] {
     const {selection, placed} = this.context;
     const slot = selection.primary;
-    return slot !== null && slot < placed.count ? [placed.x[slot], placed.y[slot]] : [this.camera.x, this.camera.y];
+    return slot !== null && slot < placed.count
+      ? [placed.x[slot], placed.y[slot]]
+      : [this.camera.x, this.camera.y];
   }
 
   drop(): boolean {

@@ -53,7 +53,11 @@ export class TopView {
   readonly tint = new Tint();
   private readonly density = new Density();
   private surface: Surface | null = null;
-  private counted: {at_ms: number; robots: readonly Robot[]; teams: Team[]} = {at_ms: -Infinity, robots: [], teams: []};
+  private counted: {at_ms: number; robots: readonly Robot[]; teams: Team[]} = {
+    at_ms: -Infinity,
+    robots: [],
+    teams: [],
+  };
 
   constructor(
     private readonly model: RunModel,
@@ -79,11 +83,13 @@ export class TopView {
     ctx.fillStyle = this.palette.token('floor');
     ctx.fillRect(0, 0, camera.width, camera.height);
     if (layers.grid) drawGrid(ctx, camera, this.palette);
-    if (this.crowded(camera, placed, layers)) this.density.draw(ctx, camera, placed, this.palette.token('text-2'));
+    if (this.crowded(camera, placed, layers))
+      this.density.draw(ctx, camera, placed, this.palette.token('text-2'));
     this.bodies.draw(ctx, camera, layers);
     const {overlay} = this.model.maps;
     const grid = overlay === null ? null : this.model.maps.of(overlay.key);
-    if (overlay !== null && grid !== null) drawMap(ctx, camera, grid, this.palette, overlay.opacity);
+    if (overlay !== null && grid !== null)
+      drawMap(ctx, camera, grid, this.palette, overlay.opacity);
     if (layers.grid) drawTicks(ctx, camera, this.palette);
     drawScale(ctx, camera, this.palette);
   }
@@ -94,25 +100,56 @@ export class TopView {
 
   /** Robots and what they read, their orders, and names over all lines. With `swarm`, far robots go there; it is empty
    * where none is far. */
-  drawLife(ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed, truth: Placed, layers: Layers, orders: OrderLayer, swarm: Swarm | null): void {
+  drawLife(
+    ctx: CanvasRenderingContext2D,
+    camera: Camera,
+    placed: Placed,
+    truth: Placed,
+    layers: Layers,
+    orders: OrderLayer,
+    swarm: Swarm | null,
+  ): void {
     const {model, palette, selection} = this;
     if (this.surface !== null) this.surface.placed = placed;
     const cast = this.cast(camera, placed, layers, swarm !== null);
     if (swarm !== null) this.fillSwarm(swarm, camera, placed, layers, cast.swarm);
     const frames = trailFrames(model.poses.past, placed, kTrail_s);
     if (layers.trails && frames.length > 1) {
-      for (const slot of cast.whole) drawTrail(ctx, camera, placed, frames, slot, model.robots[slot], palette);
+      for (const slot of cast.whole)
+        drawTrail(ctx, camera, placed, frames, slot, model.robots[slot], palette);
     }
-    drawReadings(ctx, camera, model, selection, palette, placed, layers, this.surface, camera.scale >= kFar_px);
+    drawReadings(
+      ctx,
+      camera,
+      model,
+      selection,
+      palette,
+      placed,
+      layers,
+      this.surface,
+      camera.scale >= kFar_px,
+    );
     if (layers.uncertainty) drawVariances(ctx, camera, model, selection, palette, placed);
-    if (layers.shadows && !layers.hidden.includes('real')) drawShadows(ctx, camera, model, selection, palette, placed, this.robots);
+    if (layers.shadows && !layers.hidden.includes('real'))
+      drawShadows(ctx, camera, model, selection, palette, placed, this.robots);
     const speeds = model.poses.newest?.speed;
     for (const slot of cast.whole) {
       const robot = model.robots[slot];
-      const share = robot.kind === 'real' || layers.colourBy === 'kind' ? null : this.tint.share(layers.colourBy, slot, placed, speeds);
-      this.robots.draw(ctx, camera, placed, slot, robot, share === null ? null : rampColour(share, palette.theme));
+      const share =
+        robot.kind === 'real' || layers.colourBy === 'kind'
+          ? null
+          : this.tint.share(layers.colourBy, slot, placed, speeds);
+      this.robots.draw(
+        ctx,
+        camera,
+        placed,
+        slot,
+        robot,
+        share === null ? null : rampColour(share, palette.theme),
+      );
     }
-    if (truth.count > 0) drawTruth(ctx, camera, cast.whole, selection, palette, placed, truth, this.robots);
+    if (truth.count > 0)
+      drawTruth(ctx, camera, cast.whole, selection, palette, placed, truth, this.robots);
     orders.draw(ctx, camera, placed);
     this.drawNames(ctx, camera, placed, layers, cast);
   }
@@ -122,15 +159,20 @@ export class TopView {
     const seen: number[] = [];
     const margin = 40;
     for (let slot = 0; slot < placed.count; ++slot) {
-      if ((placed.flags[slot] & RobotFlag.known) === 0 || !shown(this.model.robots[slot], layers)) continue;
+      if ((placed.flags[slot] & RobotFlag.known) === 0 || !shown(this.model.robots[slot], layers))
+        continue;
       const x = camera.toScreenX(placed.x[slot]);
       const y = camera.toScreenY(placed.y[slot]);
-      if (x > -margin && y > -margin && x < camera.width + margin && y < camera.height + margin) seen.push(slot);
+      if (x > -margin && y > -margin && x < camera.width + margin && y < camera.height + margin)
+        seen.push(slot);
     }
     const far = camera.scale < kFar_px || seen.length > kMany;
     if (!far || !arrows) return {far, whole: seen, swarm: []};
     const cast: Cast = {far, whole: [], swarm: []};
-    for (const slot of seen) (this.outstanding(this.model.robots[slot], slot, placed) ? cast.whole : cast.swarm).push(slot);
+    for (const slot of seen)
+      (this.outstanding(this.model.robots[slot], slot, placed) ? cast.whole : cast.swarm).push(
+        slot,
+      );
     // A stopped swarm is a swarm: thousands drawn one by one would stop the page as well.
     if (cast.whole.length > kMany) {
       cast.swarm.push(...cast.whole.filter((slot) => !this.marked(slot)));
@@ -141,21 +183,36 @@ export class TopView {
 
   private marked(slot: number): boolean {
     const robot = this.model.robots[slot];
-    return robot.kind === 'real' || robot.word !== '' || slot === this.selection.primary || this.selection.hovered === slot;
+    return (
+      robot.kind === 'real' ||
+      robot.word !== '' ||
+      slot === this.selection.primary ||
+      this.selection.hovered === slot
+    );
   }
 
   /** Real, selected, stale, stopped and marked robots are drawn whole from any distance. */
   private outstanding(robot: Robot, slot: number, placed: Placed): boolean {
     return (
-      robot.kind === 'real' || robot.word !== '' || this.selection.has(slot) || this.selection.hovered === slot ||
+      robot.kind === 'real' ||
+      robot.word !== '' ||
+      this.selection.has(slot) ||
+      this.selection.hovered === slot ||
       (placed.flags[slot] & (RobotFlag.stale | RobotFlag.stopped)) !== 0
     );
   }
 
-  private fillSwarm(swarm: Swarm, camera: Camera, placed: Placed, layers: Layers, slots: readonly number[]): void {
+  private fillSwarm(
+    swarm: Swarm,
+    camera: Camera,
+    placed: Placed,
+    layers: Layers,
+    slots: readonly number[],
+  ): void {
     const {palette, model} = this;
     const floor = bytesOf(palette.token('floor'));
-    const mix = (tone: Tone, share: number): Tone => [0, 1, 2].map((k) => Math.round(floor[k] + share * (tone[k] - floor[k]))) as unknown as Tone;
+    const mix = (tone: Tone, share: number): Tone =>
+      [0, 1, 2].map((k) => Math.round(floor[k] + share * (tone[k] - floor[k]))) as unknown as Tone;
     const plain = bytesOf(palette.token('sim-ink'));
     const inside = mix(bytesOf(palette.token('sim')), kInside);
     const stop = bytesOf(palette.token('stop-fill'));
@@ -185,9 +242,17 @@ export class TopView {
         points[at++] = x;
         points[at++] = y;
         // What the arrowhead nearly hides is not drawn.
-        if ((points[0] - x) ** 2 + (points[1] - y) ** 2 > 4 * r * r) swarm.addTail(points, at / 2, edge);
+        if ((points[0] - x) ** 2 + (points[1] - y) ** 2 > 4 * r * r)
+          swarm.addTail(points, at / 2, edge);
       }
-      swarm.add(x, y, -placed.yaw[slot], r, edge, stopped ? stopInside : share === null ? inside : mix(edge, 0.5));
+      swarm.add(
+        x,
+        y,
+        -placed.yaw[slot],
+        r,
+        edge,
+        stopped ? stopInside : share === null ? inside : mix(edge, 0.5),
+      );
     }
   }
 
@@ -195,7 +260,11 @@ export class TopView {
   private teams(placed: Placed): Team[] {
     const now_ms = performance.now();
     if (now_ms - this.counted.at_ms > kCount_ms || this.counted.robots !== this.model.robots) {
-      this.counted = {at_ms: now_ms, robots: this.model.robots, teams: teamsOf(this.model.robots, placed, this.model.poses.newest?.speed)};
+      this.counted = {
+        at_ms: now_ms,
+        robots: this.model.robots,
+        teams: teamsOf(this.model.robots, placed, this.model.poses.newest?.speed),
+      };
     }
     return this.counted.teams;
   }
@@ -208,18 +277,43 @@ export class TopView {
     return all.filter((_, i) => i % step === 0).slice(0, parts);
   }
 
-  private drawNames(ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed, layers: Layers, cast: Cast): void {
+  private drawNames(
+    ctx: CanvasRenderingContext2D,
+    camera: Camera,
+    placed: Placed,
+    layers: Layers,
+    cast: Cast,
+  ): void {
     const {model, palette, selection} = this;
     const placer = new LabelPlacer(camera.width, camera.height);
     const hovered = selection.hovered;
     if (!layers.names && (hovered === null || !cast.whole.includes(hovered))) return;
     const near = namesFit(camera, placed.count);
-    const named = cast.whole.filter((slot) => near || this.outstanding(model.robots[slot], slot, placed));
-    const labels = robotLabels(model.robots, named, camera, placed, (slot) => this.robots.radius(slot), selection, palette, placer);
-    if (!layers.names) return placer.draw(ctx, labels.filter((label) => label.always), palette.token('floor'));
-    if (cast.far && cast.swarm.length > 0) drawPlates(ctx, camera, this.teams(placed), palette, placer);
+    const named = cast.whole.filter(
+      (slot) => near || this.outstanding(model.robots[slot], slot, placed),
+    );
+    const labels = robotLabels(
+      model.robots,
+      named,
+      camera,
+      placed,
+      (slot) => this.robots.radius(slot),
+      selection,
+      palette,
+      placer,
+    );
+    if (!layers.names)
+      return placer.draw(
+        ctx,
+        labels.filter((label) => label.always),
+        palette.token('floor'),
+      );
+    if (cast.far && cast.swarm.length > 0)
+      drawPlates(ctx, camera, this.teams(placed), palette, placer);
     if (!cast.far) drawContactTags(ctx, camera, model.events, placed, palette, placer);
-    labels.push(...bodyLabels(this.bodies.groups, camera, layers, near && !cast.far, palette, placer));
+    labels.push(
+      ...bodyLabels(this.bodies.groups, camera, layers, near && !cast.far, palette, placer),
+    );
     placer.draw(ctx, labels, palette.token('floor'));
   }
 }

@@ -9,15 +9,27 @@ export const kTrail_s = 10;
 const kBands = 5;
 
 /** The frames of the past that make the trails of the picture `placed`. */
-export function trailFrames(past: readonly PoseFrame[], placed: Placed, length_s: number): PoseFrame[] {
+export function trailFrames(
+  past: readonly PoseFrame[],
+  placed: Placed,
+  length_s: number,
+): PoseFrame[] {
   return past.filter(
-    (frame) => frame.time_s >= placed.time_s - length_s && frame.time_s <= placed.time_s && frame.x.length === placed.count,
+    (frame) =>
+      frame.time_s >= placed.time_s - length_s &&
+      frame.time_s <= placed.time_s &&
+      frame.x.length === placed.count,
   );
 }
 
 /** Where one robot has been: fading towards the past, in bands of one alpha each. */
 export function drawTrail(
-  ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed, frames: readonly PoseFrame[], slot: number, robot: Robot,
+  ctx: CanvasRenderingContext2D,
+  camera: Camera,
+  placed: Placed,
+  frames: readonly PoseFrame[],
+  slot: number,
+  robot: Robot,
   palette: Palette,
 ): void {
   const real = robot.kind === 'real';
@@ -43,7 +55,8 @@ export function drawTrail(
       else ctx.moveTo(x, y);
       pen = true;
     }
-    if (pen && band === kBands - 1) ctx.lineTo(camera.toScreenX(placed.x[slot]), camera.toScreenY(placed.y[slot]));
+    if (pen && band === kBands - 1)
+      ctx.lineTo(camera.toScreenX(placed.x[slot]), camera.toScreenY(placed.y[slot]));
     ctx.stroke();
   }
   ctx.globalAlpha = 1;

@@ -10,7 +10,11 @@ const kCross_px = 4;
 
 /** Whether the reported and the true pose of a robot are known. */
 export function bothKnown(placed: Placed, truth: Placed, slot: number): boolean {
-  return slot < truth.count && slot < placed.count && (placed.flags[slot] & truth.flags[slot] & RobotFlag.known) !== 0;
+  return (
+    slot < truth.count &&
+    slot < placed.count &&
+    (placed.flags[slot] & truth.flags[slot] & RobotFlag.known) !== 0
+  );
 }
 
 /** Puts robots whose true pose is known there. */
@@ -24,7 +28,16 @@ export function takePlaces(placed: Placed, truth: Placed): void {
 }
 
 /** The outline of each robot where it truly is, with a cross, and with the gap to where it is reported to be. */
-export function drawTruth(ctx: CanvasRenderingContext2D, camera: Camera, slots: readonly number[], selection: Selection, palette: Palette, placed: Placed, truth: Placed, robots: RobotLayer): void {
+export function drawTruth(
+  ctx: CanvasRenderingContext2D,
+  camera: Camera,
+  slots: readonly number[],
+  selection: Selection,
+  palette: Palette,
+  placed: Placed,
+  truth: Placed,
+  robots: RobotLayer,
+): void {
   const ink = palette.token('text-1');
   for (const slot of slots) {
     if (!bothKnown(placed, truth, slot)) continue;
@@ -38,12 +51,24 @@ export function drawTruth(ctx: CanvasRenderingContext2D, camera: Camera, slots: 
     const apart = drawTrueCross(ctx, palette, [rx, ry], [x, y]);
     if (apart < kApart_px && !selection.has(slot)) continue;
     const gap_m = Math.hypot(truth.x[slot] - placed.x[slot], truth.y[slot] - placed.y[slot]);
-    drawGap(ctx, `true ${gapText(gap_m)}`, (x + rx) / 2, Math.max(y, ry) + robots.radius(slot) * camera.scale + 6, ink, palette.token('floor'));
+    drawGap(
+      ctx,
+      `true ${gapText(gap_m)}`,
+      (x + rx) / 2,
+      Math.max(y, ry) + robots.radius(slot) * camera.scale + 6,
+      ink,
+      palette.token('floor'),
+    );
   }
 }
 
 /** Places on the screen. Returns how far they are apart, pixels. */
-export function drawTrueCross(ctx: CanvasRenderingContext2D, palette: Palette, reported: [number, number], at: [number, number]): number {
+export function drawTrueCross(
+  ctx: CanvasRenderingContext2D,
+  palette: Palette,
+  reported: [number, number],
+  at: [number, number],
+): number {
   const [x, y] = at;
   const apart = Math.hypot(x - reported[0], y - reported[1]);
   ctx.save();

@@ -27,16 +27,33 @@ export interface Doubt {
 export function doubtsOf(model: RunModel, selection: Selection, placed: Placed): Doubt[] {
   const doubts: Doubt[] = [];
   for (const [slot, variance] of model.variances) {
-    if (!selection.has(slot) || slot >= placed.count || (placed.flags[slot] & RobotFlag.known) === 0) continue;
+    if (
+      !selection.has(slot) ||
+      slot >= placed.count ||
+      (placed.flags[slot] & RobotFlag.known) === 0
+    )
+      continue;
     const radius_m = kSigmas * Math.sqrt(Math.max(variance.xy_m2, 0));
     const half = kSigmas * Math.sqrt(Math.max(variance.yaw_rad2, 0));
-    doubts.push({slot, radius_m, half_rad: half < Math.PI ? half : 0, length_m: Math.max(radius_m, kHeadings_m)});
+    doubts.push({
+      slot,
+      radius_m,
+      half_rad: half < Math.PI ? half : 0,
+      length_m: Math.max(radius_m, kHeadings_m),
+    });
   }
   return doubts;
 }
 
 /** Where selected robots may be by what they say: an ellipse about the reported place, and a sector of headings. */
-export function drawVariances(ctx: CanvasRenderingContext2D, camera: Camera, model: RunModel, selection: Selection, palette: Palette, placed: Placed): void {
+export function drawVariances(
+  ctx: CanvasRenderingContext2D,
+  camera: Camera,
+  model: RunModel,
+  selection: Selection,
+  palette: Palette,
+  placed: Placed,
+): void {
   for (const {slot, radius_m, half_rad, length_m} of doubtsOf(model, selection, placed)) {
     const [x, y] = [camera.toScreenX(placed.x[slot]), camera.toScreenY(placed.y[slot])];
     const radius = radius_m * camera.scale;
@@ -56,7 +73,14 @@ export function drawVariances(ctx: CanvasRenderingContext2D, camera: Camera, mod
   }
 }
 
-function drawHeadings(ctx: CanvasRenderingContext2D, x: number, y: number, heading: number, half: number, length: number): void {
+function drawHeadings(
+  ctx: CanvasRenderingContext2D,
+  x: number,
+  y: number,
+  heading: number,
+  half: number,
+  length: number,
+): void {
   if (half * length < kLeastVariance_px) return;
   ctx.beginPath();
   ctx.moveTo(x, y);

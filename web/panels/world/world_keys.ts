@@ -6,7 +6,10 @@ const kStep_px = 48;
 const kSmallStep_px = 6;
 const kZoom = 1.25;
 const kDirections: Readonly<Record<string, readonly [number, number]>> = {
-  ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1],
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, -1],
+  ArrowDown: [0, 1],
 };
 
 /** What the focused picture does with its keys, for the sheet that `?` shows. */
@@ -29,7 +32,8 @@ export function pressWorldKey(event: KeyboardEvent, stage: Stage): boolean {
     if (direction === undefined || event.shiftKey) return false;
     const step = event.ctrlKey ? kSmallStep_px : kStep_px;
     const [dx, dy] = [direction[0] * step, direction[1] * step];
-    if (event.ctrlKey && stage.turn !== undefined) stage.turn(direction[0] * kStep_px, direction[1] * kStep_px);
+    if (event.ctrlKey && stage.turn !== undefined)
+      stage.turn(direction[0] * kStep_px, direction[1] * kStep_px);
     else stage.nudge(dx, dy);
   }
   return true;

@@ -58,7 +58,11 @@ export class WorldPanel extends LiveElement {
     this.drawQueued = false;
     const {model, palette, selection, kept, link} = this.context;
     this.layers = readLayers(kept.read(kKept));
-    this.orders ??= new WorldOrders(this.context, () => this.refreshOrders(), () => void this.setMode('top'));
+    this.orders ??= new WorldOrders(
+      this.context,
+      () => this.refreshOrders(),
+      () => void this.setMode('top'),
+    );
     this.top ??= new TopStage(this.stageContext());
     this.stage ??= this.top;
     const refresh = () => {
@@ -122,7 +126,11 @@ export class WorldPanel extends LiveElement {
       redraw: () => this.draw(),
       moved: () => this.autoFit.move(),
       desk: this.orders.desk,
-      menu: (px, py) => this.orders.openMenu(px, py, this.top.slotAt(px, py), this.top.camera.toWorld(px, py), [this.clientWidth, this.place().clientHeight]),
+      menu: (px, py) =>
+        this.orders.openMenu(px, py, this.top.slotAt(px, py), this.top.camera.toWorld(px, py), [
+          this.clientWidth,
+          this.place().clientHeight,
+        ]),
     };
   }
 
@@ -220,7 +228,10 @@ export class WorldPanel extends LiveElement {
 
   /** The picture as a PNG. */
   picture(): void {
-    savePicture(this.stage.snapshot(), `${this.context.model.hello?.run.name ?? 'rave'}-${this.placed.time_s.toFixed(2)}s.png`);
+    savePicture(
+      this.stage.snapshot(),
+      `${this.context.model.hello?.run.name ?? 'rave'}-${this.placed.time_s.toFixed(2)}s.png`,
+    );
   }
 
   toggleMeasure(): void {
@@ -280,7 +291,11 @@ export class WorldPanel extends LiveElement {
   /** No other panel is beside it. */
   private get alone(): boolean {
     const {innerWidth, innerHeight} = viewOf(this);
-    return innerWidth >= 600 && this.clientWidth > kAlone * innerWidth && this.clientHeight > 0.6 * innerHeight;
+    return (
+      innerWidth >= 600 &&
+      this.clientWidth > kAlone * innerWidth &&
+      this.clientHeight > 0.6 * innerHeight
+    );
   }
 
   /** Poses that are drawn; who may not have true ones is shown reported ones. */
@@ -314,14 +329,22 @@ export class WorldPanel extends LiveElement {
     const {model} = this.context;
     model.poses.interpolate(now_ms, this.placed);
     this.placeTruth(now_ms);
-    if (model.poses.newest !== null && !this.context.selection.following) this.autoFit.look(this.stage, this.placed, now_ms, motion());
+    if (model.poses.newest !== null && !this.context.selection.following)
+      this.autoFit.look(this.stage, this.placed, now_ms, motion());
     const going = this.stage.paint(now_ms);
     // Cards stand beside things that move.
-    if ((this.orders.desk.draft !== null || this.context.commands.pending.length > 0) && now_ms - this.cardAt_ms > 60) {
+    if (
+      (this.orders.desk.draft !== null || this.context.commands.pending.length > 0) &&
+      now_ms - this.cardAt_ms > 60
+    ) {
       this.cardAt_ms = now_ms;
       this.requestUpdate();
     }
-    if (this.alone && this.context.selection.primary !== null && now_ms - this.cardAt_ms > kCard_ms) {
+    if (
+      this.alone &&
+      this.context.selection.primary !== null &&
+      now_ms - this.cardAt_ms > kCard_ms
+    ) {
       this.cardAt_ms = now_ms;
       this.requestUpdate();
     }
@@ -343,36 +366,90 @@ export class WorldPanel extends LiveElement {
     const {selection, model, palette} = this.context;
     const primary = selection.primary;
     const set = (layers: Layers) => this.setLayers(layers);
-    const tool = (name: IconName, label: string, key: string, pressed: boolean | null, act: () => void, disabled = false) => html`
-      <button class="icon-button ${name}" title="${label}${key ? ` (${key})` : ''}" aria-label=${label} aria-pressed=${pressed ?? nothing} ?disabled=${disabled} @click=${act}>${icon(name)}</button>`;
-    return html`
-      <div class="bar">
+    const tool = (
+      name: IconName,
+      label: string,
+      key: string,
+      pressed: boolean | null,
+      act: () => void,
+      disabled = false,
+    ) =>
+      html` <button
+        class="icon-button ${name}"
+        title="${label}${key ? ` (${key})` : ''}"
+        aria-label=${label}
+        aria-pressed=${pressed ?? nothing}
+        ?disabled=${disabled}
+        @click=${act}>
+        ${icon(name)}
+      </button>`;
+    return html` <div class="bar">
         <div class="segments" role="radiogroup" aria-label="View">
-          ${(['top', '3d'] as const).map((mode) => html`<button role="radio" aria-checked=${this.mode === mode} title="Top or 3-D (T)"
-            @click=${() => void this.setMode(mode)}>${mode === 'top' ? 'Top' : '3-D'}</button>`)}
-        </div><i class="rule"></i>
+          ${(['top', '3d'] as const).map(
+            (mode) =>
+              html`<button
+                role="radio"
+                aria-checked=${this.mode === mode}
+                title="Top or 3-D (T)"
+                @click=${() => void this.setMode(mode)}>
+                ${mode === 'top' ? 'Top' : '3-D'}
+              </button>`,
+          )}
+        </div>
+        <i class="rule"></i>
         ${this.orders.tools()}
         ${renderLegend(this.context, this.layers, set, () => this.toggleMenu())}
         <span class="space"></span>
         ${model.robots.length >= kCrowd ? renderColourBy(this.layers, set) : nothing}
         <div class="tools">
-          <button class="icon-button mode" aria-label="Top or 3-D" @click=${() => this.toggleMode()}>${this.mode === 'top' ? '3-D' : 'Top'}</button>
+          <button
+            class="icon-button mode"
+            aria-label="Top or 3-D"
+            @click=${() => this.toggleMode()}>
+            ${this.mode === 'top' ? '3-D' : 'Top'}
+          </button>
           ${tool('maximize', 'Show everything', 'F', null, () => this.fit())}
-          ${tool('crosshair', 'Follow the selected robot', 'C', selection.following, () => selection.follow(!selection.following), primary === null)}
+          ${tool(
+            'crosshair',
+            'Follow the selected robot',
+            'C',
+            selection.following,
+            () => selection.follow(!selection.following),
+            primary === null,
+          )}
           ${tool('ruler', 'Measure', 'M', this.top.measure.on, () => this.toggleMeasure())}
           ${tool('layers', 'Layers', '', this.menuOpen, () => this.toggleMenu())}
           ${tool('camera', 'Save a picture', 'P', null, () => this.picture())}
         </div>
       </div>
       <div class="stage">
-        <div class="canvas" tabindex="0" role="application" aria-label=${this.summary()} @keydown=${(event: KeyboardEvent) => this.press(event)}></div>
+        <div
+          class="canvas"
+          tabindex="0"
+          role="application"
+          aria-label=${this.summary()}
+          @keydown=${(event: KeyboardEvent) => this.press(event)}></div>
         <span class="said" role="status">${this.top.measure.text}</span>
         ${selection.following && primary !== null
-          ? html`<div class="note">${icon('crosshair', 14)} following <b style="color:${palette.hue(primary).ink}">${model.robots[primary]?.name}</b> <span>Esc ends</span></div>`
+          ? html`<div class="note">
+              ${icon('crosshair', 14)} following
+              <b style="color:${palette.hue(primary).ink}">${model.robots[primary]?.name}</b>
+              <span>Esc ends</span>
+            </div>`
           : nothing}
-        ${this.orders.render(this.stage.screenAt === undefined ? null : ([x, y]) => this.top.screenAt(x, y))}
+        ${this.orders.render(
+          this.stage.screenAt === undefined ? null : ([x, y]) => this.top.screenAt(x, y),
+        )}
         ${this.alone ? renderCard(this.context, this.placed) : nothing}
-        ${this.menuOpen ? renderMenu(this.context, this.layers, this.top.tint.scale(this.layers.colourBy), palette.theme, set) : nothing}
+        ${this.menuOpen
+          ? renderMenu(
+              this.context,
+              this.layers,
+              this.top.tint.scale(this.layers.colourBy),
+              palette.theme,
+              set,
+            )
+          : nothing}
       </div>`;
   }
 
@@ -381,7 +458,14 @@ export class WorldPanel extends LiveElement {
     return `World View: ${model.robots.length} robots, ${model.bodies.size} bodies. The panel Robots lists them. Arrows move the picture, plus and minus zoom it.`;
   }
 
-  static override styles = [controls, glyphs, worldMenuStyles, worldCardStyles, orderStyles, worldPanelStyles];
+  static override styles = [
+    controls,
+    glyphs,
+    worldMenuStyles,
+    worldCardStyles,
+    orderStyles,
+    worldPanelStyles,
+  ];
 }
 
 function motion(): boolean {

@@ -8,8 +8,14 @@ export interface Arrow {
 }
 
 /** Arrows along a line of the picture, at a distance in pixels from each other; the ends stay free for their rings. */
-export function arrowsAlong(points: readonly (readonly [number, number])[], every: number, free: number): Arrow[] {
-  const lengths = points.slice(1).map(([x, y], i) => Math.hypot(x - points[i][0], y - points[i][1]));
+export function arrowsAlong(
+  points: readonly (readonly [number, number])[],
+  every: number,
+  free: number,
+): Arrow[] {
+  const lengths = points
+    .slice(1)
+    .map(([x, y], i) => Math.hypot(x - points[i][0], y - points[i][1]));
   const whole = lengths.reduce((sum, length) => sum + length, 0);
   const count = Math.floor((whole - 2 * free) / every);
   if (!(count > 0) || !Number.isFinite(whole)) return [];
@@ -22,7 +28,11 @@ export function arrowsAlong(points: readonly (readonly [number, number])[], ever
     const [bx, by] = points[i + 1];
     for (; arrows.length < count && next <= passed + length && length > 0; next += every) {
       const share = (next - passed) / length;
-      arrows.push({x: ax + share * (bx - ax), y: ay + share * (by - ay), angle: Math.atan2(by - ay, bx - ax)});
+      arrows.push({
+        x: ax + share * (bx - ax),
+        y: ay + share * (by - ay),
+        angle: Math.atan2(by - ay, bx - ax),
+      });
     }
     passed += length;
   });

@@ -12,6 +12,9 @@ export function leadOf(x: number, y: number, yaw: number, v: number, w: number):
     // Along a straight line the arc has no middle.
     if (Math.abs(w) < 1e-6) return [x + v * t * Math.cos(yaw), y + v * t * Math.sin(yaw)];
     const r = v / w;
-    return [x + r * (Math.sin(yaw + w * t) - Math.sin(yaw)), y - r * (Math.cos(yaw + w * t) - Math.cos(yaw))];
+    return [
+      x + r * (Math.sin(yaw + w * t) - Math.sin(yaw)),
+      y - r * (Math.cos(yaw + w * t) - Math.cos(yaw)),
+    ];
   });
 }

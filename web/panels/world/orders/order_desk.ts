@@ -60,7 +60,10 @@ export class OrderDesk {
   /** The selected robots that take something from this person. */
   slotsFor(what: 'goal' | 'path' | 'place'): number[] {
     const {model, selection} = this.context;
-    if (what === 'place') return selection.slots.filter((slot) => model.may('edit') && model.live && model.robots[slot]?.kind === 'simulated');
+    if (what === 'place')
+      return selection.slots.filter(
+        (slot) => model.may('edit') && model.live && model.robots[slot]?.kind === 'simulated',
+      );
     return selection.slots.filter((slot) => model.whyNotTaken(slot, what) === '');
   }
 
@@ -72,13 +75,18 @@ export class OrderDesk {
     const primary = selection.primary;
     if (primary === null) return 'Select a robot first.';
     if (this.slotsFor(tool).length > 0) return '';
-    if (tool === 'place') return model.may('edit') ? 'Only simulated robots can be placed.' : model.whyNot('edit');
+    if (tool === 'place')
+      return model.may('edit') ? 'Only simulated robots can be placed.' : model.whyNot('edit');
     return model.whyNotTaken(primary, tool);
   }
 
   /** Whether a drag that begins at a robot draws its path. */
   drawsFrom(slot: number | null): boolean {
-    return slot !== null && this.context.selection.has(slot) && (this.slotsFor('path').length > 0 || this.slotsFor('goal').length > 0);
+    return (
+      slot !== null &&
+      this.context.selection.has(slot) &&
+      (this.slotsFor('path').length > 0 || this.slotsFor('goal').length > 0)
+    );
   }
 
   begin(draft: Draft): void {
@@ -91,7 +99,9 @@ export class OrderDesk {
   extend(point: Point): void {
     const draft = this.draft;
     if (draft?.kind === 'path') draft.points = thinned([...draft.points, point]);
-    else if (draft?.kind === 'outline') draft.points = draft.shape === 'polygon' ? [...draft.points, point] : [draft.points[0], point];
+    else if (draft?.kind === 'outline')
+      draft.points =
+        draft.shape === 'polygon' ? [...draft.points, point] : [draft.points[0], point];
     this.changed.emit();
   }
 
@@ -110,7 +120,13 @@ export class OrderDesk {
   private async sendGoal(point: Point, yaw?: number): Promise<void> {
     const slots = this.slotsFor('goal');
     if (slots.length === 0) return this.say(this.whyNot('goal'), false, point);
-    const points = slots.length === 1 ? [point] : spread(point, slots.map((slot) => radiusOf(this.context.model.robots[slot].shapes)));
+    const points =
+      slots.length === 1
+        ? [point]
+        : spread(
+            point,
+            slots.map((slot) => radiusOf(this.context.model.robots[slot].shapes)),
+          );
     await this.context.commands.goal(slots, points, yaw);
   }
 
@@ -119,7 +135,10 @@ export class OrderDesk {
     const along = this.slotsFor('path');
     const end = points[points.length - 1];
     // A program that takes only goals is sent to the end of the line.
-    if (along.length === 0) return this.slotsFor('goal').length > 0 ? this.sendGoal(end) : this.say(this.whyNot('path'), false, end);
+    if (along.length === 0)
+      return this.slotsFor('goal').length > 0
+        ? this.sendGoal(end)
+        : this.say(this.whyNot('path'), false, end);
     await this.context.commands.path(along, points);
   }
 
@@ -133,8 +152,17 @@ export class OrderDesk {
     const made = outlineOf(shape, points);
     if (made === null) return;
     const name = this.freeName(shape);
-    const answer = await this.context.commands.ask({type: 'edit', do: 'add', name, pose: made.pose, ...asked(made)});
-    this.say(answer.good ? `${name}: ${outlineText(made)}` : answer.text, answer.good, [made.pose[0], made.pose[1]]);
+    const answer = await this.context.commands.ask({
+      type: 'edit',
+      do: 'add',
+      name,
+      pose: made.pose,
+      ...asked(made),
+    });
+    this.say(answer.good ? `${name}: ${outlineText(made)}` : answer.text, answer.good, [
+      made.pose[0],
+      made.pose[1],
+    ]);
   }
 
   private freeName(shape: OutlineKind): string {
@@ -163,7 +191,12 @@ export class OrderDesk {
   async put(): Promise<void> {
     const {chosen} = this;
     if (chosen === null || this.moved === null) return;
-    const answer = await this.context.commands.ask({type: 'edit', do: 'move', name: chosen.body.name, pose: this.moved});
+    const answer = await this.context.commands.ask({
+      type: 'edit',
+      do: 'move',
+      name: chosen.body.name,
+      pose: this.moved,
+    });
     this.moved = null;
     this.say(answer.good ? '' : answer.text, answer.good, [chosen.pose[0], chosen.pose[1]]);
   }
@@ -178,7 +211,11 @@ export class OrderDesk {
   async remove(): Promise<void> {
     const {chosen} = this;
     if (chosen === null) return;
-    const answer = await this.context.commands.ask({type: 'edit', do: 'remove', name: chosen.body.name});
+    const answer = await this.context.commands.ask({
+      type: 'edit',
+      do: 'remove',
+      name: chosen.body.name,
+    });
     if (answer.good) this.body = null;
     this.say(answer.good ? '' : answer.text, answer.good, [chosen.pose[0], chosen.pose[1]]);
   }

@@ -22,7 +22,12 @@ type Press =
 export class OrderHands {
   private press: Press | null = null;
 
-  constructor(private readonly context: StageContext, private readonly desk: OrderDesk, private readonly camera: Camera, private readonly slotAt: (x: number, y: number) => number | null) {}
+  constructor(
+    private readonly context: StageContext,
+    private readonly desk: OrderDesk,
+    private readonly camera: Camera,
+    private readonly slotAt: (x: number, y: number) => number | null,
+  ) {}
 
   get drawing(): boolean {
     return this.press !== null;
@@ -36,7 +41,8 @@ export class OrderHands {
     if (this.press === null) return false;
     const point = this.camera.toWorld(x, y);
     if (this.press.what === 'path') this.beginPath(point, x, y);
-    if (this.press.what === 'outline') this.desk.begin({kind: 'outline', shape: this.desk.shape, points: [point]});
+    if (this.press.what === 'outline')
+      this.desk.begin({kind: 'outline', shape: this.desk.shape, points: [point]});
     return true;
   }
 
@@ -74,9 +80,11 @@ export class OrderHands {
       this.desk.extend(point);
       return;
     }
-    const slot = this.slotAt(x, y) ?? this.desk.slotsFor('path').at(-1) ?? this.desk.slotsFor('goal').at(-1);
+    const slot =
+      this.slotAt(x, y) ?? this.desk.slotsFor('path').at(-1) ?? this.desk.slotsFor('goal').at(-1);
     const {placed} = this.context;
-    const from: Point = slot === undefined || slot === null ? point : [placed.x[slot], placed.y[slot]];
+    const from: Point =
+      slot === undefined || slot === null ? point : [placed.x[slot], placed.y[slot]];
     this.desk.begin({kind: 'path', points: from === point ? [point] : [from, point]});
   }
 
@@ -88,10 +96,16 @@ export class OrderHands {
     if (press.what === 'path' || press.what === 'outline') desk.extend(point);
     else if (press.what === 'carry') {
       const {chosen} = desk;
-      if (chosen !== null && Math.hypot(x - press.x, y - press.y) > kSlip_px) desk.carry([...camera.toWorld(x + press.dx, y + press.dy), chosen.pose[2]]);
+      if (chosen !== null && Math.hypot(x - press.x, y - press.y) > kSlip_px)
+        desk.carry([...camera.toWorld(x + press.dx, y + press.dy), chosen.pose[2]]);
     } else if (press.what === 'turn') {
       const {chosen} = desk;
-      if (chosen !== null) desk.carry([chosen.pose[0], chosen.pose[1], wrapped(Math.atan2(point[1] - chosen.pose[1], point[0] - chosen.pose[0]))]);
+      if (chosen !== null)
+        desk.carry([
+          chosen.pose[0],
+          chosen.pose[1],
+          wrapped(Math.atan2(point[1] - chosen.pose[1], point[0] - chosen.pose[0])),
+        ]);
     } else this.point(press.x, press.y, x, y);
   }
 
@@ -99,7 +113,8 @@ export class OrderHands {
   private point(fromX: number, fromY: number, x: number, y: number): void {
     const {tool} = this.desk;
     if (tool !== 'goal' && tool !== 'place') return;
-    const yaw = Math.hypot(x - fromX, y - fromY) > kHeading_px ? Math.atan2(fromY - y, x - fromX) : null;
+    const yaw =
+      Math.hypot(x - fromX, y - fromY) > kHeading_px ? Math.atan2(fromY - y, x - fromX) : null;
     this.desk.begin({kind: tool, point: this.camera.toWorld(fromX, fromY), yaw});
   }
 
@@ -164,7 +179,9 @@ export class OrderHands {
       return;
     }
     const [fx, fy] = draft.points[0];
-    const closes = draft.points.length > 2 && Math.hypot(camera.toScreenX(fx) - x, camera.toScreenY(fy) - y) < kClose_px;
+    const closes =
+      draft.points.length > 2 &&
+      Math.hypot(camera.toScreenX(fx) - x, camera.toScreenY(fy) - y) < kClose_px;
     if (closes) void desk.send();
     else desk.extend(point);
   }
@@ -175,8 +192,18 @@ export function bodyAt(bodies: Iterable<Body>, x: number, y: number): number | n
   for (const body of bodies) {
     if (body.kind !== 'virtual') continue;
     const [c, s] = [Math.cos(body.pose[2]), Math.sin(body.pose[2])];
-    const [lx, ly] = [c * (x - body.pose[0]) + s * (y - body.pose[1]), -s * (x - body.pose[0]) + c * (y - body.pose[1])];
-    if (body.shapes.some((shape) => (shape.disc ? Math.hypot(lx - shape.disc[0], ly - shape.disc[1]) <= shape.disc[2] : holds(shape.polygon ?? [], lx, ly)))) return body.id;
+    const [lx, ly] = [
+      c * (x - body.pose[0]) + s * (y - body.pose[1]),
+      -s * (x - body.pose[0]) + c * (y - body.pose[1]),
+    ];
+    if (
+      body.shapes.some((shape) =>
+        shape.disc
+          ? Math.hypot(lx - shape.disc[0], ly - shape.disc[1]) <= shape.disc[2]
+          : holds(shape.polygon ?? [], lx, ly),
+      )
+    )
+      return body.id;
   }
   return null;
 }

@@ -25,7 +25,10 @@ export class OrderLayer {
   private camera!: Camera;
   private placed!: Placed;
 
-  constructor(private readonly context: PanelContext, private readonly desk: OrderDesk) {}
+  constructor(
+    private readonly context: PanelContext,
+    private readonly desk: OrderDesk,
+  ) {}
 
   draw(ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed): void {
     [this.ctx, this.camera, this.placed] = [ctx, camera, placed];
@@ -38,7 +41,12 @@ export class OrderLayer {
       if (slot >= placed.count) continue;
       const place = placeOf(drive.order);
       if (place !== null && !drawn.has(slot)) this.drawOther(slot, place, drive.lease, drive.yours);
-      if (drive.lease !== '') this.drawBadge(slot, drive.yours ? (this.context.model.hello?.user.name ?? '') : drive.lease, drive.yours);
+      if (drive.lease !== '')
+        this.drawBadge(
+          slot,
+          drive.yours ? (this.context.model.hello?.user.name ?? '') : drive.lease,
+          drive.yours,
+        );
     }
     if (this.desk.draft !== null) this.drawDraft(this.desk.draft);
     this.drawLead();
@@ -52,7 +60,14 @@ export class OrderLayer {
     const slot = selection.primary;
     const asked = slot === null ? undefined : commands.asked.of(slot).at(-1);
     const {placed} = this;
-    if (slot === null || asked === undefined || slot >= placed.count || Math.abs(placed.time_s - asked.t) > kHolds_s || Math.abs(asked.v) < 0.02) return;
+    if (
+      slot === null ||
+      asked === undefined ||
+      slot >= placed.count ||
+      Math.abs(placed.time_s - asked.t) > kHolds_s ||
+      Math.abs(asked.v) < 0.02
+    )
+      return;
     const points = leadOf(placed.x[slot], placed.y[slot], placed.yaw[slot], asked.v, asked.w);
     const intent = this.token('intent');
     this.line(points, intent, 2.5, [6, 5]);
@@ -68,7 +83,12 @@ export class OrderLayer {
     return [this.placed.x[slot], this.placed.y[slot]];
   }
 
-  private line(points: readonly (readonly [number, number])[], colour: string, width: number, dash: number[] = []): void {
+  private line(
+    points: readonly (readonly [number, number])[],
+    colour: string,
+    width: number,
+    dash: number[] = [],
+  ): void {
     const {ctx} = this;
     ctx.beginPath();
     for (const point of points) ctx.lineTo(...this.screen(point));
@@ -81,7 +101,12 @@ export class OrderLayer {
 
   /** Which way a path goes. */
   private arrows(points: readonly Point[], colour: string): void {
-    for (const {x, y, angle} of arrowsAlong(points.map((point) => this.screen(point)), kArrows_px, kArrowFree_px)) this.arrow(x, y, angle, colour);
+    for (const {x, y, angle} of arrowsAlong(
+      points.map((point) => this.screen(point)),
+      kArrows_px,
+      kArrowFree_px,
+    ))
+      this.arrow(x, y, angle, colour);
   }
 
   private arrow(x: number, y: number, angle: number, colour: string): void {
@@ -127,14 +152,25 @@ export class OrderLayer {
       drawn.add(slot);
       const refused = order.state === 'refused' || order.refused.includes(slot);
       // One point may serve several robots; otherwise each has its own.
-      const points = order.kind === 'path' ? order.points : [order.points[order.points.length > 1 ? i : 0]];
-      const colour = refused ? this.token('danger') : order.state === 'sent' ? withAlpha(intent, 0.45) : intent;
-      this.line([this.robot(slot), ...points], colour, 2, refused || order.state === 'taken' ? [7, 5] : []);
+      const points =
+        order.kind === 'path' ? order.points : [order.points[order.points.length > 1 ? i : 0]];
+      const colour = refused
+        ? this.token('danger')
+        : order.state === 'sent'
+          ? withAlpha(intent, 0.45)
+          : intent;
+      this.line(
+        [this.robot(slot), ...points],
+        colour,
+        2,
+        refused || order.state === 'taken' ? [7, 5] : [],
+      );
       if (order.kind === 'path') this.arrows(points, colour);
       const end = points[points.length - 1];
       this.ring(end, colour, !refused);
       if (refused) this.cross(end, colour);
-      else if (order.state === 'taken' && order.slots.length === 1) this.distance(slot, end, colour);
+      else if (order.state === 'taken' && order.slots.length === 1)
+        this.distance(slot, end, colour);
     });
   }
 
@@ -185,7 +221,10 @@ export class OrderLayer {
   /** Initials of who drives, at the robot; left of a stop sign. */
   private drawBadge(slot: number, name: string, yours: boolean): void {
     if ((this.placed.flags[slot] & RobotFlag.known) === 0) return;
-    const r = Math.max(7.5, radiusOf(this.context.model.robots[slot]?.shapes ?? []) * this.camera.scale);
+    const r = Math.max(
+      7.5,
+      radiusOf(this.context.model.robots[slot]?.shapes ?? []) * this.camera.scale,
+    );
     const [x, y] = this.screen(this.robot(slot));
     const side = (this.placed.flags[slot] & RobotFlag.stopped) !== 0 ? -0.75 : 0.75;
     this.disc(x + side * r, y - 0.75 * r - 2, 0, name, yours);
@@ -222,7 +261,8 @@ export class OrderLayer {
       return;
     }
     for (const slot of this.desk.slotsFor(draft.kind)) {
-      if (draft.kind === 'goal') this.line([this.robot(slot), draft.point], withAlpha(intent, 0.6), 2);
+      if (draft.kind === 'goal')
+        this.line([this.robot(slot), draft.point], withAlpha(intent, 0.6), 2);
     }
     this.ring(draft.point, intent, true);
     if (draft.yaw === null) return;
@@ -257,7 +297,12 @@ export class OrderLayer {
       const [x, y] = this.screen([made.pose[0], made.pose[1]]);
       ctx.arc(x, y, made.radius * this.camera.scale, 0, 2 * Math.PI);
     } else {
-      const corners = draft.shape === 'polygon' ? draft.points : (made?.polygon ?? []).map(([x, y]): Point => [x + (made?.pose[0] ?? 0), y + (made?.pose[1] ?? 0)]);
+      const corners =
+        draft.shape === 'polygon'
+          ? draft.points
+          : (made?.polygon ?? []).map(
+              ([x, y]): Point => [x + (made?.pose[0] ?? 0), y + (made?.pose[1] ?? 0)],
+            );
       for (const corner of corners) ctx.lineTo(...this.screen(corner));
       ctx.closePath();
     }
@@ -293,14 +338,24 @@ export class OrderLayer {
     ctx.stroke();
   }
 
-  private ghost(shapes: readonly {polygon?: Point[]; disc?: [number, number, number]}[], pose: readonly [number, number, number]): void {
+  private ghost(
+    shapes: readonly {polygon?: Point[]; disc?: [number, number, number]}[],
+    pose: readonly [number, number, number],
+  ): void {
     const {ctx, camera} = this;
     const [c, s] = [Math.cos(pose[2]), Math.sin(pose[2])];
-    const at = ([x, y]: readonly [number, number]) => this.screen([pose[0] + c * x - s * y, pose[1] + s * x + c * y]);
+    const at = ([x, y]: readonly [number, number]) =>
+      this.screen([pose[0] + c * x - s * y, pose[1] + s * x + c * y]);
     ctx.setLineDash([7, 5]);
     for (const shape of shapes) {
       ctx.beginPath();
-      if (shape.disc) ctx.arc(...at([shape.disc[0], shape.disc[1]]), shape.disc[2] * camera.scale, 0, 2 * Math.PI);
+      if (shape.disc)
+        ctx.arc(
+          ...at([shape.disc[0], shape.disc[1]]),
+          shape.disc[2] * camera.scale,
+          0,
+          2 * Math.PI,
+        );
       else for (const corner of shape.polygon ?? []) ctx.lineTo(...at(corner));
       ctx.closePath();
       ctx.stroke();
@@ -310,6 +365,13 @@ export class OrderLayer {
 }
 
 /** Where the handle is that turns an obstacle; pixels. */
-export function handleOf(camera: Camera, pose: readonly [number, number, number], r: number): [number, number] {
-  return [camera.toScreenX(pose[0]) + (r + 18) * Math.cos(pose[2]), camera.toScreenY(pose[1]) - (r + 18) * Math.sin(pose[2])];
+export function handleOf(
+  camera: Camera,
+  pose: readonly [number, number, number],
+  r: number,
+): [number, number] {
+  return [
+    camera.toScreenX(pose[0]) + (r + 18) * Math.cos(pose[2]),
+    camera.toScreenY(pose[1]) - (r + 18) * Math.sin(pose[2]),
+  ];
 }

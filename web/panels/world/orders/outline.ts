@@ -27,7 +27,15 @@ export function outlineOf(kind: OutlineKind, points: readonly Point[]): Outline 
   if (kind === 'box') {
     const [w, h] = [Math.abs(b[0] - a[0]) / 2, Math.abs(b[1] - a[1]) / 2];
     if (Math.min(w, h) < kLeast_m / 2) return null;
-    return {pose: [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, 0], polygon: [[-w, -h], [w, -h], [w, h], [-w, h]]};
+    return {
+      pose: [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, 0],
+      polygon: [
+        [-w, -h],
+        [w, -h],
+        [w, h],
+        [-w, h],
+      ],
+    };
   }
   if (points.length < 3) return null;
   const area = signedArea(points);
@@ -47,7 +55,9 @@ function signedArea(points: readonly Point[]): number {
 
 export function outlineText({radius, polygon}: Outline): string {
   if (radius !== undefined) return `disc, radius ${radius.toFixed(2)} m`;
-  return polygon?.length === 4 ? `${(polygon[1][0] - polygon[0][0]).toFixed(2)} x ${(polygon[2][1] - polygon[1][1]).toFixed(2)} m` : `${polygon?.length ?? 0} corners`;
+  return polygon?.length === 4
+    ? `${(polygon[1][0] - polygon[0][0]).toFixed(2)} x ${(polygon[2][1] - polygon[1][1]).toFixed(2)} m`
+    : `${polygon?.length ?? 0} corners`;
 }
 
 /** Without points that are nearer to the one before than a hand can mean. */
@@ -55,13 +65,15 @@ export function thinned(points: readonly Point[]): Point[] {
   const kept: Point[] = [];
   for (const point of points) {
     const last = kept[kept.length - 1];
-    if (last === undefined || Math.hypot(point[0] - last[0], point[1] - last[1]) >= kThin_m) kept.push(point);
+    if (last === undefined || Math.hypot(point[0] - last[0], point[1] - last[1]) >= kThin_m)
+      kept.push(point);
   }
   return kept.slice(0, kMostPoints);
 }
 
 export function lengthOf(points: readonly Point[]): number {
   let length = 0;
-  for (let i = 1; i < points.length; ++i) length += Math.hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]);
+  for (let i = 1; i < points.length; ++i)
+    length += Math.hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]);
   return length;
 }

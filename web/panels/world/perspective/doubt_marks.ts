@@ -18,13 +18,25 @@ export function writeDoubts(layer: FlatLayer, context: StageContext, orbit: Orbi
     for (const doubt of doubtsOf(model, selection, placed)) {
       const at = orbit.project(placed.x[doubt.slot], placed.y[doubt.slot], 0);
       if (at === null) continue;
-      writeDoubt(layer, doubt, [placed.x[doubt.slot], placed.y[doubt.slot], placed.yaw[doubt.slot]], bytesOf(palette.hue(doubt.slot).ink), orbit.pixelsPerMetre(at.distance));
+      writeDoubt(
+        layer,
+        doubt,
+        [placed.x[doubt.slot], placed.y[doubt.slot], placed.yaw[doubt.slot]],
+        bytesOf(palette.hue(doubt.slot).ink),
+        orbit.pixelsPerMetre(at.distance),
+      );
     }
   }
   layer.end();
 }
 
-function writeDoubt(layer: FlatLayer, doubt: Doubt, [x, y, yaw]: [number, number, number], tone: ReturnType<typeof bytesOf>, scale: number): void {
+function writeDoubt(
+  layer: FlatLayer,
+  doubt: Doubt,
+  [x, y, yaw]: [number, number, number],
+  tone: ReturnType<typeof bytesOf>,
+  scale: number,
+): void {
   const fan = (from: number, to: number, r: number, alpha: number) => {
     for (let i = 0; i < kSteps; ++i) {
       const [a, b] = [i, i + 1].map((k) => from + ((to - from) * k) / kSteps);
@@ -38,5 +50,6 @@ function writeDoubt(layer: FlatLayer, doubt: Doubt, [x, y, yaw]: [number, number
     // As thick on the screen from any distance.
     layer.ring(x, y, Math.max(doubt.radius_m - kEdge_px / scale, 0), doubt.radius_m, tone, 255);
   }
-  if (doubt.half_rad * doubt.length_m * scale >= kLeastVariance_px) fan(yaw - doubt.half_rad, yaw + doubt.half_rad, doubt.length_m, kHeadings);
+  if (doubt.half_rad * doubt.length_m * scale >= kLeastVariance_px)
+    fan(yaw - doubt.half_rad, yaw + doubt.half_rad, doubt.length_m, kHeadings);
 }

@@ -1,5 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-import {BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Mesh, MeshBasicMaterial} from 'three';
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  DynamicDrawUsage,
+  Mesh,
+  MeshBasicMaterial,
+} from 'three';
 import type {Tone} from '../swarm';
 
 const kFirst = 3 * 256;
@@ -12,8 +19,16 @@ export class FlatLayer {
   private tones = new Uint8Array(4 * kFirst);
   private vertices = 0;
 
-  constructor(private readonly z: number, order: number) {
-    const material = new MeshBasicMaterial({vertexColors: true, transparent: true, depthWrite: false, side: DoubleSide});
+  constructor(
+    private readonly z: number,
+    order: number,
+  ) {
+    const material = new MeshBasicMaterial({
+      vertexColors: true,
+      transparent: true,
+      depthWrite: false,
+      side: DoubleSide,
+    });
     this.mesh = new Mesh(this.geometry, material);
     this.mesh.frustumCulled = false;
     this.mesh.renderOrder = order;
@@ -38,7 +53,16 @@ export class FlatLayer {
   }
 
   /** A line of a width in metres, with an alpha at each end. */
-  line(ax: number, ay: number, bx: number, by: number, width: number, tone: Tone, from: number, to: number): void {
+  line(
+    ax: number,
+    ay: number,
+    bx: number,
+    by: number,
+    width: number,
+    tone: Tone,
+    from: number,
+    to: number,
+  ): void {
     const length = Math.hypot(bx - ax, by - ay);
     if (length < 1e-6) return;
     const nx = (-(by - ay) / length) * (width / 2);
@@ -56,7 +80,8 @@ export class FlatLayer {
     const steps = 40;
     for (let i = 0; i < steps; ++i) {
       const [a, b] = [(2 * Math.PI * i) / steps, (2 * Math.PI * (i + 1)) / steps];
-      const at = (angle: number, r: number) => this.corner(x + r * Math.cos(angle), y + r * Math.sin(angle), tone, alpha);
+      const at = (angle: number, r: number) =>
+        this.corner(x + r * Math.cos(angle), y + r * Math.sin(angle), tone, alpha);
       at(a, inner);
       at(a, outer);
       at(b, outer);
@@ -83,7 +108,13 @@ export class FlatLayer {
 
   private attach(): void {
     this.geometry.dispose();
-    this.geometry.setAttribute('position', new BufferAttribute(this.places, 3).setUsage(DynamicDrawUsage));
-    this.geometry.setAttribute('color', new BufferAttribute(this.tones, 4, true).setUsage(DynamicDrawUsage));
+    this.geometry.setAttribute(
+      'position',
+      new BufferAttribute(this.places, 3).setUsage(DynamicDrawUsage),
+    );
+    this.geometry.setAttribute(
+      'color',
+      new BufferAttribute(this.tones, 4, true).setUsage(DynamicDrawUsage),
+    );
   }
 }

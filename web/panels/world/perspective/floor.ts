@@ -1,5 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-import {BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, PlaneGeometry, ShadowMaterial} from 'three';
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  PlaneGeometry,
+  ShadowMaterial,
+} from 'three';
 import type {Palette} from '../../../panel_api';
 import type {Bounds} from '../camera';
 import {roundStep} from '../ticks';
@@ -22,9 +32,15 @@ export class Floor {
     const x = (bounds.x0 + bounds.x1) / 2;
     const y = (bounds.y0 + bounds.y1) / 2;
     const size = 4 * Math.max(width, height);
-    const plane = new Mesh(new PlaneGeometry(size, size), new MeshBasicMaterial({color: palette.token('floor')}));
+    const plane = new Mesh(
+      new PlaneGeometry(size, size),
+      new MeshBasicMaterial({color: palette.token('floor')}),
+    );
     plane.position.set(x, y, -0.01);
-    const shade = new Mesh(new PlaneGeometry(width, height), new ShadowMaterial({opacity: palette.theme === 'dark' ? 0.55 : 0.18}));
+    const shade = new Mesh(
+      new PlaneGeometry(width, height),
+      new ShadowMaterial({opacity: palette.theme === 'dark' ? 0.55 : 0.18}),
+    );
     shade.position.set(x, y, 0.001);
     shade.receiveShadow = true;
     this.grid = makeGrid(bounds, Math.max(width, height), palette);
@@ -39,7 +55,12 @@ export class Floor {
 function makeGrid(bounds: Bounds, extent: number, palette: Palette): LineSegments {
   const step = Math.max(roundStep(extent / kLines), 1);
   const ends: number[] = [];
-  const [x0, x1, y0, y1] = [bounds.x0 - kMargin_m, bounds.x1 + kMargin_m, bounds.y0 - kMargin_m, bounds.y1 + kMargin_m];
+  const [x0, x1, y0, y1] = [
+    bounds.x0 - kMargin_m,
+    bounds.x1 + kMargin_m,
+    bounds.y0 - kMargin_m,
+    bounds.y1 + kMargin_m,
+  ];
   // In pieces: some renderers lose a whole line if one of its ends is behind the eye.
   const piece = kPiece * step;
   for (let x = Math.ceil(x0 / step) * step; x <= x1; x += step) {

@@ -17,7 +17,12 @@ const kConeSteps = 6;
 const kFaint = Math.round(255 * 0.07);
 
 /** Where robots have been, fading towards the past. */
-export function writeTrails(layer: FlatLayer, context: StageContext, history: PoseHistory, shown: (slot: number) => boolean): void {
+export function writeTrails(
+  layer: FlatLayer,
+  context: StageContext,
+  history: PoseHistory,
+  shown: (slot: number) => boolean,
+): void {
   const {model, placed, palette} = context;
   layer.begin();
   const many = model.robots.length > kManyTrails;
@@ -28,14 +33,28 @@ export function writeTrails(layer: FlatLayer, context: StageContext, history: Po
       if (!shown(slot)) return;
       const real = robot.kind === 'real';
       const tone = bytesOf(palette.hue(slot).ink);
-      writeTrail(layer, frames, slot, [placed.x[slot], placed.y[slot]], real ? kRealTrail_m : kSimTrail_m, tone, real ? 180 : 150);
+      writeTrail(
+        layer,
+        frames,
+        slot,
+        [placed.x[slot], placed.y[slot]],
+        real ? kRealTrail_m : kSimTrail_m,
+        tone,
+        real ? 180 : 150,
+      );
     });
   }
   layer.end();
 }
 
 function writeTrail(
-  layer: FlatLayer, frames: readonly PoseFrame[], slot: number, now: [number, number], width: number, tone: Tone, strongest: number,
+  layer: FlatLayer,
+  frames: readonly PoseFrame[],
+  slot: number,
+  now: [number, number],
+  width: number,
+  tone: Tone,
+  strongest: number,
 ): void {
   const fade = (i: number) => Math.round(strongest * (i / frames.length) ** 1.5);
   frames.forEach((frame, i) => {
@@ -47,13 +66,21 @@ function writeTrail(
 }
 
 /** Areas that range sensors see, up to what they hit. */
-export function writeScans(layer: FlatLayer, context: StageContext, readings: readonly Shown[]): void {
+export function writeScans(
+  layer: FlatLayer,
+  context: StageContext,
+  readings: readonly Shown[],
+): void {
   layer.begin();
   for (const one of readings) if (one.sensor.kind === 'ranges') writeScan(layer, context, one);
   layer.end();
 }
 
-function writeScan(layer: FlatLayer, context: StageContext, {slot, sensor, reading, strong, fresh}: Shown): void {
+function writeScan(
+  layer: FlatLayer,
+  context: StageContext,
+  {slot, sensor, reading, strong, fresh}: Shown,
+): void {
   const {placed, palette} = context;
   const mount = mountOf(placed, slot, sensor);
   const hue = palette.hue(slot);
@@ -77,15 +104,21 @@ function writeScan(layer: FlatLayer, context: StageContext, {slot, sensor, readi
   for (let i = 0; i < reading.rows; ++i) {
     if (half > 0) {
       for (let k = 0; k < kConeSteps; ++k) {
-        const side = (step: number) => at(bearings[i] - half + (2 * half * step) / kConeSteps, reading.values[i]);
+        const side = (step: number) =>
+          at(bearings[i] - half + (2 * half * step) / kConeSteps, reading.values[i]);
         triangle(side(k), side(k + 1));
       }
-    } else if (i + 1 < reading.rows) triangle(at(bearings[i], reading.values[i]), at(bearings[i + 1], reading.values[i + 1]));
+    } else if (i + 1 < reading.rows)
+      triangle(at(bearings[i], reading.values[i]), at(bearings[i + 1], reading.values[i + 1]));
   }
 }
 
 /** Violet about who is selected, thin grey about who is pointed at. */
-export function writeRings(layer: FlatLayer, context: StageContext, radius: (slot: number) => number): void {
+export function writeRings(
+  layer: FlatLayer,
+  context: StageContext,
+  radius: (slot: number) => number,
+): void {
   const {selection, placed, palette} = context;
   layer.begin();
   const intent = bytesOf(palette.token('intent'));
@@ -98,7 +131,14 @@ export function writeRings(layer: FlatLayer, context: StageContext, radius: (slo
   const {hovered} = selection;
   if (hovered !== null && hovered < placed.count && !selection.has(hovered)) {
     const r = radius(hovered) * 1.25;
-    layer.ring(placed.x[hovered], placed.y[hovered], r + 0.01, r + 0.025, bytesOf(palette.token('text-3')), 255);
+    layer.ring(
+      placed.x[hovered],
+      placed.y[hovered],
+      r + 0.01,
+      r + 0.025,
+      bytesOf(palette.token('text-3')),
+      255,
+    );
   }
   layer.end();
 }

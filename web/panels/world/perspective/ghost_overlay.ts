@@ -20,7 +20,10 @@ export class GhostOverlay {
   /** Edges in the frame of the robot, made when they are first asked for. */
   private readonly edges = new Map<Robot, number[]>();
 
-  constructor(private readonly context: StageContext, private readonly orbit: Pick<Orbit, 'project'>) {}
+  constructor(
+    private readonly context: StageContext,
+    private readonly orbit: Pick<Orbit, 'project'>,
+  ) {}
 
   refresh(): void {
     this.edges.clear();
@@ -40,7 +43,8 @@ export class GhostOverlay {
     for (let slot = 0; slot < placed.count && left > 0; ++slot) {
       const robot = model.robots[slot];
       const state = bodyState(robot.kind, placed.flags[slot]);
-      if (state === 'plain' || (placed.flags[slot] & RobotFlag.known) === 0 || !shown(slot)) continue;
+      if (state === 'plain' || (placed.flags[slot] & RobotFlag.known) === 0 || !shown(slot))
+        continue;
       --left;
       const amber = palette.token('stale-ink');
       ctx.strokeStyle = state === 'unarmed' ? palette.token('warn') : palette.hue(slot).ink;
@@ -49,7 +53,12 @@ export class GhostOverlay {
       if (state !== 'stale') continue;
       ctx.strokeStyle = amber;
       ctx.setLineDash([2, 4]);
-      this.strokeRing(ctx, placed.x[slot], placed.y[slot], 1.3 * radiusOf(robot.shapes) + reachOf(placed, slot));
+      this.strokeRing(
+        ctx,
+        placed.x[slot],
+        placed.y[slot],
+        1.3 * radiusOf(robot.shapes) + reachOf(placed, slot),
+      );
       ctx.fillStyle = withAlpha(amber, 0.06);
       ctx.fill();
     }
@@ -76,16 +85,34 @@ export class GhostOverlay {
         ctx.stroke();
       }
       if (apart < kApart_px && !selection.has(ghost.slot)) continue;
-      drawGap(ctx, gapText(ghost.gap_m), (twin.x + own.x) / 2, Math.max(twin.y, own.y) + 8, ink, palette.token('floor'));
+      drawGap(
+        ctx,
+        gapText(ghost.gap_m),
+        (twin.x + own.x) / 2,
+        Math.max(twin.y, own.y) + 8,
+        ink,
+        palette.token('floor'),
+      );
       ctx.lineWidth = 1.5;
     }
   }
 
-  private strokeBody(ctx: CanvasRenderingContext2D, robot: Robot, x: number, y: number, yaw: number): void {
+  private strokeBody(
+    ctx: CanvasRenderingContext2D,
+    robot: Robot,
+    x: number,
+    y: number,
+    yaw: number,
+  ): void {
     let edges = this.edges.get(robot);
     if (edges === undefined) this.edges.set(robot, (edges = edgesOf(robot)));
     const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
-    const at = (i: number) => this.orbit.project(x + c * edges[i] - s * edges[i + 1], y + s * edges[i] + c * edges[i + 1], edges[i + 2]);
+    const at = (i: number) =>
+      this.orbit.project(
+        x + c * edges[i] - s * edges[i + 1],
+        y + s * edges[i] + c * edges[i + 1],
+        edges[i + 2],
+      );
     ctx.beginPath();
     let end: {x: number; y: number} | null = null;
     for (let i = 0; i < edges.length; i += 6) {

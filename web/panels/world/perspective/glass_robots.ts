@@ -1,5 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-import {BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial} from 'three';
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  DynamicDrawUsage,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+} from 'three';
 import type {Placed} from '../../../model/pose_history';
 import {RobotFlag} from '../../../protocol/frames';
 import type {Robot} from '../../../protocol/messages';
@@ -39,7 +49,9 @@ class Merged {
       return {slot, local, from};
     });
     this.places = new BufferAttribute(new Float32Array(3 * vertices), 3).setUsage(DynamicDrawUsage);
-    this.tones = new BufferAttribute(new Uint8Array(4 * vertices), 4, true).setUsage(DynamicDrawUsage);
+    this.tones = new BufferAttribute(new Uint8Array(4 * vertices), 4, true).setUsage(
+      DynamicDrawUsage,
+    );
     this.geometry.setAttribute('position', this.places);
     this.geometry.setAttribute('color', this.tones);
   }
@@ -47,7 +59,8 @@ class Merged {
   place(placed: Placed, shown: (slot: number) => boolean): void {
     const out = this.places.array as Float32Array;
     for (const {slot, local, from} of this.parts) {
-      const here = slot < placed.count && (placed.flags[slot] & RobotFlag.known) !== 0 && shown(slot);
+      const here =
+        slot < placed.count && (placed.flags[slot] & RobotFlag.known) !== 0 && shown(slot);
       const c = Math.cos(placed.yaw[slot]);
       const s = Math.sin(placed.yaw[slot]);
       const x = here ? placed.x[slot] : 0;
@@ -66,7 +79,8 @@ class Merged {
     for (const {slot, local, from} of this.parts) {
       const [red, green, blue] = toneOf(slot);
       const alpha = alphaOf(slot);
-      for (let v = from; v < from + local.length / 3; ++v) out.set([red, green, blue, alpha], 4 * v);
+      for (let v = from; v < from + local.length / 3; ++v)
+        out.set([red, green, blue, alpha], 4 * v);
     }
     this.tones.needsUpdate = true;
   }
@@ -79,8 +93,19 @@ export class GlassRobots {
   private readonly edges = new Merged();
 
   constructor() {
-    const mesh = new Mesh(this.faces.geometry, new MeshBasicMaterial({vertexColors: true, transparent: true, depthWrite: false, side: DoubleSide}));
-    const lines = new LineSegments(this.edges.geometry, new LineBasicMaterial({vertexColors: true, transparent: true}));
+    const mesh = new Mesh(
+      this.faces.geometry,
+      new MeshBasicMaterial({
+        vertexColors: true,
+        transparent: true,
+        depthWrite: false,
+        side: DoubleSide,
+      }),
+    );
+    const lines = new LineSegments(
+      this.edges.geometry,
+      new LineBasicMaterial({vertexColors: true, transparent: true}),
+    );
     mesh.frustumCulled = lines.frustumCulled = false;
     mesh.renderOrder = 4;
     lines.renderOrder = 5;
@@ -88,11 +113,19 @@ export class GlassRobots {
   }
 
   refresh(robots: readonly Robot[]): void {
-    const simulated = robots.flatMap((robot, slot) => (robot.kind === 'simulated' ? [{robot, slot}] : []));
+    const simulated = robots.flatMap((robot, slot) =>
+      robot.kind === 'simulated' ? [{robot, slot}] : [],
+    );
     const sides = simulated.length > kCoarseFrom ? kCoarse : kFine;
     const solids = simulated.map(({robot, slot}) => ({slot, solid: solidOf(robot, sides)}));
-    this.edges.rebuild(solids.map(({slot, solid}) => ({slot, local: Float32Array.from(solid.edges)})));
-    this.faces.rebuild(simulated.length > kFacesUpTo ? [] : solids.map(({slot, solid}) => ({slot, local: Float32Array.from(solid.faces)})));
+    this.edges.rebuild(
+      solids.map(({slot, solid}) => ({slot, local: Float32Array.from(solid.edges)})),
+    );
+    this.faces.rebuild(
+      simulated.length > kFacesUpTo
+        ? []
+        : solids.map(({slot, solid}) => ({slot, local: Float32Array.from(solid.faces)})),
+    );
   }
 
   update(placed: Placed, shown: (slot: number) => boolean): void {
@@ -112,7 +145,10 @@ function solidOf(robot: Robot, sides: number): Solid {
   let reach = 0;
   for (const shape of robot.shapes) {
     addPrism(solid, shape, sides);
-    reach = Math.max(reach, shape.disc ? shape.disc[2] : Math.max(...(shape.polygon ?? []).map(([x]) => x)));
+    reach = Math.max(
+      reach,
+      shape.disc ? shape.disc[2] : Math.max(...(shape.polygon ?? []).map(([x]) => x)),
+    );
   }
   const top = topOf(robot.shapes);
   solid.edges.push(0, 0, top, 0.9 * reach, 0, top);

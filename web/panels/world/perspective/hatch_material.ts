@@ -17,7 +17,8 @@ export function hatchMaterial(colour: string, light: boolean): ShaderMaterial {
       fill: {value: light ? 0.12 : 0.09},
       line: {value: 0.55},
     },
-    vertexShader: 'void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }',
+    vertexShader:
+      'void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }',
     fragmentShader: `uniform vec3 colour; uniform float step_px; uniform float width_px; uniform float fill; uniform float line;
       void main() {
         float along = mod(gl_FragCoord.x - gl_FragCoord.y, step_px);

@@ -23,7 +23,10 @@ export class MapPlane {
   /** Cheap as long as nothing changed. */
   update(maps: Maps, palette: Palette): void {
     const {overlay} = maps;
-    const key = overlay === null ? '' : [maps.revision, overlay.key, overlay.opacity, palette.theme].join(' ');
+    const key =
+      overlay === null
+        ? ''
+        : [maps.revision, overlay.key, overlay.opacity, palette.theme].join(' ');
     if (key === this.key) return;
     this.key = key;
     const grid = overlay === null ? null : maps.of(overlay.key);
@@ -65,8 +68,17 @@ function makeTile(tile: MapTile, palette: Palette, opacity: number): Shown['mesh
   texture.magFilter = NearestFilter;
   texture.generateMipmaps = false;
   texture.minFilter = NearestFilter;
-  const material = new MeshBasicMaterial({map: texture, transparent: true, opacity, depthWrite: false});
+  const material = new MeshBasicMaterial({
+    map: texture,
+    transparent: true,
+    opacity,
+    depthWrite: false,
+  });
   const mesh = new Mesh(new PlaneGeometry(width, height), material);
-  mesh.position.set(x0 + tile.column * kTileCells * resolution_m + width / 2, y0 + tile.row * kTileCells * resolution_m + height / 2, kHeight_m);
+  mesh.position.set(
+    x0 + tile.column * kTileCells * resolution_m + width / 2,
+    y0 + tile.row * kTileCells * resolution_m + height / 2,
+    kHeight_m,
+  );
   return mesh;
 }

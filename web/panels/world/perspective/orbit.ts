@@ -79,12 +79,17 @@ export class Orbit {
     if (goal !== null) {
       const share = Math.min((now_ms - goal.begin_ms) / duration_ms, 1);
       const eased = 1 - (1 - share) ** 3;
-      for (const key of ['x', 'y', 'distance', 'yaw', 'pitch'] as const) this.eye[key] = goal.from[key] + eased * (goal.to[key] - goal.from[key]);
+      for (const key of ['x', 'y', 'distance', 'yaw', 'pitch'] as const)
+        this.eye[key] = goal.from[key] + eased * (goal.to[key] - goal.from[key]);
       if (share >= 1) this.goal = null;
     }
     const {x, y, distance, yaw, pitch} = this.eye;
     const flat = distance * Math.cos(pitch);
-    this.camera.position.set(x + flat * Math.cos(yaw), y + flat * Math.sin(yaw), distance * Math.sin(pitch));
+    this.camera.position.set(
+      x + flat * Math.cos(yaw),
+      y + flat * Math.sin(yaw),
+      distance * Math.sin(pitch),
+    );
     this.camera.lookAt(x, y, 0);
     this.camera.updateMatrixWorld();
     return this.goal !== null;
@@ -96,7 +101,11 @@ export class Orbit {
     const distance = this.point.distanceTo(this.camera.position);
     this.point.project(this.camera);
     if (this.point.z > 1 || this.point.z < -1) return null;
-    return {x: (this.point.x * 0.5 + 0.5) * this.width, y: (0.5 - this.point.y * 0.5) * this.height, distance};
+    return {
+      x: (this.point.x * 0.5 + 0.5) * this.width,
+      y: (0.5 - this.point.y * 0.5) * this.height,
+      distance,
+    };
   }
 
   /** Pixels that a metre takes at this distance. */

@@ -17,10 +17,13 @@ export class OrbitGestures {
   /** Being drawn with Shift; pixels. */
   box: SelectionBox | null = null;
   private readonly pointers = new Map<number, {x: number; y: number}>();
-  private pressed: {x: number; y: number; moved: boolean; does: 'turn' | 'pan' | 'box'} | null = null;
+  private pressed: {x: number; y: number; moved: boolean; does: 'turn' | 'pan' | 'box'} | null =
+    null;
 
   constructor(
-    element: HTMLElement, private readonly context: StageContext, private readonly orbit: Orbit,
+    element: HTMLElement,
+    private readonly context: StageContext,
+    private readonly orbit: Orbit,
     private readonly hands: OrbitHands,
   ) {
     element.addEventListener('pointerdown', (event) => this.down(event));
@@ -92,8 +95,13 @@ export class OrbitGestures {
       const before = Math.hypot(last.x - other.x, last.y - other.y);
       const after = Math.hypot(event.offsetX - other.x, event.offsetY - other.y);
       if (before > 1) this.orbit.zoom(after / before);
-      const turned = Math.atan2(event.offsetY - other.y, event.offsetX - other.x) - Math.atan2(last.y - other.y, last.x - other.x);
-      this.orbit.rotate(Math.atan2(Math.sin(turned), Math.cos(turned)) / 0.006, (event.offsetY - last.y) / 2);
+      const turned =
+        Math.atan2(event.offsetY - other.y, event.offsetX - other.x) -
+        Math.atan2(last.y - other.y, last.x - other.x);
+      this.orbit.rotate(
+        Math.atan2(Math.sin(turned), Math.cos(turned)) / 0.006,
+        (event.offsetY - last.y) / 2,
+      );
     }
     if (this.pressed) this.pressed.moved = true;
     this.changed();
@@ -106,7 +114,12 @@ export class OrbitGestures {
     this.pressed = null;
     if (this.box !== null) this.context.selection.set(this.hands.slotsIn(this.box));
     this.box = null;
-    if (!pressed.moved) pick(this.context.selection, this.hands.slotAt(event.offsetX, event.offsetY), event.ctrlKey || event.metaKey);
+    if (!pressed.moved)
+      pick(
+        this.context.selection,
+        this.hands.slotAt(event.offsetX, event.offsetY),
+        event.ctrlKey || event.metaKey,
+      );
     this.context.redraw();
   }
 }

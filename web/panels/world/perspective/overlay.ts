@@ -24,7 +24,10 @@ const kGizmo_px = 74;
 export class Overlay {
   private readonly ghosts: GhostOverlay;
 
-  constructor(private readonly context: StageContext, private readonly orbit: Orbit) {
+  constructor(
+    private readonly context: StageContext,
+    private readonly orbit: Orbit,
+  ) {
     this.ghosts = new GhostOverlay(context, orbit);
   }
 
@@ -33,7 +36,12 @@ export class Overlay {
     this.ghosts.refresh();
   }
 
-  draw(ctx: CanvasRenderingContext2D, readings: readonly Shown[], surface: Surface | null, shown: (slot: number) => boolean): void {
+  draw(
+    ctx: CanvasRenderingContext2D,
+    readings: readonly Shown[],
+    surface: Surface | null,
+    shown: (slot: number) => boolean,
+  ): void {
     const layers = this.context.layers();
     for (const one of readings) {
       if (one.sensor.kind === 'sightings') {
@@ -44,7 +52,11 @@ export class Overlay {
     this.ghosts.draw(ctx, shown);
     const placer = new LabelPlacer(this.orbit.width, this.orbit.height);
     const labels = [...this.robotLabels(ctx, shown), ...this.bodyLabels()];
-    placer.draw(ctx, layers.names ? labels : labels.filter((label) => label.always), this.context.palette.token('floor'));
+    placer.draw(
+      ctx,
+      layers.names ? labels : labels.filter((label) => label.always),
+      this.context.palette.token('floor'),
+    );
     this.drawGizmo(ctx);
   }
 
@@ -65,9 +77,15 @@ export class Overlay {
     // Of many robots only those that matter are named.
     const all = model.robots.length <= kMostNames;
     model.robots.forEach((robot, slot) => {
-      if (slot >= placed.count || (placed.flags[slot] & RobotFlag.known) === 0 || !shown(slot)) return;
+      if (slot >= placed.count || (placed.flags[slot] & RobotFlag.known) === 0 || !shown(slot))
+        return;
       const state = bodyState(robot.kind, placed.flags[slot]);
-      const marked = robot.kind === 'real' || robot.word !== '' || selection.has(slot) || selection.hovered === slot || state !== 'plain';
+      const marked =
+        robot.kind === 'real' ||
+        robot.word !== '' ||
+        selection.has(slot) ||
+        selection.hovered === slot ||
+        state !== 'plain';
       const stopped = (placed.flags[slot] & RobotFlag.stopped) !== 0;
       if (!marked && !all) return;
       const top = this.orbit.project(placed.x[slot], placed.y[slot], topOf(robot.shapes));
@@ -76,8 +94,18 @@ export class Overlay {
       const alpha = marked ? 1 : Math.min(Math.max(share, 0), 1);
       if (stopped && alpha > 0) drawStopped(ctx, top.x + 12, top.y - 6, palette);
       if (alpha === 0) return;
-      const label = robotLabel(robot, slot, placed.flags[slot], top.x, top.y - 17, 0, selection, palette);
-      if (state === 'stale') label.text += `  ${(placed.time_s - placed.freshAt(slot)).toFixed(1)} s`;
+      const label = robotLabel(
+        robot,
+        slot,
+        placed.flags[slot],
+        top.x,
+        top.y - 17,
+        0,
+        selection,
+        palette,
+      );
+      if (state === 'stale')
+        label.text += `  ${(placed.time_s - placed.freshAt(slot)).toFixed(1)} s`;
       if (state === 'unarmed') label.text += '  arm';
       if (state !== 'plain') label.colour = palette.token(state === 'stale' ? 'stale-ink' : 'warn');
       labels.push({...label, gap: 0, below: true, alpha});
@@ -98,14 +126,25 @@ export class Overlay {
       const alpha = virtual ? 1 : Math.min(Math.max((1.6 * kFadeTo_m - at.distance) / 3, 0), 1);
       if (alpha === 0) continue;
       labels.push({
-        text: virtual ? body.name : shortName(body.name), x: at.x, y: at.y - (virtual ? 0 : 16), gap: 0, below: true, alpha,
-        colour: palette.token(virtual ? 'virtual-ink' : 'landmark-ink'), weight: 500, rank: virtual ? 4 : 6,
+        text: virtual ? body.name : shortName(body.name),
+        x: at.x,
+        y: at.y - (virtual ? 0 : 16),
+        gap: 0,
+        below: true,
+        alpha,
+        colour: palette.token(virtual ? 'virtual-ink' : 'landmark-ink'),
+        weight: 500,
+        rank: virtual ? 4 : 6,
       });
     }
     return labels;
   }
 
-  private drawHits(ctx: CanvasRenderingContext2D, {slot, sensor, reading}: Shown, surface: Surface): void {
+  private drawHits(
+    ctx: CanvasRenderingContext2D,
+    {slot, sensor, reading}: Shown,
+    surface: Surface,
+  ): void {
     const {placed, palette} = this.context;
     const mount = mountOf(placed, slot, sensor);
     const bearings = bearingsOf(sensor, reading.rows);
@@ -123,7 +162,10 @@ export class Overlay {
     }
   }
 
-  private drawSightings(ctx: CanvasRenderingContext2D, {slot, sensor, reading, strength}: Shown): void {
+  private drawSightings(
+    ctx: CanvasRenderingContext2D,
+    {slot, sensor, reading, strength}: Shown,
+  ): void {
     const {placed, palette} = this.context;
     const mount = mountOf(placed, slot, sensor);
     const from = this.orbit.project(mount.x, mount.y, sensor.z);
@@ -133,7 +175,11 @@ export class Overlay {
     for (let row = 0; row < reading.rows; ++row) {
       const range = reading.values[row * reading.fields + 1];
       const a = mount.yaw + reading.values[row * reading.fields + 2];
-      const to = this.orbit.project(mount.x + range * Math.cos(a), mount.y + range * Math.sin(a), sensor.z);
+      const to = this.orbit.project(
+        mount.x + range * Math.cos(a),
+        mount.y + range * Math.sin(a),
+        sensor.z,
+      );
       if (to === null) continue;
       ctx.globalAlpha = 0.6 * strength;
       ctx.beginPath();

@@ -1,5 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-import {AmbientLight, BasicShadowMap, Color, ColorManagement, DirectionalLight, Fog, LinearSRGBColorSpace, PCFSoftShadowMap, Scene, WebGLRenderer} from 'three';
+import {
+  AmbientLight,
+  BasicShadowMap,
+  Color,
+  ColorManagement,
+  DirectionalLight,
+  Fog,
+  LinearSRGBColorSpace,
+  PCFSoftShadowMap,
+  Scene,
+  WebGLRenderer,
+} from 'three';
 import {RobotFlag} from '../../../protocol/frames';
 import {boundsOfAll, boundsOfBodies, union, type BodyBounds} from '../bounds';
 import type {Bounds} from '../camera';
@@ -42,7 +53,10 @@ ColorManagement.enabled = false;
 export class PerspectiveStage implements Stage {
   readonly element = document.createElement('div');
   // Without a graphics card the processor draws, and smoothing would slow it down further.
-  private readonly renderer = new WebGLRenderer({antialias: hasCard(), preserveDrawingBuffer: false});
+  private readonly renderer = new WebGLRenderer({
+    antialias: hasCard(),
+    preserveDrawingBuffer: false,
+  });
   private readonly over = document.createElement('canvas');
   private readonly scene = new Scene();
   private readonly orbit = new Orbit();
@@ -78,8 +92,20 @@ export class PerspectiveStage implements Stage {
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(kShadow_px, kShadow_px);
     this.sun.shadow.bias = -0.001;
-    this.scene.add(new AmbientLight('#ffffff', 1.5), this.sun, this.sun.target, this.floor.group, this.maps.group, this.bodies.group, this.solid.group,
-      this.glass.group, this.scans.mesh, this.trails.mesh, this.doubts.mesh, this.rings.mesh);
+    this.scene.add(
+      new AmbientLight('#ffffff', 1.5),
+      this.sun,
+      this.sun.target,
+      this.floor.group,
+      this.maps.group,
+      this.bodies.group,
+      this.solid.group,
+      this.glass.group,
+      this.scans.mesh,
+      this.trails.mesh,
+      this.doubts.mesh,
+      this.rings.mesh,
+    );
     this.overlay = new Overlay(context, this.orbit);
     this.gestures = new OrbitGestures(this.element, context, this.orbit, this);
   }
@@ -136,7 +162,8 @@ export class PerspectiveStage implements Stage {
     const {placed, selection, model} = context;
     const layers = context.layers();
     const primary = selection.primary;
-    if (selection.following && primary !== null && primary < placed.count) [orbit.eye.x, orbit.eye.y] = [placed.x[primary], placed.y[primary]];
+    if (selection.following && primary !== null && primary < placed.count)
+      [orbit.eye.x, orbit.eye.y] = [placed.x[primary], placed.y[primary]];
     const going = orbit.advance(now_ms);
     this.chooseRatio(going || model.poses.moving(now_ms));
     const shown = (slot: number) => !layers.hidden.includes(model.robots[slot].kind);
@@ -171,7 +198,13 @@ export class PerspectiveStage implements Stage {
     const {palette} = this.context;
     const round = (value: number) => Math.round(value / 10);
     // In steps of 10 m, or the floor would be made anew with each step of the outermost robot.
-    const key = [round(bounds.x0), round(bounds.y0), round(bounds.x1), round(bounds.y1), palette.theme].join();
+    const key = [
+      round(bounds.x0),
+      round(bounds.y0),
+      round(bounds.x1),
+      round(bounds.y1),
+      palette.theme,
+    ].join();
     const size = Math.max(bounds.x1 - bounds.x0, bounds.y1 - bounds.y0, 4);
     const fog = this.scene.fog as Fog | null;
     if (fog !== null) {
@@ -182,12 +215,23 @@ export class PerspectiveStage implements Stage {
     this.floorKey = key;
     this.floor.refresh(bounds, palette);
     this.scene.background = new Color(palette.token('floor-far'));
-    this.scene.fog = new Fog(palette.token('floor-far'), this.orbit.eye.distance + 0.6 * size, this.orbit.eye.distance + 3 * size);
+    this.scene.fog = new Fog(
+      palette.token('floor-far'),
+      this.orbit.eye.distance + 0.6 * size,
+      this.orbit.eye.distance + 3 * size,
+    );
     const [x, y] = [(bounds.x0 + bounds.x1) / 2, (bounds.y0 + bounds.y1) / 2];
     this.sun.target.position.set(x, y, 0);
     this.sun.position.set(x - 0.55 * size, y - 0.1 * size, 0.9 * size);
     const reach = 0.75 * size;
-    Object.assign(this.sun.shadow.camera, {left: -reach, right: reach, top: reach, bottom: -reach, near: 0.05 * size, far: 3 * size});
+    Object.assign(this.sun.shadow.camera, {
+      left: -reach,
+      right: reach,
+      top: reach,
+      bottom: -reach,
+      near: 0.05 * size,
+      far: 3 * size,
+    });
     this.sun.shadow.camera.updateProjectionMatrix();
   }
 
@@ -195,13 +239,16 @@ export class PerspectiveStage implements Stage {
   private setTint(): void {
     const {palette, model, placed} = this.context;
     const by = this.context.layers().colourBy;
-    const ghost = (slot: number) => slot < placed.count && (placed.flags[slot] & RobotFlag.stale) !== 0;
+    const ghost = (slot: number) =>
+      slot < placed.count && (placed.flags[slot] & RobotFlag.stale) !== 0;
     let ghosts = 0;
     // A sum that differs for each set of ghosts.
-    for (let slot = 0; slot < placed.count; ++slot) if (ghost(slot)) ghosts = (31 * ghosts + slot + 1) % 1e9;
+    for (let slot = 0; slot < placed.count; ++slot)
+      if (ghost(slot)) ghosts = (31 * ghosts + slot + 1) % 1e9;
     const fixed = `${by} ${palette.theme} ${ghosts}`;
     // Colours by a value that changes are renewed four times a second of the run, not in each frame.
-    const key = by === 'kind' || by === 'team' ? fixed : `${fixed} ${Math.floor(placed.time_s * 4)}`;
+    const key =
+      by === 'kind' || by === 'team' ? fixed : `${fixed} ${Math.floor(placed.time_s * 4)}`;
     if (key === this.tinted) return;
     this.tinted = key;
     const speeds = model.poses.newest?.speed;
@@ -219,14 +266,24 @@ export class PerspectiveStage implements Stage {
     const primary = selection.primary;
     const {x, y, distance} = this.orbit.eye;
     const goal = this.orbit.fitted(bounds);
-    const there = Math.hypot(goal.x - x, goal.y - y) < 1e-6 && Math.abs(goal.distance / distance - 1) < 1e-6;
+    const there =
+      Math.hypot(goal.x - x, goal.y - y) < 1e-6 && Math.abs(goal.distance / distance - 1) < 1e-6;
     const close = what === 'closer' && there && primary !== null && primary < placed.count;
-    this.orbit.go(close ? {...goal, x: placed.x[primary], y: placed.y[primary], distance: kClose_m} : goal, performance.now(), animate);
+    this.orbit.go(
+      close ? {...goal, x: placed.x[primary], y: placed.y[primary], distance: kClose_m} : goal,
+      performance.now(),
+      animate,
+    );
     return close ? 'selection' : 'all';
   }
 
   private bounds(what: Extent): Bounds | null {
-    return boundsOfAll(this.context.placed, (slot) => this.radii[slot] ?? 0, this.boxes, what !== 'room');
+    return boundsOfAll(
+      this.context.placed,
+      (slot) => this.radii[slot] ?? 0,
+      this.boxes,
+      what !== 'room',
+    );
   }
 
   slotAt(px: number, py: number): number | null {
@@ -236,7 +293,11 @@ export class PerspectiveStage implements Stage {
     let least = Infinity;
     for (let slot = 0; slot < placed.count; ++slot) {
       if ((placed.flags[slot] & RobotFlag.known) === 0) continue;
-      const at = this.orbit.project(placed.x[slot], placed.y[slot], 0.4 * topOf(model.robots[slot].shapes));
+      const at = this.orbit.project(
+        placed.x[slot],
+        placed.y[slot],
+        0.4 * topOf(model.robots[slot].shapes),
+      );
       if (at === null) continue;
       const reach = Math.max(this.radii[slot] * this.orbit.pixelsPerMetre(at.distance), touch);
       if (Math.hypot(at.x - px, at.y - py) > reach || at.distance > least) continue;
@@ -267,7 +328,8 @@ export class PerspectiveStage implements Stage {
 
   lookFrom(text: string): void {
     const [x, y, distance, yaw, pitch] = text.split(',').slice(1).map(Number);
-    if ([x, y, distance, yaw, pitch].every(Number.isFinite) && distance > 0) this.orbit.go({x, y, distance, yaw, pitch}, performance.now(), false);
+    if ([x, y, distance, yaw, pitch].every(Number.isFinite) && distance > 0)
+      this.orbit.go({x, y, distance, yaw, pitch}, performance.now(), false);
   }
 
   nudge(dx: number, dy: number): void {

@@ -31,14 +31,37 @@ export function outlineOf(shape: Shape, sides: number): [number, number][] {
 export function addPrism(solid: Solid, shape: Shape, sides: number, pose: Pose = [0, 0, 0]): void {
   const c = Math.cos(pose[2]);
   const s = Math.sin(pose[2]);
-  const rim = outlineOf(shape, sides).map(([x, y]): [number, number] => [pose[0] + c * x - s * y, pose[1] + s * x + c * y]);
+  const rim = outlineOf(shape, sides).map(([x, y]): [number, number] => [
+    pose[0] + c * x - s * y,
+    pose[1] + s * x + c * y,
+  ]);
   const [low, high] = shape.z;
   const every = shape.disc ? Math.max(1, Math.floor(sides / 4)) : 1;
   for (let i = 0; i < rim.length; ++i) {
     const [ax, ay] = rim[i];
     const [bx, by] = rim[(i + 1) % rim.length];
-    solid.faces.push(ax, ay, low, bx, by, low, bx, by, high, ax, ay, low, bx, by, high, ax, ay, high);
-    if (i > 0 && i < rim.length - 1) solid.faces.push(rim[0][0], rim[0][1], high, ax, ay, high, bx, by, high);
+    solid.faces.push(
+      ax,
+      ay,
+      low,
+      bx,
+      by,
+      low,
+      bx,
+      by,
+      high,
+      ax,
+      ay,
+      low,
+      bx,
+      by,
+      high,
+      ax,
+      ay,
+      high,
+    );
+    if (i > 0 && i < rim.length - 1)
+      solid.faces.push(rim[0][0], rim[0][1], high, ax, ay, high, bx, by, high);
     solid.edges.push(ax, ay, low, bx, by, low, ax, ay, high, bx, by, high);
     if (i % every === 0) solid.edges.push(ax, ay, low, ax, ay, high);
   }

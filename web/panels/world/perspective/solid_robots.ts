@@ -1,5 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-import {BufferAttribute, BufferGeometry, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshLambertMaterial, type Material} from 'three';
+import {
+  BufferAttribute,
+  BufferGeometry,
+  CylinderGeometry,
+  DoubleSide,
+  Group,
+  Mesh,
+  MeshBasicMaterial,
+  MeshLambertMaterial,
+  type Material,
+} from 'three';
 import type {Placed} from '../../../model/pose_history';
 import type {Palette} from '../../../panel_api';
 import {RobotFlag} from '../../../protocol/frames';
@@ -33,7 +43,8 @@ export class SolidRobots {
 
   update(placed: Placed, shown: (slot: number) => boolean): void {
     for (const [slot, body] of this.bodies) {
-      body.visible = slot < placed.count && (placed.flags[slot] & RobotFlag.known) !== 0 && shown(slot);
+      body.visible =
+        slot < placed.count && (placed.flags[slot] & RobotFlag.known) !== 0 && shown(slot);
       if (!body.visible) continue;
       body.position.set(placed.x[slot], placed.y[slot], 0);
       body.rotation.z = placed.yaw[slot];
@@ -74,7 +85,11 @@ function makeBody(robot: Robot, colour: string): Group {
 }
 
 function isTube(shape: Shape): boolean {
-  return shape.disc !== undefined && shape.disc[2] <= kTubeRadius_m && shape.z[1] - shape.z[0] >= kTubeHeight_m;
+  return (
+    shape.disc !== undefined &&
+    shape.disc[2] <= kTubeRadius_m &&
+    shape.z[1] - shape.z[0] >= kTubeHeight_m
+  );
 }
 
 /** A cylinder with the bands of its code and a lid. */
@@ -82,7 +97,9 @@ export function makeTube(shape: Shape, code: number, lid: Material): Mesh {
   const [x, y, r] = shape.disc ?? [0, 0, 0.05];
   const height = shape.z[1] - shape.z[0];
   const geometry = new CylinderGeometry(r, r, height, 24).rotateX(Math.PI / 2);
-  const tube = shadowed(new Mesh(geometry, [new MeshLambertMaterial({map: stripes(code)}), lid, lid]));
+  const tube = shadowed(
+    new Mesh(geometry, [new MeshLambertMaterial({map: stripes(code)}), lid, lid]),
+  );
   tube.position.set(x, y, shape.z[0] + height / 2);
   return tube;
 }
@@ -120,7 +137,9 @@ function makeWedge(r: number, z: number): Mesh {
 }
 
 function reach(shape: Shape): number {
-  return shape.disc ? shape.disc[2] : Math.max(...(shape.polygon ?? []).map(([x, y]) => Math.hypot(x, y)));
+  return shape.disc
+    ? shape.disc[2]
+    : Math.max(...(shape.polygon ?? []).map(([x, y]) => Math.hypot(x, y)));
 }
 
 /** Takes everything out of a group and frees what the graphics card holds of it. */
@@ -128,7 +147,11 @@ export function clear(group: Group): void {
   group.traverse((part) => {
     const owner = part as Partial<Mesh>;
     owner.geometry?.dispose();
-    for (const material of owner.material === undefined ? [] : Array.isArray(owner.material) ? owner.material : [owner.material]) {
+    for (const material of owner.material === undefined
+      ? []
+      : Array.isArray(owner.material)
+        ? owner.material
+        : [owner.material]) {
       (material as MeshLambertMaterial).map?.dispose();
       material.dispose();
     }

@@ -28,7 +28,12 @@ export class StandingBodies {
     const byKind = new Map<Kind, Body[]>();
     for (const body of bodies) byKind.set(body.kind, [...(byKind.get(body.kind) ?? []), body]);
     for (const [kind, members] of byKind) {
-      const part = kind === 'virtual' ? this.hatched(members, palette) : kind === 'wall' ? walls(members, palette) : landmarks(members, palette);
+      const part =
+        kind === 'virtual'
+          ? this.hatched(members, palette)
+          : kind === 'wall'
+            ? walls(members, palette)
+            : landmarks(members, palette);
       this.kinds.set(kind, part);
       this.group.add(part);
     }
@@ -57,7 +62,10 @@ export class StandingBodies {
     const faces = new Mesh(lit(solid.faces), this.hatch);
     faces.renderOrder = 2;
     this.edge.color.set(palette.token('virtual-line'));
-    const edges = new LineSegments2(new LineSegmentsGeometry().setPositions(solid.edges), this.edge.clone());
+    const edges = new LineSegments2(
+      new LineSegmentsGeometry().setPositions(solid.edges),
+      this.edge.clone(),
+    );
     edges.material.resolution = this.edge.resolution;
     edges.renderOrder = 3;
     part.add(faces, edges);
@@ -67,13 +75,18 @@ export class StandingBodies {
 
 function merged(bodies: readonly Body[]): Solid {
   const solid: Solid = {faces: [], edges: []};
-  for (const body of bodies) for (const shape of body.shapes) addPrism(solid, shape, kSides, body.pose);
+  for (const body of bodies)
+    for (const shape of body.shapes) addPrism(solid, shape, kSides, body.pose);
   return solid;
 }
 
 function walls(bodies: readonly Body[], palette: Palette): Group {
   const part = new Group();
-  part.add(shadowed(new Mesh(lit(merged(bodies).faces), new MeshLambertMaterial({color: palette.token('wall')}))));
+  part.add(
+    shadowed(
+      new Mesh(lit(merged(bodies).faces), new MeshLambertMaterial({color: palette.token('wall')})),
+    ),
+  );
   return part;
 }
 
@@ -93,6 +106,14 @@ function landmarks(bodies: readonly Body[], palette: Palette): Group {
     stand.add(makeTube(shape, body.barcode, paint));
     part.add(stand);
   }
-  if (plain.length > 0) part.add(shadowed(new Mesh(lit(merged(plain).faces), new MeshLambertMaterial({color: palette.token('landmark')}))));
+  if (plain.length > 0)
+    part.add(
+      shadowed(
+        new Mesh(
+          lit(merged(plain).faces),
+          new MeshLambertMaterial({color: palette.token('landmark')}),
+        ),
+      ),
+    );
   return part;
 }

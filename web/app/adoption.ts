@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Elements that move to another window keep their styles. A style sheet that was made by a script belongs to one
-// document: browsers take it from an element that goes to another one, and refuse it there. Imported first, since
-// a class is asked for its adoptedCallback only when it is defined.
+// Elements that move to another window keep their styles. A style sheet that was made by a script
+// belongs to one document: browsers take it from an element that goes to another one, and refuse it
+// there. Imported first, since a class is asked for its adoptedCallback only when it is defined.
 import {ReactiveElement, adoptStyles, type CSSResultOrNative} from 'lit';
 
 type Sheets = Map<CSSResultOrNative, CSSStyleSheet>;

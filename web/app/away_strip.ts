@@ -3,7 +3,8 @@ import {html, nothing, type TemplateResult} from 'lit';
 import type {Dock} from './dock';
 import {icon} from './icons';
 
-/** Panels had windows of their own when the page was left. A browser opens one window for each press. */
+/** Panels had windows of their own when the page was left. A browser opens one window for each
+ * press. */
 export function renderAway(dock: Dock | null): TemplateResult | typeof nothing {
   if (dock === null || dock.away.length === 0) return nothing;
   const count = dock.away.length;

@@ -10,7 +10,8 @@ import {controls} from './styles';
 const kMostFailures = 3;
 const kMinute_ms = 60_000;
 
-/** A panel of a component, or a box that says why it is not there. Nothing else of the page is affected. */
+/** A panel of a component, or a box that says why it is not there. Nothing else of the page is
+ * affected. */
 export class ComponentPanelFrame extends LiveElement {
   loaded!: LoadedComponent;
   panelId = '';

@@ -26,7 +26,8 @@ const kVersion = 2;
 export type LayoutName = 'Watch' | 'Drive' | 'Analyse' | 'Conduct';
 export const kLayouts: readonly LayoutName[] = ['Watch', 'Drive', 'Analyse', 'Conduct'];
 
-/** A panel in the dock: makes the element and gives it its context. Without a kind it is an empty place. */
+/** A panel in the dock: makes the element and gives it its context. Without a kind it is an empty
+ * place. */
 class DockedPanel implements IContentRenderer {
   readonly element = document.createElement('div');
 
@@ -52,11 +53,13 @@ class DockedPanel implements IContentRenderer {
 export class Dock {
   private readonly view: DockviewComponent;
   name: LayoutName = 'Watch';
-  /** Windows that were open when the page was left last, until they are open again or the person does without. */
+  /** Windows that were open when the page was left last, until they are open again or the person
+   * does without. */
   away: KeptWindow[] = [];
   /** `away` is another one. */
   readonly changed = new Signal();
-  /** Places that a kept layout has for panels that are not known, or not yet: the run brings its own along later. */
+  /** Places that a kept layout has for panels that are not known, or not yet: the run brings its
+   * own along later. */
   private readonly empty = new Map<string, DockedPanel>();
   private restoring = false;
   /** The page goes, and its windows with it: that is no change of the layout. */
@@ -108,7 +111,8 @@ export class Dock {
     if (kind) this.add(id, beside && {referencePanel: beside.id, direction: 'within'});
   }
 
-  /** Moves a panel to a window of its own, for another monitor. Stays where the browser opens none. */
+  /** Moves a panel to a window of its own, for another monitor. Stays where the browser opens
+   * none. */
   async moveOut(id: string, box?: WindowBox): Promise<void> {
     const panel = this.view.panels.find((open) => open.id === id);
     const window = () =>
@@ -164,7 +168,8 @@ export class Dock {
     this.view.dispose();
   }
 
-  /** A panel that came while the page was open: in the place that was kept for it, otherwise beside the Sensor Display. */
+  /** A panel that came while the page was open: in the place that was kept for it, otherwise beside
+   * the Sensor Display. */
   offer(id: string): void {
     const kind = this.kinds().find((known) => known.id === id);
     if (kind !== undefined) this.empty.get(id)?.fill(kind);
@@ -234,7 +239,8 @@ export class Dock {
     this.keep();
   }
 
-  /** Watch: the world in the middle. Drive: the robot at the left, stick and chat at the right. Analyse: sensors and log have the room. Conduct: rights are at hand. */
+  /** Watch: the world in the middle. Drive: the robot at the left, stick and chat at the right.
+   * Analyse: sensors and log have the room. Conduct: rights are at hand. */
   private layOutWide(layout: LayoutName): void {
     if (layout === 'Watch') {
       this.add('robots', {referencePanel: 'world', direction: 'left'}, {initialWidth: 292});
@@ -268,7 +274,8 @@ export class Dock {
     this.add('map', {referencePanel: 'sensors', direction: 'within'}, {inactive: true});
   }
 
-  /** On a laptop the stick has its column for itself, and what belongs to the robot lies behind it. */
+  /** On a laptop the stick has its column for itself, and what belongs to the robot lies behind
+   * it. */
   private layOutDrive(): void {
     const tall = this.height >= kTall_px;
     this.add(
@@ -341,7 +348,8 @@ export class Dock {
     localStorage.setItem(layoutKey(about), this.name);
   }
 
-  /** Whose layouts these are, once the server has told who the user is: until then those of the last one. */
+  /** Whose layouts these are, once the server has told who the user is: until then those of the
+   * last one. */
   belongTo(user: string): void {
     if (user === this.user) return;
     this.user = user;

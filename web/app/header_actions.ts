@@ -3,7 +3,8 @@ import type {DockviewGroupPanel, IGroupHeaderProps, IHeaderActionsRenderer} from
 import {html, nothing, render} from 'lit';
 import {icon, type IconName} from './icons';
 
-/** At the right of the tabs: a window of its own for the panel, one panel over the whole dock, and back. */
+/** At the right of the tabs: a window of its own for the panel, one panel over the whole dock, and
+ * back. */
 export class HeaderActions implements IHeaderActionsRenderer {
   readonly element = document.createElement('div');
   private readonly ends: {dispose(): void}[] = [];

@@ -142,7 +142,8 @@ const kIcons = {
 
 export type IconName = keyof typeof kIcons;
 
-/** An icon of 16 px in the colour of the text; names and tooltips are given by what it stands in. */
+/** An icon of 16 px in the colour of the text; names and tooltips are given by what it stands
+ * in. */
 export function icon(name: IconName, size = 16): TemplateResult {
   const svg = kIcons[name]
     .replace(/<!--.*?-->/gs, '')

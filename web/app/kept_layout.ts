@@ -25,8 +25,8 @@ function leavesOf(node: Leaf): Leaf[] {
   return Array.isArray(node.data) ? node.data.flatMap(leavesOf) : [node];
 }
 
-/** The layout with all panels in the page, and apart from that which of them had windows: a browser opens none
- * unless the person presses something, so a page cannot begin with them. */
+/** The layout with all panels in the page, and apart from that which of them had windows: a browser
+ * opens none unless the person presses something, so a page cannot begin with them. */
 export function bringHome(layout: SerializedDockview): {
   layout: SerializedDockview;
   windows: KeptWindow[];

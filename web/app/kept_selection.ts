@@ -4,7 +4,8 @@ import type {Selection} from '../panel_api/selection';
 
 const kKey = 'rave.selection';
 
-/** A page that is loaded again has the same robots selected, by name. Of one tab, until it is closed. */
+/** A page that is loaded again has the same robots selected, by name. Of one tab, until it is
+ * closed. */
 export class KeptSelection {
   private kept: string | null;
   private restored = false;

@@ -5,7 +5,8 @@ import type {PanelContext} from '../panel_api';
 
 type End = () => void;
 
-/** An element that shows something of the run. It listens while it is in the page and leaves nothing behind when it goes. */
+/** An element that shows something of the run. It listens while it is in the page and leaves
+ * nothing behind when it goes. */
 export abstract class LiveElement extends LitElement {
   declare context: PanelContext;
   private ends: readonly End[] = [];

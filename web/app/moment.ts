@@ -6,7 +6,8 @@ export function nowOf(model: RunModel): number {
   return model.poses.newest?.time_s ?? model.time?.now_s ?? 0;
 }
 
-/** The timeline reaches from the begin to the planned or known end. A live run can show its present only, but its events are since its begin. */
+/** The timeline reaches from the begin to the planned or known end. A live run can show its present
+ * only, but its events are since its begin. */
 export function spanOf(model: RunModel): [number, number] {
   const {time} = model;
   if (time === null) return [0, 1];

@@ -23,7 +23,8 @@ function reachText(model: RunModel, link: Link): string {
       : '',
     stopped.length > 0 ? `${names(stopped)} ${stopped.length === 1 ? 'is' : 'are'} stopped.` : '',
     out.length > 0
-      ? `${names(out)} ${out.length === 1 ? 'is out of reach: stop it at its machine.' : 'are out of reach: stop them at their machines.'}`
+      ? `${names(out)} ${out.length === 1 ? 'is' : 'are'} out of reach: stop ` +
+        (out.length === 1 ? 'it at its machine.' : 'them at their machines.')
       : '',
   ]
     .filter((text) => text !== '')

@@ -3,7 +3,8 @@ import type {PanelContext} from '../panel_api';
 import './window_bar';
 import type {WindowBar} from './window_bar';
 
-/** A window that panels were moved to: dressed as the page is, with its keys and STOP. Ends with the window. */
+/** A window that panels were moved to: dressed as the page is, with its keys and STOP. Ends with
+ * the window. */
 export class PanelWindow {
   private readonly ends: (() => void)[] = [];
 
@@ -13,8 +14,8 @@ export class PanelWindow {
     bindKeys: (document: Document) => void,
   ) {
     const {document: there} = view;
-    // The dock links the sheets of the page and copies their rules as well. These ask for fonts beside the document,
-    // which is why that one is beside the sheets.
+    // The dock links the sheets of the page and copies their rules as well. These ask for fonts
+    // beside the document, which is why that one is beside the sheets.
     for (const copy of there.head.querySelectorAll('style')) copy.remove();
     // Made here: the other window knows none of the elements of the page.
     const bar = document.createElement('rave-window-bar') as WindowBar;

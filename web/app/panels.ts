@@ -66,7 +66,8 @@ export function allPanels(): readonly PanelKind[] {
   return [...kPanels, ...components];
 }
 
-/** Panels of information that rights withhold: each says so, and whom to ask. What a role may not do is not offered. */
+/** Panels of information that rights withhold: each says so, and whom to ask. What a role may not
+ * do is not offered. */
 export function withheldPanels(model: RunModel): PanelKind[] {
   return allPanels().filter(({needs, live}) => {
     const what = needs === undefined ? null : classOf(needs);

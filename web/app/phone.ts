@@ -95,7 +95,8 @@ export class Phone {
 
   render(): TemplateResult {
     const context = this.host.context();
-    // It stays while a tool is in the hand: the picture must not move under a finger that is about to point.
+    // It stays while a tool is in the hand: the picture must not move under a finger that is about
+    // to point.
     const glances = this.panel === 'world' && !this.low.matches && !this.driving;
     return html`<div class="phone"></div>
       ${this.driving

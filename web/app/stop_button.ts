@@ -22,7 +22,8 @@ export class StopButton extends LiveElement {
   private readonly twice = new Twice();
   /** One press of Space has come; the second one stops. */
   private half = false;
-  /** The stop of this page that has not been released: at what time of the run, if that is known. */
+  /** The stop of this page that has not been released: at what time of the run, if that is
+   * known. */
   private own: {t_s: number | null} | null = null;
   private shown = '';
 

@@ -15,7 +15,8 @@ const kRefresh_ms = 50;
 /** A recording may end a step before the planned end; its last tick is shown all the same. */
 const kEndSlack = 0.002;
 
-/** From the begin to the planned end: a knob to move in a replay, a head that goes by itself in a live run. */
+/** From the begin to the planned end: a knob to move in a replay, a head that goes by itself in a
+ * live run. */
 export class Timeline extends LiveElement {
   private dragging = false;
   private width = 800;

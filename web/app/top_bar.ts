@@ -171,7 +171,7 @@ export class TopBar extends LiveElement {
     const old = age !== null && age > kOld_ms;
     return html`<span
       class="chip rate ${slow || old ? 'slow' : ''}"
-      title="Pictures per second, how old the newest one was when it came, and how much comes over the line"
+      title="Pictures per second, age of the newest one when it came, and bytes over the line"
       >${icon('activity', 14)} ${link.rate_hz} Hz
       ${age === null ? nothing : html`<span class="age">${Math.round(age)} ms</span>`}
       <em>${sizeText(link.bytesPerSecond)}/s</em></span

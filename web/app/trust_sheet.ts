@@ -56,7 +56,8 @@ export class TrustSheet extends LiveElement {
           Orders and STOP go directly to the host of a robot, encrypted.
           ${untrusted.length === 0
             ? 'All hosts answer now.'
-            : 'The browser refused this connection without a reason. In most cases it does not trust the certificate of the host yet.'}
+            : 'The browser refused this connection without a reason. In most cases it does ' +
+              'not trust the certificate of the host yet.'}
         </p>
         ${untrusted.length === 0
           ? nothing

@@ -4,6 +4,15 @@ import {icon} from './icons';
 import {LiveElement} from './live_element';
 import {controls} from './styles';
 
+const kUntrusted =
+  'In most cases the browser does not trust the certificate of this host yet. Click for the steps.';
+const kBlocked =
+  'The host has joined or changed its address since this page was loaded, ' +
+  'so the security policy of the page does not include it.';
+const kNoLine =
+  'No host has a direct line (rave robot --web), and the scenario permits no relay ' +
+  '(gui: {relay: true}). STOP goes through this server.';
+
 /** Which way the orders of this page go, and how long it takes. */
 export class WayChip extends LiveElement {
   protected override listen(): (() => void)[] {
@@ -25,7 +34,7 @@ export class WayChip extends LiveElement {
     if (untrusted) {
       return html`<button
         class="chip warn"
-        title="In most cases the browser does not trust the certificate of this host yet. Click for the steps."
+        title=${kUntrusted}
         @click=${() =>
           this.dispatchEvent(new CustomEvent('trust', {bubbles: true, composed: true}))}>
         ${icon('wifiOff', 14)} Trust ${untrusted.ticket.host}
@@ -33,10 +42,7 @@ export class WayChip extends LiveElement {
     }
     const blocked = bad.find((line) => line.state === 'blocked');
     if (blocked) {
-      return html`<button
-        class="chip warn"
-        title="The host has joined or changed its address since this page was loaded, so the security policy of the page does not include it."
-        @click=${() => location.reload()}>
+      return html`<button class="chip warn" title=${kBlocked} @click=${() => location.reload()}>
         Reload to reach ${blocked.ticket.host}
       </button>`;
     }
@@ -51,12 +57,7 @@ export class WayChip extends LiveElement {
     }
     if (lines.relay)
       return html`<span class="chip" title="Orders go through this server.">Via server</span>`;
-    return html`<span
-      class="chip warn"
-      title=${lines.why ||
-      'No host has a direct line (rave robot --web), and the scenario permits no relay (gui: {relay: true}). STOP goes through this server.'}
-      >No orders</span
-    >`;
+    return html`<span class="chip warn" title=${lines.why || kNoLine}>No orders</span>`;
   }
 
   static override styles = [

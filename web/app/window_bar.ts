@@ -9,7 +9,8 @@ import {controls} from './styles';
 
 const kRefresh_ms = 100;
 
-/** Below the panels of a window of its own: the run, its clock, whether the link holds, and STOP. */
+/** Below the panels of a window of its own: the run, its clock, whether the link holds, and
+ * STOP. */
 export class WindowBar extends LiveElement {
   protected override listen(): (() => void)[] {
     return [this.every(kRefresh_ms, () => this.requestUpdate())];

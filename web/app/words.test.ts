@@ -36,7 +36,7 @@ it('people have hues of their own by their names alone, and all hues are used', 
   expect(new Set(['olga', 'paul', 'quinn'].map(personHue)).size).toBe(3);
 });
 
-it('white initials are legible on each, and none is the red of faults or the violet of oneself', () => {
+it('white initials are legible on each, and none is the red of faults or the violet of you', () => {
   for (let i = 1; i <= 8; ++i) {
     const [r, g, b] = rgb(`person-${i}`);
     expect(contrast([r, g, b])).toBeGreaterThan(4.5);

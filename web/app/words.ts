@@ -15,7 +15,10 @@ export function startedText(started: string): string {
   const day = today
     ? 'today'
     : date.toLocaleDateString('en-GB', {day: 'numeric', month: 'short', year: 'numeric'});
-  return `${day} ${String(date.getHours()).padStart(2, '0')}:${String(date.getMinutes()).padStart(2, '0')}`;
+  const [hours, minutes] = [date.getHours(), date.getMinutes()].map((part) =>
+    String(part).padStart(2, '0'),
+  );
+  return `${day} ${hours}:${minutes}`;
 }
 
 /** `anna`, `anna and ben`, `anna, ben and 4 others`. */

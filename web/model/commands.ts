@@ -61,7 +61,8 @@ export class Commands {
   readonly changed = new Signal();
   /** Velocities that this page asked for. */
   readonly asked = new Asked();
-  /** For whom the next line of the chat is: `all`, `super-users` and other keys of the panel Chat. */
+  /** For whom the next line of the chat is: `all`, `super-users` and other keys of the panel
+   * Chat. */
   addressee = 'all';
   readonly addresseeChanged = new Signal();
   private number = 0;
@@ -263,7 +264,8 @@ export function placeOf(order: string): Point | null {
   return found === undefined ? null : [Number(found[1]), Number(found[2])];
 }
 
-/** Places for a team about a goal, so that its robots do not fight for one: a grid, in the order of the slots. */
+/** Places for a team about a goal, so that its robots do not fight for one: a grid, in the order of
+ * the slots. */
 export function spread(centre: Point, radii: readonly number[]): Point[] {
   const step = 2.6 * Math.max(0.1, ...radii);
   const across = Math.ceil(Math.sqrt(radii.length));

@@ -15,11 +15,12 @@ const kLongestRetry_ms = 5000;
 const kPing_ms = 1000;
 /** The number of pings whose median counts. */
 const kPings = 5;
-/** Without a message for so long, though pings are answered, the line is dead, whatever the browser thinks. */
+/** Without a message for so long, though pings are answered, the line is dead, whatever the browser
+ * thinks. */
 const kDead_ms = 4000;
 
-/** `untrusted`: TLS fails, most often since the browser does not know the certificate. `withdrawn`: another
- * ticket is needed. `blocked`: the page was loaded before the host had a line. */
+/** `untrusted`: TLS fails, most often since the browser does not know the certificate. `withdrawn`:
+ * another ticket is needed. `blocked`: the page was loaded before the host had a line. */
 export type LineState = 'opening' | 'open' | 'lost' | 'untrusted' | 'withdrawn' | 'blocked';
 
 const kBadTicket = 4401;
@@ -31,7 +32,8 @@ export interface Signer {
   sign(text: string): Promise<string>;
 }
 
-/** The WebSocket to one host: comes back by itself, with the same ticket, without the GUI Server. */
+/** The WebSocket to one host: comes back by itself, with the same ticket, without the GUI
+ * Server. */
 export class DirectLine {
   state: LineState = 'opening';
   /** To the host and back, as pings say; null: not measured yet. */
@@ -70,7 +72,8 @@ export class DirectLine {
     return this.ticket_;
   }
 
-  /** Sends an order. The answer of the run; of a drive only if it is refused or `echo` is set. Never rejects. */
+  /** Sends an order. The answer of the run; of a drive only if it is refused or `echo` is set.
+   * Never rejects. */
   order(order: LineOrder): Promise<LineAnswer> {
     if (this.state !== 'open')
       return Promise.resolve({good: false, text: `There is no line to host ${this.ticket_.host}.`});

@@ -44,7 +44,8 @@ export class DirectLines {
     });
   }
 
-  /** A page that was opened just before its hosts is loaded anew by itself, once, while the person has not touched it. */
+  /** A page that was opened just before its hosts is loaded anew by itself, once, while the person
+   * has not touched it. */
   private block(line: DirectLine): void {
     line.block();
     const last_ms = Number(sessionStorage.getItem(kReloaded) ?? 0);
@@ -67,7 +68,8 @@ export class DirectLines {
     else this.end();
   }
 
-  /** Public key of the page, by which its leases are known over all ways; empty: it has none yet. */
+  /** Public key of the page, by which its leases are known over all ways; empty: it has none
+   * yet. */
   get point(): string {
     return this.key?.point ?? '';
   }

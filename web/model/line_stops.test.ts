@@ -58,7 +58,7 @@ function made(robots: Robot[], flags: number[], said: Record<string, boolean>) {
   return {model, stops: new LineStops(model, lines)};
 }
 
-it('who stands by the word of a host is stopped in the last picture, and goes again by its word', () => {
+it('who stands by word of a host is stopped in the last picture and goes again by its word', () => {
   const said: Record<string, boolean> = {a: true, b: false};
   const {model, stops} = made([robot('a'), robot('b'), robot('no line')], [1, 1, 1], said);
   let drawn = 0;

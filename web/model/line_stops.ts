@@ -3,9 +3,11 @@ import {RobotFlag} from '../protocol/frames';
 import type {DirectLines} from './direct_lines';
 import type {RunModel} from './run_model';
 
-/** Without the server the last picture stands, so who is stopped is what the hosts say over the direct lines. */
+/** Without the server the last picture stands, so who is stopped is what the hosts say over the
+ * direct lines. */
 export class LineStops {
-  /** Slots that stand by the word of their host alone: neither a picture nor the log of the server has it. */
+  /** Slots that stand by the word of their host alone: neither a picture nor the log of the server
+   * has it. */
   private readonly marked = new Set<number>();
   private picture: object | null = null;
 

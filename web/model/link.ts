@@ -13,7 +13,8 @@ import {SilenceWatch} from './silence';
 const kFirstRetry_ms = 500;
 const kLongestRetry_ms = 8000;
 const kProbeRest_ms = 120;
-/** The server sends the time once a second at least, whatever the run does and whatever this person may see. */
+/** The server sends the time once a second at least, whatever the run does and whatever this person
+ * may see. */
 const kSilent_ms = 3000;
 /** The first messages of a run may be large and the line slow. */
 const kPatience_ms = 15_000;
@@ -30,7 +31,8 @@ const kMostLooked = 256;
 /** The sensors whose readings something shows: slot of the robot and index of the sensor. */
 export type Interest = readonly [number, number][];
 
-/** The WebSocket to the GUI Server. It reconnects by itself, and tells the server what the page looks at. */
+/** The WebSocket to the GUI Server. It reconnects by itself, and tells the server what the page
+ * looks at. */
 export class Link {
   state: LinkState = 'opening';
   /** performance.now() when the link was lost, and when it is tried again. */
@@ -161,8 +163,8 @@ export class Link {
     if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
   }
 
-  /** `owner` shows the readings of these sensors from now on, and no others; an empty list ends that. Without an owner
-   * that looks at a sensor the server does not send its readings. */
+  /** `owner` shows the readings of these sensors from now on, and no others; an empty list ends
+   * that. Without an owner that looks at a sensor the server does not send its readings. */
   look(owner: object, sensors: Interest): void {
     if (sensors.length === 0) this.interests.delete(owner);
     else this.interests.set(owner, sensors);

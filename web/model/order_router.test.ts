@@ -31,7 +31,7 @@ it('leaves what is no order alone', () => {
   expect(router.route(look)).toBe(look);
 });
 
-it('sends an order straight to the robots that have a line, and answers as the server does', async () => {
+it('sends an order straight to robots with a line, and answers as the server does', async () => {
   const {router, asked, told} = made();
   expect(
     router.route({type: 'order', request: 5, kind: 'drive', slots: [0], v: 0.5, w: 0}),

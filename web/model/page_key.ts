@@ -11,7 +11,8 @@ export class PageKey {
     readonly point: string,
   ) {}
 
-  /** Fails where there is no WebCrypto: on a page that came over plain HTTP from another machine. */
+  /** Fails where there is no WebCrypto: on a page that came over plain HTTP from another
+   * machine. */
   static async make(): Promise<PageKey> {
     const pair = await crypto.subtle.generateKey(kKind, false, ['sign']);
     return new PageKey(pair, base64url(await crypto.subtle.exportKey('raw', pair.publicKey)));

@@ -9,7 +9,8 @@ export class PictureAge {
   newest_ms: number | null = null;
   private least_ms = Infinity;
 
-  /** `sameClock`: server and page are one machine. Otherwise their clocks differ by an unknown amount, and the age is counted from that of the fastest picture. */
+  /** `sameClock`: server and page are one machine. Otherwise their clocks differ by an unknown
+   * amount, and the age is counted from that of the fastest picture. */
   constructor(private readonly sameClock: boolean) {}
 
   take(buffer: ArrayBuffer, wall_ms: number): void {

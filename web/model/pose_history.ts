@@ -7,7 +7,8 @@ const kSpacing_s = 0.2;
 /** A frame that comes so much later than the one before is a jump, not a motion. */
 const kJump_s = 1.5;
 
-/** The numbers of frames that are kept for interpolation, and of gaps between them for its delay. */
+/** The numbers of frames that are kept for interpolation, and of gaps between them for its
+ * delay. */
 const kRecent = 4;
 const kGaps = 8;
 const kFirstGap_ms = 33;
@@ -30,8 +31,9 @@ export class PoseHistory {
   /** The highest speed of each robot while its pose was no stale one, metres per second. */
   private fastest = new Float32Array(0);
 
-  /** Takes a frame that arrived at `now_ms` (performance.now()). The past comes after the moment that it belongs to.
-   * `held`: the run stands, and frames come with its steps alone, so the time between them says nothing. */
+  /** Takes a frame that arrived at `now_ms` (performance.now()). The past comes after the moment
+   * that it belongs to. `held`: the run stands, and frames come with its steps alone, so the time
+   * between them says nothing. */
   add(frame: PoseFrame, now_ms: number, held = false): void {
     const last = this.newest ?? this.past[this.past.length - 1] ?? null;
     const other = last !== null && last.x.length !== frame.x.length;
@@ -54,8 +56,9 @@ export class PoseHistory {
     this.arrived_ms = now_ms;
   }
 
-  /** Pictures are as far behind the newest frame as frames are apart, so that the next one comes when its motion ends.
-   * The longest gap does not count: a page that stood still for a moment would show old states long after. */
+  /** Pictures are as far behind the newest frame as frames are apart, so that the next one comes
+   * when its motion ends. The longest gap does not count: a page that stood still for a moment
+   * would show old states long after. */
   private measure(wall_ms: number, run_s: number): void {
     if (this.gaps.length === kGaps) this.gaps.shift();
     this.gaps.push({wall_ms: Math.min(Math.max(wall_ms, 8), 500), run_s});
@@ -76,7 +79,8 @@ export class PoseHistory {
     this.fastest = new Float32Array(0);
   }
 
-  /** Writes where everybody is at `now_ms` to `out`: between frames that have come, never beyond. */
+  /** Writes where everybody is at `now_ms` to `out`: between frames that have come, never
+   * beyond. */
   interpolate(now_ms: number, out: Placed): void {
     // After a jump the past comes first: its end is shown until the moment itself is there.
     const newest = this.newest ?? this.past[this.past.length - 1] ?? null;

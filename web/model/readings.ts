@@ -18,7 +18,8 @@ export interface CoursePoint {
   values: Float32Array;
 }
 
-/** The newest reading of each sensor that a panel looks at, and its course: the readings of the last seconds. */
+/** The newest reading of each sensor that a panel looks at, and its course: the readings of the
+ * last seconds. */
 export class Readings {
   private readonly newest = new Map<string, Reading>();
   private readonly courses = new Map<string, CoursePoint[]>();
@@ -60,7 +61,8 @@ export class Readings {
     }
   }
 
-  /** Removes readings later than this time of the run, as after a jump back; their courses begin again. */
+  /** Removes readings later than this time of the run, as after a jump back; their courses begin
+   * again. */
   forgetAfter(time_s: number): void {
     for (const [key, reading] of this.newest) {
       if (reading.stamp_s <= time_s + kMoment_s) continue;

@@ -79,7 +79,7 @@ it('comes once before the events, which keep their numbers', () => {
   expect(model.events).toHaveLength(1);
 });
 
-it('waits for the robots and, in a replay, for the begin; who does not get the log does not get it', () => {
+it('waits for the robots and, in a replay, for the begin; without the log it is not given', () => {
   expect(beginOf(modelOf(hello('live')))).toBeNull();
   expect(beginOf(modelOf(hello('replay'), roster('real')))).toBeNull();
   expect(beginOf(modelOf(hello('live', []), roster('real'), time(0)))).toBeNull();

@@ -2,8 +2,8 @@
 import type {Event} from '../protocol/messages';
 import type {KnownRobot, RunModel} from './run_model';
 
-/** The first line of the log: with what the run began. The server does not send it, as hello and roster say all of it.
- * null: that is not known yet, or this person does not get the log. */
+/** The first line of the log: with what the run began. The server does not send it, as hello and
+ * roster say all of it. null: that is not known yet, or this person does not get the log. */
 export function beginOf(model: RunModel): Event | null {
   const {hello, time, robots} = model;
   if (hello === null || !model.rosterCame || !model.may('log')) return null;
@@ -37,5 +37,6 @@ function robotsText(robots: readonly KnownRobot[]): string {
     [robots.length - real, 'simulated'],
   ].filter(([count]) => count !== 0);
   if (counts.length === 0) return 'no robots';
-  return `${counts.map(([count, word]) => `${count} ${word}`).join(' and ')} robot${robots.length === 1 ? '' : 's'}`;
+  const words = counts.map(([count, word]) => `${count} ${word}`).join(' and ');
+  return `${words} robot${robots.length === 1 ? '' : 's'}`;
 }

@@ -65,7 +65,7 @@ describe('a live run', () => {
   });
 });
 
-it('forgets who is here when the rights change, as the server names them to those only who may talk', () => {
+it('forgets who is here when the rights change: the server names them to who may talk', () => {
   const model = new RunModel();
   model.takeMessage(hello('live', ['chat']));
   model.takeMessage({
@@ -126,7 +126,7 @@ it('shows a robot that was handed over as what it is now', () => {
   expect(told).toBe(2);
 });
 
-it('does not list the person at this page among the others, by whatever name they are known', () => {
+it('does not list the person at this page among the others, by whatever name', () => {
   const model = new RunModel();
   const ben = {name: 'ben', role: 'observer'} as const;
   model.takeMessage({...hello('live', []), user: {name: 'you', role: 'super_user'}});

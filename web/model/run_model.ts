@@ -36,7 +36,7 @@ import {PoseHistory} from './pose_history';
 import {Probes} from './probes';
 import {Readings} from './readings';
 import {Signal} from './signal';
-import {askText, classOf, holdersText, kNotYours, kUsualRights, withheldText} from './withheld';
+import {askText, classOf, kNotYours, rightText, withheldText} from './withheld';
 
 /** A robot, with what has become of it since the run began. */
 export interface KnownRobot extends Robot {
@@ -99,7 +99,8 @@ export class RunModel {
   readonly pictureChanged = new Signal();
   readonly answered = new Signal<Answer>();
 
-  /** Whether a roster arrived. Before that, an empty `robots` does not mean that the run has no robots. */
+  /** Whether a roster arrived. Before that, an empty `robots` does not mean that the run has no
+   * robots. */
   rosterCame = false;
 
   /** The run is in progress; otherwise what is shown is its recording. */
@@ -127,15 +128,17 @@ export class RunModel {
   whyNotStopped(slot: number): string {
     if (this.stops(slot) || this.robots[slot] === undefined) return '';
     if (!this.may('stop')) return this.whyNot('stop');
-    return `You may not stop ${this.robots[slot].name}. ${holdersText(kUsualRights.stop)} ${askText(this.others)}`;
+    return `You may not stop ${this.robots[slot].name}. ${rightText('stop', this.others)}`;
   }
 
-  /** The name of the person at this page, also while they look as another person; empty until it is known. */
+  /** The name of the person at this page, also while they look as another person; empty until it is
+   * known. */
   get user(): string {
     return (this.hello?.seen_by ?? this.hello?.user)?.name ?? '';
   }
 
-  /** The name that others know this person by: the run calls who has the link of the server the operator. */
+  /** The name that others know this person by: the run calls who has the link of the server the
+   * operator. */
   get knownAs(): string {
     const {user} = this;
     const role = (this.hello?.seen_by ?? this.hello?.user)?.role;
@@ -155,7 +158,7 @@ export class RunModel {
     if (!this.live) return 'This is a recording: it takes no orders.';
     if (!this.may('command')) return this.whyNot('command');
     if (robot.yours === false)
-      return `You may not command ${robot.name}. ${holdersText(kUsualRights.command)} ${askText(this.others)}`;
+      return `You may not command ${robot.name}. ${rightText('command', this.others)}`;
     if (robot.recorded) return `${robot.name} is recorded: it takes no orders.`;
     const takes = this.drives.get(slot)?.takes ?? [];
     if (takes.includes(what)) return '';
@@ -164,7 +167,8 @@ export class RunModel {
       : `${robot.name} takes no ${what}; it takes ${takes.join(', ')}.`;
   }
 
-  /** Why something is not allowed, in words; empty if it is. Of what rights withhold: who has it, whom to ask. */
+  /** Why something is not allowed, in words; empty if it is. Of what rights withhold: who has it,
+   * whom to ask. */
   whyNot(power: Power): string {
     if (this.may(power)) return '';
     if (power === 'rights')
@@ -179,8 +183,9 @@ export class RunModel {
     return !this.may(power) && this.hello?.why_not[power] === kNotYours;
   }
 
-  /** This person may be shown less than all robots, sensors and maps that there are. The server does not say what
-   * is left out, so where something is missing the page says that it may be withheld. */
+  /** This person may be shown less than all robots, sensors and maps that there are. The server
+   * does not say what is left out, so where something is missing the page says that it may be
+   * withheld. */
   get seesLess(): boolean {
     return this.hello !== null && this.hello.user.role !== 'super_user';
   }

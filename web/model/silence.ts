@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 
-/** What has come in but was not taken yet, since the page was busy or its timers were held back, is taken within so long. */
+/** What has come in but was not taken yet, since the page was busy or its timers were held back, is
+ * taken within so long. */
 const kChance_ms = 500;
 
-/** Notices that a line says nothing any more: TCP does not tell when a network is gone or the other side stands still. */
+/** Notices that a line says nothing any more: TCP does not tell when a network is gone or the other
+ * side stands still. */
 export class SilenceWatch {
   /** performance.now() of the last message. */
   heardAt_ms = 0;
@@ -14,7 +16,8 @@ export class SilenceWatch {
 
   constructor(private readonly silent: () => void) {}
 
-  /** A message came, or is waited for from now on. Without another one for `limit_ms` the line is silent. */
+  /** A message came, or is waited for from now on. Without another one for `limit_ms` the line is
+   * silent. */
   heard(limit_ms: number): void {
     this.heardAt_ms = performance.now();
     ++this.messages;
@@ -29,7 +32,8 @@ export class SilenceWatch {
     this.timer = undefined;
   }
 
-  /** A timer that comes late proves nothing: only the messages count, those first that are waiting to be taken. */
+  /** A timer that comes late proves nothing: only the messages count, those first that are waiting
+   * to be taken. */
   private look(): void {
     const rest_ms = this.heardAt_ms + this.limit_ms - performance.now();
     if (rest_ms > 0) {

@@ -45,8 +45,8 @@ export interface LastStop {
   who: string;
 }
 
-/** When the robots that stand were stopped, and by whom: as the log has it, for everybody's stop alike. `unlogged`:
- * robots whose stop the log cannot have yet. */
+/** When the robots that stand were stopped, and by whom: as the log has it, for everybody's stop
+ * alike. `unlogged`: robots whose stop the log cannot have yet. */
 export function lastStop(
   model: RunModel,
   unlogged: (slot: number) => boolean = () => false,

@@ -15,7 +15,8 @@ import {
 } from './withheld';
 
 const kBoss: Person = {name: 'ada', role: 'super_user'};
-/** Of these nothing is sent to a page that it could name: goals are left out of a robot's state, no video exists. */
+/** Of these nothing is sent to a page that it could name: goals are left out of a robot's state, no
+ * video exists. */
 const kUnnamed = ['goals', 'video'];
 
 it('is the table of the documentation, which the server is compared with', () => {
@@ -41,16 +42,19 @@ it('has the words of the server for what rights withhold', () => {
 describe('what is withheld', () => {
   it('is named with the roles that have it and whom to ask', () => {
     expect(withheldText('obstacles', [kBoss])).toBe(
-      'You may not see virtual obstacles. By default observers, commanders and super-users have this right. Ask a super-user who is here: ada.',
+      'You may not see virtual obstacles. By default observers, commanders and super-users ' +
+        'have this right. Ask a super-user who is here: ada.',
     );
     expect(withheldText('stop', [])).toBe(
-      'You may not stop robots. By default commanders and super-users have this right. Ask a super-user for it; none is here now.',
+      'You may not stop robots. By default commanders and super-users have this right. ' +
+        'Ask a super-user for it; none is here now.',
     );
   });
 
   it('says where a right covers the robots of some teams', () => {
     expect(holdersText(kUsualRights.readings)).toBe(
-      'By default observers and commanders have this right for robots of their teams, super-users for all robots.',
+      'By default observers and commanders have this right for robots of their teams, ' +
+        'super-users for all robots.',
     );
     expect(holdersText(kUsualRights.recording)).toBe('By default super-users have this right.');
   });

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {Person, Power} from '../protocol/messages';
 
-/** Reason of the server for a power that rights withhold (kNotYours in restricted_source.cpp). Other reasons, such
- * as that a recording takes no orders, are shown as they are. */
+/** Reason of the server for a power that rights withhold (kNotYours in restricted_source.cpp).
+ * Other reasons, such as that a recording takes no orders, are shown as they are. */
 export const kNotYours = 'Your rights do not include this.';
 
 type Reach = 'none' | 'own' | 'all';
@@ -17,8 +17,8 @@ export interface RightsRow {
   reach: readonly [Reach, Reach, Reach];
 }
 
-/** Classes of the table in docs/how-to/share-the-page.md that a page can name; a test compares them. The rights of
- * the present run go to super-users alone. */
+/** Classes of the table in docs/how-to/share-the-page.md that a page can name; a test compares
+ * them. The rights of the present run go to super-users alone. */
 export const kUsualRights = {
   pose: {what: 'robots', to: 'see', reach: ['all', 'all', 'all']},
   true_pose: {what: 'true poses', to: 'see', reach: ['none', 'none', 'all']},
@@ -51,7 +51,8 @@ export function classOf(power: Power): RightsClass | null {
   return power in kUsualRights ? (power as RightsClass) : null;
 }
 
-/** What is withheld, which roles have it, and whom to ask: three sentences. `people` are those who are here. */
+/** What is withheld, which roles have it, and whom to ask: three sentences. `people` are those who
+ * are here. */
 export function withheldText(what: RightsClass, people: readonly Person[]): string {
   return `${notYoursText(what)} ${askText(people)}`;
 }
@@ -67,7 +68,16 @@ export function holdersText({reach}: RightsRow): string {
   const of = (kind: Reach) => kRoles.filter((_, i) => reach[i] === kind);
   const all = of('all');
   if (of('own').length === 0) return `By default ${listed(all, 'and')} have this right.`;
-  return `By default ${listed(of('own'), 'and')} have this right for robots of their teams, ${listed(all, 'and')} for all robots.`;
+  const own = listed(of('own'), 'and');
+  return (
+    `By default ${own} have this right for robots of their teams, ` +
+    `${listed(all, 'and')} for all robots.`
+  );
+}
+
+/** Which roles have a right, and whom to ask for it: two sentences. */
+export function rightText(what: RightsClass, people: readonly Person[]): string {
+  return `${holdersText(kUsualRights[what])} ${askText(people)}`;
 }
 
 /** The super-users who are here, by name. */

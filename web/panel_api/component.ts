@@ -11,7 +11,8 @@ export type WorldLayer = (
 export interface ComponentPanel {
   id: string;
   title: string;
-  /** Class of the element. It is not defined as a custom element: the page does that, under a name of its own. */
+  /** Class of the element. It is not defined as a custom element: the page does that, under a name
+   * of its own. */
   element: new () => PanelElement;
 }
 

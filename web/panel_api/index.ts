@@ -16,7 +16,8 @@ export type {Palette} from './palette';
 export type {Selection} from './selection';
 export type {Windows} from './windows';
 
-/** Number of this interface. A component says for which one it was made; another one is not loaded. */
+/** Number of this interface. A component says for which one it was made; another one is not
+ * loaded. */
 export const kPanelApi = 1;
 
 /** What all panels share. Owned by the page; lives as long as it. */
@@ -59,7 +60,8 @@ export interface PanelKind {
   short?: string;
   /** Right that a user needs to see the panel. */
   needs?: Power;
-  /** Panel beside which it is opened as another tab; if that is not open, beside the panel in use. */
+  /** Panel beside which it is opened as another tab; if that is not open, beside the panel in
+   * use. */
   beside?: string;
   /** Only for a run in progress; a replay does not show it. */
   live?: boolean;

@@ -2,7 +2,8 @@
 import {userKey} from '../app/kept_keys';
 import {Signal} from '../model/signal';
 
-/** What panels keep in the browser: apart for each user and each layout, as the arrangement of the panels is. */
+/** What panels keep in the browser: apart for each user and each layout, as the arrangement of the
+ * panels is. */
 export class Kept {
   private user = '';
   private layout = '';

@@ -37,7 +37,8 @@ export class Palette {
     return value;
   }
 
-  /** Gives the robots of a roster their hues: real ones in order, simulated ones by their kind, each kind one of its own. */
+  /** Gives the robots of a roster their hues: real ones in order, simulated ones by their kind,
+   * each kind one of its own. */
   assign(robots: readonly Robot[]): void {
     let real = 0;
     const kinds = [...new Set(robots.map(({word}) => word).filter((word) => word !== ''))];

@@ -25,7 +25,8 @@ export class Selection {
     this.changed.emit();
   }
 
-  /** Takes another roster, with its names by slot. Selected robots that it has stay selected; they are found by name. */
+  /** Takes another roster, with its names by slot. Selected robots that it has stay selected; they
+   * are found by name. */
   adopt(names: readonly string[]): void {
     const slotOf = new Map(names.map((name, slot) => [name, slot]));
     const kept = this.slots

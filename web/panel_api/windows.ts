@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import {Signal} from '../model/signal';
 
-/** The windows that show the page: its own, and those that panels were moved to. All share one model and one thread. */
+/** The windows that show the page: its own, and those that panels were moved to. All share one
+ * model and one thread. */
 export class Windows {
   /** A window was added or removed, hidden, or shown again. */
   readonly changed = new Signal();
-  /** A window lost the keyboard focus, is hidden or was closed: stop what a held key or button does there. */
+  /** A window lost the keyboard focus, is hidden or was closed: stop what a held key or button does
+   * there. */
   readonly left = new Signal();
   private readonly windows: Window[] = [];
 
@@ -45,7 +47,8 @@ export class Windows {
   }
 }
 
-/** The window that shows `node`. Browsers draw each window by itself: what is drawn waits for the picture of its own. */
+/** The window that shows `node`. Browsers draw each window by itself: what is drawn waits for the
+ * picture of its own. */
 export function viewOf(node: Node): Window {
   return node.ownerDocument?.defaultView ?? window;
 }

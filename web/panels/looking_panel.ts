@@ -4,8 +4,8 @@ import {Placed} from '../model/pose_history';
 import type {Signal} from '../model/signal';
 import {viewOf} from '../panel_api/windows';
 
-/** A panel that looks at something of the run and draws it. It subscribes when it comes into the page and leaves
- * nothing behind when it goes; the dock takes panels out while they are hidden. */
+/** A panel that looks at something of the run and draws it. It subscribes when it comes into the
+ * page and leaves nothing behind when it goes; the dock takes panels out while they are hidden. */
 export abstract class LookingPanel extends LiveElement {
   protected readonly placed = new Placed();
   private drawQueued = false;
@@ -67,7 +67,8 @@ export abstract class LookingPanel extends LiveElement {
     });
   }
 
-  /** Paints on a canvas of the panel, in pixels of the page; does nothing while that is not there. */
+  /** Paints on a canvas of the panel, in pixels of the page; does nothing while that is not
+   * there. */
   protected onCanvas(
     name: string,
     paint: (ctx: CanvasRenderingContext2D, w: number, h: number) => void,

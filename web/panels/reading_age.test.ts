@@ -2,7 +2,7 @@
 import {expect, it} from 'vitest';
 import {isCurrent, strengthOf} from './reading_age';
 
-it('is full while a reading is current: for a second, or for three periods of a slow sensor', () => {
+it('is full while a reading is current: a second, or three periods of a slow sensor', () => {
   expect([0, 1, 1.01].map((age_s) => isCurrent(age_s, 0.1))).toEqual([true, true, false]);
   expect([3, 5.9, 6.1].map((age_s) => isCurrent(age_s, 2))).toEqual([true, true, false]);
   expect(strengthOf(0.9, 0)).toBe(1);

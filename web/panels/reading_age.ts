@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
-/** A reading that is older than this was not followed by the next one, seconds; of a slow sensor, three periods. */
+/** A reading that is older than this was not followed by the next one, seconds; of a slow sensor,
+ * three periods. */
 const kCurrent_s = 1;
 /** From this age on a reading is as faint as it gets, seconds. */
 export const kOldest_s = 5;

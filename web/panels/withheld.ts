@@ -4,7 +4,8 @@ import {icon} from '../app/icons';
 import type {PanelContext} from '../panel_api';
 import type {Power} from '../protocol/messages';
 
-/** In place of what is missing: what it is, which roles have it and whom to ask, or why there is none at all. */
+/** In place of what is missing: what it is, which roles have it and whom to ask, or why there is
+ * none at all. */
 export function renderWithheld(context: PanelContext, power: Power): TemplateResult {
   const {model} = context;
   return renderNote(context, model.whyNot(power), model.isWithheld(power) || power === 'rights');

@@ -15,7 +15,8 @@ export const RobotFlag = {
 /** Readings of virtual sensors that are tried come with numbers from here on. */
 export const kFirstProbe = 0xf000;
 
-/** In the place of a sensor's index: velocities that a robot was told. Asked forward and left, then what its actuators got. */
+/** In the place of a sensor's index: velocities that a robot was told. Asked forward and left, then
+ * what its actuators got. */
 export const kCommandsOf = 0xefff;
 
 /** Where all robots of the roster are at one moment. Metres, radians, metres per second. */

@@ -2,7 +2,8 @@
 // What goes over the direct line to a host, and how a page gets the ticket for it;
 // docs/explanation/gui-protocol.md describes both.
 
-/** What is asked of a robot. Without a robot: of all that the ticket covers (stop, release, cancel). */
+/** What is asked of a robot. Without a robot: of all that the ticket covers (stop, release,
+ * cancel). */
 export interface LineOrder {
   kind:
     | 'drive'

@@ -24,13 +24,15 @@ export function clockText(offset_s: number | undefined, bound_s: number | undefi
   if (offset_s === undefined || bound_s === undefined) return '';
   const size = Math.max(Math.abs(offset_s), bound_s);
   const [unit, factor] = size >= 1 ? ['s', 1] : size >= 1e-3 ? ['ms', 1e3] : ['µs', 1e6];
-  return `${offset_s < 0 ? '−' : '+'}${(Math.abs(offset_s) * factor).toFixed(2)}±${(bound_s * factor).toFixed(2)} ${unit}`;
+  const [offset, bound] = [Math.abs(offset_s), bound_s].map((of) => (of * factor).toFixed(2));
+  return `${offset_s < 0 ? '−' : '+'}${offset}±${bound} ${unit}`;
 }
 
 /** The share of missed deadlines, and what took the time. */
 export function missedText(host: Host): string {
   if (host.missed_pct === undefined) return '';
-  return `${host.missed_pct.toFixed(host.missed_pct < 10 ? 1 : 0)} %${host.late_phase ? ` ${host.late_phase}` : ''}`;
+  const share = host.missed_pct.toFixed(host.missed_pct < 10 ? 1 : 0);
+  return `${share} %${host.late_phase ? ` ${host.late_phase}` : ''}`;
 }
 
 /** The columns of `rave top` behind its steps, in its order. */

@@ -3,7 +3,7 @@ import {css, html, nothing, svg, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import {LiveElement} from '../../app/live_element';
 import {controls} from '../../app/styles';
-import {askText, holdersText, kUsualRights} from '../../model/withheld';
+import {rightText} from '../../model/withheld';
 import type {Host} from '../../protocol/messages';
 import {renderNote, withheldStyles} from '../withheld';
 import {kColumns, matches} from './columns';
@@ -72,7 +72,8 @@ export class HostsPanel extends LiveElement {
     if (!model.seesLess || model.poses.newest === null) return html`<p>No host is known yet.</p>`;
     return renderNote(
       this.context,
-      `You may not see hosts. The list has the number of robots of each host, so it requires the right to see all robots. ${holdersText(kUsualRights.pose)} ${askText(model.others)}`,
+      'You may not see hosts. The list has the number of robots of each host, so it requires ' +
+        `the right to see all robots. ${rightText('pose', model.others)}`,
     );
   }
 
@@ -304,7 +305,8 @@ function lateText(hosts: readonly Host[]): string {
   for (const state of ['gone', 'dropped', 'waiting'] as const) {
     if (hosts.every((host) => host.state === state)) return `${names}: ${kStates[state]}`;
   }
-  return `No answer from ${names}${hosts.length === 1 && hosts[0].late_s !== undefined ? ` for ${shortTime(hosts[0].late_s)}` : ''}`;
+  const late_s = hosts.length === 1 ? hosts[0].late_s : undefined;
+  return `No answer from ${names}${late_s === undefined ? '' : ` for ${shortTime(late_s)}`}`;
 }
 
 customElements.define('rave-hosts', HostsPanel);

@@ -21,10 +21,11 @@ export class Rates {
     const rates = this.kept.get(name) ?? [];
     const top = Math.max(...rates, 1);
     return rates
-      .map(
-        (rate, i) =>
-          `${(width * (1 - (rates.length - 1 - i) / (kKept - 1))).toFixed(1)},${(1 + (height - 2) * (1 - rate / top)).toFixed(1)}`,
-      )
+      .map((rate, i) => [
+        width * (1 - (rates.length - 1 - i) / (kKept - 1)),
+        1 + (height - 2) * (1 - rate / top),
+      ])
+      .map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`)
       .join(' ');
   }
 }

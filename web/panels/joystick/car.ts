@@ -33,7 +33,8 @@ export class Car {
   private speed = 0;
   private steering = 0;
 
-  /** From forward to reverse only at rest: a robot would be asked to turn round within an instant. */
+  /** From forward to reverse only at rest: a robot would be asked to turn round within an
+   * instant. */
   shift(gear: Gear, pedals: Pedals = kIdle): boolean {
     const stands = this.speed === 0 && pedals.throttle <= kSlack;
     this.refusal =
@@ -53,7 +54,8 @@ export class Car {
     );
   }
 
-  /** After `seconds` with the pedals as they are. The throttle is followed at once; the brake goes before it. */
+  /** After `seconds` with the pedals as they are. The throttle is followed at once; the brake goes
+   * before it. */
   step(pedals: Pedals, dt_s: number): void {
     const throttle = pedals.throttle > kSlack ? Math.min(pedals.throttle, 1) : 0;
     const brake = pedals.brake > kSlack ? Math.min(pedals.brake, 1) : 0;
@@ -68,8 +70,8 @@ export class Car {
     this.steering = 0;
   }
 
-  /** Shares of full turn and full speed, as a stick has them: right and forward positive. In reverse the
-   * wheels lead the other way, so the same steering turns the other way. */
+  /** Shares of full turn and full speed, as a stick has them: right and forward positive. In
+   * reverse the wheels lead the other way, so the same steering turns the other way. */
   get place(): [number, number] {
     return [this.gear * this.steering || 0, this.gear * this.speed || 0];
   }

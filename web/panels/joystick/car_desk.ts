@@ -68,7 +68,8 @@ export class CarDesk {
       // Another hand takes over only after this one has let go.
       this.car.release();
       this.loop.release();
-      // This desk knows by itself what was held too long; to the loop keys, fingers and pad are one hand here.
+      // This desk knows by itself what was held too long; to the loop keys, fingers and pad are one
+      // hand here.
       this.loop.renew();
       this.holding = false;
       this.blocked = this.blocked && source !== null;
@@ -84,7 +85,8 @@ export class CarDesk {
     this.loop.holdBoth(source, ...this.car.place);
   }
 
-  /** Focus, link or robot is lost: whatever is still pressed counts only when it is pressed again. */
+  /** Focus, link or robot is lost: whatever is still pressed counts only when it is pressed
+   * again. */
   letGo(): void {
     this.touched = kIdle;
     this.car.release();

@@ -15,6 +15,10 @@ export interface CarView {
   blur(): void;
 }
 
+const kKeys =
+  'hold W or the arrow up for the throttle, S or down for the brake, A and D to steer; ' +
+  'E and Q change the gear';
+
 export function renderCar(view: CarView): TemplateResult {
   const {steering, throttle, brake} = view.pedals;
   return html`<div
@@ -22,7 +26,7 @@ export function renderCar(view: CarView): TemplateResult {
     tabindex="0"
     role="application"
     aria-disabled=${view.disabled}
-    aria-label="Pedals of ${view.robot}: hold W or the arrow up for the throttle, S or down for the brake, A and D to steer; E and Q change the gear"
+    aria-label="Pedals of ${view.robot}: ${kKeys}"
     @keydown=${(event: KeyboardEvent) => view.key(event, true)}
     @keyup=${(event: KeyboardEvent) => view.key(event, false)}
     @blur=${() => view.blur()}

@@ -16,6 +16,12 @@ export interface DialState {
   guard: number | null;
 }
 
+/** The upper third of a circle about the middle. */
+function arcOf(radius: number): string {
+  const [x, y] = [radius * 0.87, -radius * 0.5];
+  return `M ${-x} ${y} A ${radius} ${radius} 0 0 1 ${x} ${y}`;
+}
+
 /** One stick: rim for the dead-man, knob, and an arc for the limit of the guard. */
 export function renderDial(state: DialState): TemplateResult {
   const [kx, ky] = [state.x * kReach, -state.y * kReach];
@@ -29,11 +35,11 @@ export function renderDial(state: DialState): TemplateResult {
     ${Array.from({length: kTicks}, (_, i) => {
       const a = (2 * Math.PI * i) / kTicks;
       const long = i % 6 === 0;
-      return svg`<line x1=${Math.cos(a) * (long ? 76 : 81)} y1=${Math.sin(a) * (long ? 76 : 81)} x2=${Math.cos(a) * 85} y2=${Math.sin(a) * 85} class="tick" />`;
+      const [x, y] = [Math.cos(a), Math.sin(a)];
+      const from = long ? 76 : 81;
+      return svg`<line x1=${x * from} y1=${y * from} x2=${x * 85} y2=${y * 85} class="tick" />`;
     })}
-    ${arc === null
-      ? ''
-      : svg`<path class="guard" d=${`M ${-arc * 0.87} ${-arc * 0.5} A ${arc} ${arc} 0 0 1 ${arc * 0.87} ${-arc * 0.5}`} />`}
+    ${arc === null ? '' : svg`<path class="guard" d=${arcOf(arc)} />`}
     <line x1="0" y1="0" x2=${kx} y2=${ky} class="arm" />
     <circle r="3" class="hub" />
     <g transform="translate(${kx} ${ky})">

@@ -61,7 +61,7 @@ it('stops asking a robot that refuses, and says why', async () => {
   expect(loop.refusal).toBe('`ben` drives r1');
 });
 
-it('asks a robot that refuses once, however often a held gamepad is read, and again when it is gripped anew', async () => {
+it('asks a robot that refuses once per grip, however often a held gamepad is read', async () => {
   const {ask, loop} = made(false);
   for (let i = 0; i < 60; ++i) {
     loop.hold('pad', 0, 1);
@@ -80,7 +80,7 @@ it('asks a robot that refuses once, however often a held gamepad is read, and ag
   expect(ask.mock.calls.length).toBe(4);
 });
 
-it('does not drive on with a gamepad that is still held when the page has let go, nor the next robot', () => {
+it('drives no robot on with a gamepad that is still held when the page has let go', () => {
   const {ask, loop, last} = made();
   loop.hold('pad', 0, 1);
   loop.release();

@@ -3,7 +3,8 @@ import type {Commands} from '../../model/commands';
 
 /** So often a velocity is sent while the stick is held. */
 export const kPeriod_ms = 1000 / 30;
-/** A stick that is moved says so at once, but not more often than this. Hosts take 100 orders a second. */
+/** A stick that is moved says so at once, but not more often than this. Hosts take 100 orders a
+ * second. */
 export const kLeast_ms = 16;
 
 export type StickSource = 'pad' | 'keys' | 'touch';
@@ -27,7 +28,8 @@ export class DriveLoop {
   private timer = 0;
   private soon = 0;
   private sent_ms = -Infinity;
-  /** Held on after the robot refused or the page let go for it: it counts only when it is gripped anew. */
+  /** Held on after the robot refused or the page let go for it: it counts only when it is gripped
+   * anew. */
   private spent: StickSource | null = null;
   /** The robot that refused: its host waits for a neutral stick, too. */
   private refused: number | null = null;
@@ -80,8 +82,8 @@ export class DriveLoop {
     this.changed();
   }
 
-  /** The robot stands. Of another source than the one that holds it does nothing. Without a source the page lets go,
-   * and what is still held counts only when it is gripped anew. */
+  /** The robot stands. Of another source than the one that holds it does nothing. Without a source
+   * the page lets go, and what is still held counts only when it is gripped anew. */
   release(source?: StickSource): void {
     if (source !== undefined) this.renew(source);
     if (this.held === null || (source !== undefined && source !== this.held)) return;

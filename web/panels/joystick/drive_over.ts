@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stick over the World View of a phone or a pen: the world stays in sight, and no text of it moves the stick.
+// The stick over the World View of a phone or a pen: the world stays in sight, and no text of it
+// moves the stick.
 import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import {initials} from '../../app/words';
@@ -8,7 +9,8 @@ import type {GuardAct} from '../robot/guard_act';
 import type {DriveLoop} from './drive_loop';
 import {drivenText, signed} from './drive_view';
 
-/** What the controls cover of the picture, pixels: the stick, or the pedals with the line above them. */
+/** What the controls cover of the picture, pixels: the stick, or the pedals with the line above
+ * them. */
 export const kCovers_px = {stick: 178, pedals: 216};
 
 export interface OverView {

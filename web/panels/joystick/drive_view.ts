@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands around the stick. Each part has a place of fixed size: a message takes the place of another text, and moves nothing.
+// What stands around the stick. Each part has a place of fixed size: a message takes the place of
+// another text, and moves nothing.
 import {css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import type {Link} from '../../model/link';
@@ -60,7 +61,8 @@ export function renderFigures(
   </dl>`;
 }
 
-/** Two lines: what holding means, or why the robot does not obey; and what the guard lets through. */
+/** Two lines: what holding means, or why the robot does not obey; and what the guard lets
+ * through. */
 export function renderNotes(
   held: boolean,
   why: string,
@@ -105,13 +107,11 @@ export function renderLine(link: Link, loop: DriveLoop, name: string): TemplateR
 /** The last messages, in rows that are there also while there are none. */
 export function renderRecent(model: RunModel): TemplateResult {
   const now_s = model.poses.newest?.time_s ?? model.time?.now_s ?? 0;
-  const said = model.lines
-    .slice(-kRecent)
-    .map((line) => ({
-      t: line.t,
-      glyph: 'message' as const,
-      text: `${line.from.name}: ${line.text}`,
-    }));
+  const said = model.lines.slice(-kRecent).map((line) => ({
+    t: line.t,
+    glyph: 'message' as const,
+    text: `${line.from.name}: ${line.text}`,
+  }));
   const alerts = model.events
     .filter((event) => event.level !== 'info')
     .slice(-kRecent)

@@ -21,7 +21,8 @@ const kPad_ms = 1000 / 60;
 const kLayout = 'rave.joystick';
 const kHand = 'rave.joystick.hand';
 
-/** A stick for the selected robot: pointer, finger, pen, keys or gamepad; it drives only while held. */
+/** A stick for the selected robot: pointer, finger, pen, keys or gamepad; it drives only while
+ * held. */
 export class JoystickPanel extends LiveElement {
   static override properties = {
     over: {type: Boolean, reflect: true},

@@ -16,8 +16,8 @@ export function readPad(): {name: string; x: number; y: number; held: boolean} |
   return null;
 }
 
-/** The first gamepad as a vehicle: left stick steers, right trigger is the throttle, left one the brake,
- * shoulder buttons change the gear. Null: there is none. */
+/** The first gamepad as a vehicle: left stick steers, right trigger is the throttle, left one the
+ * brake, shoulder buttons change the gear. Null: there is none. */
 export function readCarPad(): {
   name: string;
   steering: number;

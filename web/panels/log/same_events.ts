@@ -12,15 +12,17 @@ export interface LogRow extends Event {
   what: string;
 }
 
-/** What the event says of its only robot; null if it is of none, of several, or says it otherwise. */
+/** What the event says of its only robot; null if it is of none, of several, or says it
+ * otherwise. */
 function partOf(event: Event, name: string | undefined): string | null {
   if (event.slots.length !== 1 || name === undefined || !event.text.startsWith(`${name}: `))
     return null;
   return event.text.slice(name.length + 2);
 }
 
-/** Folds what robots have in common at one moment: one STOP of all is one row. The server folds what one robot repeats,
- * and sends each page the events of its own robots alone, so no row tells of others. */
+/** Folds what robots have in common at one moment: one STOP of all is one row. The server folds
+ * what one robot repeats, and sends each page the events of its own robots alone, so no row tells
+ * of others. */
 export function foldSame(events: readonly Event[], names: readonly string[]): LogRow[] {
   const rows: LogRow[] = [];
   const last = new Map<string, number>();
@@ -56,7 +58,8 @@ export function foldSame(events: readonly Event[], names: readonly string[]): Lo
 
 function shortText(row: LogRow, names: readonly string[]): string {
   const {first, last} = shownSlots(row.slots);
-  return `${first.map((slot) => names[slot]).join(', ')}${last === null ? '' : ` … ${names[last]}`}: ${row.what}`;
+  const named = first.map((slot) => names[slot]).join(', ');
+  return `${named}${last === null ? '' : ` … ${names[last]}`}: ${row.what}`;
 }
 
 /** The names of a row, shortened: the first and the last where they are many. */

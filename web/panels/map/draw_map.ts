@@ -20,7 +20,8 @@ interface Picture {
 /** Pictures of tiles in the colours of the theme; they go with their tiles. */
 const pictures = new WeakMap<MapTile, Picture>();
 
-/** Red, green, blue and opacity of a cell: what is free is faint, what is occupied has the colour of walls. */
+/** Red, green, blue and opacity of a cell: what is free is faint, what is occupied has the colour
+ * of walls. */
 export function cellColour(
   percent: number,
   free: readonly [number, number, number],

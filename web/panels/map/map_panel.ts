@@ -2,7 +2,7 @@
 import {html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import {controls, glyphs} from '../../app/styles';
-import {askText, holdersText, kUsualRights} from '../../model/withheld';
+import {rightText} from '../../model/withheld';
 import {keyOf, type MapKey} from '../../model/maps';
 import type {Signal} from '../../model/signal';
 import {RobotFlag} from '../../protocol/frames';
@@ -240,7 +240,7 @@ export class MapPanel extends LookingPanel {
       return 'No program of this run has published a map, and its world has nothing to map.';
     if (!model.seesLess)
       return 'There is no map: no robot has a range sensor, and there is no global map.';
-    return `There is no map that you may see. ${holdersText(kUsualRights.maps)} ${askText(model.others)}`;
+    return `There is no map that you may see. ${rightText('maps', model.others)}`;
   }
 
   private waits(source: MapName): string {
@@ -254,7 +254,8 @@ export class MapPanel extends LookingPanel {
     const size =
       grid === null
         ? 'nothing yet'
-        : `${grid.tiles.size} tiles of ${grid.frame.columns} x ${grid.frame.rows} cells, ${this.about(source)}`;
+        : `${grid.tiles.size} tiles of ${grid.frame.columns} x ${grid.frame.rows} cells, ` +
+          this.about(source);
     return `Map of ${source.name}: ${size}. Arrows move it, + and - change its size.`;
   }
 

@@ -18,7 +18,8 @@ const kTextRefresh_ms = 200;
 const kPatience_ms = 3000;
 const kCopied_ms = 2000;
 
-/** Tries a virtual sensor on a robot: its form is made from the description of its driver. No part of the run. */
+/** Tries a virtual sensor on a robot: its form is made from the description of its driver. No part
+ * of the run. */
 export class ProbePanel extends LookingPanel {
   protected readonly refresh_ms = kTextRefresh_ms;
   private readonly draft = new ProbeDraft();

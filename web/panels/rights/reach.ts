@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {Reach, Rights, RightsPerson} from '../../protocol/messages';
 
-/** One cell of the table: of how many robots, and whether it was set here or comes from the role. */
+/** One cell of the table: of how many robots, and whether it was set here or comes from the
+ * role. */
 export interface Cell {
   reach: Reach;
   own: boolean;
@@ -61,7 +62,8 @@ function noteOf({role, teams}: RightsPerson): string {
     : `${word} of ${teams.replaceAll(',', ', ')}`;
 }
 
-/** What a press on a cell asks for: more, up to all, then nothing; of a user finally what the role has. */
+/** What a press on a cell asks for: more, up to all, then nothing; of a user finally what the role
+ * has. */
 export function nextReach(cell: Cell, ofUser: boolean): Reach | null {
   if (ofUser && !cell.own) return cell.reach === 'all' ? 'none' : 'all';
   if (cell.reach === 'none') return 'own';

@@ -102,7 +102,8 @@ export class RightsPanel extends LiveElement {
   private renderCell(row: Row, name: string, what: string): TemplateResult {
     const cell = row.cells.get(what) ?? {reach: 'none', own: false};
     const look = typeof cell.reach === 'string' ? cell.reach : 'own';
-    const label = `${className(what)} of ${name}: ${reachText(cell.reach)}${cell.own ? ', set here' : ''}`;
+    const reach = `${reachText(cell.reach)}${cell.own ? ', set here' : ''}`;
+    const label = `${className(what)} of ${name}: ${reach}`;
     return html`<button
       class="cell ${look} ${cell.own ? 'set' : row.user === undefined ? '' : 'plain'}"
       ?disabled=${row.role === 'super_user'}

@@ -15,7 +15,8 @@ const kHeld = 0.01;
 
 const words = (text: string) => text.replace(/^[^:]*: /, '');
 
-/** What the guard of a robot did at last, however long ago; null: nothing that this person may read. */
+/** What the guard of a robot did at last, however long ago; null: nothing that this person may
+ * read. */
 export function lastAct(model: RunModel, slot: number): {ago_s: number; why: string} | null {
   const now_s = model.poses.newest?.time_s ?? 0;
   for (let i = model.events.length - 1; i >= 0; --i) {
@@ -26,7 +27,8 @@ export function lastAct(model: RunModel, slot: number): {ago_s: number; why: str
   return null;
 }
 
-/** What the guard of a robot did last, if that was a moment ago. `asked_mps`: null if no person drives it. */
+/** What the guard of a robot did last, if that was a moment ago. `asked_mps`: null if no person
+ * drives it. */
 export function guardOf(model: RunModel, slot: number, asked_mps: number | null): GuardAct | null {
   const now_s = model.poses.newest?.time_s ?? 0;
   const told = toldOf(model, slot);

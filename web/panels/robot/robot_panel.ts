@@ -300,11 +300,14 @@ export class RobotPanel extends LiveElement {
     );
     const top = Math.max(least, ...values);
     const low = Math.min(0, ...values);
-    const at = (t: number, value: number) =>
-      `${(240 * (1 - (now_s - t) / kTrace_s)).toFixed(1)},${(3 + (38 * (top - value)) / (top - low)).toFixed(1)}`;
+    const at = (t: number, value: number) => [
+      (240 * (1 - (now_s - t) / kTrace_s)).toFixed(1),
+      (3 + (38 * (top - value)) / (top - low)).toFixed(1),
+    ];
+    const [, zero] = at(0, 0);
     const line = driven.flatMap((point) => {
       const value = of(point);
-      return value === null ? [] : [at(point.t, value)];
+      return value === null ? [] : [at(point.t, value).join(',')];
     });
     return html`<div class="trace">
       <span>${signed(top)}<br />${name}<br />${signed(low)}</span>
@@ -313,10 +316,13 @@ export class RobotPanel extends LiveElement {
         viewBox="0 0 240 44"
         preserveAspectRatio="none"
         role="img"
-        aria-label="${name}, asked and driven, over the last ${kTrace_s} seconds; scale from ${signed(
-          low,
-        )} to ${signed(top)} ${unit}">
-        ${svg`<line x1="0" y1=${at(0, 0).split(',')[1]} x2="240" y2=${at(0, 0).split(',')[1]} />${asked.map((part) => svg`<polyline class="asked" points=${part.map(([t, value]) => at(t, value)).join(' ')} />`)}<polyline points=${line.join(' ')} />`}
+        aria-label=${`${name}, asked and driven, over the last ${kTrace_s} seconds; ` +
+        `scale from ${signed(low)} to ${signed(top)} ${unit}`}>
+        ${svg`<line x1="0" y1=${zero} x2="240" y2=${zero} />`}
+        ${asked
+          .map((part) => part.map(([t, value]) => at(t, value).join(',')).join(' '))
+          .map((points) => svg`<polyline class="asked" points=${points} />`)}
+        ${svg`<polyline points=${line.join(' ')} />`}
       </svg>
     </div>`;
   }

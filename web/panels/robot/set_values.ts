@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 export type SetValue = string | number | boolean;
 
-/** Values of parameters as the panel shows them: what was asked here until the run says what holds, which
- * another page or a terminal may have set as well. */
+/** Values of parameters as the panel shows them: what was asked here until the run says what holds,
+ * which another page or a terminal may have set as well. */
 export class SetValues {
   /** What was asked, and what held then. */
   private readonly asked = new Map<string, {value: SetValue; over: SetValue | undefined}>();

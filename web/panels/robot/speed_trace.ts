@@ -49,7 +49,8 @@ export class SpeedTrace {
   }
 }
 
-/** Lines of what was asked, as it held: each velocity until the next, and no longer than it holds by itself. */
+/** Lines of what was asked, as it held: each velocity until the next, and no longer than it holds
+ * by itself. */
 export function askedLines(
   asked: readonly AskedVelocity[],
   of: 'v' | 'w',

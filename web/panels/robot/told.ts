@@ -2,7 +2,8 @@
 import type {RunModel} from '../../model/run_model';
 import {kCommandsOf} from '../../protocol/frames';
 
-/** The velocities that a robot was told last: what its program or driver asked for, and what is left of it behind controllers and guard. */
+/** The velocities that a robot was told last: what its program or driver asked for, and what is
+ * left of it behind controllers and guard. */
 export interface ToldVelocity {
   asked: [number, number];
   given: [number, number];

@@ -8,7 +8,8 @@ import type {Shadow, Twin} from '../../protocol/messages';
 
 const kDegrees = 180 / Math.PI;
 
-/** The set of drivers that a robot is handed over to next, in the words of a request; `mixed`: one set is real. */
+/** The set of drivers that a robot is handed over to next, in the words of a request; `mixed`: one
+ * set is real. */
 export function nextDrivers(mixed: boolean, twin: Twin): 'real' | 'simulated' | 'first' | 'twin' {
   if (mixed) return twin.simulated ? 'real' : 'simulated';
   // Each that was made has changed sides.
@@ -109,7 +110,8 @@ export class TwinSection extends LiveElement {
             ${this.sure === this.robot
               ? html`<p class="faint">
                   ${to === 'real'
-                    ? 'Put the real robot where this one is, with the same heading. Its program continues with the hardware. A stop stays in effect.'
+                    ? 'Put the real robot where this one is, with the same heading. Its program ' +
+                      'continues with the hardware. A stop stays in effect.'
                     : 'The robot stops for the change; its program continues.'}
                 </p>`
               : nothing}

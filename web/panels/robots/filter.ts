@@ -18,7 +18,8 @@ const kStates: Record<string, (robot: Filtered) => boolean> = {
   recorded: ({robot}) => robot.recorded,
 };
 
-/** Words that must all hold: a part of the name or team, a state, or a comparison such as `speed < 0.02`. */
+/** Words that must all hold: a part of the name or team, a state, or a comparison such as `speed <
+ * 0.02`. */
 export function parseFilter(text: string): Filter {
   const terms: Filter[] = [];
   const comparison = /\bspeed\s*([<>])\s*([0-9.]+)/g;

@@ -5,7 +5,7 @@ import {LiveElement} from '../../app/live_element';
 import {controls, glyphs} from '../../app/styles';
 import {initials} from '../../app/words';
 import {kHistory_s} from '../../model/pose_history';
-import {askText, holdersText, kUsualRights} from '../../model/withheld';
+import {rightText} from '../../model/withheld';
 import {RobotFlag} from '../../protocol/frames';
 import {renderNote, withheldStyles} from '../withheld';
 import {parseFilter, type Filter} from './filter';
@@ -98,7 +98,7 @@ export class RobotsPanel extends LiveElement {
     if (!model.seesLess) return html`<p class="none">No robots in this run.</p>`;
     return renderNote(
       this.context,
-      `There is no robot that you may see. ${holdersText(kUsualRights.pose)} ${askText(model.others)}`,
+      `There is no robot that you may see. ${rightText('pose', model.others)}`,
     );
   }
 
@@ -133,7 +133,8 @@ export class RobotsPanel extends LiveElement {
         : nothing}`;
   }
 
-  /** Stops all robots of the team in which one is selected, whether the filter shows them or not. */
+  /** Stops all robots of the team in which one is selected, whether the filter shows them or
+   * not. */
   private renderStopTeam(team: string): TemplateResult | typeof nothing {
     const {model, selection} = this.context;
     if (
@@ -187,10 +188,11 @@ export class RobotsPanel extends LiveElement {
         height="18"
         role="img"
         aria-label="Speeds from 0 to ${top.toFixed(1)} metres per second">
-        ${bins.map(
-          (count, i) =>
-            svg`<rect x=${i * 5} y=${17 - (16 * count) / most} width="3.5" height=${1 + (16 * count) / most} />`,
-        )}</svg
+        ${bins
+          .map((count) => (16 * count) / most)
+          .map(
+            (high, i) => svg`<rect x=${i * 5} y=${17 - high} width="3.5" height=${1 + high} />`,
+          )}</svg
       ><span class="value">${mean.toFixed(2)} m/s</span>`;
   }
 

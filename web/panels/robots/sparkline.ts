@@ -20,7 +20,8 @@ export function sparkline(
     .filter((frame) => frame.speed.length > slot)
     .map((frame) => {
       const x = width * (1 - (newest.time_s - frame.time_s) / kHistory_s);
-      return `${x.toFixed(1)},${(14 - 12 * Math.min(Math.abs(frame.speed[slot]) / kTop_mps, 1)).toFixed(1)}`;
+      const y = 14 - 12 * Math.min(Math.abs(frame.speed[slot]) / kTop_mps, 1);
+      return `${x.toFixed(1)},${y.toFixed(1)}`;
     });
   return html`<svg class="spark" width=${width} height=${kHeight_px} aria-hidden="true">
     ${svg`<polyline points=${points.join(' ')} fill="none" stroke=${colour} />`}

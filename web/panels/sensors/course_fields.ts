@@ -76,3 +76,14 @@ export function beamText(bearing_rad: number): string {
   const degrees = Math.round(10 * bearing_rad * kDegrees) / 10;
   return degrees === 0 ? 'ahead' : `${Math.abs(degrees)}° ${degrees > 0 ? 'left' : 'right'}`;
 }
+
+/** Values of the lines of a field at one moment, and how long ago that was. */
+export function pointedText(
+  {values, ago_s}: {values: readonly (number | null)[]; ago_s: number},
+  {unit}: CourseField,
+): string {
+  const texts = values.map((value) =>
+    value === null ? 'nothing' : `${Number(value.toFixed(3))} ${unit}`.trim(),
+  );
+  return `${texts.join(' · ')}, ${ago_s.toFixed(1)} s ago`;
+}

@@ -8,8 +8,9 @@ const kLeast_s = 1;
 /** In usual spacings: at a high pace readings are farther from each other. */
 const kSpacings = 5;
 
-/** The spans of a plot without readings, from `begin_s` to 0; `times_s` in order. A server sends readings while a panel shows
- * the sensor only, so what was before is not known, and must not look like a value. */
+/** The spans of a plot without readings, from `begin_s` to 0; `times_s` in order. A server sends
+ * readings while a panel shows the sensor only, so what was before is not known, and must not look
+ * like a value. */
 export function gapsOf(times_s: readonly number[], begin_s: number, period_s: number): Gap[] {
   const spacings = times_s
     .slice(1)

@@ -32,7 +32,8 @@ export interface CourseMoment {
   period_s: number;
 }
 
-/** One field of a sensor over the last seconds, with the value under the pointer. uPlot is loaded with the first one. */
+/** One field of a sensor over the last seconds, with the value under the pointer. uPlot is loaded
+ * with the first one. */
 export class CoursePlot {
   private plot: uPlot | null = null;
   private library: typeof uPlot | null = null;

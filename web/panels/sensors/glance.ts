@@ -15,7 +15,8 @@ import {ageText, metBy, nearestText} from './reading_texts';
 const kRefresh_ms = 250;
 const kSparkline_px = 84;
 
-/** The selected robot in a few lines: what its range sensor sees, the nearest of it, and its speed. */
+/** The selected robot in a few lines: what its range sensor sees, the nearest of it, and its
+ * speed. */
 export class Glance extends LookingPanel {
   protected readonly refresh_ms = kRefresh_ms;
   private surface: Surface | null = null;

@@ -5,7 +5,7 @@ import {spanOf} from '../../app/moment';
 import {controls, glyphs} from '../../app/styles';
 import type {Interest} from '../../model/link';
 import type {Signal} from '../../model/signal';
-import {askText, holdersText, kUsualRights} from '../../model/withheld';
+import {rightText} from '../../model/withheld';
 import type {Reading} from '../../protocol/frames';
 import type {Robot, Sensor} from '../../protocol/messages';
 import {LookingPanel} from '../looking_panel';
@@ -13,7 +13,7 @@ import {isCurrent, strengthOf} from '../reading_age';
 import {renderNote, renderWithheld, withheldStyles} from '../withheld';
 import {shortName} from '../world/name_layer';
 import {Surface, type Met} from '../world/surface';
-import {beamText, courseFieldsOf, type CourseField} from './course_fields';
+import {beamText, courseFieldsOf, pointedText, type CourseField} from './course_fields';
 import {gapsText} from './course_gaps';
 import {CoursePlot, type CourseLine} from './course_plot';
 import {courseStyles} from './course_styles';
@@ -30,6 +30,7 @@ import {drawSightingsPlot, pairsOf, type Named} from './sightings_plot';
 import {twinOf} from './twin';
 
 const kTextRefresh_ms = 200;
+const kAsTable = 'the button Show the numbers shows them as a table';
 
 /** What the sensors of the selected robot read. */
 export class SensorsPanel extends LookingPanel {
@@ -178,7 +179,8 @@ export class SensorsPanel extends LookingPanel {
       return html`<p class="none">${whose} ${many ? 'has a sensor' : 'has no sensors'}.</p>`;
     return renderNote(
       this.context,
-      `${whose} has ${many ? 'a sensor' : 'no sensors'} that you may see. ${holdersText(kUsualRights.readings)} ${askText(model.others)}`,
+      `${whose} has ${many ? 'a sensor' : 'no sensors'} that you may see. ` +
+        rightText('readings', model.others),
     );
   }
 
@@ -208,7 +210,7 @@ export class SensorsPanel extends LookingPanel {
       ? html`<canvas
           class="polar"
           role="img"
-          aria-label="Ranges around the robot; the button Show the numbers shows them as a table"></canvas>`
+          aria-label="Ranges around the robot; ${kAsTable}"></canvas>`
       : renderValues(sensor, reading)}
     ${ranges ? html`<p class="sentence">${this.nearest(slot, sensor, reading)}</p>` : nothing}
     ${this.renderCourse(sensor)}`;
@@ -239,11 +241,7 @@ export class SensorsPanel extends LookingPanel {
             </div>`
           : html`<span>${field.label}</span>`}
         ${field.label === 'beam' ? this.renderBeam(sensor) : nothing}
-        <em
-          >${pointed === null
-            ? '15 s'
-            : `${pointed.values.map((value) => (value === null ? 'nothing' : `${Number(value.toFixed(3))} ${field.unit}`.trim())).join(' · ')}, ${pointed.ago_s.toFixed(1)} s ago`}</em
-        >
+        <em>${pointed === null ? '15 s' : pointedText(pointed, field)}</em>
       </div>
       <div
         class="course"
@@ -297,7 +295,7 @@ export class SensorsPanel extends LookingPanel {
       <canvas
         class="sightings"
         role="img"
-        aria-label="Ranges and bearings of the sightings of the camera; the button Show the numbers shows them as a table"></canvas>
+        aria-label="Ranges and bearings of the sightings of the camera; ${kAsTable}"></canvas>
       ${this.renderCourse(sensor)}`;
   }
 

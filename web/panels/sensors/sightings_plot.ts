@@ -40,8 +40,8 @@ export function pairsOf(saw: Reading | null, expected: Reading | null): number {
   return sightingsOf(expected).filter((one) => codes.has(one.code)).length;
 }
 
-/** Range over bearing: discs were seen, squares are expected, a line joins a pair. What is old at `now_s` is faint and
- * hollow. */
+/** Range over bearing: discs were seen, squares are expected, a line joins a pair. What is old at
+ * `now_s` is faint and hollow. */
 export function drawSightingsPlot(
   ctx: CanvasRenderingContext2D,
   width: number,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {Robot} from '../../protocol/messages';
 
-/** The sensor that says what this camera should see, or the camera that it stands for; null without one. */
+/** The sensor that says what this camera should see, or the camera that it stands for; null without
+ * one. */
 export function twinOf(robot: Robot, index: number): number | null {
   const sensor = robot.sensors[index];
   if (sensor === undefined || sensor.kind !== 'sightings') return null;

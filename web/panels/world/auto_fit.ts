@@ -8,7 +8,8 @@ const kLook_ms = 500;
 
 /** Keeps all robots in the picture for as long as the person has not chosen what is shown. */
 export class AutoFit {
-  /** Robots with a pose when the picture was fitted last, -1: it was not. On the bus poses come after the world, host by host. */
+  /** Robots with a pose when the picture was fitted last, -1: it was not. On the bus poses come
+   * after the world, host by host. */
   private fittedRobots = -1;
   /** The person has chosen what is shown. */
   private moved = false;

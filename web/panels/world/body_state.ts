@@ -12,7 +12,8 @@ export function bodyState(kind: Robot['kind'], flags: number): BodyState {
   return kind === 'real' && (flags & RobotFlag.unarmed) !== 0 ? 'unarmed' : 'plain';
 }
 
-/** How far a ghost may have come since its last pose: at the highest speed that was seen of it. Metres. */
+/** How far a ghost may have come since its last pose: at the highest speed that was seen of it.
+ * Metres. */
 export function reachOf(placed: Placed, slot: number): number {
   return (placed.fastest[slot] ?? 0) * Math.max(placed.time_s - placed.freshAt(slot), 0);
 }

@@ -68,7 +68,7 @@ function stage(robots: Placed) {
   return {stage: fake as unknown as Stage, fits};
 }
 
-it('an untouched picture follows robots that leave it; one that was moved stays, until everything is asked for', () => {
+it('an untouched picture follows robots that leave it; a moved one stays until asked', () => {
   const robots = placed([10, 10], [20, 90]);
   const {stage: shown, fits} = stage(robots);
   const fit = new AutoFit();

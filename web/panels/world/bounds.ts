@@ -7,7 +7,8 @@ import {boxOf} from './outlines';
 
 /** What is shown around the middle of the robots at least, in radii of the largest. */
 const kAround = 14;
-/** Walls that make the picture larger than this many times are a building, in which the robots would be specks. */
+/** Walls that make the picture larger than this many times are a building, in which the robots
+ * would be specks. */
 const kRoom = 2;
 
 function grow(bounds: Bounds, x: number, y: number, rx: number, ry = rx): void {
@@ -59,7 +60,8 @@ export function boundsOfBodies(bodies: Iterable<Body>): BodyBounds {
   return {walls: isNone(walls) ? null : walls, others: isNone(others) ? null : others};
 }
 
-/** What holds all robots and bodies. `every`: with all walls, otherwise with those of a room, not of a building. */
+/** What holds all robots and bodies. `every`: with all walls, otherwise with those of a room, not
+ * of a building. */
 export function boundsOfAll(
   placed: Placed,
   radius: (slot: number) => number,

@@ -16,7 +16,8 @@ export class Camera {
   scale = 60;
   width = 1;
   height = 1;
-  /** Pixels at the edges that something else covers: what is fitted or followed stands in the rest. */
+  /** Pixels at the edges that something else covers: what is fitted or followed stands in the
+   * rest. */
   readonly covered = {left: 0, top: 0, right: 0, bottom: 0};
   private goal: {
     x: number;
@@ -68,7 +69,8 @@ export class Camera {
     return {x, y, scale};
   }
 
-  /** Where the camera stands so that a place of the world is in the middle of what is not covered. */
+  /** Where the camera stands so that a place of the world is in the middle of what is not
+   * covered. */
   middleFor(x: number, y: number, scale = this.scale): [number, number] {
     const {left, top, right, bottom} = this.covered;
     return [x - (left - right) / 2 / scale, y + (top - bottom) / 2 / scale];

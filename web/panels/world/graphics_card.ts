@@ -2,7 +2,8 @@
 
 let known: boolean | null = null;
 
-/** Whether WebGL is drawn by a graphics card; otherwise the processor emulates it, and each pixel costs. */
+/** Whether WebGL is drawn by a graphics card; otherwise the processor emulates it, and each pixel
+ * costs. */
 export function hasCard(): boolean {
   known ??= askForCard();
   return known;

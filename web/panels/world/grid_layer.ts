@@ -5,7 +5,8 @@ import {kFont} from './labels';
 import {roundStep, tickText} from './ticks';
 
 const kSpacing_px = 64;
-/** Narrower pictures have the legend and the tools over their upper edge: container query of the World View. */
+/** Narrower pictures have the legend and the tools over their upper edge: container query of the
+ * World View. */
 const kNarrow_px = 520;
 
 /** Lines at round distances, with halves between them. */

@@ -4,8 +4,8 @@ import type {Swarm} from './swarm';
 import {SwarmGl} from './swarm_gl';
 import {SwarmSprites} from './swarm_sprites';
 
-/** With a graphics card one buffer of triangles; where there is none, or WebGL is emulated, sprites that
- * the processor copies: for 10 000 robots these take 4 ms, emulated triangles 60. */
+/** With a graphics card one buffer of triangles; where there is none, or WebGL is emulated, sprites
+ * that the processor copies: for 10 000 robots these take 4 ms, emulated triangles 60. */
 export function makeSwarm(): Swarm {
   return hasCard() ? new SwarmGl() : new SwarmSprites();
 }

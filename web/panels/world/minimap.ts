@@ -76,7 +76,8 @@ export class Minimap {
     ctx.restore();
   }
 
-  /** Simulated robots as dots, drawn anew a few times a second: thousands of them cost more than they move. */
+  /** Simulated robots as dots, drawn anew a few times a second: thousands of them cost more than
+   * they move. */
   private drawDots(
     ctx: CanvasRenderingContext2D,
     placed: Placed,

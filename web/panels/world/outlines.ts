@@ -12,8 +12,8 @@ export function radiusOf(shapes: readonly Shape[]): number {
   return radius;
 }
 
-/** Middle and half lengths along x and y of the box that holds a body, metres in the world. Files may place a body by a
- * corner, so its pose need not be inside. */
+/** Middle and half lengths along x and y of the box that holds a body, metres in the world. Files
+ * may place a body by a corner, so its pose need not be inside. */
 export function boxOf({pose, shapes}: {pose: Pose; shapes: readonly Shape[]}): {
   x: number;
   y: number;
@@ -39,7 +39,8 @@ export function boxOf({pose, shapes}: {pose: Pose; shapes: readonly Shape[]}): {
   return {x: (x0 + x1) / 2, y: (y0 + y1) / 2, hx: (x1 - x0) / 2, hy: (y1 - y0) / 2};
 }
 
-/** Of a body of several prisms the ones that show from above: the widest at each place come last. */
+/** Of a body of several prisms the ones that show from above: the widest at each place come
+ * last. */
 export function outlinePath(shapes: readonly Shape[]): Path2D {
   const path = new Path2D();
   for (const shape of shapes) addShape(path, shape, [0, 0, 0]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
-/** Cividis from dark to light in steps that are equal to the eye, with and without colour vision. */
+/** Cividis from dark to light in steps that are equal to the eye, with and without colour
+ * vision. */
 const kCividis = [
   '#00224e',
   '#123570',

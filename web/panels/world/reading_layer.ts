@@ -13,7 +13,8 @@ import type {Surface} from './surface';
 /** The number of robots whose sensors are drawn at a time. */
 const kScanned = 12;
 
-/** Slot and index of the sensors that the layers ask for: those of the selection, and of a few real robots. */
+/** Slot and index of the sensors that the layers ask for: those of the selection, and of a few real
+ * robots. */
 export function sensorsToRead(
   model: RunModel,
   selection: Selection,
@@ -48,7 +49,8 @@ export interface Shown {
   tried: boolean;
 }
 
-/** The readings that the layers ask for. What is old is faint where it is looked at, and gone elsewhere. */
+/** The readings that the layers ask for. What is old is faint where it is looked at, and gone
+ * elsewhere. */
 export function shownReadings(
   model: RunModel,
   selection: Selection,

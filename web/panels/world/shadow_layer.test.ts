@@ -21,7 +21,7 @@ it('a ghost stands where its robot is told to be, and off it', () => {
   expect(ghosts[0]?.gap_m).toBeCloseTo(0.5);
 });
 
-it('there is none without a comparison, while the robot is simulated, or of a robot that is nowhere', () => {
+it('there is none without a comparison, of a simulated robot, or of one that is nowhere', () => {
   expect(
     ghostsOf(
       model([

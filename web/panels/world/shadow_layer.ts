@@ -21,7 +21,8 @@ export interface Ghost {
 /** So far apart on the screen, twin and robot are joined by a line that has the gap. */
 export const kApart_px = 10;
 
-/** The shadows of robots that are real now. The server sends its offset from its robot, so it moves with that. */
+/** The shadows of robots that are real now. The server sends its offset from its robot, so it moves
+ * with that. */
 export function ghostsOf(model: RunModel, placed: Placed): Ghost[] {
   const ghosts: Ghost[] = [];
   for (const [slot, {shadow}] of model.drives) {

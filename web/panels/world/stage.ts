@@ -4,8 +4,8 @@ import type {PanelContext} from '../../panel_api';
 import type {Layers} from './layers';
 import type {OrderDesk} from './orders/order_desk';
 
-/** `room`: robots, bodies, and the walls around them. `more`: that, and what was shown. `all`: everything. `closer`: that too,
- * or the selection where all of it is shown already. */
+/** `room`: robots, bodies, and the walls around them. `more`: that, and what was shown. `all`:
+ * everything. `closer`: that too, or the selection where all of it is shown already. */
 export type Extent = 'room' | 'more' | 'all' | 'closer';
 
 /** `nothing`: there is nothing to show yet. */
@@ -56,7 +56,8 @@ export interface Stage {
   snapshot(): HTMLCanvasElement;
   /** Where a robot is on the screen, relative to the element. */
   screenOf(slot: number): [number, number];
-  /** Where a place of the world is on the screen, relative to the element; null: this stage cannot say. */
+  /** Where a place of the world is on the screen, relative to the element; null: this stage cannot
+   * say. */
   screenAt?(x: number, y: number): [number, number];
   dispose(): void;
 }

@@ -5,7 +5,8 @@ import type {Palette} from '../../panel_api';
 import {radiusOf} from './outlines';
 import type {Mark} from './scan_layer';
 
-/** A point of a reading may lie so far beside the body that it met: noise and pictures between steps. */
+/** A point of a reading may lie so far beside the body that it met: noise and pictures between
+ * steps. */
 const kNear_m = 0.12;
 const kCell_m = 1;
 const kReachStep_m = 4;
@@ -23,7 +24,8 @@ interface Thing {
   met: Met;
 }
 
-/** All bodies and robots, findable by place. Made anew when bodies change; robots move with `placed`. */
+/** All bodies and robots, findable by place. Made anew when bodies change; robots move with
+ * `placed`. */
 export class Surface {
   readonly cells = new Map<string, {body: Body; thing: Thing}[]>();
   readonly robots: Thing[];
@@ -51,7 +53,8 @@ export class Surface {
   placed: Placed | null = null;
   private readonly near = new Map<number, {time_s: number; reach: number; slots: number[]}>();
 
-  /** Robots within `reach` of another one; found once for a picture, since a scan asks for each of its rays. */
+  /** Robots within `reach` of another one; found once for a picture, since a scan asks for each of
+   * its rays. */
   robotsNear(owner: number, reach: number): readonly number[] {
     const {placed} = this;
     if (placed === null || placed.count !== this.robots.length || owner >= placed.count) return [];

@@ -4,7 +4,8 @@ import type {Camera} from './camera';
 /** A colour in bytes: red, green, blue. */
 export type Tone = readonly [number, number, number];
 
-/** Draws any number of robots as arrowheads, with tails. Pixels of the screen, headings clockwise. */
+/** Draws any number of robots as arrowheads, with tails. Pixels of the screen, headings
+ * clockwise. */
 export interface Swarm {
   readonly canvas: HTMLCanvasElement;
   readonly empty: boolean;

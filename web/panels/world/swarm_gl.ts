@@ -10,7 +10,10 @@ const kTail = 6 * kTailParts;
 
 const kVertex = `#version 300 es
 in vec2 place; in vec4 colour; uniform vec4 map; out vec4 tone;
-void main() { tone = vec4(colour.rgb * colour.a, colour.a); gl_Position = vec4(place * map.xy + map.zw, 0.0, 1.0); }`;
+void main() {
+  tone = vec4(colour.rgb * colour.a, colour.a);
+  gl_Position = vec4(place * map.xy + map.zw, 0.0, 1.0);
+}`;
 const kFragment = `#version 300 es
 precision mediump float; in vec4 tone; out vec4 pixel; void main() { pixel = tone; }`;
 
@@ -122,7 +125,8 @@ export class SwarmGl implements Swarm {
     gl.drawElements(gl.TRIANGLES, this.count * kTriangles * 3, gl.UNSIGNED_INT, 0);
   }
 
-  /** Its corners lie `inset` pixels within the edges of the whole one: the factors follow from its angles. */
+  /** Its corners lie `inset` pixels within the edges of the whole one: the factors follow from its
+   * angles. */
   private arrowhead(
     v: number,
     x: number,

@@ -9,7 +9,8 @@ const kRadiusStep_px = 0.5;
 const kLeastAlpha = 40;
 const kMostKinds = 64;
 
-/** Pixels of one arrowhead: their distance from its middle in the image, and the colour, by turns. */
+/** Pixels of one arrowhead: their distance from its middle in the image, and the colour, by
+ * turns. */
 type Sprite = Int32Array;
 
 /** Copies arrowheads that were drawn once, pixel by pixel, into one image. */

@@ -23,7 +23,8 @@ const kMouse_px = 8;
 /** Height of what names the driven robot, at the top of the picture. */
 const kChip_px = 56;
 
-/** The world from above: three canvases, of which only those are drawn whose content has changed. */
+/** The world from above: three canvases, of which only those are drawn whose content has
+ * changed. */
 export class TopStage implements Stage {
   readonly element = document.createElement('div');
   readonly camera = new Camera();
@@ -136,7 +137,8 @@ export class TopStage implements Stage {
     if (!hidden) this.swarm.draw();
   }
 
-  /** Floor and bodies are drawn anew only when they or the camera changed; a crowd twice a second. */
+  /** Floor and bodies are drawn anew only when they or the camera changed; a crowd twice a
+   * second. */
   private paintBase(now_ms: number): void {
     const {camera, context} = this;
     const layers = context.layers();
@@ -196,7 +198,8 @@ export class TopStage implements Stage {
     return selected === null ? 'all' : 'selection';
   }
 
-  /** Keeps the lower `stick_px` of a picture of this size free of the robot that is followed, and of where it is in two seconds. */
+  /** Keeps the lower `stick_px` of a picture of this size free of the robot that is followed, and
+   * of where it is in two seconds. */
   cover(stick_px: number, full_mps: number, width: number, height: number): void {
     const {camera} = this;
     camera.covered.bottom = stick_px;

@@ -26,7 +26,8 @@ import {drawShadows} from './shadow_layer';
 import {drawTruth} from './truth_layer';
 import {drawVariances} from './variance_layer';
 
-/** Below this many pixels per metre, or beyond this number of robots in the picture, simulated ones are arrowheads. */
+/** Below this many pixels per metre, or beyond this number of robots in the picture, simulated ones
+ * are arrowheads. */
 const kFar_px = 30;
 const kMany = 400;
 /** Tails of more robots have fewer parts. */
@@ -78,7 +79,8 @@ export class TopView {
     this.surface = new Surface(bodies.values(), robots, this.palette);
   }
 
-  /** Floor, grid, crowd, bodies and the map that is shown over them: what stands still as long as the camera does. */
+  /** Floor, grid, crowd, bodies and the map that is shown over them: what stands still as long as
+   * the camera does. */
   drawBase(ctx: CanvasRenderingContext2D, camera: Camera, placed: Placed, layers: Layers): void {
     ctx.fillStyle = this.palette.token('floor');
     ctx.fillRect(0, 0, camera.width, camera.height);
@@ -98,8 +100,8 @@ export class TopView {
     return layers.density && camera.scale < kFar_px && placed.count > kCrowd;
   }
 
-  /** Robots and what they read, their orders, and names over all lines. With `swarm`, far robots go there; it is empty
-   * where none is far. */
+  /** Robots and what they read, their orders, and names over all lines. With `swarm`, far robots go
+   * there; it is empty where none is far. */
   drawLife(
     ctx: CanvasRenderingContext2D,
     camera: Camera,

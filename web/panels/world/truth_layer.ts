@@ -27,7 +27,8 @@ export function takePlaces(placed: Placed, truth: Placed): void {
   }
 }
 
-/** The outline of each robot where it truly is, with a cross, and with the gap to where it is reported to be. */
+/** The outline of each robot where it truly is, with a cross, and with the gap to where it is
+ * reported to be. */
 export function drawTruth(
   ctx: CanvasRenderingContext2D,
   camera: Camera,

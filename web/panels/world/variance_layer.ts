@@ -13,7 +13,8 @@ export const kLeastVariance_px = 2;
 /** The sector of headings is as long at least. */
 const kHeadings_m = 0.4;
 
-/** Where a robot may be by what it says. x and y have the same variance, so its ellipse is round. */
+/** Where a robot may be by what it says. x and y have the same variance, so its ellipse is
+ * round. */
 export interface Doubt {
   slot: number;
   radius_m: number;
@@ -45,7 +46,8 @@ export function doubtsOf(model: RunModel, selection: Selection, placed: Placed):
   return doubts;
 }
 
-/** Where selected robots may be by what they say: an ellipse about the reported place, and a sector of headings. */
+/** Where selected robots may be by what they say: an ellipse about the reported place, and a sector
+ * of headings. */
 export function drawVariances(
   ctx: CanvasRenderingContext2D,
   camera: Camera,

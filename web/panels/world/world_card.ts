@@ -6,7 +6,8 @@ import type {PanelContext} from '../../panel_api';
 import {RobotFlag} from '../../protocol/frames';
 import {stateOf} from '../robots/robot_state';
 
-/** Where the World View has the page for itself: what the panel Robots would say of the selected robot. */
+/** Where the World View has the page for itself: what the panel Robots would say of the selected
+ * robot. */
 export function renderCard(
   {model, selection, palette}: PanelContext,
   placed: Placed,

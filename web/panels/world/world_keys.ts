@@ -20,7 +20,8 @@ export const kWorldKeys: readonly {keys: string[]; what: string}[] = [
   {keys: ['Shift drag'], what: 'select all robots in a box'},
 ];
 
-/** Moves and zooms the picture that has the focus. False: the key means nothing to it. Shift and arrows drive robots. */
+/** Moves and zooms the picture that has the focus. False: the key means nothing to it. Shift and
+ * arrows drive robots. */
 export function pressWorldKey(event: KeyboardEvent, stage: Stage): boolean {
   // With Ctrl, plus and minus are of the browser.
   if (event.altKey || event.metaKey || (event.ctrlKey && !(event.key in kDirections))) return false;

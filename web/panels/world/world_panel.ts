@@ -38,7 +38,8 @@ export class WorldPanel extends LiveElement {
   /** Pictures so far, and the time they took: for measuring. */
   painted = 0;
   paint_ms = 0;
-  /** When robots were on the screen for the first time, milliseconds since the page was asked for. */
+  /** When robots were on the screen for the first time, milliseconds since the page was asked
+   * for. */
   first_ms = 0;
   private mode: Mode = 'top';
   private stage!: Stage;
@@ -149,8 +150,8 @@ export class WorldPanel extends LiveElement {
     this.orders.choose(tool);
   }
 
-  /** A stick lies over the lower `stick_px` of the picture: the driven robot stays above it, with where it is in two seconds at
-   * full speed. 0: none. */
+  /** A stick lies over the lower `stick_px` of the picture: the driven robot stays above it, with
+   * where it is in two seconds at full speed. 0: none. */
   driveOver(stick_px: number, full_mps: number): void {
     if (stick_px === this.top.camera.covered.bottom) return;
     this.toggleAttribute('driving', stick_px > 0);
@@ -178,7 +179,8 @@ export class WorldPanel extends LiveElement {
     return this.context.kept.read(kKeptMode) === '3d' ? '3d' : 'top';
   }
 
-  /** From above, or in perspective. The renderer of the latter is loaded when it is first asked for. */
+  /** From above, or in perspective. The renderer of the latter is loaded when it is first asked
+   * for. */
   async setMode(mode: Mode): Promise<void> {
     this.mode = mode;
     this.context.kept.write(kKeptMode, mode);
@@ -455,7 +457,9 @@ export class WorldPanel extends LiveElement {
 
   private summary(): string {
     const {model} = this.context;
-    return `World View: ${model.robots.length} robots, ${model.bodies.size} bodies. The panel Robots lists them. Arrows move the picture, plus and minus zoom it.`;
+    const counts = `${model.robots.length} robots, ${model.bodies.size} bodies`;
+    const keys = 'Arrows move the picture, plus and minus zoom it.';
+    return `World View: ${counts}. The panel Robots lists them. ${keys}`;
   }
 
   static override styles = [

@@ -7,7 +7,8 @@ export interface Arrow {
   angle: number;
 }
 
-/** Arrows along a line of the picture, at a distance in pixels from each other; the ends stay free for their rings. */
+/** Arrows along a line of the picture, at a distance in pixels from each other; the ends stay free
+ * for their rings. */
 export function arrowsAlong(
   points: readonly (readonly [number, number])[],
   every: number,

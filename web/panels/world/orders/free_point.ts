@@ -8,9 +8,9 @@ const kDirections = 64;
 /** Farther away is another place. */
 const kFarthest_m = 3;
 
-/** The point nearest to `goal` where a disc of this radius is clear of all bodies; null: none within 3 m. `from`: of points
- * that are as near, the one nearest to it, since a robot comes from there. Bodies above or below the robot, from `z[0]` to
- * `z[1]`, are no obstacle. */
+/** The point nearest to `goal` where a disc of this radius is clear of all bodies; null: none
+ * within 3 m. `from`: of points that are as near, the one nearest to it, since a robot comes from
+ * there. Bodies above or below the robot, from `z[0]` to `z[1]`, are no obstacle. */
 export function nearestFree(
   bodies: Iterable<Body>,
   goal: Point,

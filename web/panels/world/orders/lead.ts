@@ -5,7 +5,8 @@ import type {Point} from '../../../protocol/messages';
 export const kLead_s = 2;
 const kSteps = 16;
 
-/** Where a robot at `x`, `y`, `yaw` goes with a velocity that stays: forward `v`, m/s, and `w` to the left, rad/s. */
+/** Where a robot at `x`, `y`, `yaw` goes with a velocity that stays: forward `v`, m/s, and `w` to
+ * the left, rad/s. */
 export function leadOf(x: number, y: number, yaw: number, v: number, w: number): Point[] {
   return Array.from({length: kSteps + 1}, (_, i): Point => {
     const t = (kLead_s * i) / kSteps;

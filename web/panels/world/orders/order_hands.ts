@@ -18,7 +18,8 @@ type Press =
   | {what: 'carry'; dx: number; dy: number; x: number; y: number}
   | {what: 'turn'; x: number; y: number};
 
-/** Presses that draw: with a tool, from a selected robot, with a pen, or on an obstacle with handles. */
+/** Presses that draw: with a tool, from a selected robot, with a pen, or on an obstacle with
+ * handles. */
 export class OrderHands {
   private press: Press | null = null;
 

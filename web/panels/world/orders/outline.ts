@@ -16,7 +16,8 @@ const kLeast_m = 0.04;
 const kMostPoints = 400;
 const kThin_m = 0.08;
 
-/** What was drawn between two corners, from the middle to the rim, or from corner to corner; null: too small. */
+/** What was drawn between two corners, from the middle to the rim, or from corner to corner; null:
+ * too small. */
 export function outlineOf(kind: OutlineKind, points: readonly Point[]): Outline | null {
   if (points.length < 2) return null;
   const [a, b] = points;
@@ -55,9 +56,9 @@ function signedArea(points: readonly Point[]): number {
 
 export function outlineText({radius, polygon}: Outline): string {
   if (radius !== undefined) return `disc, radius ${radius.toFixed(2)} m`;
-  return polygon?.length === 4
-    ? `${(polygon[1][0] - polygon[0][0]).toFixed(2)} x ${(polygon[2][1] - polygon[1][1]).toFixed(2)} m`
-    : `${polygon?.length ?? 0} corners`;
+  if (polygon?.length !== 4) return `${polygon?.length ?? 0} corners`;
+  const [width, height] = [polygon[1][0] - polygon[0][0], polygon[2][1] - polygon[1][1]];
+  return `${width.toFixed(2)} x ${height.toFixed(2)} m`;
 }
 
 /** Without points that are nearer to the one before than a hand can mean. */

@@ -16,7 +16,8 @@ const kInner = 34;
 const kOuter = 104;
 export const kRing_px = 2 * kOuter;
 
-/** Six things to do with a robot, about the place that was pressed for long or with the right button. */
+/** Six things to do with a robot, about the place that was pressed for long or with the right
+ * button. */
 export class RingMenu extends LitElement {
   declare sectors: readonly Sector[];
   declare name: string;
@@ -28,7 +29,8 @@ export class RingMenu extends LitElement {
       ?.focus({preventScroll: true});
   }
 
-  /** Where the press that opened the menu ends is no choice: a choice begins in the menu, or is made by a key. */
+  /** Where the press that opened the menu ends is no choice: a choice begins in the menu, or is
+   * made by a key. */
   private begun = false;
 
   private press(event: MouseEvent, sector: Sector | null): void {
@@ -186,7 +188,10 @@ function wedge(i: number): string {
   const [a, b] = [((i - 0.5) * Math.PI) / 3 + 0.03, ((i + 0.5) * Math.PI) / 3 - 0.03];
   const at = (r: number, angle: number) =>
     `${(r * Math.sin(angle)).toFixed(2)} ${(-r * Math.cos(angle)).toFixed(2)}`;
-  return `M ${at(kInner, a)} L ${at(kOuter - 2, a)} A ${kOuter - 2} ${kOuter - 2} 0 0 1 ${at(kOuter - 2, b)} L ${at(kInner, b)} A ${kInner} ${kInner} 0 0 0 ${at(kInner, a)} Z`;
+  const outer = kOuter - 2;
+  const rim = `L ${at(outer, a)} A ${outer} ${outer} 0 0 1 ${at(outer, b)}`;
+  const hole = `L ${at(kInner, b)} A ${kInner} ${kInner} 0 0 0 ${at(kInner, a)}`;
+  return `M ${at(kInner, a)} ${rim} ${hole} Z`;
 }
 
 customElements.define('rave-ring', RingMenu);

@@ -100,7 +100,7 @@ it('a real robot that waits to be armed has amber dashes; a simulated one does n
   expect(drawn(contextOf([robot('real')], [RobotFlag.known])).strokes).toEqual([]);
 });
 
-it('the shadow of a real robot stands where it is, joined by its live gap, and can be switched off', () => {
+it('the shadow of a real robot is where it is, joined by its gap, and can be switched off', () => {
   const drives: [number, object][] = [[0, {shadow: {running: true, offset: [0.3, 0.4, 0]}}]];
   const {strokes, texts} = drawn(contextOf([robot('real')], [RobotFlag.known], {drives}));
   expect(strokes.map(({dash}) => dash)).toEqual(['4,3', '']);

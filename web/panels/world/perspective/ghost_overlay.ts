@@ -14,8 +14,9 @@ const kRing = 48;
 /** Beyond this number at a time edges would cost more than they tell: the rest is pale. */
 const kMostDashed = 300;
 
-/** What is not there as it seems, over the picture in perspective: ghosts of stale robots, real ones that wait to be
- * armed, and the shadows of real robots with their gap. All of them are dashed edges. */
+/** What is not there as it seems, over the picture in perspective: ghosts of stale robots, real
+ * ones that wait to be armed, and the shadows of real robots with their gap. All of them are dashed
+ * edges. */
 export class GhostOverlay {
   /** Edges in the frame of the robot, made when they are first asked for. */
   private readonly edges = new Map<Robot, number[]>();

@@ -133,7 +133,8 @@ export class GlassRobots {
     this.edges.place(placed, shown);
   }
 
-  /** Colours, and who is a ghost: empty, with edges that hardly show below its dashes. Needed only when they change. */
+  /** Colours, and who is a ghost: empty, with edges that hardly show below its dashes. Needed only
+   * when they change. */
   tint(toneOf: (slot: number) => Tone, ghost: (slot: number) => boolean): void {
     this.faces.tint(toneOf, (slot) => (ghost(slot) ? 0 : Math.round(255 * kFill)));
     this.edges.tint(toneOf, (slot) => (ghost(slot) ? kGhostEdge : 255));

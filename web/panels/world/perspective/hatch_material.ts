@@ -19,10 +19,12 @@ export function hatchMaterial(colour: string, light: boolean): ShaderMaterial {
     },
     vertexShader:
       'void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }',
-    fragmentShader: `uniform vec3 colour; uniform float step_px; uniform float width_px; uniform float fill; uniform float line;
+    fragmentShader: `uniform vec3 colour; uniform float step_px; uniform float width_px;
+      uniform float fill; uniform float line;
       void main() {
         float along = mod(gl_FragCoord.x - gl_FragCoord.y, step_px);
-        float ink = 1.0 - smoothstep(width_px - 0.7, width_px + 0.7, abs(along - 0.5 * step_px) * 2.0);
+        float away = abs(along - 0.5 * step_px) * 2.0;
+        float ink = 1.0 - smoothstep(width_px - 0.7, width_px + 0.7, away);
         gl_FragColor = vec4(colour, mix(fill, line, ink));
       }`,
   });

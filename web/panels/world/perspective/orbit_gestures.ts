@@ -12,7 +12,8 @@ export interface OrbitHands {
   slotsIn(box: SelectionBox): number[];
 }
 
-/** Mouse: the left button turns, with Shift it draws a box; the right one pans, the wheel zooms. One finger pans, two zoom and turn. */
+/** Mouse: the left button turns, with Shift it draws a box; the right one pans, the wheel zooms.
+ * One finger pans, two zoom and turn. */
 export class OrbitGestures {
   /** Being drawn with Shift; pixels. */
   box: SelectionBox | null = null;

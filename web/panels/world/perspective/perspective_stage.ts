@@ -140,7 +140,8 @@ export class PerspectiveStage implements Stage {
     this.bodies.setRatio(ratio);
   }
 
-  /** Without a graphics card what moves is drawn roughly, and what stands is drawn once more, finely. */
+  /** Without a graphics card what moves is drawn roughly, and what stands is drawn once more,
+   * finely. */
   private chooseRatio(moves: boolean): void {
     if (hasCard() || (!moves && this.ratio === kFine)) return;
     if (moves) {
@@ -246,7 +247,8 @@ export class PerspectiveStage implements Stage {
     for (let slot = 0; slot < placed.count; ++slot)
       if (ghost(slot)) ghosts = (31 * ghosts + slot + 1) % 1e9;
     const fixed = `${by} ${palette.theme} ${ghosts}`;
-    // Colours by a value that changes are renewed four times a second of the run, not in each frame.
+    // Colours by a value that changes are renewed four times a second of the run, not in each
+    // frame.
     const key =
       by === 'kind' || by === 'team' ? fixed : `${fixed} ${Math.floor(placed.time_s * 4)}`;
     if (key === this.tinted) return;
@@ -358,7 +360,8 @@ export class PerspectiveStage implements Stage {
   snapshot(): HTMLCanvasElement {
     const picture = document.createElement('canvas');
     [picture.width, picture.height] = [this.over.width, this.over.height];
-    // preserveDrawingBuffer is off, so the picture of WebGL can only be read right after it was painted, in the same task.
+    // preserveDrawingBuffer is off, so the picture of WebGL can only be read right after it was
+    // painted, in the same task.
     this.paint(performance.now());
     const ctx = picture.getContext('2d');
     ctx?.drawImage(this.renderer.domElement, 0, 0, picture.width, picture.height);

@@ -27,7 +27,8 @@ export function outlineOf(shape: Shape, sides: number): [number, number][] {
   return area >= 0 ? polygon : [...polygon].reverse();
 }
 
-/** Adds a prism that stands at `pose`. Edges of discs are their rims and four lines between them. */
+/** Adds a prism that stands at `pose`. Edges of discs are their rims and four lines between
+ * them. */
 export function addPrism(solid: Solid, shape: Shape, sides: number, pose: Pose = [0, 0, 0]): void {
   const c = Math.cos(pose[2]);
   const s = Math.sin(pose[2]);

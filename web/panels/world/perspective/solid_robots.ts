@@ -54,7 +54,8 @@ export class SolidRobots {
   }
 }
 
-/** What is old does not look new, and who waits to be armed is not ready: both have less of their colour. */
+/** What is old does not look new, and who waits to be armed is not ready: both have less of their
+ * colour. */
 function fade(body: Group, state: BodyState): void {
   const plain = state === 'plain';
   body.userData['state'] = state;

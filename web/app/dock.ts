@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import {
-  DockviewComponent,
-  type DockviewPanel,
-  type IContentRenderer,
-  type GroupPanelPartInitParameters,
-  type SerializedDockview,
-} from 'dockview-core';
+import {DockviewComponent, type DockviewPanel, type SerializedDockview} from 'dockview-core';
 import {Signal} from '../model/signal';
-import type {PanelContext, PanelElement, PanelKind} from '../panel_api';
+import type {PanelContext, PanelKind} from '../panel_api';
+import {DockedPanel} from './docked_panel';
 import {HeaderActions} from './header_actions';
 import {layoutKey} from './kept_keys';
 import {bringHome, type KeptWindow, type WindowBox} from './kept_layout';
@@ -25,29 +20,6 @@ const kVersion = 2;
 
 export type LayoutName = 'Watch' | 'Drive' | 'Analyse' | 'Conduct';
 export const kLayouts: readonly LayoutName[] = ['Watch', 'Drive', 'Analyse', 'Conduct'];
-
-/** A panel in the dock: makes the element and gives it its context. Without a kind it is an empty
- * place. */
-class DockedPanel implements IContentRenderer {
-  readonly element = document.createElement('div');
-
-  constructor(
-    private readonly kind: PanelKind | undefined,
-    private readonly context: PanelContext,
-  ) {
-    this.element.style.height = '100%';
-  }
-
-  init(_parameters: GroupPanelPartInitParameters): void {
-    if (this.kind !== undefined) this.fill(this.kind);
-  }
-
-  fill(kind: PanelKind): void {
-    const panel = kind.make?.() ?? (document.createElement(kind.tag) as PanelElement);
-    panel.context = this.context;
-    this.element.replaceChildren(panel);
-  }
-}
 
 /** The docked panels and their layouts, which the browser keeps for each user. */
 export class Dock {

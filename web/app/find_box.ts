@@ -30,8 +30,36 @@ export class FindBox extends LitElement {
   private found(): Found[] {
     const words = this.text.toLowerCase().split(/\s+/).filter(Boolean);
     const fits = (text: string) => words.every((word) => text.toLowerCase().includes(word));
+    const all = [
+      ...this.moment(),
+      ...this.stops(words, fits),
+      ...this.robots(fits),
+      ...this.openable(words, fits),
+      ...this.choices(fits),
+    ];
+    // A word may fit thousands of events.
+    if (words.length > 0 && all.length < kMost)
+      for (const event of logOf(this.context.model)) {
+        if (!fits(`${event.kind} ${event.text}`)) continue;
+        const act = () => this.context.seek(event.t);
+        all.push({icon: 'info', text: event.text, note: clockText(event.t), act});
+        if (all.length >= kMost) break;
+      }
+    return all.slice(0, kMost);
+  }
+
+  /** A time, such as `12.5` or `1:30`, where it can be moved. */
+  private moment(): Found[] {
+    const seconds = /^(?:(\d+):)?(\d+(?:\.\d+)?)\s*s?$/.exec(this.text.trim());
+    if (seconds === null || !this.context.model.may('seek')) return [];
+    const t = 60 * Number(seconds[1] ?? 0) + Number(seconds[2]);
+    const act = () => this.context.seek(t);
+    return [{icon: 'rotateCcw', text: `Go to ${clockText(t)}`, note: 'moment', act}];
+  }
+
+  private robots(fits: (text: string) => boolean): Found[] {
     const {model, selection} = this.context;
-    const all: Found[] = [...this.stops(words, fits)];
+    const all: Found[] = [];
     model.robots.forEach((robot, slot) => {
       if (!fits(`${robot.name} ${robot.team} ${robot.kind}`)) return;
       all.push({
@@ -44,62 +72,46 @@ export class FindBox extends LitElement {
         },
       });
     });
-    for (const panel of this.panels) {
-      if (fits(panel.title))
-        all.push({
-          icon: panel.icon as IconName,
-          text: panel.title,
-          note: 'panel',
-          act: () => this.context.show(panel.id),
-        });
-    }
+    return all;
+  }
+
+  private openable(words: readonly string[], fits: (text: string) => boolean): Found[] {
+    const show = (id: string) => () => this.context.show(id);
     // Not in the list of everything: only who looks for one learns why it is not there.
-    for (const panel of words.length === 0 ? [] : withheldPanels(model)) {
-      if (fits(panel.title))
-        all.push({
-          icon: 'lock',
-          text: panel.title,
+    const withheld = words.length === 0 ? [] : withheldPanels(this.context.model);
+    return [
+      ...this.panels
+        .filter(({title}) => fits(title))
+        .map(({id, icon: glyph, title}) => ({
+          icon: glyph as IconName,
+          text: title,
+          note: 'panel',
+          act: show(id),
+        })),
+      ...withheld
+        .filter(({title}) => fits(title))
+        .map(({id, title}) => ({
+          icon: 'lock' as const,
+          text: title,
           note: 'panel; you may not see it',
-          act: () => this.context.show(panel.id),
-        });
-    }
+          act: show(id),
+        })),
+    ];
+  }
+
+  private choices(fits: (text: string) => boolean): Found[] {
+    const ask = (name: string) => () => void this.dispatchEvent(new CustomEvent(name));
+    const all: Found[] = [];
     if (fits('light or dark theme'))
-      all.push({
-        icon: 'sun',
-        text: 'Light or dark',
-        note: 'theme',
-        act: () => this.dispatchEvent(new CustomEvent('theme')),
-      });
-    if (model.hello?.foxglove && fits('watch in foxglove lichtblick'))
+      all.push({icon: 'sun', text: 'Light or dark', note: 'theme', act: ask('theme')});
+    if (this.context.model.hello?.foxglove && fits('watch in foxglove lichtblick'))
       all.push({
         icon: 'share',
         text: 'Watch in Foxglove',
         note: 'address and steps',
-        act: () => this.dispatchEvent(new CustomEvent('foxglove')),
+        act: ask('foxglove'),
       });
-    const seconds = /^(?:(\d+):)?(\d+(?:\.\d+)?)\s*s?$/.exec(this.text.trim());
-    if (seconds && model.may('seek')) {
-      const t = 60 * Number(seconds[1] ?? 0) + Number(seconds[2]);
-      all.unshift({
-        icon: 'rotateCcw',
-        text: `Go to ${clockText(t)}`,
-        note: 'moment',
-        act: () => this.context.seek(t),
-      });
-    }
-    if (words.length > 0) {
-      for (const event of logOf(model)) {
-        if (fits(`${event.kind} ${event.text}`))
-          all.push({
-            icon: 'info',
-            text: event.text,
-            note: clockText(event.t),
-            act: () => this.context.seek(event.t),
-          });
-        if (all.length > 4 * kMost) break;
-      }
-    }
-    return all.slice(0, kMost);
+    return all;
   }
 
   /** Who may stop robots finds that, too: `stop wal`. */

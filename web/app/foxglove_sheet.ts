@@ -3,6 +3,12 @@ import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
 import {icon} from './icons';
 import {controls} from './styles';
 
+const kOrigins = html`<p>
+  Foxglove in a browser needs the option
+  <code>--foxglove-origin https://app.foxglove.dev</code> of the server; its desktop program
+  <code>--foxglove-origin file://</code>.
+</p>`;
+
 /** How this run is watched in Foxglove or Lichtblick: an address of one's own, and the steps. */
 export class FoxgloveSheet extends LitElement {
   private address = '';
@@ -94,13 +100,7 @@ export class FoxgloveSheet extends LitElement {
           Foxglove shows what you may see here, and cannot send orders. Keep the address secret:
           every person who has it sees the same. It is valid until you sign out.
         </p>
-        ${this.address.startsWith('ws:')
-          ? html`<p>
-              Foxglove in a browser needs the option
-              <code>--foxglove-origin https://app.foxglove.dev</code> of the server; its desktop
-              program <code>--foxglove-origin file://</code>.
-            </p>`
-          : nothing}
+        ${this.address.startsWith('ws:') ? kOrigins : nothing}
       </div>
     </div>`;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
+import {LitElement, html, nothing, type TemplateResult} from 'lit';
 import {Commands} from '../model/commands';
 import {DirectLines} from '../model/direct_lines';
 import {Link} from '../model/link';
@@ -11,7 +11,6 @@ import {Selection} from '../panel_api/selection';
 import {Windows} from '../panel_api/windows';
 import type {JoystickPanel} from '../panels/joystick/joystick_panel';
 import type {SuperUserPanel} from '../panels/people/super_user_panel';
-import {kWorldKeys} from '../panels/world/world_keys';
 import type {WorldPanel} from '../panels/world/world_panel';
 import {renderAway} from './away_strip';
 import {Dock, type LayoutName} from './dock';
@@ -22,9 +21,10 @@ import {icon} from './icons';
 import {keySheetStyles, renderKeys} from './key_sheet';
 import {userKey} from './kept_keys';
 import {KeptSelection} from './kept_selection';
-import {bindKeys, panelKey, type KeyAction} from './keys';
+import {bindKeys, type KeyAction} from './keys';
 import {readMoment, writeMoment} from './moment_link';
 import {addPanelKind, allPanels, panelsFor} from './panels';
+import {pageKeys} from './page_keys';
 import {Phone, phoneStyles} from './phone';
 import {
   renderLost,
@@ -38,6 +38,7 @@ import {
 import type {RunBar} from './run_bar';
 import {controls} from './styles';
 import './top_bar';
+import {pageStyles} from './page_styles';
 
 /** From this width on there are layouts to choose from. */
 const kLayouts_px = 700;
@@ -262,93 +263,17 @@ export class RaveApp extends LitElement {
   }
 
   private actions(): KeyAction[] {
-    const find = () => this.open('finding');
-    return [
-      this.model.live
-        ? {
-            keys: ['Space'],
-            what: 'twice: STOP all robots',
-            act: (event: KeyboardEvent) => this.bar?.space(event),
-          }
-        : {
-            keys: ['Space'],
-            what: 'play or pause',
-            act: (event: KeyboardEvent) => this.bar?.space(event),
-          },
-      {keys: ['K'], what: 'pause, resume', act: () => this.bar?.toggle()},
-      {keys: ['.'], what: 'step forward', act: () => this.bar?.stepBy(1)},
-      {keys: [','], what: 'step back (replay)', act: () => this.bar?.stepBy(-1)},
-      {keys: ['J'], what: 'slower', act: () => this.bar?.changePace(-1)},
-      {keys: ['L'], what: 'faster', act: () => this.bar?.changePace(1)},
-      {keys: ['['], what: 'previous event', act: () => this.bar?.toEvent(-1)},
-      {keys: [']'], what: 'next event', act: () => this.bar?.toEvent(1)},
-      {keys: ['Ctrl K', '/'], what: 'find anything', act: find},
-      {
-        keys: ['F'],
-        what: 'show everything; press again: the selection',
-        act: () => this.world?.fit(),
-      },
-      {
-        keys: ['C'],
-        what: 'follow the selected robot',
-        act: () => this.selection.follow(!this.selection.following),
-      },
-      {keys: ['T'], what: 'top view, 3-D', act: () => this.world?.toggleMode()},
-      {
-        keys: ['Z'],
-        what: 'lens, while held',
-        act: () => this.world?.lens(true),
-        end: () => this.world?.lens(false),
-      },
-      {keys: ['M'], what: 'measure', act: () => this.world?.toggleMeasure()},
-      {keys: ['P'], what: 'save a picture', act: () => this.world?.picture()},
-      ...kWorldKeys.map((of) => ({...of, act: () => {}})),
-      ...this.orderKeys(),
-      ...panelsFor(this.model)
-        .slice(0, 19)
-        .map((kind, i) => ({
-          keys: panelKey(i),
-          what: kind.title,
-          act: () => this.showPanel(kind.id),
-        })),
-      {keys: ['?'], what: 'this list', act: () => this.open('showingKeys')},
-      {keys: ['Escape'], what: 'cancel, close or deselect', act: () => this.escape()},
-    ];
-  }
-
-  /** Tools and the stick, for those who command. */
-  private orderKeys(): KeyAction[] {
-    const {model} = this;
-    if (!model.live || !model.may('command')) return [];
-    const tool = (key: string, what: string, name: WorldPanel['tool']) => ({
-      keys: [key],
-      what,
-      act: () => this.world?.chooseTool(name),
+    return pageKeys({
+      model: this.model,
+      selection: this.selection,
+      bar: () => this.bar,
+      world: () => this.world,
+      joystick: () => this.joystick,
+      show: (panel) => this.showPanel(panel),
+      find: () => this.open('finding'),
+      list: () => this.open('showingKeys'),
+      escape: () => this.escape(),
     });
-    const stick = ['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight'].map((key, i) => ({
-      keys: [`Shift ${key}`],
-      what: ['drive', 'drive backwards', 'turn left', 'turn right'][i],
-      act: () => this.joystick?.drive(key, true),
-      end: () => this.joystick?.drive(key, false),
-    }));
-    return [
-      tool('V', 'select', 'select'),
-      tool('G', 'goal', 'goal'),
-      tool('W', 'path', 'path'),
-      ...(model.may('edit')
-        ? [
-            tool('O', 'obstacle', 'obstacle'),
-            tool('B', 'place a robot', 'place'),
-            {
-              keys: ['Delete'],
-              what: 'remove the selected obstacle',
-              act: () => this.world?.removeBody(),
-            },
-          ]
-        : []),
-      {keys: ['Enter'], what: 'send the drawn order', act: () => this.world?.sendDraft()},
-      ...stick,
-    ];
   }
 
   private get joystick(): JoystickPanel | null {
@@ -427,67 +352,31 @@ export class RaveApp extends LitElement {
       ${this.phone.is
         ? this.phone.renderBars()
         : html`<rave-run-bar .context=${this.context}></rave-run-bar>`}
-      ${this.finding
-        ? html`<rave-find
-            .context=${this.context}
-            .panels=${panelsFor(model)}
-            @theme=${() => this.toggleTheme()}
-            @foxglove=${() => this.open('showingFoxglove')}
-            @done=${() => this.open('finding')}></rave-find>`
-        : nothing}
-      ${this.showingFoxglove
-        ? html`<rave-foxglove @done=${() => this.open('showingFoxglove')}></rave-foxglove>`
-        : nothing}
-      ${this.showingTrust
-        ? html`<rave-trust
-            .context=${this.context}
-            @done=${() => this.open('showingTrust')}></rave-trust>`
-        : nothing}
-      ${this.showingKeys ? renderKeys(this.actions(), () => this.escape()) : nothing}`;
+      ${this.renderSheets()}`;
   }
 
-  static override styles = [
-    controls,
-    stateStyles,
-    keySheetStyles,
-    phoneStyles,
-    css`
-      :host {
-        display: flex !important;
-        flex-direction: column;
-        height: 100%;
-        background: var(--bg-0);
-      }
-      main {
-        position: relative;
-        flex: 1;
-        min-height: 0;
-        padding: 0 6px 6px;
-      }
-      /* What is old has no colour. The stick still drives over a direct line. */
-      main.old .phone,
-      main.old rave-sheet {
-        filter: grayscale(1) opacity(0.55);
-      }
-      .dock {
-        height: 100%;
-      }
-      rave-run-bar {
-        flex: none;
-        margin: 0 6px 6px;
-      }
-      @media (max-width: 599px) {
-        main {
-          display: flex;
-          flex-direction: column;
-          padding: 0;
-        }
-        rave-run-bar {
-          margin: 0;
-        }
-      }
-    `,
-  ];
+  /** What lies over the page while it is open. */
+  private renderSheets(): TemplateResult {
+    return html`${this.finding
+      ? html`<rave-find
+          .context=${this.context}
+          .panels=${panelsFor(this.model)}
+          @theme=${() => this.toggleTheme()}
+          @foxglove=${() => this.open('showingFoxglove')}
+          @done=${() => this.open('finding')}></rave-find>`
+      : nothing}
+    ${this.showingFoxglove
+      ? html`<rave-foxglove @done=${() => this.open('showingFoxglove')}></rave-foxglove>`
+      : nothing}
+    ${this.showingTrust
+      ? html`<rave-trust
+          .context=${this.context}
+          @done=${() => this.open('showingTrust')}></rave-trust>`
+      : nothing}
+    ${this.showingKeys ? renderKeys(this.actions(), () => this.escape()) : nothing}`;
+  }
+
+  static override styles = [controls, stateStyles, keySheetStyles, phoneStyles, pageStyles];
 }
 
 function socketUrl(): string {

@@ -69,22 +69,6 @@ export class RobotBar extends LiveElement {
           ></span
         >
       </p>`;
-    const button = (
-      label: string,
-      glyph: IconName,
-      why: string,
-      pressed: boolean | null,
-      act: () => void,
-      look = '',
-    ) =>
-      html` <button
-        class=${look}
-        aria-pressed=${pressed ?? nothing}
-        ?disabled=${why !== ''}
-        title=${why}
-        @click=${act}>
-        ${icon(glyph, 20)}<span>${label}</span>
-      </button>`;
     const drive = model.drives.get(slot);
     const path = model.whyNotTaken(slot, 'path');
     const release = this.stopped && model.may('release');
@@ -92,15 +76,19 @@ export class RobotBar extends LiveElement {
         class="buttons"
         role="toolbar"
         aria-label="Orders for ${model.robots[slot]?.name}">
-        ${button('Goal', 'target', model.whyNotTaken(slot, 'goal'), this.tool === 'goal', () =>
-          this.choose('goal'),
+        ${renderButton(
+          'Goal',
+          'target',
+          model.whyNotTaken(slot, 'goal'),
+          this.tool === 'goal',
+          () => this.choose('goal'),
         )}
-        ${button('Path', 'route', path, this.tool === 'path', () => this.choose('path'))}
-        ${button('Drive', 'joystick', model.whyNotTaken(slot, 'drive'), this.driving, () => {
+        ${renderButton('Path', 'route', path, this.tool === 'path', () => this.choose('path'))}
+        ${renderButton('Drive', 'joystick', model.whyNotTaken(slot, 'drive'), this.driving, () => {
           this.lease(false);
           this.dispatchEvent(new CustomEvent('drive'));
         })}
-        ${button(
+        ${renderButton(
           release ? 'Release it' : 'Stop it',
           release ? 'play' : 'octagonX',
           model.live ? model.whyNotStopped(slot) : 'This is a recording.',
@@ -108,7 +96,7 @@ export class RobotBar extends LiveElement {
           () => this.halt(),
           'stop',
         )}
-        ${button(
+        ${renderButton(
           'Lease',
           'hand',
           '',
@@ -198,6 +186,24 @@ export class RobotBar extends LiveElement {
       }
     `,
   ];
+}
+
+function renderButton(
+  label: string,
+  glyph: IconName,
+  why: string,
+  pressed: boolean | null,
+  act: () => void,
+  look = '',
+): TemplateResult {
+  return html` <button
+    class=${look}
+    aria-pressed=${pressed ?? nothing}
+    ?disabled=${why !== ''}
+    title=${why}
+    @click=${act}>
+    ${icon(glyph, 20)}<span>${label}</span>
+  </button>`;
 }
 
 customElements.define('rave-robot-bar', RobotBar);

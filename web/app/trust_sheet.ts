@@ -59,34 +59,7 @@ export class TrustSheet extends LiveElement {
             : 'The browser refused this connection without a reason. In most cases it does ' +
               'not trust the certificate of the host yet.'}
         </p>
-        ${untrusted.length === 0
-          ? nothing
-          : html` <h3>For this browser</h3>
-              <ol>
-                <li>
-                  Open the page of the host:
-                  ${untrusted.map(
-                    (line) =>
-                      html`<a href=${hostPage(line)} target="_blank" rel="noopener"
-                        >${line.ticket.host}</a
-                      > `,
-                  )}
-                </li>
-                <li>
-                  The browser warns of its certificate. If the address is that of your host, choose
-                  <b>Advanced</b>, then <b>Proceed</b> or <b>Accept the risk</b>.
-                </li>
-                <li>Come back here. The page connects by itself.</li>
-              </ol>
-              <h3>For all hosts at once</h3>
-              <p>
-                Install <code>authority.pem</code> of <code>rave keys web</code> as an authority of
-                this browser. An administrator can install it on all devices.
-              </p>
-              <p>
-                If the host has no page at that address, it does not run or cannot be reached from
-                here.
-              </p>`}
+        ${untrusted.length === 0 ? nothing : renderSteps(untrusted)}
       </div>
     </div>`;
   }
@@ -141,6 +114,33 @@ export class TrustSheet extends LiveElement {
       }
     `,
   ];
+}
+
+/** What lets this browser, or all of them, trust the hosts. */
+function renderSteps(untrusted: readonly DirectLine[]): TemplateResult {
+  return html` <h3>For this browser</h3>
+    <ol>
+      <li>
+        Open the page of the host:
+        ${untrusted.map(
+          (line) =>
+            html`<a href=${hostPage(line)} target="_blank" rel="noopener">${line.ticket.host}</a> `,
+        )}
+      </li>
+      <li>
+        The browser warns of its certificate. If the address is that of your host, choose
+        <b>Advanced</b>, then <b>Proceed</b> or <b>Accept the risk</b>.
+      </li>
+      <li>Come back here. The page connects by itself.</li>
+    </ol>
+    <h3>For all hosts at once</h3>
+    <p>
+      Install <code>authority.pem</code> of <code>rave keys web</code> as an authority of this
+      browser. An administrator can install it on all devices.
+    </p>
+    <p>
+      If the host has no page at that address, it does not run or cannot be reached from here.
+    </p>`;
 }
 
 customElements.define('rave-trust', TrustSheet);

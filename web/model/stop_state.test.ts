@@ -79,7 +79,13 @@ describe('stopped robots', () => {
     expect(countStopped(modelWith(mixed, [1, 1])).latched).toBe(false);
   });
 
-  it('were stopped by somebody, whoever it was', () => {
+  it('are none where no robot is', () => {
+    expect(countStopped(new RunModel()).latched).toBe(false);
+  });
+});
+
+describe('the last stop', () => {
+  it('was by somebody, whoever it was', () => {
     const model = modelWith([robot('a'), robot('b')], [1 | RobotFlag.stopped, 1]);
     expect(lastStop(model)).toBeNull();
     const stop = (t: number, slot: number, text: string) => ({
@@ -105,10 +111,6 @@ describe('stopped robots', () => {
     expect(lastStop(model)).toEqual({t_s: 7, who: 'Ben K'});
     model.takeMessage({type: 'events', first: 3, events: [stop(12, 0, 'a: stopped')]} as never);
     expect(lastStop(model)).toEqual({t_s: 12, who: ''});
-  });
-
-  it('are none where no robot is', () => {
-    expect(countStopped(new RunModel()).latched).toBe(false);
   });
 });
 

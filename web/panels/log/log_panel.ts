@@ -57,32 +57,7 @@ export class LogPanel extends LiveElement {
         replay && now_s >= event.t && now_s <= event.until,
       )}`;
     });
-    return html` <div class="bar">
-        <div class="segments" role="radiogroup" aria-label="Which events">
-          <button
-            role="radio"
-            aria-checked=${!this.alertsOnly}
-            @click=${() => this.showAlerts(false)}>
-            All
-          </button>
-          <button
-            role="radio"
-            aria-checked=${this.alertsOnly}
-            @click=${() => this.showAlerts(true)}>
-            Alerts ${alerts}
-          </button>
-        </div>
-        <label class="field"
-          >${icon('filter', 13)}<input
-            placeholder="source, text"
-            aria-label="Filter events"
-            .value=${this.text}
-            @input=${(event: InputEvent) => {
-              this.text = (event.target as HTMLInputElement).value.toLowerCase();
-              this.requestUpdate();
-            }}
-        /></label>
-      </div>
+    return html`${this.renderBar(alerts)}
       <div class="rows">
         ${rows}${lineDrawn || rows.length === 0 ? nothing : this.renderNow(now_s)}
         ${shown.length > kRows
@@ -96,6 +71,33 @@ export class LogPanel extends LiveElement {
                 ${all.length === 0 ? 'Nothing has happened yet.' : 'No event matches the filter.'}
               </p>`}
       </div>`;
+  }
+
+  /** Which events are shown. */
+  private renderBar(alerts: number): TemplateResult {
+    return html`<div class="bar">
+      <div class="segments" role="radiogroup" aria-label="Which events">
+        <button
+          role="radio"
+          aria-checked=${!this.alertsOnly}
+          @click=${() => this.showAlerts(false)}>
+          All
+        </button>
+        <button role="radio" aria-checked=${this.alertsOnly} @click=${() => this.showAlerts(true)}>
+          Alerts ${alerts}
+        </button>
+      </div>
+      <label class="field"
+        >${icon('filter', 13)}<input
+          placeholder="source, text"
+          aria-label="Filter events"
+          .value=${this.text}
+          @input=${(event: InputEvent) => {
+            this.text = (event.target as HTMLInputElement).value.toLowerCase();
+            this.requestUpdate();
+          }}
+      /></label>
+    </div>`;
   }
 
   private showAlerts(only: boolean): void {

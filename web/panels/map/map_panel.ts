@@ -120,29 +120,7 @@ export class MapPanel extends LookingPanel {
     return html` <div class="head">
         ${this.renderSources(source)}
         <span class="about">${this.about(source)}</span>
-        <span class="blend"
-          ><label class="over"
-            ><input
-              type="checkbox"
-              role="switch"
-              .checked=${over}
-              @change=${(event: Event) =>
-                this.setOver((event.target as HTMLInputElement).checked)} />
-            <span>over the world</span></label
-          >
-          <input
-            class="opacity"
-            type="range"
-            min="10"
-            max="100"
-            step="5"
-            aria-label="Opacity over the world"
-            .value=${String(Math.round(100 * this.opacity))}
-            ?disabled=${!over}
-            @input=${(event: Event) =>
-              this.setOpacity(Number((event.target as HTMLInputElement).value))} />
-          <output>${Math.round(100 * this.opacity)} %</output></span
-        >
+        ${this.renderBlend(over)}
       </div>
       <div class="stage">
         <canvas
@@ -162,34 +140,65 @@ export class MapPanel extends LookingPanel {
           <span><i class="free"></i>free</span><span><i class="occupied"></i>occupied</span
           ><span><i class="unknown"></i>unknown</span>
         </div>
-        <div class="zoom">
-          <button
-            class="icon-button"
-            title="Larger (+)"
-            aria-label="Larger"
-            @click=${() => this.gestures.zoom(kZoom)}>
-            ${icon('plus')}
-          </button>
-          <button
-            class="icon-button"
-            title="Smaller (-)"
-            aria-label="Smaller"
-            @click=${() => this.gestures.zoom(1 / kZoom)}>
-            ${icon('minus')}
-          </button>
-          <button
-            class="icon-button"
-            title="Show all of the map"
-            aria-label="Show all of the map"
-            @click=${() => {
-              this.moved = false;
-              this.fittedTiles = 0;
-              this.draw();
-            }}>
-            ${icon('maximize')}
-          </button>
-        </div>
+        ${this.renderZoom()}
       </div>`;
+  }
+
+  /** Whether it lies over the World View, and how opaque. */
+  private renderBlend(over: boolean): TemplateResult {
+    return html`<span class="blend"
+      ><label class="over"
+        ><input
+          type="checkbox"
+          role="switch"
+          .checked=${over}
+          @change=${(event: Event) => this.setOver((event.target as HTMLInputElement).checked)} />
+        <span>over the world</span></label
+      >
+      <input
+        class="opacity"
+        type="range"
+        min="10"
+        max="100"
+        step="5"
+        aria-label="Opacity over the world"
+        .value=${String(Math.round(100 * this.opacity))}
+        ?disabled=${!over}
+        @input=${(event: Event) =>
+          this.setOpacity(Number((event.target as HTMLInputElement).value))} />
+      <output>${Math.round(100 * this.opacity)} %</output></span
+    >`;
+  }
+
+  /** Its size, and all of it. */
+  private renderZoom(): TemplateResult {
+    return html`<div class="zoom">
+      <button
+        class="icon-button"
+        title="Larger (+)"
+        aria-label="Larger"
+        @click=${() => this.gestures.zoom(kZoom)}>
+        ${icon('plus')}
+      </button>
+      <button
+        class="icon-button"
+        title="Smaller (-)"
+        aria-label="Smaller"
+        @click=${() => this.gestures.zoom(1 / kZoom)}>
+        ${icon('minus')}
+      </button>
+      <button
+        class="icon-button"
+        title="Show all of the map"
+        aria-label="Show all of the map"
+        @click=${() => {
+          this.moved = false;
+          this.fittedTiles = 0;
+          this.draw();
+        }}>
+        ${icon('maximize')}
+      </button>
+    </div>`;
   }
 
   private renderSources(source: MapName): TemplateResult {

@@ -120,21 +120,26 @@ export class AuditView extends LiveElement {
                 : 'No line matches the filter.'}
             </p>`
           : nothing}
-        ${this.more
-          ? this.most < kMost
-            ? html`<p>
-                <button
-                  class="plain"
-                  @click=${() => {
-                    this.most = kMost;
-                    void this.load();
-                  }}>
-                  Older lines
-                </button>
-              </p>`
-            : html`<p>Older lines are in the file audit.jsonl beside the accounts, or filter.</p>`
-          : nothing}
+        ${this.renderOlder()}
       </div>`;
+  }
+
+  /** Where older lines are. */
+  private renderOlder(): TemplateResult | typeof nothing {
+    return this.more
+      ? this.most < kMost
+        ? html`<p>
+            <button
+              class="plain"
+              @click=${() => {
+                this.most = kMost;
+                void this.load();
+              }}>
+              Older lines
+            </button>
+          </p>`
+        : html`<p>Older lines are in the file audit.jsonl beside the accounts, or filter.</p>`
+      : nothing;
   }
 
   static override styles = [

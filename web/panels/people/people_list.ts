@@ -36,7 +36,6 @@ export class PeopleList extends LiveElement {
     const {accounts} = this.context.model;
     if (accounts === null) return html`<p>Waiting for the accounts.</p>`;
     if (!accounts.kept) return html`<p>${accounts.why_not}</p>`;
-    const now_s = Date.now() / 1000;
     const people = peopleWith(accounts.people, this.typed);
     return html` <div class="bar">
         <label class="field"
@@ -61,36 +60,7 @@ export class PeopleList extends LiveElement {
             ${this.note.text}
           </p>`}
       <div class="scroll" tabindex="0" role="region" aria-label="People">
-        <table>
-          <thead>
-            <tr>
-              <th scope="col">Name</th>
-              <th scope="col">Role</th>
-              <th scope="col" class="teams">Teams</th>
-              <th scope="col" class="number">Pages</th>
-              <th scope="col" class="number">Seen</th>
-              <th><span class="hidden">Change</span></th>
-            </tr>
-          </thead>
-          <tbody>
-            ${people.slice(0, kMostShown).map((person) => this.renderPerson(person, now_s))}
-            ${accounts.links === 0
-              ? nothing
-              : html`<tr>
-                  <th scope="row">
-                    <span class="who"
-                      ><i class="face">${icon('keyRound', 13)}</i
-                      ><span>The operator<small>by the link of the terminal</small></span></span
-                    >
-                  </th>
-                  <td>super-user</td>
-                  <td class="teams">all teams</td>
-                  <td class="number">${accounts.links}</td>
-                  <td class="number here">now</td>
-                  <td></td>
-                </tr>`}
-          </tbody>
-        </table>
+        ${this.renderTable(people, accounts.links)}
         ${people.length > kMostShown
           ? html`<p>${people.length - kMostShown} more: filter to see them.</p>`
           : nothing}
@@ -102,6 +72,41 @@ export class PeopleList extends LiveElement {
             </p>`
           : nothing}
       </div>`;
+  }
+
+  /** One row for each, and one for who has the link of the terminal. */
+  private renderTable(people: readonly KnownPerson[], links: number): TemplateResult {
+    const now_s = Date.now() / 1000;
+    return html`<table>
+      <thead>
+        <tr>
+          <th scope="col">Name</th>
+          <th scope="col">Role</th>
+          <th scope="col" class="teams">Teams</th>
+          <th scope="col" class="number">Pages</th>
+          <th scope="col" class="number">Seen</th>
+          <th><span class="hidden">Change</span></th>
+        </tr>
+      </thead>
+      <tbody>
+        ${people.slice(0, kMostShown).map((person) => this.renderPerson(person, now_s))}
+        ${links === 0
+          ? nothing
+          : html`<tr>
+              <th scope="row">
+                <span class="who"
+                  ><i class="face">${icon('keyRound', 13)}</i
+                  ><span>The operator<small>by the link of the terminal</small></span></span
+                >
+              </th>
+              <td>super-user</td>
+              <td class="teams">all teams</td>
+              <td class="number">${links}</td>
+              <td class="number here">now</td>
+              <td></td>
+            </tr>`}
+      </tbody>
+    </table>`;
   }
 
   private renderPerson(person: KnownPerson, now_s: number): TemplateResult {

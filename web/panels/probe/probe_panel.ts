@@ -4,14 +4,14 @@ import {icon} from '../../app/icons';
 import {controls, glyphs} from '../../app/styles';
 import type {Signal} from '../../model/signal';
 import type {Reading} from '../../protocol/frames';
-import type {Parameter, ProbeMade, Sensor, VirtualSensor} from '../../protocol/messages';
+import type {ProbeMade, Sensor, VirtualSensor} from '../../protocol/messages';
 import {LookingPanel} from '../looking_panel';
-import {usefulRange} from '../parameter_range';
+import {renderParameter} from '../parameter_control';
 import {drawPolar} from '../sensors/polar_plot';
 import {aboutText, metBy, nearestText, readingStyles, renderValues} from '../sensors/reading_texts';
 import {renderWithheld, withheldStyles} from '../withheld';
 import {Surface} from '../world/surface';
-import {ProbeDraft, kMount, type MountKey, type Setting} from './probe_draft';
+import {ProbeDraft, kMount, type MountKey} from './probe_draft';
 
 const kTextRefresh_ms = 200;
 /** After so long without a reading something is wrong. */
@@ -126,7 +126,11 @@ export class ProbePanel extends LookingPanel {
         <p class="summary">${driver.summary}</p>
         <div class="fields">
           ${kMount.map((field) => this.renderMount(field))}${driver.parameters.map((parameter) =>
-            this.renderParameter(driver, parameter),
+            renderParameter(parameter, parameter.key, {
+              value: this.draft.valueOf(driver, parameter),
+              following: true,
+              set: (to) => this.set(() => this.draft.set(driver, parameter, to)),
+            }),
           )}
         </div>
         ${made?.error === undefined ? nothing : html`<p class="bad" role="alert">${made.error}</p>`}
@@ -174,71 +178,6 @@ export class ProbePanel extends LookingPanel {
         step="any"
         .value=${String(value)}
         @change=${set} /><em>${unit}</em></label
-    >`;
-  }
-
-  private renderParameter(driver: VirtualSensor, parameter: Parameter): TemplateResult {
-    const {key, kind, unit, doc} = parameter;
-    const value = this.draft.valueOf(driver, parameter);
-    const set = (to: Setting) => this.set(() => this.draft.set(driver, parameter, to));
-    const read = (event: Event) => (event.target as HTMLInputElement | HTMLSelectElement).value;
-    let control: TemplateResult;
-    if (kind === 'flag')
-      control = html`<input
-        type="checkbox"
-        aria-label=${key}
-        .checked=${value === true}
-        @change=${() => set(value !== true)} />`;
-    else if (kind === 'choice')
-      control = html`<select aria-label=${key} @change=${(event: Event) => set(read(event))}>
-        ${(parameter.choices ?? []).map(
-          (choice) => html`<option ?selected=${choice === value}>${choice}</option>`,
-        )}
-      </select>`;
-    else if (kind === 'text')
-      control = html`<input
-        type="text"
-        aria-label=${key}
-        .value=${String(value ?? '')}
-        @change=${(event: Event) => set(read(event))} />`;
-    else if (kind === 'numbers')
-      control = html`<input
-        type="text"
-        aria-label="${key}, numbers"
-        placeholder="0.5, 1, …"
-        .value=${Array.isArray(value) ? value.join(', ') : ''}
-        @change=${(event: Event) =>
-          set(
-            read(event)
-              .split(/[\s,]+/)
-              .filter((text) => text !== '')
-              .map(Number),
-          )} />`;
-    else {
-      const number = Number(value ?? 0);
-      const [low, high] = usefulRange(parameter, number);
-      const input = (event: Event) =>
-        set(kind === 'integer' ? Math.round(Number(read(event))) : Number(read(event)));
-      control = html`<input
-          type="range"
-          aria-label=${key}
-          min=${low}
-          max=${high}
-          step=${kind === 'integer' ? 1 : (high - low) / 200}
-          .value=${String(number)}
-          @input=${input} />
-        <input
-          type="number"
-          aria-label="${key}, value"
-          step="any"
-          .value=${String(number)}
-          @change=${input} />`;
-    }
-    return html`<label
-      title="${doc}${parameter.range
-        ? ` From ${parameter.range[0]} to ${parameter.range[1]}.`
-        : ''}"
-      ><code>${key}</code>${control}<em>${unit}</em></label
     >`;
   }
 

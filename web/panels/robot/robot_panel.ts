@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-import {css, html, nothing, svg, type TemplateResult} from 'lit';
+import {html, nothing, svg, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import {LiveElement} from '../../app/live_element';
 import {controls, glyphs} from '../../app/styles';
+import type {KnownRobot} from '../../model/run_model';
 import {RobotFlag, kCommandsOf} from '../../protocol/frames';
 import type {Parameter} from '../../protocol/messages';
 import '../lease_bar';
-import {usefulRange} from '../parameter_range';
+import {renderParameter} from '../parameter_control';
 import {guardOf, lastAct} from './guard_act';
 import './twin_section';
 import {toldLines} from './told';
 import {SetValues, type SetValue} from './set_values';
 import {SpeedTrace, askedLines, kTrace_s, type DrivenVelocity} from './speed_trace';
+import {robotStyles} from './robot_styles';
 
 const kRefresh_ms = 250;
 const kTakes = ['goal', 'path', 'drive', 'text', 'place'];
@@ -43,7 +45,7 @@ export class RobotPanel extends LiveElement {
   }
 
   override render(): TemplateResult {
-    const {model, selection, palette, link} = this.context;
+    const {model, selection, palette} = this.context;
     const slot = selection.primary;
     const robot = slot === null ? undefined : model.robots[slot];
     if (slot === null || robot === undefined)
@@ -53,9 +55,6 @@ export class RobotPanel extends LiveElement {
       </div>`;
     const hue = palette.hue(slot);
     const drive = model.drives.get(slot);
-    const stopped = ((model.poses.newest?.flags[slot] ?? 0) & RobotFlag.stopped) !== 0;
-    const mayStop = model.stops(slot) && !robot.recorded;
-    const halt = (what: 'stop' | 'release') => link.send({type: 'halt', do: what, slots: [slot]});
     return html` <header>
         <i
           class="glyph ${robot.kind}"
@@ -71,56 +70,64 @@ export class RobotPanel extends LiveElement {
       </header>
       <div class="scroll">
         <rave-lease .context=${this.context} .robot=${slot}></rave-lease>
-        ${mayStop
-          ? html`<div class="halt">
-              ${stopped && model.may('release')
-                ? html`<button class="release" @click=${() => halt('release')}>
-                    ${icon('play', 14)} Release ${robot.name}
-                  </button>`
-                : html`<button class="stop" ?disabled=${stopped} @click=${() => halt('stop')}>
-                    ${icon('octagonX', 16)} ${stopped ? 'Stopped' : `Stop ${robot.name}`}
-                  </button>`}
-              ${drive?.order
-                ? html`<span class="order">${drive.order}</span
-                    ><button
-                      class="plain"
-                      @click=${() => void this.context.commands.cancel([slot])}>
-                      Cancel
-                    </button>`
-                : nothing}
-            </div>`
-          : nothing}
-        ${this.renderTakes(slot, drive?.takes ?? [])}
+        ${this.renderHalt(slot, robot)} ${this.renderTakes(slot, drive?.takes ?? [])}
         <rave-twin .context=${this.context} .robot=${slot}></rave-twin>
         ${this.renderParameters(slot, robot.program, robot.parameters ?? [])}
-        ${this.renderGuard(slot)}
-        ${robot.sensors.length + robot.drivers.length === 0
-          ? nothing
-          : html`<h4>Drivers</h4>
-              <dl>
-                ${robot.sensors.map((sensor, i) => {
-                  const {driver, origin} =
-                    (robot.handedOver ? robot.twin?.sensors[i] : undefined) ?? sensor;
-                  return html`<dt>${sensor.name}</dt>
-                    <dd>
-                      ${driver || 'unknown'}
-                      ${origin === 'real'
-                        ? nothing
-                        : html`<span class="tag ${origin}">${origin}</span>`}
-                    </dd>`;
-                })}
-                ${(robot.handedOver ? (robot.twin?.drivers ?? []) : robot.drivers).map(
-                  (driver) =>
-                    html`<dt>actuator</dt>
-                      <dd>${driver}</dd>`,
-                )}
-                ${robot.host
-                  ? html`<dt>host</dt>
-                      <dd>${robot.host}</dd>`
-                  : nothing}
-              </dl>`}
-        ${this.renderSpeed(slot)}
+        ${this.renderGuard(slot)} ${this.renderDrivers(robot)} ${this.renderSpeed(slot)}
       </div>`;
+  }
+
+  /** Stops or releases it, and cancels its order. */
+  private renderHalt(slot: number, robot: KnownRobot): TemplateResult | typeof nothing {
+    const {model, link} = this.context;
+    if (!model.stops(slot) || robot.recorded) return nothing;
+    const stopped = ((model.poses.newest?.flags[slot] ?? 0) & RobotFlag.stopped) !== 0;
+    const order = model.drives.get(slot)?.order;
+    const halt = (what: 'stop' | 'release') => link.send({type: 'halt', do: what, slots: [slot]});
+    return html`<div class="halt">
+      ${stopped && model.may('release')
+        ? html`<button class="release" @click=${() => halt('release')}>
+            ${icon('play', 14)} Release ${robot.name}
+          </button>`
+        : html`<button class="stop" ?disabled=${stopped} @click=${() => halt('stop')}>
+            ${icon('octagonX', 16)} ${stopped ? 'Stopped' : `Stop ${robot.name}`}
+          </button>`}
+      ${order
+        ? html`<span class="order">${order}</span
+            ><button class="plain" @click=${() => void this.context.commands.cancel([slot])}>
+              Cancel
+            </button>`
+        : nothing}
+    </div>`;
+  }
+
+  /** Which drivers serve it, and where. */
+  private renderDrivers(robot: KnownRobot): TemplateResult | typeof nothing {
+    return robot.sensors.length + robot.drivers.length === 0
+      ? nothing
+      : html`<h4>Drivers</h4>
+          <dl>
+            ${robot.sensors.map((sensor, i) => {
+              const {driver, origin} =
+                (robot.handedOver ? robot.twin?.sensors[i] : undefined) ?? sensor;
+              return html`<dt>${sensor.name}</dt>
+                <dd>
+                  ${driver || 'unknown'}
+                  ${origin === 'real'
+                    ? nothing
+                    : html`<span class="tag ${origin}">${origin}</span>`}
+                </dd>`;
+            })}
+            ${(robot.handedOver ? (robot.twin?.drivers ?? []) : robot.drivers).map(
+              (driver) =>
+                html`<dt>actuator</dt>
+                  <dd>${driver}</dd>`,
+            )}
+            ${robot.host
+              ? html`<dt>host</dt>
+                  <dd>${robot.host}</dd>`
+              : nothing}
+          </dl>`;
   }
 
   private renderTakes(slot: number, takes: readonly string[]): TemplateResult | typeof nothing {
@@ -165,62 +172,16 @@ export class RobotPanel extends LiveElement {
       this.values.ask(name, to, present);
       void this.set(slot, parameter.key, name, to);
     };
-    const label = parameter.key.replace(/^program\./, '');
-    const read = (event: Event) => (event.target as HTMLInputElement | HTMLSelectElement).value;
-    let control: TemplateResult;
-    if (parameter.kind === 'flag') {
-      control = html`<input
-        type="checkbox"
-        aria-label=${parameter.key}
-        .checked=${value === true}
-        ?disabled=${!may}
-        @change=${() => set(value !== true)} />`;
-    } else if (parameter.kind === 'choice') {
-      control = html`<select
-        aria-label=${parameter.key}
-        ?disabled=${!may}
-        @change=${(event: Event) => set(read(event))}>
-        ${(parameter.choices ?? []).map(
-          (choice) => html`<option ?selected=${choice === value}>${choice}</option>`,
-        )}
-      </select>`;
-    } else if (parameter.kind === 'text') {
-      control = html`<input
-        type="text"
-        aria-label=${parameter.key}
-        .value=${String(value)}
-        ?disabled=${!may}
-        @change=${(event: Event) => set(read(event))} />`;
-    } else {
-      const [low, high] = usefulRange(parameter, Number(value));
-      const step = parameter.kind === 'integer' ? 1 : (high - low) / 200;
-      control = html`<input
-          type="range"
-          aria-label=${parameter.key}
-          min=${low}
-          max=${high}
-          step=${step}
-          .value=${String(value)}
-          ?disabled=${!may}
-          @change=${(event: Event) => set(Number(read(event)))} />
-        <input
-          type="number"
-          aria-label="${parameter.key}, value"
-          step="any"
-          min=${parameter.range?.[0] ?? nothing}
-          max=${parameter.range?.[1] ?? nothing}
-          .value=${String(value)}
-          ?disabled=${!may}
-          @change=${(event: Event) => set(Number(read(event)))} />`;
-    }
     const note = this.notes.get(name);
-    return html`<label
-        title="${parameter.doc}${parameter.range
-          ? ` From ${parameter.range[0]} to ${parameter.range[1]}.`
-          : ''}"
-        ><code>${label}</code>${control}<em>${parameter.unit}</em></label
-      >
-      ${note === undefined ? nothing : html`<p class="bad" role="alert">${note}</p>`}`;
+    const control = renderParameter(parameter, parameter.key.replace(/^program\./, ''), {
+      value,
+      disabled: !may || parameter.kind === 'numbers',
+      set: (to) => {
+        if (!Array.isArray(to)) set(to);
+      },
+    });
+    return html`${control}
+    ${note === undefined ? nothing : html`<p class="bad" role="alert">${note}</p>`}`;
   }
 
   private async set(slot: number, key: string, name: string, value: SetValue): Promise<void> {
@@ -327,238 +288,7 @@ export class RobotPanel extends LiveElement {
     </div>`;
   }
 
-  static override styles = [
-    controls,
-    glyphs,
-    css`
-      :host {
-        display: flex;
-        flex-direction: column;
-        height: 100%;
-        background: var(--bg-1);
-        font-size: var(--fs-12);
-      }
-      header {
-        display: flex;
-        align-items: center;
-        gap: 8px;
-        padding: 10px 12px;
-        flex: none;
-      }
-      header b {
-        font-size: var(--fs-15);
-        overflow: hidden;
-        text-overflow: ellipsis;
-      }
-      .scroll {
-        flex: 1;
-        overflow: auto;
-        padding: 0 12px 12px;
-      }
-      .halt {
-        display: flex;
-        align-items: center;
-        gap: 8px;
-        margin-top: 8px;
-      }
-      .halt button {
-        display: inline-flex;
-        align-items: center;
-        gap: 6px;
-        height: var(--h-control);
-        padding: 0 10px;
-        border-radius: var(--r-3);
-        font-size: var(--fs-12);
-      }
-      .halt .stop {
-        background: var(--stop-fill);
-        color: #fff;
-        font-weight: var(--fw-medium);
-      }
-      .halt .stop:disabled {
-        opacity: 1;
-        background: var(--danger-soft);
-        color: var(--danger);
-      }
-      .halt .release {
-        border: 1px solid var(--danger);
-        color: var(--danger);
-      }
-      .plain {
-        background: var(--bg-3);
-        border: 1px solid var(--line-2);
-      }
-      .order {
-        flex: 1;
-        min-width: 0;
-        color: var(--intent);
-        overflow: hidden;
-        text-overflow: ellipsis;
-        white-space: nowrap;
-      }
-      h4 {
-        display: flex;
-        align-items: center;
-        gap: 6px;
-        margin: 14px 0 6px;
-        color: var(--text-2);
-        font-size: var(--fs-12);
-        font-weight: var(--fw-medium);
-      }
-      h4 em,
-      label em {
-        font-style: normal;
-        font-weight: 400;
-        color: var(--text-3);
-        font-size: var(--fs-11);
-      }
-      code {
-        font: 400 var(--fs-11) var(--font-code);
-        color: var(--text-2);
-      }
-      .takes {
-        display: flex;
-        flex-wrap: wrap;
-        gap: 6px;
-      }
-      .takes .chip {
-        gap: 4px;
-        color: var(--text-3);
-      }
-      .takes .chip.yes {
-        background: linear-gradient(var(--ok-soft) 0 0), var(--bg-1);
-        color: var(--ok);
-      }
-      .faint {
-        color: var(--text-3);
-      }
-      .parameters label {
-        display: grid;
-        grid-template-columns: minmax(84px, 1fr) minmax(50px, 84px) 62px 40px;
-        gap: 8px;
-        align-items: center;
-        min-height: var(--h-row);
-      }
-      .parameters code {
-        overflow: hidden;
-        text-overflow: ellipsis;
-        white-space: nowrap;
-      }
-      .parameters input[type='checkbox'],
-      .parameters select,
-      .parameters input[type='text'] {
-        grid-column: 2 / 4;
-        justify-self: start;
-        max-width: 100%;
-      }
-      input[type='range'] {
-        width: 100%;
-        accent-color: var(--intent);
-      }
-      input[type='number'],
-      input[type='text'],
-      select {
-        width: 100%;
-        height: 22px;
-        padding: 0 4px;
-        font: inherit;
-        color: var(--text-1);
-        background: var(--bg-2);
-        border: 1px solid var(--line-2);
-        border-radius: var(--r-2);
-      }
-      .bad {
-        margin: 0 0 4px;
-        color: var(--danger);
-      }
-      .guard {
-        display: flex;
-        align-items: center;
-        gap: 6px;
-        margin: 0;
-      }
-      .guard svg {
-        color: var(--warn);
-      }
-      dl {
-        display: grid;
-        grid-template-columns: 84px 1fr;
-        gap: 4px 8px;
-        margin: 0;
-      }
-      dt {
-        color: var(--text-3);
-        overflow: hidden;
-        text-overflow: ellipsis;
-      }
-      dd {
-        margin: 0;
-      }
-      .tag {
-        padding: 0 5px;
-        border-radius: var(--r-2);
-        background: var(--virtual-fill);
-        color: var(--virtual-ink);
-        font-size: var(--fs-11);
-      }
-      h4 .asked::before,
-      h4 .driven::before {
-        content: '';
-        display: inline-block;
-        width: 16px;
-        margin: 0 4px 3px 6px;
-        border-top: 1.5px solid var(--text-1);
-      }
-      h4 .asked::before {
-        border-top: 1.5px dashed var(--intent);
-      }
-      .trace {
-        display: grid;
-        grid-template-columns: 62px 1fr;
-        gap: 6px;
-        margin-bottom: 4px;
-      }
-      .trace span {
-        color: var(--text-3);
-        font-size: var(--fs-11);
-        line-height: 15px;
-        text-align: right;
-      }
-      .plot {
-        display: block;
-        width: 100%;
-        height: 44px;
-      }
-      .plot line {
-        stroke: var(--line-2);
-      }
-      .plot polyline {
-        fill: none;
-        stroke: var(--text-1);
-        stroke-width: 1.5;
-        vector-effect: non-scaling-stroke;
-      }
-      .plot polyline.asked {
-        stroke: var(--intent);
-        stroke-dasharray: 4 3;
-      }
-      .now {
-        margin: 2px 0 0;
-        color: var(--text-2);
-      }
-      .now b {
-        color: var(--text-1);
-      }
-      .empty {
-        display: grid;
-        place-content: center;
-        justify-items: center;
-        gap: 4px;
-        height: 100%;
-        color: var(--text-3);
-      }
-    `,
-  ];
+  static override styles = [controls, glyphs, robotStyles];
 }
 
 /** Two digits, without the sign of a zero. */

@@ -132,13 +132,6 @@ export class CoursePlot {
     palette: Palette,
   ): void {
     this.dispose();
-    const faint = palette.token('text-3');
-    const axis = {
-      stroke: faint,
-      font: `400 ${kFont_px}px ${kFont}`,
-      grid: {stroke: palette.token('line-1'), width: 1},
-      ticks: {show: false},
-    };
     const Plot = this.library as typeof uPlot;
     this.plot = new Plot(
       {
@@ -151,27 +144,7 @@ export class CoursePlot {
           x: {time: false, range: [-kCourse_s, 0]},
           y: {range: (_, low, high) => spanOf(low, high)},
         },
-        axes: [
-          {
-            ...axis,
-            size: 18,
-            gap: 3,
-            splits: () => [-10, -5, 0],
-            values: (_, at) => at.map((t) => (t === 0 ? 'now' : `−${-t} s`)),
-          },
-          {
-            ...axis,
-            size: 40,
-            gap: 4,
-            splits: (_, __, low, high) => ticksOf(low, high, height),
-            values: (_, at) =>
-              at.map(
-                (value, i) =>
-                  tickText(value, at.length > 1 ? at[1] - at[0] : 1) +
-                  (i === at.length - 1 && field.unit !== '' ? ` ${field.unit}` : ''),
-              ),
-          },
-        ],
+        axes: axesOf(palette, height, field),
         series: [
           {},
           ...lines.map(
@@ -279,4 +252,36 @@ export function ticksOf(low: number, high: number, height: number): number[] {
   const ticks: number[] = [];
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9; ++k) ticks.push(k * step + 0);
   return ticks;
+}
+
+/** Seconds below, values at the left with their unit at the top one. */
+function axesOf(palette: Palette, height: number, field: CourseField): uPlot.Axis[] {
+  const faint = palette.token('text-3');
+  const axis = {
+    stroke: faint,
+    font: `400 ${kFont_px}px ${kFont}`,
+    grid: {stroke: palette.token('line-1'), width: 1},
+    ticks: {show: false},
+  };
+  return [
+    {
+      ...axis,
+      size: 18,
+      gap: 3,
+      splits: () => [-10, -5, 0],
+      values: (_, at) => at.map((t) => (t === 0 ? 'now' : `−${-t} s`)),
+    },
+    {
+      ...axis,
+      size: 40,
+      gap: 4,
+      splits: (_, __, low, high) => ticksOf(low, high, height),
+      values: (_, at) =>
+        at.map(
+          (value, i) =>
+            tickText(value, at.length > 1 ? at[1] - at[0] : 1) +
+            (i === at.length - 1 && field.unit !== '' ? ` ${field.unit}` : ''),
+        ),
+    },
+  ];
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import {css, html, nothing, type TemplateResult} from 'lit';
+import {html, nothing, type TemplateResult} from 'lit';
 import {icon} from '../../app/icons';
 import {spanOf} from '../../app/moment';
 import {controls, glyphs} from '../../app/styles';
@@ -11,9 +11,9 @@ import type {Robot, Sensor} from '../../protocol/messages';
 import {LookingPanel} from '../looking_panel';
 import {isCurrent, strengthOf} from '../reading_age';
 import {renderNote, renderWithheld, withheldStyles} from '../withheld';
-import {shortName} from '../world/name_layer';
 import {Surface, type Met} from '../world/surface';
-import {beamText, courseFieldsOf, pointedText, type CourseField} from './course_fields';
+import {renderBeam} from './beam_choice';
+import {courseFieldsOf, pointedText, type CourseField} from './course_fields';
 import {gapsText} from './course_gaps';
 import {CoursePlot, type CourseLine} from './course_plot';
 import {courseStyles} from './course_styles';
@@ -26,8 +26,9 @@ import {
   renderTable,
   renderValues,
 } from './reading_texts';
-import {drawSightingsPlot, pairsOf, type Named} from './sightings_plot';
+import {drawSightingsPlot, namedBy, pairsOf} from './sightings_plot';
 import {twinOf} from './twin';
+import {sensorsStyles} from './sensors_styles';
 
 const kTextRefresh_ms = 200;
 const kAsTable = 'the button Show the numbers shows them as a table';
@@ -110,7 +111,6 @@ export class SensorsPanel extends LookingPanel {
     const index = this.sensorIndex(slot, robot);
     const sensor = robot.sensors[index];
     const reading = model.readings.of(slot, index);
-    const now_s = model.poses.newest?.time_s ?? 0;
     const hue = palette.hue(slot);
     return html` <div class="head">
         <i
@@ -141,34 +141,40 @@ export class SensorsPanel extends LookingPanel {
           )}
         </div>
       </div>
-      <div class="about">
-        ${sensor.origin === 'real'
-          ? nothing
-          : html`<span class="tag"
-              ><i class="glyph virtual"></i>${sensor.origin === 'virtual'
-                ? 'virtual sensor'
-                : 'hybrid sensor'}</span
-            >`}
-        <span class="space"></span
-        ><span
-          class=${reading === null || isCurrent(now_s - reading.stamp_s, sensor.period_s)
-            ? ''
-            : 'old'}
-          >${aboutText(sensor, reading, now_s)}</span
-        >
-        <button
-          class="icon-button"
-          title="Show the numbers"
-          aria-label="Show the numbers"
-          aria-pressed=${this.asTable}
-          @click=${() => {
-            this.asTable = !this.asTable;
-            this.requestUpdate();
-          }}>
-          ${icon('list', 14)}
-        </button>
-      </div>
+      ${this.renderAbout(sensor, reading)}
       ${this.asTable ? renderTable(sensor, reading) : this.renderPlots(slot, sensor, reading)}`;
+  }
+
+  /** What the sensor is, and how old its reading. */
+  private renderAbout(sensor: Sensor, reading: Reading | null): TemplateResult {
+    const now_s = this.context.model.poses.newest?.time_s ?? 0;
+    return html`<div class="about">
+      ${sensor.origin === 'real'
+        ? nothing
+        : html`<span class="tag"
+            ><i class="glyph virtual"></i>${sensor.origin === 'virtual'
+              ? 'virtual sensor'
+              : 'hybrid sensor'}</span
+          >`}
+      <span class="space"></span
+      ><span
+        class=${reading === null || isCurrent(now_s - reading.stamp_s, sensor.period_s)
+          ? ''
+          : 'old'}
+        >${aboutText(sensor, reading, now_s)}</span
+      >
+      <button
+        class="icon-button"
+        title="Show the numbers"
+        aria-label="Show the numbers"
+        aria-pressed=${this.asTable}
+        @click=${() => {
+          this.asTable = !this.asTable;
+          this.requestUpdate();
+        }}>
+        ${icon('list', 14)}
+      </button>
+    </div>`;
   }
 
   /** Robots whose readings are withheld have no sensors at all. */
@@ -240,7 +246,12 @@ export class SensorsPanel extends LookingPanel {
               )}
             </div>`
           : html`<span>${field.label}</span>`}
-        ${field.label === 'beam' ? this.renderBeam(sensor) : nothing}
+        ${field.label === 'beam'
+          ? renderBeam(sensor, this.beamOf(sensor), (beam) => {
+              this.beam = beam;
+              this.requestUpdate();
+            })
+          : nothing}
         <em>${pointed === null ? '15 s' : pointedText(pointed, field)}</em>
       </div>
       <div
@@ -252,24 +263,6 @@ export class SensorsPanel extends LookingPanel {
         title=${gaps.length > 0 && this.context.model.live
           ? 'A sensor is read while a panel shows it'
           : nothing}></div>`;
-  }
-
-  private renderBeam(sensor: Sensor): TemplateResult {
-    const bearings = sensor.bearings ?? [];
-    const beam = this.beamOf(sensor);
-    return html`<label class="beam"
-      ><input
-        type="range"
-        min="0"
-        max=${bearings.length - 1}
-        .value=${String(beam)}
-        aria-label="Beam"
-        aria-valuetext=${beamText(bearings[beam] ?? 0)}
-        @input=${(event: Event) => {
-          this.beam = Number((event.target as HTMLInputElement).value);
-          this.requestUpdate();
-        }} />${beamText(bearings[beam] ?? 0)}</label
-    >`;
   }
 
   private beamOf(sensor: Sensor): number {
@@ -301,18 +294,6 @@ export class SensorsPanel extends LookingPanel {
 
   private met(slot: number, sensor: Sensor, reading: Reading, ray: number): Met | null {
     return metBy(this.surface, this.placed, slot, sensor, reading, ray);
-  }
-
-  /** The robot or tube that carries a barcode. */
-  private namedCode(code: number): Named {
-    const {model, palette} = this.context;
-    const slot = model.robots.findIndex((robot) => robot.barcode === code);
-    if (slot >= 0) return {name: model.robots[slot].name, colour: palette.hue(slot).ink};
-    for (const body of model.bodies.values()) {
-      if (body.barcode === code)
-        return {name: shortName(body.name), colour: palette.token('landmark-ink')};
-    }
-    return {name: `code ${code}`, colour: palette.token('text-3')};
   }
 
   private nearest(slot: number, sensor: Sensor, reading: Reading | null): TemplateResult | string {
@@ -366,7 +347,7 @@ export class SensorsPanel extends LookingPanel {
         sensor,
         reading,
         twin === null ? null : model.readings.of(slot, twin),
-        (code) => this.namedCode(code),
+        (code) => namedBy(this.context, code),
         palette,
         this.placed.time_s,
       );
@@ -405,93 +386,7 @@ export class SensorsPanel extends LookingPanel {
     readingStyles,
     courseStyles,
     withheldStyles,
-    css`
-      :host {
-        display: flex;
-        flex-direction: column;
-        height: 100%;
-        background: var(--bg-1);
-        overflow: hidden;
-      }
-      .head,
-      .about {
-        display: flex;
-        align-items: center;
-        gap: 8px;
-        padding: 8px 12px 0;
-        flex-wrap: wrap;
-      }
-      .about {
-        color: var(--text-2);
-        font-size: var(--fs-12);
-        padding-top: 4px;
-        flex-wrap: nowrap;
-        white-space: nowrap;
-        overflow: hidden;
-      }
-      .old {
-        color: var(--stale-ink);
-      }
-      :host([embedded]) .head > :is(.glyph, b, .icon-button, .space),
-      :host([compact]) :is(.course, .fields) {
-        display: none;
-      }
-      .tag {
-        display: inline-flex;
-        align-items: center;
-        gap: 6px;
-        padding: 1px 8px;
-        border-radius: var(--r-2);
-        background: var(--virtual-fill);
-        color: var(--virtual-ink);
-      }
-      .polar {
-        flex: 1 1 160px;
-        min-height: 100px;
-        width: 100%;
-      }
-      .sightings {
-        flex: 1 1 180px;
-        min-height: 120px;
-        width: 100%;
-      }
-      .halves {
-        display: flex;
-        flex-wrap: wrap;
-        gap: 4px 14px;
-        margin: 6px 12px 0;
-        color: var(--text-2);
-        font-size: var(--fs-11);
-      }
-      .halves span {
-        display: inline-flex;
-        align-items: center;
-        gap: 6px;
-      }
-      .halves em {
-        color: var(--text-3);
-        font-style: normal;
-      }
-      .halves .dot {
-        width: 6px;
-        height: 6px;
-        border-radius: 50%;
-        background: var(--wall-ink);
-      }
-      .halves .saw {
-        background: var(--text-1);
-      }
-      .halves .square {
-        width: 7px;
-        height: 7px;
-        border: 1.5px solid var(--virtual-ink);
-      }
-      .halves .line {
-        width: 14px;
-        height: 0;
-        border-top: 1.5px solid var(--wall-ink);
-      }
-    `,
+    sensorsStyles,
   ];
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {Palette} from '../../panel_api';
+import type {Palette, PanelContext} from '../../panel_api';
 import type {Reading} from '../../protocol/frames';
 import type {Sensor} from '../../protocol/messages';
 import {strengthOf} from '../reading_age';
 import {kFont, LabelPlacer, type Label} from '../world/labels';
+import {shortName} from '../world/name_layer';
 import {roundStep} from '../world/ticks';
 
 /** What carries a code. */
@@ -151,4 +152,18 @@ function drawAxes(
     ctx.stroke();
     ctx.fillText(`${k * degrees}°`.replace('-', '−'), x(bearing), y(0) + 12);
   }
+}
+
+/** The robot or tube that carries a barcode. */
+export function namedBy(
+  {model, palette}: Pick<PanelContext, 'model' | 'palette'>,
+  code: number,
+): Named {
+  const slot = model.robots.findIndex((robot) => robot.barcode === code);
+  if (slot >= 0) return {name: model.robots[slot].name, colour: palette.hue(slot).ink};
+  for (const body of model.bodies.values()) {
+    if (body.barcode === code)
+      return {name: shortName(body.name), colour: palette.token('landmark-ink')};
+  }
+  return {name: `code ${code}`, colour: palette.token('text-3')};
 }

@@ -68,3 +68,8 @@ function hasLeft(stage: Stage, placed: Placed): boolean {
   }
   return false;
 }
+
+/** Whether the person wants what moves by itself. */
+export function motion(): boolean {
+  return !matchMedia('(prefers-reduced-motion: reduce)').matches;
+}

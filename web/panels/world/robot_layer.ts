@@ -4,7 +4,7 @@ import type {Placed} from '../../model/pose_history';
 import {RobotFlag} from '../../protocol/frames';
 import type {Robot} from '../../protocol/messages';
 import type {Camera} from './camera';
-import {bodyState, reachOf} from './body_state';
+import {bodyState, reachOf, type BodyState} from './body_state';
 import {kFont} from './labels';
 import {isDisc, outlinePath, radiusOf} from './outlines';
 import {withAlpha} from './scan_layer';
@@ -91,6 +91,37 @@ export class RobotLayer {
     ctx.scale(scale, -scale);
     // In metres: the context is scaled.
     ctx.lineWidth = 1.5 / scale;
+    this.fill(ctx, slot, robot, state, tint, scale);
+    ctx.stroke(outline.path);
+    ctx.restore();
+    this.drawHeading(ctx, r, robot, stale ? null : (tint ?? hue.ink));
+    ctx.restore();
+    if (stale)
+      this.drawReach(
+        ctx,
+        x,
+        y,
+        r,
+        r + reachOf(placed, slot) * camera.scale,
+        placed.time_s - placed.freshAt(slot),
+      );
+    if (state === 'unarmed') this.drawWord(ctx, 'arm', x, y + r + 5, this.palette.token('warn'));
+    if ((flags & RobotFlag.stopped) !== 0)
+      drawStopped(ctx, x + 0.75 * r, y - 0.75 * r, this.palette);
+  }
+
+  /** Its body in the look of its state, and the pen for its outline. */
+  private fill(
+    ctx: CanvasRenderingContext2D,
+    slot: number,
+    robot: Robot,
+    state: BodyState,
+    tint: string | null,
+    scale: number,
+  ): void {
+    const outline = this.outlines[slot];
+    const hue = this.palette.hue(slot);
+    const stale = state === 'stale';
     if (stale) ctx.setLineDash([3 / scale, 3 / scale]);
     if (robot.kind === 'real' && !stale) {
       const unarmed = state === 'unarmed';
@@ -115,22 +146,6 @@ export class RobotLayer {
       ctx.fill(outline.path);
       ctx.strokeStyle = tint ?? hue.ink;
     }
-    ctx.stroke(outline.path);
-    ctx.restore();
-    this.drawHeading(ctx, r, robot, stale ? null : (tint ?? hue.ink));
-    ctx.restore();
-    if (stale)
-      this.drawReach(
-        ctx,
-        x,
-        y,
-        r,
-        r + reachOf(placed, slot) * camera.scale,
-        placed.time_s - placed.freshAt(slot),
-      );
-    if (state === 'unarmed') this.drawWord(ctx, 'arm', x, y + r + 5, this.palette.token('warn'));
-    if ((flags & RobotFlag.stopped) !== 0)
-      drawStopped(ctx, x + 0.75 * r, y - 0.75 * r, this.palette);
   }
 
   private drawHeading(

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {Placed} from '../../model/pose_history';
+import type {RunModel} from '../../model/run_model';
 import type {Palette, Selection} from '../../panel_api';
 import {RobotFlag} from '../../protocol/frames';
 import type {Camera} from './camera';
+import type {Poses} from './layers';
 import type {RobotLayer} from './robot_layer';
 import {drawGap, gapText, kApart_px} from './shadow_layer';
 
@@ -87,4 +89,20 @@ export function drawTrueCross(
   ctx.stroke();
   ctx.restore();
   return apart;
+}
+
+/** True poses as the menu asks for them: in place of those of `placed`, or in `truth` beside them. */
+export function placeTruth(
+  model: RunModel,
+  poses: Poses,
+  now_ms: number,
+  placed: Placed,
+  truth: Placed,
+): void {
+  truth.resize(0);
+  if (poses === 'reported') return;
+  model.truth.interpolate(now_ms, truth);
+  if (poses === 'both') return;
+  takePlaces(placed, truth);
+  truth.resize(0);
 }

@@ -8,6 +8,7 @@ import {kColourBy, type ColourBy, type Flag, type Kind, type Layers} from './lay
 import {notYoursText} from '../../model/withheld';
 import {renderNote, withheldStyles} from '../withheld';
 import {rampColour} from './ramp';
+import {renderChoice, renderFlag} from './menu_fields';
 
 /** With the word for one, and that for several. */
 const kKinds: readonly [Kind, string, string][] = [
@@ -109,31 +110,13 @@ export function renderMenu(
 ): TemplateResult {
   const {model} = context;
   const flag = (name: Flag, text: string, note = '') =>
-    html` <label
-      ><span>${text}</span><em>${note}</em>
-      <input
-        type="checkbox"
-        role="switch"
-        .checked=${layers[name]}
-        @change=${() => set({...layers, [name]: !layers[name]})}
-    /></label>`;
+    renderFlag(text, note, layers[name], () => set({...layers, [name]: !layers[name]}));
   const choice = <T extends string>(
     text: string,
     value: T,
     values: readonly (readonly [T, string])[],
     take: (value: T) => Layers,
-  ) =>
-    html` <label
-      ><span>${text}</span
-      ><select
-        aria-label=${text}
-        @change=${(event: Event) => set(take((event.target as HTMLSelectElement).value as T))}>
-        ${values.map(
-          ([other, word]) =>
-            html`<option value=${other} ?selected=${other === value}>${word}</option>`,
-        )}
-      </select></label
-    >`;
+  ) => renderChoice(text, value, values, (to) => set(take(to)));
   return html`<div class="menu" role="group" aria-label="Layers">
     <header>Layers <em>saved with the layout</em></header>
     ${model.may('true_pose')

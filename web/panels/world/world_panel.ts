@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import {html, nothing, type TemplateResult} from 'lit';
-import {icon, type IconName} from '../../app/icons';
 import {LiveElement} from '../../app/live_element';
 import {controls, glyphs} from '../../app/styles';
 import {Placed} from '../../model/pose_history';
 import {viewOf} from '../../panel_api/windows';
-import {AutoFit} from './auto_fit';
+import {AutoFit, motion} from './auto_fit';
 import {kLayers, readLayers, type Layers, type Poses} from './layers';
 import {sensorsToRead} from './reading_layer';
 import {orderStyles} from './orders/order_cards';
@@ -14,7 +13,8 @@ import {WorldOrders} from './orders/world_orders';
 import {savePicture} from './save_picture';
 import type {Stage, StageContext} from './stage';
 import {TopStage} from './top_stage';
-import {takePlaces} from './truth_layer';
+import {placeTruth} from './truth_layer';
+import {renderFollowed, renderModes, renderTools, worldSummary, type Mode} from './world_bar';
 import {renderCard, worldCardStyles} from './world_card';
 import {pressWorldKey} from './world_keys';
 import {renderColourBy, renderLegend, renderMenu, worldMenuStyles} from './world_menu';
@@ -27,8 +27,8 @@ const kCrowd = 100;
 /** From this share of the page on it is the only panel. */
 const kAlone = 0.9;
 const kCard_ms = 250;
-
-type Mode = 'top' | '3d';
+/** The same while an order is drawn or on its way. */
+const kDrawn_ms = 60;
 
 /** Robots and bodies where they are, from above or in perspective. */
 export class WorldPanel extends LiveElement {
@@ -305,17 +305,6 @@ export class WorldPanel extends LiveElement {
     return this.context.model.may('true_pose') ? this.layers.poses : 'reported';
   }
 
-  /** What the menu says: true poses in place of those of `placed`, or beside them. */
-  private placeTruth(now_ms: number): void {
-    const {truth} = this;
-    truth.resize(0);
-    if (this.poses === 'reported') return;
-    this.context.model.truth.interpolate(now_ms, truth);
-    if (this.poses === 'both') return;
-    takePlaces(this.placed, truth);
-    truth.resize(0);
-  }
-
   private draw(): void {
     if (this.drawQueued) return;
     this.drawQueued = true;
@@ -330,23 +319,14 @@ export class WorldPanel extends LiveElement {
     const now_ms = performance.now();
     const {model} = this.context;
     model.poses.interpolate(now_ms, this.placed);
-    this.placeTruth(now_ms);
+    placeTruth(model, this.poses, now_ms, this.placed, this.truth);
     if (model.poses.newest !== null && !this.context.selection.following)
       this.autoFit.look(this.stage, this.placed, now_ms, motion());
     const going = this.stage.paint(now_ms);
     // Cards stand beside things that move.
-    if (
-      (this.orders.desk.draft !== null || this.context.commands.pending.length > 0) &&
-      now_ms - this.cardAt_ms > 60
-    ) {
-      this.cardAt_ms = now_ms;
-      this.requestUpdate();
-    }
-    if (
-      this.alone &&
-      this.context.selection.primary !== null &&
-      now_ms - this.cardAt_ms > kCard_ms
-    ) {
+    const drawn = this.orders.desk.draft !== null || this.context.commands.pending.length > 0;
+    const shown = this.alone && this.context.selection.primary !== null;
+    if (now_ms - this.cardAt_ms > (drawn ? kDrawn_ms : shown ? kCard_ms : Infinity)) {
       this.cardAt_ms = now_ms;
       this.requestUpdate();
     }
@@ -365,80 +345,31 @@ export class WorldPanel extends LiveElement {
   }
 
   override render(): TemplateResult {
-    const {selection, model, palette} = this.context;
-    const primary = selection.primary;
+    const {model, palette} = this.context;
     const set = (layers: Layers) => this.setLayers(layers);
-    const tool = (
-      name: IconName,
-      label: string,
-      key: string,
-      pressed: boolean | null,
-      act: () => void,
-      disabled = false,
-    ) =>
-      html` <button
-        class="icon-button ${name}"
-        title="${label}${key ? ` (${key})` : ''}"
-        aria-label=${label}
-        aria-pressed=${pressed ?? nothing}
-        ?disabled=${disabled}
-        @click=${act}>
-        ${icon(name)}
-      </button>`;
     return html` <div class="bar">
-        <div class="segments" role="radiogroup" aria-label="View">
-          ${(['top', '3d'] as const).map(
-            (mode) =>
-              html`<button
-                role="radio"
-                aria-checked=${this.mode === mode}
-                title="Top or 3-D (T)"
-                @click=${() => void this.setMode(mode)}>
-                ${mode === 'top' ? 'Top' : '3-D'}
-              </button>`,
-          )}
-        </div>
+        ${renderModes(this.mode, (mode) => void this.setMode(mode))}
         <i class="rule"></i>
         ${this.orders.tools()}
         ${renderLegend(this.context, this.layers, set, () => this.toggleMenu())}
         <span class="space"></span>
         ${model.robots.length >= kCrowd ? renderColourBy(this.layers, set) : nothing}
-        <div class="tools">
-          <button
-            class="icon-button mode"
-            aria-label="Top or 3-D"
-            @click=${() => this.toggleMode()}>
-            ${this.mode === 'top' ? '3-D' : 'Top'}
-          </button>
-          ${tool('maximize', 'Show everything', 'F', null, () => this.fit())}
-          ${tool(
-            'crosshair',
-            'Follow the selected robot',
-            'C',
-            selection.following,
-            () => selection.follow(!selection.following),
-            primary === null,
-          )}
-          ${tool('ruler', 'Measure', 'M', this.top.measure.on, () => this.toggleMeasure())}
-          ${tool('layers', 'Layers', '', this.menuOpen, () => this.toggleMenu())}
-          ${tool('camera', 'Save a picture', 'P', null, () => this.picture())}
-        </div>
+        ${renderTools(this, this.context, {
+          mode: this.mode,
+          measuring: this.top.measure.on,
+          menuOpen: this.menuOpen,
+          layers: () => this.toggleMenu(),
+        })}
       </div>
       <div class="stage">
         <div
           class="canvas"
           tabindex="0"
           role="application"
-          aria-label=${this.summary()}
+          aria-label=${worldSummary(model)}
           @keydown=${(event: KeyboardEvent) => this.press(event)}></div>
         <span class="said" role="status">${this.top.measure.text}</span>
-        ${selection.following && primary !== null
-          ? html`<div class="note">
-              ${icon('crosshair', 14)} following
-              <b style="color:${palette.hue(primary).ink}">${model.robots[primary]?.name}</b>
-              <span>Esc ends</span>
-            </div>`
-          : nothing}
+        ${renderFollowed(this.context)}
         ${this.orders.render(
           this.stage.screenAt === undefined ? null : ([x, y]) => this.top.screenAt(x, y),
         )}
@@ -455,13 +386,6 @@ export class WorldPanel extends LiveElement {
       </div>`;
   }
 
-  private summary(): string {
-    const {model} = this.context;
-    const counts = `${model.robots.length} robots, ${model.bodies.size} bodies`;
-    const keys = 'Arrows move the picture, plus and minus zoom it.';
-    return `World View: ${counts}. The panel Robots lists them. ${keys}`;
-  }
-
   static override styles = [
     controls,
     glyphs,
@@ -470,10 +394,6 @@ export class WorldPanel extends LiveElement {
     orderStyles,
     worldPanelStyles,
   ];
-}
-
-function motion(): boolean {
-  return !matchMedia('(prefers-reduced-motion: reduce)').matches;
 }
 
 customElements.define('rave-world', WorldPanel);

@@ -91,7 +91,8 @@ export function drawTrueCross(
   return apart;
 }
 
-/** True poses as the menu asks for them: in place of those of `placed`, or in `truth` beside them. */
+/** True poses as the menu asks for them: in place of those of `placed`, or in `truth` beside
+ * them. */
 export function placeTruth(
   model: RunModel,
   poses: Poses,

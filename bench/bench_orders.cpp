@@ -86,10 +86,9 @@ std::string measure_crowd(plugin::Catalogue& catalogue) {
   const auto begin = Clock::now();
   for (std::uint32_t r = 0; r < 1000; ++r) {
     sim::WorldInput goal;
-    goal.kind = sim::WorldInput::Kind::kGoal;
     goal.author.name = "anna";
     goal.robot = RobotId(r);
-    goal.order.points_W = {{0.063 * r, 30}};
+    goal.action = request::Order(request::Goal{{0.063 * r, 30}});
     if (!engine->order(goal)) std::abort();
   }
   const double orders_us = since_us(begin);

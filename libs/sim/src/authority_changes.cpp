@@ -89,7 +89,7 @@ void WorldAuthority::Impl::take_inputs(WorldStep& world) {
       WorldInput input = given;
       input.sequence = ++inputs;
       world.answers.push_back({report->host, given.sequence, inputs});
-      Status status = is_order(input.kind) ? check_order(spec, input) : Status();
+      Status status = input.is<request::Order>() ? check_order(spec, input) : Status();
       if (status) status = do_input(input, world);
       if (!status) world.refusals.push_back({inputs, status.error().text()});
     }
@@ -97,13 +97,14 @@ void WorldAuthority::Impl::take_inputs(WorldStep& world) {
 }
 
 Status WorldAuthority::Impl::do_input(WorldInput& input, WorldStep& world) {
-  if (input.kind == WorldInput::Kind::kObstacle) {
-    return change_obstacle(*input.obstacle, input.author, world);
+  if (const auto* const obstacle = input.as<ObstacleChange>()) {
+    return change_obstacle(*obstacle, input.author, world);
   }
   // Of a robot that was placed its host keeps in its record what was asked.
-  if (input.kind == WorldInput::Kind::kPlace) RAVE_TRY(place(input));
-  if (input.kind == WorldInput::Kind::kChange && is_of_body(input.changes.front())) {
-    return change_body(input.robot, input.changes, input.author, world);
+  if (const auto* const there = input.as<request::Place>()) RAVE_TRY(place(input, *there));
+  const auto* const change = input.as<Change>();
+  if (change != nullptr && is_of_body(change->changes.front())) {
+    return change_body(input.robot, change->changes, input.author, world);
   }
   world.inputs.push_back(std::move(input));
   return {};
@@ -126,9 +127,9 @@ Status WorldAuthority::Impl::change_body(RobotId robot, std::span<const Paramete
 }
 
 /// As in one process, see Engine::Impl::place().
-Status WorldAuthority::Impl::place(const WorldInput& input) {
+Status WorldAuthority::Impl::place(const WorldInput& input, const request::Place& there) {
   const double yaw_rad = truth.movers[input.robot.value()].X_WR.yaw;
-  const Status placed = truth.place(input.robot, ordered_place(input, yaw_rad));
+  const Status placed = truth.place(input.robot, ordered_place(there, yaw_rad));
   if (!placed) return refused_order(spec, input, placed.error().code, placed.error().message);
   events.push_back(noted_order(step, input, EventKind::kPlaced, hash));
   return {};
@@ -137,34 +138,42 @@ Status WorldAuthority::Impl::place(const WorldInput& input) {
 Status WorldAuthority::check_place(const WorldInput& input) const {
   const Impl& authority = *impl_;
   RAVE_TRY(check_order(authority.spec, input));
+  const auto* const there = input.as<request::Place>();
+  if (there == nullptr) return fail(ErrorCode::kInvalidArgument, "the input places no robot");
   const WorldTruth& truth = authority.truth;
   const double yaw_rad = truth.movers[input.robot.value()].X_WR.yaw;
-  const Status room = truth.check_place(input.robot, ordered_place(input, yaw_rad));
+  const Status room = truth.check_place(input.robot, ordered_place(*there, yaw_rad));
   if (room) return {};
   return refused_order(authority.spec, input, room.error().code, room.error().message);
 }
 
+namespace {
+
+Status check_change(const EngineSpec& spec, RobotId robot, const Change& change) {
+  const std::vector<ParameterChange>& all = change.changes;
+  if (all.empty()) return fail(ErrorCode::kInvalidArgument, "nothing to change");
+  const auto of_body = std::count_if(all.begin(), all.end(), is_of_body);
+  if (of_body == 0 || static_cast<std::size_t>(of_body) == all.size()) return {};
+  return fail(ErrorCode::kInvalidArgument,
+              "robot `{}`: its body and other parts cannot change in one request while several "
+              "hosts share the world; send two requests",
+              spec.robots[robot.value()].name);
+}
+
+}  // namespace
+
 Result<std::uint64_t> WorldAuthority::ask(WorldInput input) {
   Impl& authority = *impl_;
-  if (is_order(input.kind)) RAVE_TRY(check_order(authority.spec, input));
-  if (input.kind == WorldInput::Kind::kObstacle) {
-    if (!input.obstacle) return fail(ErrorCode::kInvalidArgument, "nothing to change");
-    RAVE_TRY(check_obstacle_change(*input.obstacle));
+  if (input.is<request::Order>()) RAVE_TRY(check_order(authority.spec, input));
+  if (const auto* const obstacle = input.as<ObstacleChange>()) {
+    RAVE_TRY(check_obstacle_change(*obstacle));
   }
-  const bool change = input.kind == WorldInput::Kind::kChange;
-  if ((input.robot.valid() || change) && input.robot.value() >= authority.spec.robots.size()) {
+  const auto* const change = input.as<Change>();
+  if ((input.robot.valid() || change != nullptr) &&
+      input.robot.value() >= authority.spec.robots.size()) {
     return fail(ErrorCode::kInvalidArgument, "there is no robot {}", input.robot.value());
   }
-  if (change && input.changes.empty()) {
-    return fail(ErrorCode::kInvalidArgument, "nothing to change");
-  }
-  const auto of_body = std::count_if(input.changes.begin(), input.changes.end(), is_of_body);
-  if (of_body != 0 && static_cast<std::size_t>(of_body) != input.changes.size()) {
-    return fail(ErrorCode::kInvalidArgument,
-                "robot `{}`: its body and other parts cannot change in one request while several "
-                "hosts share the world; send two requests",
-                authority.spec.robots[input.robot.value()].name);
-  }
+  if (change != nullptr) RAVE_TRY(check_change(authority.spec, input.robot, *change));
   input.sequence = ++authority.inputs;
   authority.asked.push_back(std::move(input));
   return authority.inputs;

@@ -233,7 +233,7 @@ struct Engine::Impl final : private HandOvers::Site {
   void drivers_restored(RobotId robot) override;
   Status order(const WorldInput& input);
   [[nodiscard]] Status may_order(const WorldInput& input) const;
-  Status place(const WorldInput& input);
+  Status place(const WorldInput& input, const request::Place& there);
   /// One of several hosts: what may be changed without the authority.
   [[nodiscard]] Status check_own(RobotId robot, std::span<const ParameterChange> changes) const;
   [[nodiscard]] OrderMoment order_moment() noexcept { return {step, now, reported, hash, events}; }

@@ -74,35 +74,35 @@ void Engine::Impl::drivers_restored(RobotId robot) {
 }
 
 Status Engine::Impl::order(const WorldInput& input) {
-  if (input.kind == WorldInput::Kind::kCancel) {
+  if (input.is<request::Cancel>()) {
     orders.cancel(step, input);
     return {};
   }
   if (!roster.is_local(input.robot)) {
     return refused_order(spec, input, ErrorCode::kState, "it runs on another host");
   }
-  if (input.kind == WorldInput::Kind::kPlace) return place(input);
+  if (const auto* const there = input.as<request::Place>()) return place(input, *there);
   return orders.take(step, input, robot_guards[input.robot.value()].holds(),
                      hand_overs.is_under_way(input.robot));
 }
 
 Status Engine::Impl::may_order(const WorldInput& input) const {
-  if (input.kind == WorldInput::Kind::kCancel) return {};
+  if (input.is<request::Cancel>()) return {};
   if (!roster.is_local(input.robot)) {
     return refused_order(spec, input, ErrorCode::kState, "it runs on another host");
   }
-  if (input.kind == WorldInput::Kind::kPlace) return {};
+  if (input.is<request::Place>()) return {};
   return orders.check(input, robot_guards[input.robot.value()].holds(),
                       hand_overs.is_under_way(input.robot));
 }
 
-Status Engine::Impl::place(const WorldInput& input) {
+Status Engine::Impl::place(const WorldInput& input, const request::Place& there) {
   if (host) {
     return refused_order(spec, input, ErrorCode::kState,
                          "only the authority of the world can place robots");
   }
   const double yaw_rad = truth.movers[input.robot.value()].X_WR.yaw;
-  const Status placed = truth.place(input.robot, ordered_place(input, yaw_rad));
+  const Status placed = truth.place(input.robot, ordered_place(there, yaw_rad));
   if (!placed) return refused_order(spec, input, placed.error().code, placed.error().message);
   input_log.note_order(step, input, EventKind::kPlaced);
   return {};

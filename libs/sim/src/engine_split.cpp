@@ -223,22 +223,15 @@ void Engine::Impl::put_obstacles(std::span<const ObstacleChange> changes) {
 }
 
 void Engine::Impl::do_input(const WorldInput& input) {
-  switch (input.kind) {
-    case WorldInput::Kind::kStop:
-      return inputs.stop(step, input.robot, input.author);
-    case WorldInput::Kind::kRelease:
-      return inputs.release(step, input.robot, input.author);
-    case WorldInput::Kind::kArm:
-      return inputs.arm(step, input.robot, input.author);
-    case WorldInput::Kind::kObstacle:
-    case WorldInput::Kind::kPlace:
-      return;  // the authority has done it
-    default:
-      break;
-  }
+  if (input.is<request::Stop>()) return inputs.stop(step, input.robot, input.author);
+  if (input.is<request::Release>()) return inputs.release(step, input.robot, input.author);
+  if (input.is<request::Arm>()) return inputs.arm(step, input.robot, input.author);
+  // The authority has done these.
+  if (input.is<ObstacleChange>() || input.is<request::Place>()) return;
   if (input.robot.valid() && !roster.is_local(input.robot)) return;
-  const Status status = input.kind == WorldInput::Kind::kChange
-                            ? inputs.change(step, input.robot, input.changes, input.author)
+  const auto* const change = input.as<Change>();
+  const Status status = change != nullptr
+                            ? inputs.change(step, input.robot, change->changes, input.author)
                             : order(input);
   // The authority has accepted the request for all, and only this host knows that it cannot be
   // done. The refusal reaches the authority with the next report.

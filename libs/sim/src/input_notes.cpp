@@ -81,12 +81,23 @@ Event noted_obstacle(std::uint64_t step, const ObstacleChange& change, std::stri
   return event;
 }
 
+namespace {
+
+/// The hash counts the kinds of orders from 5 on, as when they were in one list behind a stop, a
+/// release, an arming, a change and an obstacle. Recorded hashes depend on these numbers; those of
+/// OrderKind are part of the plug-in interface.
+std::uint32_t hash_number(const WorldInput& input) {
+  return 4 + static_cast<std::uint32_t>(order_kind(input));
+}
+
+}  // namespace
+
 Event noted_order(std::uint64_t step, const WorldInput& input, EventKind kind, RunHash& hash) {
-  const OrderDetails& order = input.order;
+  const request::OrderParts order = order_parts(input);
   // Both kinds are in the key, so that no two inputs of a robot in one step hash alike by chance of
   // their fields.
   ItemHash item(step, input.robot.value(), HashChannel::kInput,
-                static_cast<std::uint32_t>(kind) << 8U | static_cast<std::uint32_t>(input.kind));
+                static_cast<std::uint32_t>(kind) << 8U | hash_number(input));
   for (const Vec2 p_W : order.points_W) {
     item.add(p_W.x);
     item.add(p_W.y);

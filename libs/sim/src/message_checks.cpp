@@ -180,7 +180,7 @@ Status check_columns(const EngineSpec& spec, const WorldStep& world) {
 template <class IsTheirs>
 Status check_asked(const EngineSpec& spec, const HostReport& report, IsTheirs is_theirs) {
   for (const WorldInput& input : report.inputs) {
-    const bool may = input.kind < WorldInput::Kind::kChange || is_order_formed(input);
+    const bool may = input.is_hold() || is_order_formed(input);
     const std::uint32_t robot = input.robot.value();
     if (may && robot < spec.robots.size() && is_theirs(robot)) continue;
     return wrong(spec, robot, "an input that its host may not forward");
@@ -190,11 +190,9 @@ Status check_asked(const EngineSpec& spec, const HostReport& report, IsTheirs is
 
 Status check_inputs(const EngineSpec& spec, const WorldStep& world) {
   for (const WorldInput& input : world.inputs) {
-    using Kind = WorldInput::Kind;
     // Obstacles are the authority's, and reach hosts otherwise.
-    const bool known = input.kind <= Kind::kChange || is_order_formed(input);
-    const bool all =
-        !input.robot.valid() && (input.kind < Kind::kChange || input.kind == Kind::kCancel);
+    const bool known = input.is_hold() || input.is<Change>() || is_order_formed(input);
+    const bool all = !input.robot.valid() && (input.is_hold() || input.is<request::Cancel>());
     if (known && (all || input.robot.value() < spec.robots.size())) {
       continue;
     }

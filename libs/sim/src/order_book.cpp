@@ -8,11 +8,10 @@
 #include <utility>
 
 #include "order_checks.hpp"
+#include "rave/base/check.hpp"
 
 namespace rave::sim {
 namespace {
-
-using InputKind = WorldInput::Kind;
 
 /// Of a goal for a controller that does not say its own.
 constexpr double kTolerance_m = 0.1;
@@ -42,10 +41,14 @@ double tolerance_of(const ControllerSlots& slots, std::size_t m) {
   return kTolerance_m;
 }
 
+/// The command of an order that a controller carries out: a drive or a goal.
 Command command_of(const WorldInput& input) {
-  const OrderDetails& order = input.order;
-  if (input.kind == InputKind::kDrive) return velocity_command(order.v_mps, order.w_radps);
-  return goal_command(order.points_W.front().x, order.points_W.front().y, order.speed_mps);
+  if (const auto* const drive = input.as<request::Drive>()) {
+    return velocity_command(drive->v_mps, drive->w_radps);
+  }
+  const auto* const goal = input.as<request::Goal>();
+  RAVE_CHECK(goal != nullptr);
+  return goal_command(goal->p_W.x, goal->p_W.y, goal->speed_mps);
 }
 
 }  // namespace
@@ -75,7 +78,7 @@ OrderSet OrderBook::takes(RobotId robot) const {
 
 Status OrderBook::check(const WorldInput& input, const GuardHolds& holds, bool handed_over) const {
   // A text moves nothing, so a robot that stands may get one.
-  if (input.kind == InputKind::kText) return check_text(input);
+  if (input.is<request::Text>()) return check_text(input);
   // Refused and not kept: a robot must not begin to drive by an old order when it is released.
   if (holds.stopped) {
     return refused_order(spec_, input, ErrorCode::kState,
@@ -94,7 +97,7 @@ Status OrderBook::check(const WorldInput& input, const GuardHolds& holds, bool h
 Status OrderBook::take(std::uint64_t step, const WorldInput& input, const GuardHolds& holds,
                        bool handed_over) {
   RAVE_TRY(check(input, holds, handed_over));
-  if (input.kind == InputKind::kText) {
+  if (input.is<request::Text>()) {
     robots_[input.robot.value()].wait_for_program(input);
     log_.note_order(step, input, EventKind::kOrdered);
     return {};
@@ -117,12 +120,12 @@ Status OrderBook::check_text(const WorldInput& input) const {
 Result<std::optional<std::uint32_t>> OrderBook::taker(const WorldInput& input) const {
   const RobotGroup& group = roster_.group_of(input.robot);
   const std::size_t m = roster_.member_of(input.robot);
-  const bool drive = input.kind == InputKind::kDrive;
+  const bool drive = input.is<request::Drive>();
   // The program first: it knows about its task what a controller does not.
-  if (!drive && takes_by_program(group, m, order_kind(input.kind))) {
+  if (!drive && takes_by_program(group, m, order_kind(input))) {
     return std::optional<std::uint32_t>();
   }
-  if (input.kind == InputKind::kPath) {
+  if (input.is<request::Path>()) {
     return refused_order(spec_, input, ErrorCode::kInvalidArgument, "its program takes no paths");
   }
   const auto controller =
@@ -148,7 +151,7 @@ void OrderBook::give_to_controller(std::uint64_t step, const WorldInput& input,
                                    std::uint32_t controller) {
   RobotGroup& group = roster_.group_of(input.robot);
   const std::size_t m = roster_.member_of(input.robot);
-  const bool drive = input.kind == InputKind::kDrive;
+  const bool drive = input.is<request::Drive>();
   OrderedRobot& robot = robots_[input.robot.value()];
   // A joystick sends many times a second: only the first velocity is an event.
   const bool goes_on = drive && robot.driven && robot.by == input.author.name;
@@ -172,7 +175,7 @@ void OrderBook::give_to_controller(std::uint64_t step, const WorldInput& input,
 /// The program learns that what it was asked for counts no more.
 void OrderBook::tell_cancelled(const WorldInput& input, OrderedRobot& robot) {
   WorldInput cancel;
-  cancel.kind = InputKind::kCancel;
+  cancel.action = request::Order(request::Cancel{});
   cancel.author = input.author;
   cancel.robot = input.robot;
   robot.of_program = false;

@@ -16,8 +16,6 @@
 namespace rave::sim {
 namespace {
 
-using InputKind = WorldInput::Kind;
-
 constexpr double kFastest_mps = 100;
 constexpr double kFastest_radps = 100;
 constexpr double kMostPlaceTurn_rad = 1e6;
@@ -103,7 +101,7 @@ Status check_point(const EngineSpec& spec, const WorldInput& input, const Box& b
                              "{:.2f} m, y from {:.2f} to {:.2f} m",
                              p_W.x, p_W.y, box.low.x, box.high.x, box.low.y, box.high.y));
   }
-  if (input.kind == InputKind::kPlace) return {};  // there its whole body is looked at
+  if (input.is<request::Place>()) return {};  // there its whole body is looked at
   const std::uint32_t r = input.robot.value();
   if (const auto* const obstacle = obstacle_at(spec.world, spec.world.robots[r], p_W)) {
     return wrong(spec, input,
@@ -119,22 +117,19 @@ Status check_point(const EngineSpec& spec, const WorldInput& input, const Box& b
 }
 
 Status check_points(const EngineSpec& spec, const WorldInput& input) {
-  const bool path = input.kind == InputKind::kPath;
-  const std::size_t least = path ? 2 : 1;
-  const std::size_t most = path ? kMostOrderPoints : 1;
-  const std::size_t count = input.order.points_W.size();
-  if (count < least || count > most) {
-    return wrong(spec, input,
-                 path ? path_size_text(count) : fmt::format("{} points; expected one", count));
+  const request::OrderParts order = order_parts(input);
+  if (input.is<request::Path>()) {
+    const Status size = request::check_path_size(order.points_W.size());
+    if (!size) return wrong(spec, input, size.error().message);
   }
   // Of the world as it is now: obstacles may have come or gone since the start.
   const Box box = world_box(spec);
-  for (const Vec2 p_W : input.order.points_W) RAVE_TRY(check_point(spec, input, box, p_W));
-  const double yaw_rad = input.order.yaw_rad.value_or(0);
+  for (const Vec2 p_W : order.points_W) RAVE_TRY(check_point(spec, input, box, p_W));
+  const double yaw_rad = order.yaw_rad.value_or(0);
   if (!(std::abs(yaw_rad) <= kMostPlaceTurn_rad)) {
     return wrong(spec, input, fmt::format("{} is not a yaw; expected radians", yaw_rad));
   }
-  const double speed_mps = input.order.speed_mps;
+  const double speed_mps = order.speed_mps;
   if (!(speed_mps >= 0 && speed_mps <= kFastest_mps)) {
     return wrong(spec, input,
                  fmt::format("{} is not a speed; expected 0 to {} m/s", speed_mps, kFastest_mps));
@@ -154,30 +149,20 @@ OrderSet declared_orders(const RobotType& type) noexcept {
   return set;
 }
 
-OrderKind order_kind(WorldInput::Kind kind) noexcept {
-  switch (kind) {
-    case InputKind::kDrive:
-      return OrderKind::kDrive;
-    case InputKind::kGoal:
-      return OrderKind::kGoal;
-    case InputKind::kPath:
-      return OrderKind::kPath;
-    case InputKind::kCancel:
-      return OrderKind::kCancel;
-    case InputKind::kText:
-      return OrderKind::kText;
-    case InputKind::kPlace:
-      return OrderKind::kPlace;
-    default:
-      return OrderKind::kNone;
-  }
+OrderKind order_kind(const WorldInput& input) noexcept {
+  const auto* const order = input.as<request::Order>();
+  return order != nullptr ? request::order_kind(*order) : OrderKind::kNone;
+}
+
+request::OrderParts order_parts(const WorldInput& input) noexcept {
+  return request::parts_of(input.as<request::Order>());
 }
 
 // What another process may send at all. Whether an order makes sense is check_order(), whose errors
 // are for people.
 bool is_order_formed(const WorldInput& input) noexcept {
-  const OrderDetails& order = input.order;
-  bool formed = is_order(input.kind) && order.text.size() <= kMostOrderText &&
+  const request::OrderParts order = order_parts(input);
+  bool formed = input.is<request::Order>() && order.text.size() <= kMostOrderText &&
                 order.points_W.size() <= kMostOrderPoints &&
                 input.author.name.size() <= kMostOrderAuthor;
   for (const Vec2 p_W : order.points_W) formed = formed && is_finite(p_W);
@@ -185,13 +170,34 @@ bool is_order_formed(const WorldInput& input) noexcept {
        {order.yaw_rad.value_or(0), order.v_mps, order.w_radps, order.speed_mps}) {
     formed = formed && std::isfinite(number);
   }
-  const bool goes = input.kind == InputKind::kGoal || input.kind == InputKind::kPlace;
-  if (goes) return formed && order.points_W.size() == 1;
-  return formed && (input.kind != InputKind::kPath || order.points_W.size() >= 2);
+  return formed && (!input.is<request::Path>() || order.points_W.size() >= 2);
 }
 
+namespace {
+
+Status check_drive(const EngineSpec& spec, const WorldInput& input, const request::Drive& drive) {
+  if (std::abs(drive.v_mps) <= kFastest_mps && std::abs(drive.w_radps) <= kFastest_radps) {
+    return {};
+  }
+  return wrong(spec, input,
+               fmt::format("{} m/s, {} rad/s: expected at most {} m/s and {} rad/s", drive.v_mps,
+                           drive.w_radps, kFastest_mps, kFastest_radps));
+}
+
+Status check_text(const EngineSpec& spec, const WorldInput& input, const std::string& text) {
+  if (text.empty() || text.size() > kMostOrderText) {
+    return wrong(spec, input,
+                 fmt::format("{} bytes; expected 1 to {}", text.size(), kMostOrderText));
+  }
+  if (has_control_characters(text)) {
+    return wrong(spec, input, "it has control characters; expected a line of plain text");
+  }
+  return {};
+}
+
+}  // namespace
+
 Status check_order(const EngineSpec& spec, const WorldInput& input) {
-  const OrderDetails& order = input.order;
   const std::string& name = input.author.name;
   if (name.size() > kMostOrderAuthor || has_control_characters(name)) {
     return fail(ErrorCode::kInvalidArgument,
@@ -199,59 +205,28 @@ Status check_order(const EngineSpec& spec, const WorldInput& input) {
                 name.size(), kMostOrderAuthor);
   }
   // Only a cancellation may be meant for all robots: all of them cannot go to one place.
-  const bool for_all = input.kind == InputKind::kCancel && !input.robot.valid();
+  const bool cancel = input.is<request::Cancel>();
+  const bool for_all = cancel && !input.robot.valid();
   if (!for_all && input.robot.value() >= spec.robots.size()) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` needs a robot",
-                to_string(order_kind(input.kind)));
+    return fail(ErrorCode::kInvalidArgument, "`{}` needs a robot", to_string(order_kind(input)));
   }
-  switch (input.kind) {
-    case InputKind::kDrive:
-      if (std::abs(order.v_mps) <= kFastest_mps && std::abs(order.w_radps) <= kFastest_radps) {
-        return {};
-      }
-      return wrong(spec, input,
-                   fmt::format("{} m/s, {} rad/s: expected at most {} m/s and {} rad/s",
-                               order.v_mps, order.w_radps, kFastest_mps, kFastest_radps));
-    case InputKind::kGoal:
-    case InputKind::kPath:
-    case InputKind::kPlace:
-      return check_points(spec, input);
-    case InputKind::kText:
-      if (order.text.empty() || order.text.size() > kMostOrderText) {
-        return wrong(spec, input,
-                     fmt::format("{} bytes; expected 1 to {}", order.text.size(), kMostOrderText));
-      }
-      if (has_control_characters(order.text)) {
-        return wrong(spec, input, "it has control characters; expected a line of plain text");
-      }
-      return {};
-    case InputKind::kCancel:
-      return {};
-    default:
-      return fail(ErrorCode::kInvalidArgument, "the input is not an order");
+  if (const auto* const drive = input.as<request::Drive>()) return check_drive(spec, input, *drive);
+  if (const auto* const text = input.as<request::Text>()) {
+    return check_text(spec, input, text->text);
   }
-}
-
-std::string path_size_text(std::size_t points) {
-  return fmt::format("a path has {} points; expected 2 to {}", points, kMostOrderPoints);
+  if (cancel) return {};
+  if (input.is<request::Order>()) return check_points(spec, input);
+  return fail(ErrorCode::kInvalidArgument, "the input is not an order");
 }
 
 std::string order_text(const WorldInput& input) {
-  const OrderDetails& order = input.order;
-  std::string text(to_string(order_kind(input.kind)));
-  switch (input.kind) {
-    case InputKind::kDrive:
-      return text + fmt::format(" {:.2f} m/s, {:.2f} rad/s", order.v_mps, order.w_radps);
-    case InputKind::kText:
-      return text + ": " + order.text;
-    case InputKind::kPath:
-      text += fmt::format(" of {} points to", order.points_W.size());
-      break;
-    case InputKind::kCancel:
-      return text;
-    default:
-      break;
+  const request::OrderParts order = order_parts(input);
+  std::string text(to_string(order_kind(input)));
+  if (const auto* const drive = input.as<request::Drive>()) {
+    return text + fmt::format(" {:.2f} m/s, {:.2f} rad/s", drive->v_mps, drive->w_radps);
   }
+  if (const auto* const words = input.as<request::Text>()) return text + ": " + words->text;
+  if (input.is<request::Path>()) text += fmt::format(" of {} points to", order.points_W.size());
   if (!order.points_W.empty()) {
     const Vec2 last = order.points_W.back();
     text += fmt::format(" {:.2f}, {:.2f}", last.x, last.y);
@@ -260,15 +235,14 @@ std::string order_text(const WorldInput& input) {
   return text;
 }
 
-Pose2 ordered_place(const WorldInput& input, double yaw_rad) noexcept {
-  const Vec2 p_WR = input.order.points_W.front();
-  return {p_WR.x, p_WR.y, wrap_angle(input.order.yaw_rad.value_or(yaw_rad))};
+Pose2 ordered_place(const request::Place& place, double yaw_rad) noexcept {
+  return {place.p_W.x, place.p_W.y, wrap_angle(place.yaw_rad.value_or(yaw_rad))};
 }
 
 tl::unexpected<Error> refused_order(const EngineSpec& spec, const WorldInput& input, ErrorCode code,
                                     std::string_view why) {
   return fail(code, "robot `{}`, {}: {}", spec.robots[input.robot.value()].name,
-              to_string(order_kind(input.kind)), why);
+              to_string(order_kind(input)), why);
 }
 
 }  // namespace rave::sim

@@ -13,8 +13,10 @@
 /// same.
 namespace rave::sim {
 
-/// Of an input that is an order.
-[[nodiscard]] OrderKind order_kind(WorldInput::Kind kind) noexcept;
+/// Its kind; kNone: the input is no order.
+[[nodiscard]] OrderKind order_kind(const WorldInput& input) noexcept;
+/// What the order of an input consists of; nothing: it is no order. Valid as long as the input.
+[[nodiscard]] request::OrderParts order_parts(const WorldInput& input) noexcept;
 
 /// Whether it has the form of an order: numbers are finite, texts and lists have at most their
 /// length. What another process says is looked at so before anything else.
@@ -25,8 +27,8 @@ namespace rave::sim {
 /// Errors: kInvalidArgument, with the name of the robot.
 [[nodiscard]] Status check_order(const EngineSpec& spec, const WorldInput& input);
 
-/// The pose that an order to place a robot asks for; without a yaw, the robot keeps `yaw_rad`.
-[[nodiscard]] Pose2 ordered_place(const WorldInput& input, double yaw_rad) noexcept;
+/// The pose that is asked for; without a yaw, the robot keeps `yaw_rad`.
+[[nodiscard]] Pose2 ordered_place(const request::Place& place, double yaw_rad) noexcept;
 
 /// The error of an order that was refused: with robot and kind.
 [[nodiscard]] tl::unexpected<Error> refused_order(const EngineSpec& spec, const WorldInput& input,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Orders that wait for the next decision of a program, and as the program sees them.
 #include <algorithm>
+#include <functional>
 
 #include "order_book.hpp"
 #include "order_checks.hpp"
@@ -8,16 +9,12 @@
 namespace rave::sim {
 
 void OrderedRobot::wait_for_program(const WorldInput& input) {
-  const bool text = input.kind == WorldInput::Kind::kText;
+  const auto is_text = [](const WorldInput& one) { return one.is<request::Text>(); };
   // The newest motion replaces those before it; texts are all kept, up to a limit.
-  if (!text) {
-    std::erase_if(waiting,
-                  [](const WorldInput& one) { return one.kind != WorldInput::Kind::kText; });
+  if (!is_text(input)) {
+    std::erase_if(waiting, std::not_fn(is_text));
   } else if (waiting.size() >= kMostWaitingOrders) {
-    const auto oldest = std::find_if(waiting.begin(), waiting.end(), [](const WorldInput& one) {
-      return one.kind == WorldInput::Kind::kText;
-    });
-    waiting.erase(oldest);
+    waiting.erase(std::find_if(waiting.begin(), waiting.end(), is_text));
   }
   waiting.push_back(input);
 }
@@ -28,8 +25,8 @@ void OrderedRobot::show() {
   items.clear();
   for (const WorldInput& input : shown) {
     OrderItem& item = items.emplace_back();
-    const OrderDetails& order = input.order;
-    item.kind = order_kind(input.kind);
+    const request::OrderParts order = order_parts(input);
+    item.kind = order_kind(input);
     item.points = order.points_W.data();
     item.point_count = static_cast<std::uint32_t>(order.points_W.size());
     item.has_yaw = order.yaw_rad ? 1 : 0;

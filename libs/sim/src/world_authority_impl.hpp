@@ -27,7 +27,7 @@ struct WorldAuthority::Impl {
   Status change_body(RobotId robot, std::span<const ParameterChange> changes, const Author& author,
                      WorldStep& world);
   Status change_obstacle(const ObstacleChange& change, const Author& author, WorldStep& world);
-  Status place(const WorldInput& input);
+  Status place(const WorldInput& input, const request::Place& there);
   void make_obstacle_changes(WorldStep& world);
   void refuse(RobotId robot, const Error& why);
   void take_over_obstacles(WorldStep& world);

@@ -6,8 +6,6 @@
 namespace rave::sim::testing {
 namespace {
 
-using Kind = WorldInput::Kind;
-
 TEST(EngineOrders, ADriveTakesThePlaceOfTheProgram) {
   const auto engine = make_engine(small_world());
   run(*engine, 10);
@@ -25,7 +23,7 @@ TEST(EngineOrders, ADriveTakesThePlaceOfTheProgram) {
   EXPECT_TRUE(of_kind(run(*engine, 10), EventKind::kOrdered).empty());
   EXPECT_NEAR(engine->true_pose(kDriver).x - before_m, 0.06, 1e-9);
   EXPECT_EQ(engine->inputs_by_hand(), 2U);
-  ASSERT_TRUE(engine->order(order(Kind::kCancel, kDriver)));
+  ASSERT_TRUE(engine->order(cancel(kDriver)));
   EXPECT_EQ(engine->order_of(kDriver), "");
   run(*engine, 10);
   EXPECT_NEAR(engine->true_pose(kDriver).x - before_m, 0.08, 1e-9) << "the program has it again";
@@ -42,23 +40,16 @@ TEST(EngineOrders, AProgramIsToldThatItIsDriven) {
 TEST(EngineOrders, AProgramGetsWhatItTakes) {
   const auto engine = make_engine(small_world());
   run(*engine, 3);
-  WorldInput path = order(Kind::kPath, kListener);
-  path.order.points_W = {{1, 0}, {1, 1}};
-  path.order.speed_mps = 0.3;
-  ASSERT_TRUE(engine->order(path)) << why(engine->order(path));
+  const WorldInput way = path(kListener, {{1, 0}, {1, 1}}, 0.3);
+  ASSERT_TRUE(engine->order(way)) << why(engine->order(way));
   EXPECT_EQ(engine->order_of(kListener), "path of 2 points to 1.00, 1.00");
-  WorldInput text = order(Kind::kText, kListener);
-  text.order.text = "hello";
-  ASSERT_TRUE(engine->order(text));
+  ASSERT_TRUE(engine->order(words(kListener, "hello")));
   const auto said = of_kind(run(*engine, 5), EventKind::kSaid);
   ASSERT_EQ(said.size(), 2U) << "each comes once";
   EXPECT_EQ(said[0].text, "path 2 points speed 0.3 by anna");
   EXPECT_EQ(said[1].text, "text hello by anna");
   EXPECT_EQ(said[0].robot, kListener);
-  WorldInput goal = order(Kind::kGoal, kListener);
-  goal.order.points_W = {{1, 0}};
-  goal.order.yaw_rad = 1;
-  ASSERT_TRUE(engine->order(goal));
+  ASSERT_TRUE(engine->order(goal(kListener, {1, 0}, 1)));
   const auto done = of_kind(run(*engine, 5), EventKind::kSaid);
   ASSERT_EQ(done.size(), 1U);
   EXPECT_EQ(done[0].text, "goal 1 points yaw 1 by anna");
@@ -67,20 +58,17 @@ TEST(EngineOrders, AProgramGetsWhatItTakes) {
 
 TEST(EngineOrders, AProgramThatIsDoneHearsOfACancelAndOfADriveOnce) {
   const auto engine = make_engine(small_world());
-  WorldInput goal = order(Kind::kGoal, kListener);
-  goal.order.points_W = {{1, 0}};
-  const WorldInput cancel = order(Kind::kCancel, kListener);
-  for (const WorldInput& end : {cancel, drive(kListener, 0, 0)}) {
-    ASSERT_TRUE(engine->order(goal));
+  for (const WorldInput& end : {cancel(kListener), drive(kListener, 0, 0)}) {
+    ASSERT_TRUE(engine->order(goal(kListener, {1, 0})));
     run(*engine, 5);
     ASSERT_EQ(engine->order_of(kListener), "") << "it is done";
     ASSERT_TRUE(engine->order(end)) << why(engine->order(end));
     const auto said = of_kind(run(*engine, 5), EventKind::kSaid);
     ASSERT_FALSE(said.empty());
     EXPECT_EQ(said[0].text, "cancel by anna");
-    EXPECT_EQ(said.size(), end.kind == Kind::kDrive ? 2U : 1U) << "beside that it is driven";
+    EXPECT_EQ(said.size(), end.is<request::Drive>() ? 2U : 1U) << "beside that it is driven";
     // The drive ends; the program was told of the goal already.
-    ASSERT_TRUE(engine->order(cancel));
+    ASSERT_TRUE(engine->order(cancel(kListener)));
     EXPECT_TRUE(of_kind(run(*engine, 5), EventKind::kSaid).empty());
   }
 }
@@ -88,9 +76,7 @@ TEST(EngineOrders, AProgramThatIsDoneHearsOfACancelAndOfADriveOnce) {
 TEST(EngineOrders, OfSeveralGoalsTheLastOneCounts) {
   const auto engine = make_engine(small_world());
   for (const double x_m : {1.0, 2.0, 3.0}) {
-    WorldInput goal = order(Kind::kGoal, kListener);
-    goal.order.points_W = {{x_m, 0}};
-    ASSERT_TRUE(engine->order(goal));
+    ASSERT_TRUE(engine->order(goal(kListener, {x_m, 0})));
   }
   EXPECT_EQ(of_kind(run(*engine, 3), EventKind::kSaid).size(), 1U);
 }
@@ -106,9 +92,7 @@ TEST(EngineOrders, AProgramThatTalksTooMuchIsCutShort) {
 TEST(EngineOrders, AGoalGoesToAControllerIfTheProgramTakesNone) {
   const auto engine = make_engine(small_world());
   run(*engine, 5);
-  WorldInput goal = order(Kind::kGoal, kGoalGetter);
-  goal.order.points_W = {{0.5, -2}};
-  ASSERT_TRUE(engine->order(goal));
+  ASSERT_TRUE(engine->order(goal(kGoalGetter, {0.5, -2})));
   EXPECT_EQ(engine->order_of(kGoalGetter), "goal 0.50, -2.00");
   const auto events = of_kind(run(*engine, 400), EventKind::kOrdered);
   ASSERT_EQ(events.size(), 2U);
@@ -182,7 +166,7 @@ TEST(EngineOrders, ARefusedOrderLeavesEverythingAsItWas) {
   const auto refused = [&](const std::string& text, const WorldInput& input) {
     EXPECT_EQ(untouched([&](Engine& engine) {
                 const Status status = engine.order(input);
-                if (input.kind != Kind::kPlace) {
+                if (!input.is<request::Place>()) {
                   EXPECT_EQ(why(engine.check_order(input)), why(status));
                 }
                 ASSERT_FALSE(status) << text;
@@ -201,20 +185,14 @@ TEST(EngineOrders, ARefusedOrderLeavesEverythingAsItWas) {
   refused("is inside the obstacle `wall`", goal(kListener, {4, 1}));
   refused("is outside the fence", goal(kListener, {3.5, 0}));
   refused("is not a yaw", place(kListener, {1, 1}, nan));
-  refused("`path` needs a robot", order(Kind::kPath, RobotId()));
+  refused("`path` needs a robot", path(RobotId(), {}));
   refused("`goal` needs a robot", goal(RobotId(99), {0, 0}));
   const auto path_of = [](std::size_t points) {
-    WorldInput path = order(Kind::kPath, kListener);
-    path.order.points_W.assign(points, {1, 0});
-    return path;
+    return path(kListener, std::vector<Vec2>(points, {1, 0}));
   };
-  refused("1 points; expected 2 to 1000", path_of(1));
+  refused("1 point; expected 2 to 1000", path_of(1));
   refused("10000 points; expected 2 to 1000", path_of(10'000));
-  refused("its program takes no paths", [] {
-    WorldInput path = order(Kind::kPath, kDriver);
-    path.order.points_W = {{1, 0}, {2, 0}};
-    return path;
-  }());
+  refused("its program takes no paths", path(kDriver, {{1, 0}, {2, 0}}));
   refused("neither its program nor one of its controllers takes goals", goal(kDriver, {1, 0}));
   refused("its program takes no texts", words(kDriver, "hello"));
   refused("0 bytes; expected 1 to 1000", words(kListener, ""));

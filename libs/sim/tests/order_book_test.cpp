@@ -29,7 +29,7 @@ TEST(OrderBook, AVelocityTakesThePlaceOfTheProgramUntilItIsCancelled) {
   robot.orders.steer(robot.moment(3));
   EXPECT_EQ(robot.controller(0).last[0], velocity_command(0.5, 0.1));
   EXPECT_EQ(robot.controller(0).last_step[0], 3);
-  robot.orders.cancel(4, order(WorldInput::Kind::kCancel, RobotId()));
+  robot.orders.cancel(4, cancel(RobotId()));
   EXPECT_EQ(robot.orders.under_way(kRobot), "");
   EXPECT_EQ(robot.controller(0).last[0], Command{}) << "it stands until the program speaks";
   EXPECT_EQ(robot.controller(0).last_step[0], -1);

@@ -8,23 +8,19 @@
 namespace rave::sim::testing {
 namespace {
 
-using Kind = WorldInput::Kind;
-
 /// What people ask in the run below, by step.
 std::vector<std::pair<int, WorldInput>> orders_of_a_day() {
-  WorldInput path = order(Kind::kPath, kListener);
-  path.order.points_W = {{1, 0}, {1, 1}};
   WorldInput again = drive(kDriver, 0.2, -0.5);
   again.author.name = "bert";
   return {{5, drive(kDriver, 0.5, 0.3)},
           {9, drive(kDriver, 0.4, 0.3)},
           {12, goal(kGoalGetter, {1, -1.5})},
-          {12, path},
+          {12, path(kListener, {{1, 0}, {1, 1}})},
           {15, place(kListener, {2, 1}, 0.5)},
           {15, words(kListener, "hello")},
           {20, again},
-          {25, order(Kind::kCancel, kDriver)},
-          {30, order(Kind::kCancel, RobotId())}};
+          {25, cancel(kDriver)},
+          {30, cancel(RobotId())}};
 }
 
 constexpr int kDay = 60;
@@ -154,9 +150,9 @@ TEST(SplitOrders, AHostForwardsForItsOwnRobotsOnly) {
   EXPECT_EQ(refused(drive(kListener, 0.1, 0)), "");
   EXPECT_NE(refused(drive(kDriver, 0.1, 0)).find("an input that its host may not forward"),
             std::string::npos);
-  EXPECT_NE(refused(order(Kind::kCancel, RobotId())), "");
+  EXPECT_NE(refused(cancel(RobotId())), "");
   WorldInput change;
-  change.kind = Kind::kChange;
+  change.action = Change();
   change.robot = kListener;
   EXPECT_NE(refused(change), "");
   EXPECT_NE(refused(goal(kListener, {std::numeric_limits<double>::quiet_NaN(), 0})), "");

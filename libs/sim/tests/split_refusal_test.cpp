@@ -252,30 +252,29 @@ TEST(SplitRefusal, InputsThatCannotBeCarriedOut) {
   input.robot = RobotId(4);
   EXPECT_FALSE(run.authority->ask(input));
   input.robot = RobotId(2);
-  input.kind = WorldInput::Kind::kChange;
+  input.action = Change();
   EXPECT_FALSE(run.authority->ask(input));
   const ParameterChange body{ParameterChange::Part::kBody, 0, "scale", 1.1};
   const ParameterChange speed{ParameterChange::Part::kProgram, 0, "speed", 1.0};
-  input.changes = {body, speed};
+  input.action = Change{{body, speed}};
   EXPECT_FALSE(run.authority->ask(input));
-  input.changes = {body};
+  input.action = Change{{body}};
   ASSERT_EQ(run.authority->ask(input), 1U);
   ASSERT_TRUE(run.advance());
   ASSERT_EQ(run.authority->refusals().size(), 1U);
   EXPECT_EQ(run.authority->refusals()[0].text,
             "robot `r2`, body: a real body cannot change its size");
   input.robot = RobotId(0);
-  input.changes = {speed};
+  input.action = Change{{speed}};
   ASSERT_EQ(run.authority->ask(input), 2U);
   ASSERT_TRUE(run.advance());
   EXPECT_TRUE(run.authority->refusals().empty());
   ASSERT_TRUE(run.advance());
   ASSERT_EQ(run.authority->refusals().size(), 1U);
   EXPECT_EQ(run.authority->refusals()[0].sequence, 2U);
-  EXPECT_EQ(run.hosts[0]->set_parameters(RobotId(2), input.changes).error().text(),
+  EXPECT_EQ(run.hosts[0]->set_parameters(RobotId(2), {{speed}}).error().text(),
             "robot `r2` runs on another host");
-  input.changes = {body};
-  EXPECT_EQ(run.hosts[0]->set_parameters(RobotId(0), input.changes).error().text(),
+  EXPECT_EQ(run.hosts[0]->set_parameters(RobotId(0), {{body}}).error().text(),
             "only the authority can change the body of robot `r0`");
 }
 
@@ -307,24 +306,19 @@ TEST(SplitRefusal, ObstaclesOfAWorldThatCannotBe) {
             "obstacle `crate`, number 4: changed, but there is no such obstacle");
   gone.id = BodyId(0);
   EXPECT_EQ(with({gone}), "obstacle `crate`, number 0: changed, but there is no such obstacle");
-  EXPECT_EQ(world_refusal([](WorldStep& world) {
-              WorldInput input;
-              input.kind = WorldInput::Kind::kObstacle;
-              world.inputs.push_back(input);
-            }),
+  EXPECT_EQ(world_refusal(
+                [](WorldStep& world) { world.inputs.emplace_back().action = ObstacleChange(); }),
             "robot `number 4294967295`: an invalid input");
 }
 
 TEST(SplitRefusal, ObstaclesThatNobodyCanHave) {
   SplitRun run(four, kFourOn);
   WorldInput input;
-  input.kind = WorldInput::Kind::kObstacle;
-  EXPECT_EQ(run.authority->ask(input).error().text(), "nothing to change");
-  input.obstacle = crate({kNan, 0, 0});
+  input.action = crate({kNan, 0, 0});
   EXPECT_FALSE(run.authority->ask(input));
-  input.obstacle = crate({0.1, 0, 0});
+  input.action = crate({0.1, 0, 0});
   ASSERT_EQ(run.authority->ask(input), 1U);
-  input.obstacle = crate({5, 5, 0});
+  input.action = crate({5, 5, 0});
   ASSERT_EQ(run.authority->ask(input), 2U);
   ASSERT_EQ(run.authority->ask(input), 3U);
   ASSERT_TRUE(run.advance());

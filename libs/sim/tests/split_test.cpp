@@ -67,13 +67,11 @@ void ask_by_hand(WorldAuthority& authority) {
   stop.robot = kStoppedByHand;
   ASSERT_TRUE(authority.ask(stop));
   WorldInput change;
-  change.kind = WorldInput::Kind::kChange;
   change.robot = kChangedByHand;
-  change.changes = {speed_by_hand()};
+  change.action = Change{{speed_by_hand()}};
   ASSERT_TRUE(authority.ask(change));
   WorldInput obstacle;
-  obstacle.kind = WorldInput::Kind::kObstacle;
-  obstacle.obstacle = removed_by_hand();
+  obstacle.action = removed_by_hand();
   ASSERT_TRUE(authority.ask(obstacle));
 }
 

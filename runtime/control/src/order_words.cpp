@@ -16,18 +16,7 @@
 namespace rave::runtime {
 namespace {
 
-using InputKind = sim::WorldInput::Kind;
-
-using Kinds = std::pair<RunRequest::Kind, InputKind>;
-constexpr Kinds kKinds[] = {{RunRequest::Kind::kStop, InputKind::kStop},
-                            {RunRequest::Kind::kRelease, InputKind::kRelease},
-                            {RunRequest::Kind::kArm, InputKind::kArm},
-                            {RunRequest::Kind::kDrive, InputKind::kDrive},
-                            {RunRequest::Kind::kGoal, InputKind::kGoal},
-                            {RunRequest::Kind::kPath, InputKind::kPath},
-                            {RunRequest::Kind::kCancel, InputKind::kCancel},
-                            {RunRequest::Kind::kText, InputKind::kText},
-                            {RunRequest::Kind::kPlace, InputKind::kPlace}};
+using Kind = RunRequest::Kind;
 
 /// Reads the words of a line one after the other.
 class Words {
@@ -85,50 +74,50 @@ bool read_word(Words& words, RunRequest& request) {
 
 }  // namespace
 
-InputKind input_kind(RunRequest::Kind kind) noexcept {
-  const auto* const found = std::ranges::find(kKinds, kind, &Kinds::first);
-  return found != std::end(kKinds) ? found->second : InputKind::kStop;
-}
+Status check_path_size(std::size_t points) { return request::check_path_size(points); }
 
-RunRequest::Kind kind_of_input(InputKind kind) noexcept {
-  const auto* const found = std::ranges::find(kKinds, kind, &Kinds::second);
-  return found != std::end(kKinds) ? found->first : RunRequest::Kind::kStop;
-}
-
-Status check_path_size(std::size_t points) {
-  if (points >= 2 && points <= kMostOrderPoints) return {};
-  return fail(ErrorCode::kInvalidArgument, "{}", sim::path_size_text(points));
+Result<sim::WorldInput::Action> input_action(const RunRequest& request) {
+  using Action = sim::WorldInput::Action;
+  if (request.kind == Kind::kStop) return Action(request::Stop());
+  if (request.kind == Kind::kRelease) return Action(request::Release());
+  if (request.kind == Kind::kArm) return Action(request::Arm());
+  const auto kind = static_cast<std::uint32_t>(request.kind) -
+                    static_cast<std::uint32_t>(Kind::kDrive) +
+                    static_cast<std::uint32_t>(OrderKind::kDrive);
+  request::OrderParts parts{request.points,  request.yaw_rad,   request.v_mps,
+                            request.w_radps, request.speed_mps, request.value};
+  RAVE_TRY_ASSIGN(auto order, request::make_order(static_cast<OrderKind>(kind), parts));
+  return Action(std::move(order));
 }
 
 Result<sim::WorldInput> order_input(const sim::EngineSpec& spec, const RunRequest& request) {
   sim::WorldInput input;
-  input.kind = input_kind(request.kind);
   input.author = {true, request.by};
   if (!request.robot.empty()) {
     RAVE_TRY_ASSIGN(input.robot, find_robot(spec, request.robot));
-  } else if (request.kind != RunRequest::Kind::kCancel) {
+  } else if (request.kind != Kind::kCancel) {
     return fail(ErrorCode::kInvalidArgument, "`{}` needs a robot", to_string(request.kind));
   }
-  input.order.points_W = request.points;
-  input.order.yaw_rad = request.yaw_rad;
-  input.order.v_mps = request.v_mps;
-  input.order.w_radps = request.w_radps;
-  input.order.speed_mps = request.speed_mps;
-  if (request.kind == RunRequest::Kind::kText) input.order.text = request.value;
+  RAVE_TRY_ASSIGN(input.action, input_action(request));
   return input;
 }
 
-RunRequest order_request(const sim::EngineSpec& spec, const sim::WorldInput& input) {
+RunRequest input_request(const sim::EngineSpec& spec, const sim::WorldInput& input) {
   RunRequest request;
-  request.kind = kind_of_input(input.kind);
   if (input.robot.valid()) request.robot = spec.robots[input.robot.value()].name;
   request.by = input.author.name;
-  request.value = input.order.text;
-  request.points = input.order.points_W;
-  request.yaw_rad = input.order.yaw_rad;
-  request.v_mps = input.order.v_mps;
-  request.w_radps = input.order.w_radps;
-  request.speed_mps = input.order.speed_mps;
+  if (input.is<request::Release>()) request.kind = Kind::kRelease;
+  if (input.is<request::Arm>()) request.kind = Kind::kArm;
+  const auto* const order = input.as<request::Order>();
+  if (order == nullptr) return request;
+  request.kind = static_cast<Kind>(static_cast<std::size_t>(Kind::kDrive) + order->index());
+  const request::OrderParts parts = request::parts_of(*order);
+  request.value = parts.text;
+  request.points.assign(parts.points_W.begin(), parts.points_W.end());
+  request.yaw_rad = parts.yaw_rad;
+  request.v_mps = parts.v_mps;
+  request.w_radps = parts.w_radps;
+  request.speed_mps = parts.speed_mps;
   return request;
 }
 

@@ -70,8 +70,7 @@ Result<std::string> edit(sim::Engine& engine, const RunRequest& request) {
 
 /// A robot without a pose cannot be sent to a place.
 Status check_pose(const sim::Engine& engine, const sim::WorldInput& input) {
-  using Kind = sim::WorldInput::Kind;
-  if (input.kind != Kind::kGoal && input.kind != Kind::kPath) return {};
+  if (!input.is<request::Goal>() && !input.is<request::Path>()) return {};
   const sim::ReportedPose& pose = engine.reported(input.robot);
   if (engine.steps_done() == 0 || (pose.known && !pose.stale)) return {};
   return fail(ErrorCode::kState, "robot `{}`: its pose is not known at present",

@@ -12,7 +12,6 @@
 namespace rave::runtime {
 namespace {
 
-using InputKind = sim::WorldInput::Kind;
 using ObstacleKind = sim::ObstacleChange::Kind;
 constexpr std::string_view kBodyKey = "body.scale";
 
@@ -53,11 +52,11 @@ Result<sim::WorldInput> input_of(const sim::EngineSpec& spec, const RunRequest& 
   switch (request.kind) {
     case RunRequest::Kind::kStop:
     case RunRequest::Kind::kRelease:
-    case RunRequest::Kind::kArm:
-      input.kind = input_kind(request.kind);
+    case RunRequest::Kind::kArm: {
+      RAVE_TRY_ASSIGN(input.action, input_action(request));
       return input;
+    }
     case RunRequest::Kind::kSet: {
-      input.kind = InputKind::kChange;
       if (input.robot.valid() && request.key != kBodyKey) {
         return fail(ErrorCode::kState,
                     "the parameters of `{}` are set at its host: send the request to that process, "
@@ -65,12 +64,11 @@ Result<sim::WorldInput> input_of(const sim::EngineSpec& spec, const RunRequest& 
                     request.robot, kBodyKey);
       }
       RAVE_TRY_ASSIGN(auto change, requested_parameter(spec, input.robot, request));
-      input.changes = {std::move(change)};
+      input.action = sim::Change{{std::move(change)}};
       return input;
     }
     case RunRequest::Kind::kEdit: {
-      input.kind = InputKind::kObstacle;
-      RAVE_TRY_ASSIGN(input.obstacle, requested_change(request));
+      RAVE_TRY_ASSIGN(input.action, requested_change(request));
       return input;
     }
     case RunRequest::Kind::kHandOver:
@@ -117,13 +115,8 @@ std::vector<RunRequest> requests_in(const sim::EngineSpec& spec, const sim::Worl
                         fmt::format("{}", resized.scale), resized.by});
   }
   for (const sim::WorldInput& input : world.inputs) {
-    if (!input.author.by_hand || input.kind == InputKind::kChange) continue;
-    if (sim::is_order(input.kind)) {
-      requests.push_back(order_request(spec, input));
-    } else {
-      requests.push_back(
-          {kind_of_input(input.kind), name_of(input.robot), "", "", input.author.name});
-    }
+    if (!input.author.by_hand || input.is<sim::Change>()) continue;
+    requests.push_back(input_request(spec, input));
   }
   return requests;
 }

@@ -163,7 +163,7 @@ TEST_F(CommandsTest, NobodyOnTheBusIsTheTerminalAndAPathHasTwoPoints) {
   bus::borrow(command.points, points);
   const auto path = order_of(command, "anna");
   ASSERT_FALSE(path);
-  EXPECT_EQ(path.error().message, "a path has 1 points; expected 2 to 1000");
+  EXPECT_EQ(path.error().message, "a path has 1 point; expected 2 to 1000");
   EXPECT_TRUE(asked().empty());
 }
 

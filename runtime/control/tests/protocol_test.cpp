@@ -110,7 +110,7 @@ TEST(Protocol, SaysWhyAPathIsNone) {
     for (std::size_t i = 1; i < points; ++i) line += ",[0,1]";
     return parse_request(line + "]}").error().message;
   };
-  EXPECT_EQ(why(1), "a path has 1 points; expected 2 to 1000");
+  EXPECT_EQ(why(1), "a path has 1 point; expected 2 to 1000");
   EXPECT_EQ(why(1001), "a path has 1001 points; expected 2 to 1000");
   EXPECT_EQ(why(9000), "a path has 9000 points; expected 2 to 1000");
   EXPECT_EQ(why(20'000), "the line is longer than 65536 bytes, which hold a path of 1000 points");

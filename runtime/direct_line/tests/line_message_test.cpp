@@ -71,8 +71,7 @@ TEST(LineMessage, RefusesWhatIsNoOrder) {
             "`points`: expected pairs of x and y in metres, within ±1000000 m");
   EXPECT_EQ(refused(R"("kind":"goal","points":[[1,1e7]])"),
             "`points`: expected pairs of x and y in metres, within ±1000000 m");
-  EXPECT_EQ(refused(R"("kind":"path","points":[[1,1]])"),
-            "a path has 1 points; expected 2 to 1000");
+  EXPECT_EQ(refused(R"("kind":"path","points":[[1,1]])"), "a path has 1 point; expected 2 to 1000");
   EXPECT_EQ(refused(R"("kind":"text","text":"")"), "`text`: expected text");
   EXPECT_EQ(refused(R"("kind":"stop","by":"ben")"), "the message has unknown members");
   for (const char* const other : {"set", "edit", "arm", "hand_over", "list"}) {

@@ -21,7 +21,6 @@ namespace rave::runtime {
 namespace {
 
 using Kind = RunRequest::Kind;
-using InputKind = sim::WorldInput::Kind;
 
 /// After this time the caller gets the answer that it will take a while.
 constexpr std::chrono::seconds kAskedPatience{1};
@@ -32,6 +31,12 @@ Status check_author(const std::string& by) {
   return fail(ErrorCode::kInvalidArgument,
               "the name of the author has {} bytes, or control characters; expected at most {}",
               by.size(), kMostOrderAuthor);
+}
+
+/// Of a path, which may be long.
+std::size_t points_of(const sim::WorldInput& input) {
+  const auto* const path = input.as<request::Path>();
+  return path != nullptr ? path->points_W.size() : 0;
 }
 
 }  // namespace
@@ -63,16 +68,16 @@ Result<std::vector<RobotId>> InputPost::meant(const RunRequest& request) const {
 bool InputPost::will_be_stopped(RobotId robot) const {
   const auto hold = std::find_if(waiting_.rbegin(), waiting_.rend(), [robot](const Waiting& one) {
     return one.input.robot == robot &&
-           (one.input.kind == InputKind::kStop || one.input.kind == InputKind::kRelease);
+           (one.input.is<request::Stop>() || one.input.is<request::Release>());
   });
-  return hold != waiting_.rend() ? hold->input.kind == InputKind::kStop : engine_.stopped(robot);
+  return hold != waiting_.rend() ? hold->input.is<request::Stop>() : engine_.stopped(robot);
 }
 
 /// Whether what holds a robot changes before the next step, so that only that step can tell whether
 /// it may move.
 bool InputPost::is_held_anew(RobotId robot) const {
   return std::ranges::any_of(waiting_, [robot](const Waiting& one) {
-    return one.input.robot == robot && one.input.kind < InputKind::kChange;
+    return one.input.robot == robot && one.input.is_hold();
   });
 }
 
@@ -80,18 +85,18 @@ bool InputPost::is_driven(const std::string& name) const {
   const auto robot = find_robot(engine_.spec(), name);
   if (!robot) return false;
   const auto last = std::find_if(waiting_.rbegin(), waiting_.rend(), [&](const Waiting& one) {
-    const InputKind kind = one.input.kind;
-    return one.input.robot == *robot && kind != InputKind::kText && kind != InputKind::kPlace;
+    const sim::WorldInput& input = one.input;
+    return input.robot == *robot && !input.is<request::Text>() && !input.is<request::Place>();
   });
-  if (last != waiting_.rend()) return last->input.kind == InputKind::kDrive;
+  if (last != waiting_.rend()) return last->input.is<request::Drive>();
   return engine_.order_of(*robot) == "drive";
 }
 
 Status InputPost::check_room(const std::vector<sim::WorldInput>& inputs) const {
   std::size_t points = 0;
-  for (const Waiting& one : waiting_) points += one.input.order.points_W.size();
+  for (const Waiting& one : waiting_) points += points_of(one.input);
   for (const sim::WorldInput& input : inputs) {
-    points += input.order.points_W.size();
+    points += points_of(input);
     RAVE_TRY(lock_step::check_fits(input));
   }
   if (waiting_.size() + inputs.size() <= kMostWaiting && points <= kMostPoints) return {};
@@ -125,7 +130,7 @@ Result<std::string> InputPost::give_hold(const RunRequest& request) {
   std::vector<sim::WorldInput> inputs;
   for (const RobotId robot : its) {
     sim::WorldInput& input = inputs.emplace_back();
-    input.kind = input_kind(request.kind);
+    RAVE_TRY_ASSIGN(input.action, input_action(request));
     input.author = {true, request.by};
     input.robot = robot;
   }

@@ -16,7 +16,6 @@ namespace {
 using namespace sim::testing;
 using namespace std::chrono_literals;
 using Kind = RunRequest::Kind;
-using InputKind = sim::WorldInput::Kind;
 
 constexpr std::uint64_t kFirst = 5000;
 

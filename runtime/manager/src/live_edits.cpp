@@ -6,6 +6,7 @@
 #include "manager_habits.hpp"
 #include "rave/assemble/obstacles.hpp"
 #include "rave/base/names.hpp"
+#include "rave/control/obstacle_edits.hpp"
 #include "rave/control/world_request.hpp"
 #include "rave/math/transform.hpp"
 
@@ -273,9 +274,9 @@ Result<std::string> LiveEdits::edit(const runtime::RunRequest& request, SimTime 
   if (takes_over_) {
     return fail(ErrorCode::kState, "this manager is taking over from another one; try again");
   }
-  RAVE_TRY_ASSIGN(sim::WorldInput input, runtime::input_of(authority_->spec(), request));
-  RAVE_TRY(limits_.take(*input.obstacle, EditLimits::Clock::now()));
-  return make(*input.obstacle, now);
+  RAVE_TRY_ASSIGN(sim::ObstacleChange change, runtime::requested_change(request));
+  RAVE_TRY(limits_.take(change, EditLimits::Clock::now()));
+  return make(change, now);
 }
 
 void LiveEdits::serve(runtime::RunControl::Asked asked, SimTime now) {

@@ -89,9 +89,9 @@ Result<std::uint64_t> WorldRequests::pass_on(const RunRequest& request,
   // its own robots and refuses it in its next report, so the outcome of a change or an order is
   // known one step later.
   RAVE_TRY_ASSIGN(sim::WorldInput input, runtime::input_of(authority.spec(), request));
-  if (input.kind == sim::WorldInput::Kind::kArm) RAVE_TRY(check_released(authority, input.robot));
-  if (input.obstacle) {
-    RAVE_TRY(limits_.take(*input.obstacle, EditLimits::Clock::now()));
+  if (input.is<request::Arm>()) RAVE_TRY(check_released(authority, input.robot));
+  if (const auto* const obstacle = input.as<sim::ObstacleChange>()) {
+    RAVE_TRY(limits_.take(*obstacle, EditLimits::Clock::now()));
   } else if (requests_.size() >= EditLimits::kMostOpen) {
     return fail(ErrorCode::kState, "too many requests wait for the next step; try again later");
   } else {
@@ -103,8 +103,8 @@ Result<std::uint64_t> WorldRequests::pass_on(const RunRequest& request,
 
 // A stop latches until a release, and check_released() refuses to arm before that.
 bool WorldRequests::note_stop(const sim::WorldInput& input, std::vector<std::uint8_t>& stopped) {
-  const bool stops = input.kind == sim::WorldInput::Kind::kStop;
-  if (!stops && input.kind != sim::WorldInput::Kind::kRelease) return false;
+  const bool stops = input.is<request::Stop>();
+  if (!stops && !input.is<request::Release>()) return false;
   for (std::uint32_t r = 0; r < stopped.size(); ++r) {
     if (!input.robot.valid() || input.robot.value() == r) stopped[r] = stops ? 1 : 0;
   }

@@ -83,7 +83,7 @@ Status to_wire(const sim::ParameterChange& change, rave_wire_ParameterChange& wi
 /// Converts the author and the details of an order.
 Status to_wire(const sim::WorldInput& input, rave_wire_WorldInput& wire,
                std::vector<rave_wire_OrderPoint>& points) {
-  const sim::OrderDetails& order = input.order;
+  const auto order = request::parts_of(input.as<request::Order>());
   if (!put_text(wire.by, input.author.name) || !put_text(wire.text, order.text) ||
       order.points_W.size() > kMostOrderPoints) {
     return fail(ErrorCode::kInvalidArgument,
@@ -102,29 +102,56 @@ Status to_wire(const sim::WorldInput& input, rave_wire_WorldInput& wire,
   return {};
 }
 
+namespace {
+
+using Action = sim::WorldInput::Action;
+
+/// Orders are the last of the actions; on the wire they are counted on.
+constexpr std::size_t kFirstOrder = std::variant_size_v<Action> - 1;
+static_assert(std::is_same_v<std::variant_alternative_t<kFirstOrder, Action>, request::Order>);
+
+std::uint8_t wire_kind(const sim::WorldInput& input) {
+  const auto* const order = input.as<request::Order>();
+  return static_cast<std::uint8_t>(input.action.index() + (order ? order->index() : 0));
+}
+
+Result<Action> change_from(const rave_wire_WorldInput& wire) {
+  sim::Change change;
+  for (const rave_wire_ParameterChange& one : elements(wire.changes)) {
+    RAVE_TRY_ASSIGN(auto read_change, from_wire(one));
+    change.changes.push_back(std::move(read_change));
+  }
+  return change;
+}
+
+Result<Action> action_from(const rave_wire_WorldInput& wire) {
+  for (Action hold :
+       {Action(request::Stop()), Action(request::Release()), Action(request::Arm())}) {
+    if (hold.index() == wire.kind) return hold;
+  }
+  if (wire.kind == Action(sim::Change()).index()) return change_from(wire);
+  // What else comes before orders is an obstacle, which is sent otherwise.
+  if (wire.kind < kFirstOrder) {
+    return fail(ErrorCode::kInvalidArgument, "an input of an unknown kind");
+  }
+  std::vector<Vec2> points_W;
+  for (const auto& point : elements(wire.points)) points_W.push_back({point.x_m, point.y_m});
+  request::OrderParts parts{points_W, {}, wire.v_mps, wire.w_radps, wire.speed_mps, wire.text};
+  if (wire.has_yaw) parts.yaw_rad = wire.yaw_rad;
+  const auto kind = static_cast<OrderKind>(wire.kind - kFirstOrder + 1);
+  RAVE_TRY_ASSIGN(auto order, request::make_order(kind, parts));
+  return order;
+}
+
+}  // namespace
+
 Result<sim::WorldInput> from_wire(const rave_wire_WorldInput& wire) {
   sim::WorldInput input;
   input.sequence = wire.number;
-  input.kind = static_cast<sim::WorldInput::Kind>(wire.kind);
-  input.author.by_hand = wire.author != 0;
-  const bool known = input.kind <= sim::WorldInput::Kind::kChange || sim::is_order(input.kind);
-  if (!known || wire.author > 1) {
-    return fail(ErrorCode::kInvalidArgument, "an input of an unknown kind or author");
-  }
+  RAVE_TRY_ASSIGN(input.action, action_from(wire));
+  if (wire.author > 1) return fail(ErrorCode::kInvalidArgument, "an input of an unknown author");
+  input.author = {wire.author != 0, wire.by};
   input.robot = RobotId(wire.robot);
-  for (const rave_wire_ParameterChange& change : elements(wire.changes)) {
-    RAVE_TRY_ASSIGN(auto read_change, from_wire(change));
-    input.changes.push_back(std::move(read_change));
-  }
-  input.author.name = wire.by;
-  for (const auto& point : elements(wire.points)) {
-    input.order.points_W.push_back({point.x_m, point.y_m});
-  }
-  if (wire.has_yaw) input.order.yaw_rad = wire.yaw_rad;
-  input.order.v_mps = wire.v_mps;
-  input.order.w_radps = wire.w_radps;
-  input.order.speed_mps = wire.speed_mps;
-  input.order.text = wire.text;
   return input;
 }
 
@@ -136,12 +163,13 @@ Status InputParts::fill(const std::vector<sim::WorldInput>& inputs) {
   const auto fill_one = [](const sim::WorldInput& input, rave_wire_WorldInput& wire, auto& changes,
                            auto& points) -> Status {
     wire.number = input.sequence;
-    wire.kind = static_cast<std::uint8_t>(input.kind);
+    wire.kind = wire_kind(input);
     wire.author = input.author.by_hand ? 1 : 0;
     wire.robot = input.robot.value();
-    changes.resize(input.changes.size());
-    for (std::size_t c = 0; c < input.changes.size(); ++c) {
-      RAVE_TRY(to_wire(input.changes[c], changes[c]));
+    const auto* const change = input.as<sim::Change>();
+    changes.resize(change != nullptr ? change->changes.size() : 0);
+    for (std::size_t c = 0; c < changes.size(); ++c) {
+      RAVE_TRY(to_wire(change->changes[c], changes[c]));
     }
     borrow(wire.changes, changes);
     return to_wire(input, wire, points);
@@ -158,13 +186,15 @@ Status InputParts::fill(const std::vector<sim::WorldInput>& inputs) {
 
 Status check_fits(const sim::WorldInput& input) {
   constexpr std::size_t kMostChanges = 64;
-  if (input.changes.size() > kMostChanges) {
-    return fail(ErrorCode::kInvalidArgument, "{} changes at once; expected at most {}",
-                input.changes.size(), kMostChanges);
-  }
-  for (const sim::ParameterChange& change : input.changes) {
-    rave_wire_ParameterChange wire;
-    RAVE_TRY(to_wire(change, wire));
+  if (const auto* const change = input.as<sim::Change>()) {
+    if (change->changes.size() > kMostChanges) {
+      return fail(ErrorCode::kInvalidArgument, "{} changes at once; expected at most {}",
+                  change->changes.size(), kMostChanges);
+    }
+    for (const sim::ParameterChange& one : change->changes) {
+      rave_wire_ParameterChange wire;
+      RAVE_TRY(to_wire(one, wire));
+    }
   }
   rave_wire_WorldInput wire{};
   std::vector<rave_wire_OrderPoint> points;

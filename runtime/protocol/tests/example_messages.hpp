@@ -43,24 +43,22 @@ inline void add_packets(sim::SentPackets& sent) {
 inline std::vector<sim::WorldInput> example_orders() {
   sim::WorldInput path;
   path.sequence = 6;
-  path.kind = sim::WorldInput::Kind::kPath;
   path.author.name = "anna";
   path.robot = RobotId(0);
-  path.order.points_W = {{1, 2}, {-3.5, 1e-3}};
-  path.order.yaw_rad = 0.75;
-  path.order.speed_mps = 0.125;
+  path.action = request::Order(request::Path{{{1, 2}, {-3.5, 1e-3}}, 0.125});
   sim::WorldInput words;
   words.sequence = 7;
-  words.kind = sim::WorldInput::Kind::kText;
   words.robot = RobotId(2);
-  words.order.text = "hello";
+  words.action = request::Order(request::Text{"hello"});
   sim::WorldInput drive;
   drive.sequence = 8;
-  drive.kind = sim::WorldInput::Kind::kDrive;
   drive.robot = RobotId(2);
-  drive.order.v_mps = -0.5;
-  drive.order.w_radps = 1.5;
-  return {path, words, drive};
+  drive.action = request::Order(request::Drive{-0.5, 1.5});
+  sim::WorldInput goal;
+  goal.sequence = 9;
+  goal.robot = RobotId(0);
+  goal.action = request::Order(request::Goal{{1e-300, 2}, 0.75, 0.25});
+  return {path, words, drive, goal};
 }
 
 inline sim::HostReport example_report() {
@@ -83,13 +81,12 @@ inline std::vector<sim::WorldInput> example_inputs() {
   stop.sequence = 4;
   sim::WorldInput change;
   change.sequence = 5;
-  change.kind = sim::WorldInput::Kind::kChange;
   change.author = sim::Author::kRun;
   change.robot = RobotId(1);
   using Part = sim::ParameterChange::Part;
-  change.changes = {{Part::kProgram, 0, "speed_mps", 0.4},
-                    {Part::kController, 1, "mode", std::string("fast")},
-                    {Part::kActuator, 2, "gains", std::vector<double>{1, 2, 3}}};
+  change.action = sim::Change{{{Part::kProgram, 0, "speed_mps", 0.4},
+                               {Part::kController, 1, "mode", std::string("fast")},
+                               {Part::kActuator, 2, "gains", std::vector<double>{1, 2, 3}}}};
   std::vector<sim::WorldInput> inputs = {stop, change};
   const auto orders = example_orders();
   inputs.insert(inputs.end(), orders.begin(), orders.end());

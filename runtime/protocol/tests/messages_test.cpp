@@ -75,13 +75,19 @@ void put(std::string& text, const std::vector<sim::InputRefusal>& refusals) {
 
 void put(std::string& text, const std::vector<sim::WorldInput>& inputs) {
   for (const sim::WorldInput& input : inputs) {
-    text += fmt::format("input {} {} {} {} {} ", input.sequence, static_cast<int>(input.kind),
+    text += fmt::format("input {} {} {} {} {} ", input.sequence, input.action.index(),
                         input.author.by_hand, input.author.name, input.robot.value());
-    for (const Vec2 p_W : input.order.points_W) text += bits(p_W.x) + bits(p_W.y);
-    text += input.order.yaw_rad ? bits(*input.order.yaw_rad) : "none ";
-    text += bits(input.order.v_mps) + bits(input.order.w_radps) + bits(input.order.speed_mps) +
-            input.order.text;
-    for (const sim::ParameterChange& change : input.changes) {
+    if (const auto* const given = input.as<request::Order>()) {
+      const request::OrderParts order = request::parts_of(*given);
+      text += fmt::format("order {} ", given->index());
+      for (const Vec2 p_W : order.points_W) text += bits(p_W.x) + bits(p_W.y);
+      text += order.yaw_rad ? bits(*order.yaw_rad) : "none ";
+      text += bits(order.v_mps) + bits(order.w_radps) + bits(order.speed_mps);
+      text += order.text;
+    }
+    const auto* const changed = input.as<sim::Change>();
+    if (changed == nullptr) continue;
+    for (const sim::ParameterChange& change : changed->changes) {
       text += fmt::format("{} {} {} {} ", static_cast<int>(change.part), change.index, change.name,
                           sim::to_string(change.value));
     }
@@ -210,23 +216,23 @@ TEST(Messages, TheSecondFillLeavesNothingOfTheFirst) {
 
 TEST(Messages, WhatTheBusCannotCarryIsRefusedBeforeItIsAsked) {
   sim::WorldInput input;
-  input.kind = sim::WorldInput::Kind::kChange;
-  input.changes = {{sim::ParameterChange::Part::kProgram, 0, "route", std::string(2000, 'x')}};
+  auto& changes = std::get<sim::Change>(input.action = sim::Change()).changes;
+  changes = {{sim::ParameterChange::Part::kProgram, 0, "route", std::string(2000, 'x')}};
   const Status text = check_fits(input);
   ASSERT_FALSE(text);
   EXPECT_EQ(text.error().message,
             "the text of parameter `route` is too long to be sent to another process");
-  input.changes[0].value = std::vector<double>(1025);
+  changes[0].value = std::vector<double>(1025);
   EXPECT_FALSE(check_fits(input));
-  input.changes[0].value = std::vector<double>(1024);
+  changes[0].value = std::vector<double>(1024);
   EXPECT_TRUE(check_fits(input));
-  input.changes[0].name = std::string(129, 'n');
+  changes[0].name = std::string(129, 'n');
   EXPECT_FALSE(check_fits(input));
   input.author.name = std::string(200, 'n');
-  input.changes.clear();
+  changes.clear();
   EXPECT_FALSE(check_fits(input)) << "nor a name";
   input.author.name.clear();
-  input.changes.assign(65, {sim::ParameterChange::Part::kProgram, 0, "a", 1.0});
+  changes.assign(65, {sim::ParameterChange::Part::kProgram, 0, "a", 1.0});
   EXPECT_FALSE(check_fits(input));
 }
 
@@ -245,7 +251,7 @@ TEST(Messages, AReportThatNobodyCouldUseIsRefused) {
   EXPECT_EQ(refusal([](bus::HostReport&) {}), "");
   EXPECT_NE(refusal([](bus::HostReport& r) { r.inputs._buffer[2].v_mps = std::nan(""); }), "");
   EXPECT_EQ(refusal([](bus::HostReport& r) { r.inputs._buffer[0].kind = 99; }),
-            "an input of an unknown kind or author");
+            "an order of an unknown kind");
 }
 
 constexpr auto kUnknownChange = static_cast<rave_wire_ObstacleChangeKind>(3);
@@ -280,19 +286,19 @@ TEST(Messages, AWorldThatNobodyCouldUseIsRefusedWithItsField) {
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.poses._buffer[0].variance_xy_m2 = -1; }),
             "poses[0] has an invalid variance");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[0].kind = 17; }),
-            "an input of an unknown kind or author");
+            "an order of an unknown kind");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[1].changes._buffer[0].part = 9; }),
             "a parameter of an unknown part of a robot");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[0].kind = 4; }),
-            "an input of an unknown kind or author")
+            "an input of an unknown kind")
       << "obstacles come otherwise";
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[0].author = 2; }),
-            "an input of an unknown kind or author");
+            "an input of an unknown author");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) {
               w.inputs._buffer[2].points._buffer[1].x_m = std::nan("");
             }),
             "inputs.points.x_m is nan, not within +-10000000");
-  EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[2].yaw_rad = 1e9; }),
+  EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[5].yaw_rad = 1e9; }),
             "inputs.yaw_rad is 1000000000, not within +-6283185.307179586");
   EXPECT_EQ(refusal_of([](bus::WorldStep& w) { w.inputs._buffer[3].text[1] = '\x1b'; }),
             "inputs.text has control characters");

@@ -229,9 +229,8 @@ void ShadowWorld::mirror_obstacles(const sim::Engine& engine, std::span<const si
     const bool removed = event.kind == sim::EventKind::kObstacleRemoved;
     const world::Obstacle* const obstacle = engine.spec().world.obstacle(event.other.value());
     sim::WorldInput input;
-    input.kind = sim::WorldInput::Kind::kObstacle;
     input.author = sim::Author::kRun;
-    sim::ObstacleChange& change = input.obstacle.emplace();
+    sim::ObstacleChange& change = input.action.emplace<sim::ObstacleChange>();
     change.kind = added ? Kind::kAdd : removed ? Kind::kRemove : Kind::kMove;
     change.name = obstacle->body.name;
     // Obstacles of the start have the same number in both worlds. Added ones may not, because the

@@ -26,10 +26,10 @@ inline constexpr std::size_t kMostChatName = 256;
 struct Chat {
   static constexpr std::string_view kName = "chat";
   std::uint64_t number = 0;  ///< At its server, from 1.
-  std::string role;          ///< Of the sender: `observer`, `commander` or `super_user`.
+  std::string role{};        ///< Of the sender: `observer`, `commander` or `super_user`.
   Addressee to = Addressee::kAll;
-  std::string name;  ///< Of the receiver; empty for kAll. At most kMostChatName bytes.
-  std::string text;  ///< 1 to kMostOrderText bytes.
+  std::string name{};  ///< Of the receiver; empty for kAll. At most kMostChatName bytes.
+  std::string text{};  ///< 1 to kMostOrderText bytes.
   friend bool operator==(const Chat&, const Chat&) = default;
 };
 

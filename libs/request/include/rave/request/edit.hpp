@@ -12,7 +12,7 @@ namespace rave::request {
 /// Adds, moves or removes an obstacle.
 struct Edit {
   static constexpr std::string_view kName = "edit";
-  config::ObstacleEdit edit;
+  config::ObstacleEdit edit{};
   friend bool operator==(const Edit&, const Edit&) = default;
 };
 

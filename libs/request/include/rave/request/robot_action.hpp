@@ -28,15 +28,15 @@ struct Arm {
 /// Changes a parameter of a robot.
 struct Set {
   static constexpr std::string_view kName = "set";
-  std::string key;    ///< Such as `program.max_speed_mps`.
-  std::string value;  ///< As in a file.
+  std::string key{};    ///< Such as `program.max_speed_mps`.
+  std::string value{};  ///< As in a file.
   friend bool operator==(const Set&, const Set&) = default;
 };
 
 /// Changes the drivers of a robot.
 struct HandOver {
   static constexpr std::string_view kName = "hand_over";
-  std::string to;  ///< `real`, `simulated`, `first` or `twin`.
+  std::string to{};  ///< `real`, `simulated`, `first` or `twin`.
   friend bool operator==(const HandOver&, const HandOver&) = default;
 };
 
@@ -56,7 +56,7 @@ struct Take {
 /// Gives the lease of a robot to another person, or back.
 struct Give {
   static constexpr std::string_view kName = "give";
-  std::string to;  ///< Empty: back.
+  std::string to{};  ///< Empty: back.
   friend bool operator==(const Give&, const Give&) = default;
 };
 

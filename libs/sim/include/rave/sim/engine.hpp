@@ -215,7 +215,7 @@ class Engine {
   /// use it from the next step on. Call it between two steps. Returns false, and nothing changes,
   /// if the robot has no such drivers.
   bool show_reality(RobotId robot, bool simulated);
-  /// Gives a robot an order of a user (is_order(input.kind)). A velocity replaces the commands of
+  /// Gives a robot an order of a user (request::Order). A velocity replaces the commands of
   /// its program. Goals, paths and texts go to the program if it takes them, otherwise a goal goes
   /// to a controller that accepts it. kPlace moves a simulated robot. A stop ends orders. Errors:
   /// kInvalidArgument (non-finite numbers, points out of range, an order that the robot does not

@@ -16,7 +16,4 @@ namespace rave::sim {
 /// An order in words: `goal 1.20, 3.40`.
 [[nodiscard]] std::string order_text(const WorldInput& input);
 
-/// The message that refuses a path with this number of points; the same for all sources of orders.
-[[nodiscard]] std::string path_size_text(std::size_t points);
-
 }  // namespace rave::sim

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "rave/base/ids.hpp"
-#include "rave/math/pose.hpp"
+#include "rave/request/order.hpp"
+#include "rave/request/robot_action.hpp"
 #include "rave/sim/obstacle_change.hpp"
 #include "rave/sim/parameter_change.hpp"
 
@@ -30,48 +32,43 @@ inline const Author Author::kHand{true, {}};
 /// Whether the text of an event contains by_hand_text().
 [[nodiscard]] bool says_by_hand(std::string_view text) noexcept;
 
-/// The details of an order; the kind of the input determines which members are used.
-struct OrderDetails {
-  std::vector<Vec2> points_W;     ///< kGoal and kPlace: one. kPath: 2 to kMostOrderPoints. m.
-  std::optional<double> yaw_rad;  ///< kGoal, kPlace: heading; empty: any.
-  double v_mps = 0;               ///< kDrive: forward speed.
-  double w_radps = 0;             ///< kDrive: turning rate, counter-clockwise.
-  double speed_mps = 0;           ///< kGoal, kPath: speed limit; 0: the robot decides.
-  std::string text;               ///< kText.
-  friend bool operator==(const OrderDetails&, const OrderDetails&) = default;
+/// Changes parameters of a robot: all or none.
+struct Change {
+  std::vector<ParameterChange> changes{};
 };
 
-/// A request that takes effect between two steps, for robots of any host or for obstacles.
+/// What takes effect between two steps, for robots of any host or for obstacles.
 struct WorldInput {
-  /// kObstacle is handled by the authority and never reaches a host, see WorldStep::obstacles.
-  /// kPlace reaches hosts after the authority has done it.
-  enum class Kind : std::uint8_t {
-    kStop,
-    kRelease,
-    kArm,
-    kChange,
-    kObstacle,
-    kDrive,   ///< Drives a robot instead of its program.
-    kGoal,    ///< A goal.
-    kPath,    ///< A path to follow.
-    kCancel,  ///< Cancels orders. Without a robot: all orders.
-    kText,    ///< A text for the program.
-    kPlace,   ///< Places a simulated robot elsewhere.
-  };
+  /// An ObstacleChange is handled by the authority and never reaches a host, see
+  /// WorldStep::obstacles. An order to place a robot reaches hosts after the authority has done it.
+  using Action = std::variant<request::Stop, request::Release, request::Arm, Change, ObstacleChange,
+                              request::Order>;
+
   /// Number of the input in the run, from 1; set by the WorldAuthority.
   std::uint64_t sequence = 0;
-  Kind kind = Kind::kStop;
+  Action action;
   Author author;
-  RobotId robot;  ///< None: all robots. Required for kChange and for orders except kCancel.
-  std::vector<ParameterChange> changes;    ///< kChange: applied all or none.
-  std::optional<ObstacleChange> obstacle;  ///< kObstacle: required.
-  OrderDetails order;                      ///< Used for orders.
-};
+  RobotId robot;  ///< None: all robots. Required for a change and for orders except to cancel.
 
-/// Whether an input is an order: kDrive to kPlace.
-[[nodiscard]] constexpr bool is_order(WorldInput::Kind kind) noexcept {
-  return kind >= WorldInput::Kind::kDrive && kind <= WorldInput::Kind::kPlace;
-}
+  /// The action if it is this one, which may be a certain order; nullptr for any other.
+  template <class One>
+  [[nodiscard]] const One* as() const noexcept {
+    if constexpr (request::IsOrder<One>) {
+      const auto* const order = std::get_if<request::Order>(&action);
+      return order != nullptr ? std::get_if<One>(order) : nullptr;
+    } else {
+      return std::get_if<One>(&action);
+    }
+  }
+  template <class One>
+  [[nodiscard]] bool is() const noexcept {
+    return as<One>() != nullptr;
+  }
+  /// Whether it changes what holds a robot: a stop, a release or an arming.
+  [[nodiscard]] bool is_hold() const noexcept {
+    return is<request::Stop>() || is<request::Release>() || is<request::Arm>();
+  }
+};
 
 /// Why an input was refused.
 struct InputRefusal {

@@ -22,17 +22,16 @@ namespace rave::runtime {
   return kind >= RunRequest::Kind::kDrive && kind <= RunRequest::Kind::kPlace;
 }
 
-/// The kind of input that a stop, a release, an arming or an order becomes, and the inverse; kStop
-/// for all others.
-[[nodiscard]] sim::WorldInput::Kind input_kind(RunRequest::Kind kind) noexcept;
-[[nodiscard]] RunRequest::Kind kind_of_input(sim::WorldInput::Kind kind) noexcept;
+/// What a stop, a release, an arming or an order is as an input. Error kInvalidArgument: a goal or
+/// a place without its point.
+[[nodiscard]] Result<sim::WorldInput::Action> input_action(const RunRequest& request);
 
 /// Converts a request to an input of the run, with its author. Errors: kNotFound (no such robot),
 /// kInvalidArgument (it names none).
 [[nodiscard]] Result<sim::WorldInput> order_input(const sim::EngineSpec& spec,
                                                   const RunRequest& request);
-/// The inverse of order_input().
-[[nodiscard]] RunRequest order_request(const sim::EngineSpec& spec, const sim::WorldInput& input);
+/// The inverse, also for a stop, a release and an arming.
+[[nodiscard]] RunRequest input_request(const sim::EngineSpec& spec, const sim::WorldInput& input);
 
 /// Writes the names of the orders that a robot takes, such as `goal`; rewrites them only if they
 /// changed.

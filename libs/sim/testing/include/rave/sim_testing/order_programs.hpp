@@ -100,38 +100,34 @@ inline RobotType goal_type() {
   return type;
 }
 
-inline WorldInput order(WorldInput::Kind kind, RobotId robot) {
+inline WorldInput order(RobotId robot, request::Order what) {
   WorldInput input;
-  input.kind = kind;
+  input.action = std::move(what);
   input.author.name = "anna";
   input.robot = robot;
   return input;
 }
 
 inline WorldInput drive(RobotId robot, double v_mps, double w_radps) {
-  WorldInput input = order(WorldInput::Kind::kDrive, robot);
-  input.order.v_mps = v_mps;
-  input.order.w_radps = w_radps;
-  return input;
+  return order(robot, request::Drive{v_mps, w_radps});
 }
 
-inline WorldInput goal(RobotId robot, Vec2 p_WG) {
-  WorldInput input = order(WorldInput::Kind::kGoal, robot);
-  input.order.points_W = {p_WG};
-  return input;
+inline WorldInput goal(RobotId robot, Vec2 p_WG, std::optional<double> yaw_rad = std::nullopt) {
+  return order(robot, request::Goal{p_WG, yaw_rad});
 }
+
+inline WorldInput path(RobotId robot, std::vector<Vec2> points_W, double speed_mps = 0) {
+  return order(robot, request::Path{std::move(points_W), speed_mps});
+}
+
+inline WorldInput cancel(RobotId robot) { return order(robot, request::Cancel{}); }
 
 inline WorldInput words(RobotId robot, std::string text) {
-  WorldInput input = order(WorldInput::Kind::kText, robot);
-  input.order.text = std::move(text);
-  return input;
+  return order(robot, request::Text{std::move(text)});
 }
 
 inline WorldInput place(RobotId robot, Vec2 p_WR, std::optional<double> yaw_rad = std::nullopt) {
-  WorldInput input = order(WorldInput::Kind::kPlace, robot);
-  input.order.points_W = {p_WR};
-  input.order.yaw_rad = yaw_rad;
-  return input;
+  return order(robot, request::Place{p_WR, yaw_rad});
 }
 
 }  // namespace rave::sim::testing

@@ -33,7 +33,7 @@ MESSAGE_FOLDERS = ("cli/", "drivers/", "libs/", "ops/", "programs/", "runtime/",
 # The files of configuration that are shipped, and the schema that the page's types are made from.
 YAML_FOLDERS = ("robots/", "scenarios/", "share/templates/", "worlds/")
 MESSAGES_SCHEMA = "schemas/gui/messages.schema.json"
-SCRIPT_FOLDERS = ("web/app/", "web/model/", "web/panels/", "web/panel_api/")
+SCRIPT_FOLDERS = ("web/app/", "web/model/", "web/panels/", "web/panel_api/", "web/ui/")
 
 
 def phrases(tree):

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {html, nothing, type TemplateResult} from 'lit';
 import type {Dock} from './dock';
-import {icon} from './icons';
+import {icon} from '../ui/icons';
 
 /** Panels had windows of their own when the page was left. A browser opens one window for each
  * press. */

@@ -2,11 +2,11 @@
 import {css, html, nothing, type TemplateResult} from 'lit';
 import {foldSame} from '../panels/log/same_events';
 import type {Event} from '../protocol/messages';
-import {clockText} from './clock';
-import {icon} from './icons';
-import {LiveElement} from './live_element';
-import {nowOf} from './moment';
-import {controls} from './styles';
+import {clockText} from '../ui/clock';
+import {icon} from '../ui/icons';
+import {LiveElement} from '../ui/live_element';
+import {nowOf} from '../model/moment';
+import {controls} from '../ui/styles';
 
 const kShown = 8;
 

@@ -2,9 +2,9 @@
 import {css, html, nothing, type TemplateResult} from 'lit';
 import type {PanelElement} from '../panel_api';
 import type {LoadedComponent} from './component_loader';
-import {icon} from './icons';
-import {LiveElement} from './live_element';
-import {controls} from './styles';
+import {icon} from '../ui/icons';
+import {LiveElement} from '../ui/live_element';
+import {controls} from '../ui/styles';
 
 /** A component with this number of failures within a minute stays off. */
 const kMostFailures = 3;

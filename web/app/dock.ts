@@ -4,7 +4,7 @@ import {Signal} from '../model/signal';
 import type {PanelContext, PanelKind} from '../panel_api';
 import {DockedPanel} from './docked_panel';
 import {HeaderActions} from './header_actions';
-import {layoutKey} from './kept_keys';
+import {layoutKey} from '../panel_api/kept_keys';
 import {bringHome, type KeptWindow, type WindowBox} from './kept_layout';
 import {PanelWindow} from './panel_window';
 

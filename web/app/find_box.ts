@@ -2,10 +2,10 @@
 import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
 import {logOf} from '../model/run_begin';
 import type {PanelContext, PanelKind} from '../panel_api';
-import {clockText} from './clock';
-import {icon, type IconName} from './icons';
+import {clockText} from '../ui/clock';
+import {icon, type IconName} from '../ui/icons';
 import {withheldPanels} from './panels';
-import {controls} from './styles';
+import {controls} from '../ui/styles';
 
 const kMost = 12;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {LitElement, css, html, nothing, type TemplateResult} from 'lit';
-import {icon} from './icons';
-import {controls} from './styles';
+import {icon} from '../ui/icons';
+import {controls} from '../ui/styles';
 
 const kOrigins = html`<p>
   Foxglove in a browser needs the option

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {DockviewGroupPanel, IGroupHeaderProps, IHeaderActionsRenderer} from 'dockview-core';
 import {html, nothing, render} from 'lit';
-import {icon, type IconName} from './icons';
+import {icon, type IconName} from '../ui/icons';
 
 /** At the right of the tabs: a window of its own for the panel, one panel over the whole dock, and
  * back. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {RunModel} from '../model/run_model';
 import type {PanelContext, Selection} from '../panel_api';
-import {nowOf} from './moment';
+import {nowOf} from '../model/moment';
 
 /** A view that can say and take where it looks from. */
 export interface Viewpoint {

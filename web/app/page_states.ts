@@ -4,10 +4,10 @@ import {css, html, nothing, type TemplateResult} from 'lit';
 import type {Link} from '../model/link';
 import type {RunModel} from '../model/run_model';
 import {countStopped} from '../model/stop_state';
-import {clockText} from './clock';
-import {icon} from './icons';
+import {clockText} from '../ui/clock';
+import {icon} from '../ui/icons';
 import {logo} from './logo';
-import {namesText, roleText} from './words';
+import {namesText, roleText} from '../ui/words';
 
 /** Who stands, as the hosts say, and whom no stop of this page can reach. */
 function reachText(model: RunModel, link: Link): string {

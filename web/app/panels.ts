@@ -2,8 +2,20 @@
 import type {RunModel} from '../model/run_model';
 import {classOf, kUsualRights} from '../model/withheld';
 import type {PanelKind} from '../panel_api';
+import '../panels/chat/chat_panel';
+import '../panels/hosts/hosts_panel';
+import '../panels/joystick/joystick_panel';
+import '../panels/log/log_panel';
+import '../panels/map/map_panel';
+import '../panels/people/super_user_panel';
+import '../panels/probe/probe_panel';
+import '../panels/robot/robot_panel';
+import '../panels/robots/robots_panel';
+import '../panels/sensors/sensors_panel';
+import '../panels/world/world_panel';
 
-/** The panels that come with the page, in the order of their keys. */
+/** The panels that come with the page, in the order of their keys. A new one has its import above
+ * and its entry here. Nothing else names it, unless a layout opens it at first (dock.ts). */
 export const kPanels: readonly PanelKind[] = [
   {id: 'world', title: 'World View', icon: 'compass', tag: 'rave-world', short: 'World'},
   {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {icon} from './icons';
-import {LiveElement} from './live_element';
+import {icon} from '../ui/icons';
+import {LiveElement} from '../ui/live_element';
 import './stop_button';
-import {controls} from './styles';
+import {controls} from '../ui/styles';
 
 /** At the bottom of a small screen: the last message and STOP, large enough for a pen. */
 export class PenBar extends LiveElement {

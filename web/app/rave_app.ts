@@ -8,7 +8,7 @@ import type {PanelContext, PanelKind} from '../panel_api';
 import {Kept} from '../panel_api/kept';
 import {Palette} from '../panel_api/palette';
 import {Selection} from '../panel_api/selection';
-import {Windows} from '../panel_api/windows';
+import {Windows} from '../model/windows';
 import type {JoystickPanel} from '../panels/joystick/joystick_panel';
 import type {SuperUserPanel} from '../panels/people/super_user_panel';
 import type {WorldPanel} from '../panels/world/world_panel';
@@ -17,9 +17,9 @@ import {Dock, type LayoutName} from './dock';
 import './find_box';
 import './foxglove_sheet';
 import './trust_sheet';
-import {icon} from './icons';
+import {icon} from '../ui/icons';
 import {keySheetStyles, renderKeys} from './key_sheet';
-import {userKey} from './kept_keys';
+import {userKey} from '../panel_api/kept_keys';
 import {KeptSelection} from './kept_selection';
 import {bindKeys, type KeyAction} from './keys';
 import {readMoment, writeMoment} from './moment_link';
@@ -36,7 +36,7 @@ import {
   stateStyles,
 } from './page_states';
 import type {RunBar} from './run_bar';
-import {controls} from './styles';
+import {controls} from '../ui/styles';
 import './top_bar';
 import {pageStyles} from './page_styles';
 

@@ -3,9 +3,9 @@ import {css, html, nothing, type TemplateResult} from 'lit';
 import {RobotFlag} from '../protocol/frames';
 import type {Tool} from '../panels/world/orders/order_desk';
 import '../panels/lease_bar';
-import {icon, type IconName} from './icons';
-import {LiveElement} from './live_element';
-import {controls} from './styles';
+import {icon, type IconName} from '../ui/icons';
+import {LiveElement} from '../ui/live_element';
+import {controls} from '../ui/styles';
 
 /** In the hand: what can be asked of the selected robot, in the order that it has everywhere. */
 export class RobotBar extends LiveElement {

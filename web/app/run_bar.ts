@@ -2,13 +2,13 @@
 import {css, html, nothing, type TemplateResult} from 'lit';
 import {logOf} from '../model/run_begin';
 import type {Power} from '../protocol/messages';
-import {bigClock} from './clock';
-import {icon} from './icons';
-import {LiveElement} from './live_element';
-import {nowOf, spanOf} from './moment';
+import {bigClock} from '../ui/clock';
+import {icon} from '../ui/icons';
+import {LiveElement} from '../ui/live_element';
+import {nowOf, spanOf} from '../model/moment';
 import './stop_button';
 import type {StopButton} from './stop_button';
-import {controls} from './styles';
+import {controls} from '../ui/styles';
 import './timeline';
 
 const kReplayPaces = [0.25, 1, 4, 16];

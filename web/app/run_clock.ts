@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import {html, type TemplateResult} from 'lit';
-import {bigClock} from './clock';
-import {LiveElement} from './live_element';
-import {nowOf} from './moment';
+import {bigClock} from '../ui/clock';
+import {LiveElement} from '../ui/live_element';
+import {nowOf} from '../model/moment';
 
 const kRefresh_ms = 100;
 

@@ -2,9 +2,9 @@
 import {css, html, nothing, type TemplateResult} from 'lit';
 import {stateOf} from '../panels/robots/robot_state';
 import '../panels/sensors/glance';
-import {icon} from './icons';
-import {LiveElement} from './live_element';
-import {controls, glyphs} from './styles';
+import {icon} from '../ui/icons';
+import {LiveElement} from '../ui/live_element';
+import {controls, glyphs} from '../ui/styles';
 
 type Height = 'peek' | 'half' | 'full';
 const kHeights: readonly Height[] = ['peek', 'half', 'full'];

@@ -9,12 +9,12 @@ import {
   type LastStop,
   type StopCount,
 } from '../model/stop_state';
-import {viewOf} from '../panel_api/windows';
-import {shortClock} from './clock';
-import {icon} from './icons';
-import {LiveElement} from './live_element';
-import {namesText} from './words';
-import {controls} from './styles';
+import {viewOf} from '../model/windows';
+import {shortClock} from '../ui/clock';
+import {icon} from '../ui/icons';
+import {LiveElement} from '../ui/live_element';
+import {namesText} from '../ui/words';
+import {controls} from '../ui/styles';
 
 /** STOP, and once all robots stand, the button that is held to release them. */
 export class StopButton extends LiveElement {

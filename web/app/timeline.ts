@@ -2,10 +2,10 @@
 import {css, html, nothing, type TemplateResult} from 'lit';
 import {roundStep} from '../panels/world/ticks';
 import type {Event} from '../protocol/messages';
-import {clockText, tickClock} from './clock';
-import {LiveElement} from './live_element';
-import {nowOf, spanOf} from './moment';
-import {controls} from './styles';
+import {clockText, tickClock} from '../ui/clock';
+import {LiveElement} from '../ui/live_element';
+import {nowOf, spanOf} from '../model/moment';
+import {controls} from '../ui/styles';
 
 /** Events so near to each other become one mark, pixels. */
 const kMark_px = 9;

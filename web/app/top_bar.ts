@@ -3,13 +3,13 @@ import {html, nothing, type TemplateResult} from 'lit';
 import type {Person} from '../protocol/messages';
 import './bell';
 import './run_clock';
-import {LiveElement} from './live_element';
+import {LiveElement} from '../ui/live_element';
 import './way_chip';
 import {kLayouts, type LayoutName} from './dock';
-import {icon} from './icons';
+import {icon} from '../ui/icons';
 import {logo} from './logo';
-import {controls} from './styles';
-import {faceStyle, initials, roleText, sizeText, startedText} from './words';
+import {controls} from '../ui/styles';
+import {faceStyle, initials, roleText, sizeText, startedText} from '../ui/words';
 import {topBarStyles} from './top_bar_styles';
 
 const kFaces = 3;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
 import type {DirectLine} from '../model/direct_line';
-import {icon} from './icons';
-import {LiveElement} from './live_element';
-import {controls} from './styles';
+import {icon} from '../ui/icons';
+import {LiveElement} from '../ui/live_element';
+import {controls} from '../ui/styles';
 
 /** The page of a host, where a browser asks whether its certificate is to be trusted. */
 export function hostPage(line: DirectLine): string {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {icon} from './icons';
-import {LiveElement} from './live_element';
-import {controls} from './styles';
+import {icon} from '../ui/icons';
+import {LiveElement} from '../ui/live_element';
+import {controls} from '../ui/styles';
 
 const kUntrusted =
   'In most cases the browser does not trust the certificate of this host yet. Click for the steps.';

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {bigClock} from './clock';
-import {icon} from './icons';
-import {LiveElement} from './live_element';
-import {nowOf} from './moment';
+import {bigClock} from '../ui/clock';
+import {icon} from '../ui/icons';
+import {LiveElement} from '../ui/live_element';
+import {nowOf} from '../model/moment';
 import './stop_button';
-import {controls} from './styles';
+import {controls} from '../ui/styles';
 
 const kRefresh_ms = 100;
 

@@ -6,7 +6,7 @@ import {OrderRouter} from './order_router';
 import {PictureAge} from './picture_age';
 import type {RunModel} from './run_model';
 import type {MapKey} from './maps';
-import {Windows} from '../panel_api/windows';
+import {Windows} from './windows';
 import {Signal} from './signal';
 import {SilenceWatch} from './silence';
 

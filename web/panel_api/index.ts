@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a panel is given. The panels that come with RAVE use nothing else.
+// What a panel is given: all that a panel of a component has. The panels that come with RAVE are
+// given the same, and are made and opened in the same way. They are compiled with the page, so they
+// import its modules as well: those that the table in web/README.md allows. The page asks some of
+// them for more than PanelElement, such as the World View for its keys; a component cannot take
+// their place.
 import type {Commands} from '../model/commands';
 import type {Link} from '../model/link';
 import type {RunModel} from '../model/run_model';
+import type {Windows} from '../model/windows';
 import type {Power} from '../protocol/messages';
 import type {WorldLayer} from './component';
 import type {Kept} from './kept';
 import type {Palette} from './palette';
 import type {Selection} from './selection';
-import type {Windows} from './windows';
 
 export type {Component, ComponentPanel, WorldLayer} from './component';
 export type {Kept} from './kept';
 export type {Palette} from './palette';
 export type {Selection} from './selection';
-export type {Windows} from './windows';
+export type {Windows} from '../model/windows';
 
 /** Number of this interface. A component says for which one it was made; another one is not
  * loaded. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import {userKey} from '../app/kept_keys';
+import {userKey} from './kept_keys';
 import {Signal} from '../model/signal';
 
 /** What panels keep in the browser: apart for each user and each layout, as the arrangement of the

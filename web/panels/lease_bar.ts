@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {icon} from '../app/icons';
-import {LiveElement} from '../app/live_element';
-import {controls} from '../app/styles';
-import {initials} from '../app/words';
+import {icon} from '../ui/icons';
+import {LiveElement} from '../ui/live_element';
+import {controls} from '../ui/styles';
+import {initials} from '../ui/words';
 
 /** Who drives a robot: take control, give it back, ask for it, take it. */
 export class LeaseBar extends LiveElement {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import {LiveElement} from '../app/live_element';
+import {LiveElement} from '../ui/live_element';
 import {Placed} from '../model/pose_history';
 import type {Signal} from '../model/signal';
-import {viewOf} from '../panel_api/windows';
+import {viewOf} from '../model/windows';
 
 /** A panel that looks at something of the run and draws it. It subscribes when it comes into the
  * page and leaves nothing behind when it goes; the dock takes panels out while they are hidden. */

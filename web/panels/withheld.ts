@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {icon} from '../app/icons';
+import {icon} from '../ui/icons';
 import type {PanelContext} from '../panel_api';
 import type {Power} from '../protocol/messages';
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {clockText} from '../../app/clock';
-import {icon} from '../../app/icons';
-import {LiveElement} from '../../app/live_element';
-import {controls, glyphs} from '../../app/styles';
-import {faceStyle, initials} from '../../app/words';
+import {clockText} from '../../ui/clock';
+import {icon} from '../../ui/icons';
+import {LiveElement} from '../../ui/live_element';
+import {controls, glyphs} from '../../ui/styles';
+import {faceStyle, initials} from '../../ui/words';
 import type {Say} from '../../protocol/messages';
 import {renderWithheld, withheldStyles} from '../withheld';
 import {saidIn, type Said} from './said';

@@ -2,8 +2,8 @@
 // The stick over the World View of a phone or a pen: the world stays in sight, and no text of it
 // moves the stick.
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {icon} from '../../app/icons';
-import {initials} from '../../app/words';
+import {icon} from '../../ui/icons';
+import {initials} from '../../ui/words';
 import type {PanelContext} from '../../panel_api';
 import type {GuardAct} from '../robot/guard_act';
 import type {DriveLoop} from './drive_loop';

@@ -2,7 +2,7 @@
 // What stands around the stick. Each part has a place of fixed size: a message takes the place of
 // another text, and moves nothing.
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {icon} from '../../app/icons';
+import {icon} from '../../ui/icons';
 import type {Link} from '../../model/link';
 import type {RunModel} from '../../model/run_model';
 import type {GuardAct} from '../robot/guard_act';

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import {html, type TemplateResult} from 'lit';
-import {icon} from '../../app/icons';
-import {LiveElement} from '../../app/live_element';
-import {controls, glyphs} from '../../app/styles';
+import {icon} from '../../ui/icons';
+import {LiveElement} from '../../ui/live_element';
+import {controls, glyphs} from '../../ui/styles';
 import '../lease_bar';
 import {kCommandsOf} from '../../protocol/frames';
 import {guardOf, type GuardAct} from '../robot/guard_act';

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {icon, type IconName} from '../../app/icons';
-import {LiveElement} from '../../app/live_element';
-import {controls} from '../../app/styles';
+import {icon, type IconName} from '../../ui/icons';
+import {LiveElement} from '../../ui/live_element';
+import {controls} from '../../ui/styles';
 import {logOf} from '../../model/run_begin';
 import type {Event} from '../../protocol/messages';
-import {clockText} from '../../app/clock';
+import {clockText} from '../../ui/clock';
 import {renderWithheld, withheldStyles} from '../withheld';
 import {foldSame, shownSlots, type LogRow} from './same_events';
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {html, nothing, type TemplateResult} from 'lit';
-import {icon} from '../../app/icons';
-import {controls, glyphs} from '../../app/styles';
+import {icon} from '../../ui/icons';
+import {controls, glyphs} from '../../ui/styles';
 import {rightText} from '../../model/withheld';
 import {keyOf, type MapKey} from '../../model/maps';
 import type {Signal} from '../../model/signal';
@@ -13,7 +13,7 @@ import {Camera} from '../world/camera';
 import {drawGrid, drawScale} from '../world/grid_layer';
 import {RobotLayer} from '../world/robot_layer';
 import {drawTrail, kTrail_s, trailFrames} from '../world/trail_layer';
-import {boundsOf, drawMap} from './draw_map';
+import {boundsOf, drawMap} from '../world/draw_map';
 import {MapGestures} from './map_gestures';
 import {mapStyles} from './map_styles';
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {icon} from '../../app/icons';
-import {LiveElement} from '../../app/live_element';
-import {controls} from '../../app/styles';
+import {icon} from '../../ui/icons';
+import {LiveElement} from '../../ui/live_element';
+import {controls} from '../../ui/styles';
 import type {AuditLine} from '../../protocol/messages';
 import {auditText, auditTime, kAuditKinds, whoText} from './people';
 import {peopleStyles} from './styles';

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {icon} from '../../app/icons';
-import {LiveElement} from '../../app/live_element';
-import {controls} from '../../app/styles';
-import {faceStyle, initials, roleText} from '../../app/words';
+import {icon} from '../../ui/icons';
+import {LiveElement} from '../../ui/live_element';
+import {controls} from '../../ui/styles';
+import {faceStyle, initials, roleText} from '../../ui/words';
 import type {ChangeAccount, KnownPerson} from '../../protocol/messages';
 import {accountText, peopleWith, seenText, teamsText} from './people';
 import {RoleDraft} from './role_form';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {html, type TemplateResult} from 'lit';
-import {roleText} from '../../app/words';
+import {roleText} from '../../ui/words';
 import {kRoles, teamsOf, type Role} from './people';
 
 /** Role and teams, while they are being chosen. */

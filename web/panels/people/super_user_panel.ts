@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, type TemplateResult} from 'lit';
-import {LiveElement} from '../../app/live_element';
-import {controls} from '../../app/styles';
+import {LiveElement} from '../../ui/live_element';
+import {controls} from '../../ui/styles';
 import './audit_view';
 import './invitations';
 import './people_list';

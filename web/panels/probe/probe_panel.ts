@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {icon} from '../../app/icons';
-import {controls, glyphs} from '../../app/styles';
+import {icon} from '../../ui/icons';
+import {controls, glyphs} from '../../ui/styles';
 import type {Signal} from '../../model/signal';
 import type {Reading} from '../../protocol/frames';
 import type {ProbeMade, Sensor, VirtualSensor} from '../../protocol/messages';

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import {html, nothing, svg, type TemplateResult} from 'lit';
-import {icon} from '../../app/icons';
-import {LiveElement} from '../../app/live_element';
-import {controls, glyphs} from '../../app/styles';
-import {initials} from '../../app/words';
+import {icon} from '../../ui/icons';
+import {LiveElement} from '../../ui/live_element';
+import {controls, glyphs} from '../../ui/styles';
+import {initials} from '../../ui/words';
 import {kHistory_s} from '../../model/pose_history';
 import {rightText} from '../../model/withheld';
 import {RobotFlag} from '../../protocol/frames';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {controls} from '../../app/styles';
+import {controls} from '../../ui/styles';
 import {kHistory_s} from '../../model/pose_history';
 import type {Signal} from '../../model/signal';
 import type {Reading} from '../../protocol/frames';

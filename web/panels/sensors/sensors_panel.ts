@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import {html, nothing, type TemplateResult} from 'lit';
-import {icon} from '../../app/icons';
-import {spanOf} from '../../app/moment';
-import {controls, glyphs} from '../../app/styles';
+import {icon} from '../../ui/icons';
+import {spanOf} from '../../model/moment';
+import {controls, glyphs} from '../../ui/styles';
 import type {Interest} from '../../model/link';
 import type {Signal} from '../../model/signal';
 import {rightText} from '../../model/withheld';

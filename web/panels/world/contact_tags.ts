@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import {clockText} from '../../app/clock';
+import {clockText} from '../../ui/clock';
 import type {Placed} from '../../model/pose_history';
 import type {Palette} from '../../panel_api';
 import {RobotFlag} from '../../protocol/frames';

@@ -16,7 +16,7 @@ import type {OrderLayer} from './orders/order_layer';
 import {drawPlates, teamsOf, type Team} from './plates';
 import {bytesOf, rampBytes, rampColour} from './ramp';
 import {drawReadings} from './reading_layer';
-import {drawMap} from '../map/draw_map';
+import {drawMap} from './draw_map';
 import {RobotLayer} from './robot_layer';
 import {Surface} from './surface';
 import {kTailParts, type Swarm, type Tone} from './swarm';

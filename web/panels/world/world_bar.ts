@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {html, nothing, type TemplateResult} from 'lit';
-import {icon, type IconName} from '../../app/icons';
+import {icon, type IconName} from '../../ui/icons';
 import type {RunModel} from '../../model/run_model';
 import type {PanelContext} from '../../panel_api';
 

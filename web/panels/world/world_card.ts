@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {icon} from '../../app/icons';
+import {icon} from '../../ui/icons';
 import type {Placed} from '../../model/pose_history';
 import type {PanelContext} from '../../panel_api';
 import {RobotFlag} from '../../protocol/frames';

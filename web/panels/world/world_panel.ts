@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import {html, nothing, type TemplateResult} from 'lit';
-import {LiveElement} from '../../app/live_element';
-import {controls, glyphs} from '../../app/styles';
+import {LiveElement} from '../../ui/live_element';
+import {controls, glyphs} from '../../ui/styles';
 import {Placed} from '../../model/pose_history';
-import {viewOf} from '../../panel_api/windows';
+import {viewOf} from '../../model/windows';
 import {AutoFit, motion} from './auto_fit';
 import {kLayers, readLayers, type Layers, type Poses} from './layers';
 import {sensorsToRead} from './reading_layer';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
-import {icon, type IconName} from '../../../app/icons';
+import {icon, type IconName} from '../../../ui/icons';
 import type {Pending} from '../../../model/commands';
 import type {PanelContext} from '../../../panel_api';
 import type {Point} from '../../../protocol/messages';

@@ -5,7 +5,7 @@ import type {Placed} from '../../../model/pose_history';
 import type {PanelContext} from '../../../panel_api';
 import {RobotFlag} from '../../../protocol/frames';
 import type {Point} from '../../../protocol/messages';
-import {initials} from '../../../app/words';
+import {initials} from '../../../ui/words';
 import type {Camera} from '../camera';
 import {kFont} from '../labels';
 import {radiusOf} from '../outlines';

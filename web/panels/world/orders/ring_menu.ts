@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {LitElement, css, html, svg, type TemplateResult} from 'lit';
-import {icon, type IconName} from '../../../app/icons';
-import {controls} from '../../../app/styles';
+import {icon, type IconName} from '../../../ui/icons';
+import {controls} from '../../../ui/styles';
 
 /** One of the six sectors, clockwise from the one upwards. */
 export interface Sector {

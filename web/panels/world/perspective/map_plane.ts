@@ -3,7 +3,7 @@ import {CanvasTexture, Group, Mesh, MeshBasicMaterial, NearestFilter, PlaneGeome
 import type {Maps} from '../../../model/maps';
 import type {Palette} from '../../../panel_api';
 import type {MapTile} from '../../../protocol/frames';
-import {kTileCells, pictureOf} from '../../map/draw_map';
+import {kTileCells, pictureOf} from '../draw_map';
 
 /** Between the floor, which takes shadows, and what is drawn on it. */
 const kHeight_m = 0.004;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {expect, it} from 'vitest';
-import type {RunModel} from '../model/run_model';
+import type {RunModel} from './run_model';
 import {spanOf} from './moment';
 
 const at = (live: boolean, time: object) =>

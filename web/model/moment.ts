@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {RunModel} from '../model/run_model';
+import type {RunModel} from './run_model';
 
 /** The moment that is shown, seconds of the run. */
 export function nowOf(model: RunModel): number {

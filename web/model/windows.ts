@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import {Signal} from '../model/signal';
+import {Signal} from './signal';
 
 /** The windows that show the page: its own, and those that panels were moved to. All share one
  * model and one thread. */

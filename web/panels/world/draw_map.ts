@@ -2,8 +2,8 @@
 import type {Grid} from '../../model/maps';
 import type {Palette} from '../../panel_api';
 import type {MapTile} from '../../protocol/frames';
-import type {Camera} from '../world/camera';
-import {bytesOf} from '../world/ramp';
+import type {Camera} from './camera';
+import {bytesOf} from './ramp';
 
 /** Cells along a side of a tile. */
 export const kTileCells = 64;

@@ -4,9 +4,9 @@ import {spawn} from 'node:child_process';
 import playwright, {chromium} from 'playwright-core';
 import {kPatience_ms} from './checks.mjs';
 
-/** Headless Chromium as a machine without a graphics card runs it: pages are drawn by the processor, and
- * WebGL by SwiftShader. With `--use-angle=swiftshader` the whole page would go through an emulated card,
- * which takes twenty times as long. */
+/** Headless Chromium as a machine without a graphics card runs it: pages are drawn by the
+ * processor, and WebGL by SwiftShader. With `--use-angle=swiftshader` the whole page would go
+ * through an emulated card, which takes twenty times as long. */
 const kChromium = {
   executablePath: process.env.RAVE_CHROMIUM ?? '/usr/bin/chromium',
   args: ['--no-sandbox', '--enable-unsafe-swiftshader'],
@@ -42,14 +42,19 @@ export async function launchServed() {
 
 export const whereFirefox = process.env.RAVE_FIREFOX ?? '/usr/bin/firefox-esr';
 
-/** Debian's Firefox through WebDriver BiDi: the Firefox that Playwright would drive otherwise is a build of its own. */
+/** Debian's Firefox through WebDriver BiDi: the Firefox that Playwright would drive otherwise is a
+ * build of its own. */
 export function launchFirefox() {
   return playwright._bidiFirefox.launch({executablePath: whereFirefox, headless: true});
 }
 
-/** Waits until the policy of the page lists `hosts` hosts of a run in real time. A page that comes earlier is refused their lines, and loads again. */
+/** Waits until the policy of the page lists `hosts` hosts of a run in real time. A page that comes
+ * earlier is refused their lines, and loads again. */
 export async function knowsHosts(link, hosts, timeout_ms = 30000) {
-  const policy = async () => (await (await fetch(new URL('/', link), {redirect: 'manual'})).headers.get('content-security-policy')) ?? '';
+  const policy = async () =>
+    (await (
+      await fetch(new URL('/', link), {redirect: 'manual'})
+    ).headers.get('content-security-policy')) ?? '';
   const end = Date.now() + timeout_ms;
   for (let last = ''; (last.match(/wss?:\/\/127/g) ?? []).length < hosts; last = await policy()) {
     if (Date.now() > end) throw new Error(`never ${hosts} hosts in the policy: ${last}`);
@@ -65,7 +70,9 @@ export async function startServer(rave, words) {
   // Another page than the one that was built with the program, while the page is worked on.
   const page = process.env.RAVE_PAGE ? ['--page', process.env.RAVE_PAGE] : [];
   const port = words.includes('--port') ? [] : ['--port', '0'];
-  const child = spawn(rave, [...words, '--no-open', ...port, ...page], {stdio: ['ignore', 'pipe', 'inherit']});
+  const child = spawn(rave, [...words, '--no-open', ...port, ...page], {
+    stdio: ['ignore', 'pipe', 'inherit'],
+  });
   let text = '';
   const exited = new Promise((resolve) => child.once('exit', resolve));
   const link = await new Promise((resolve, reject) => {

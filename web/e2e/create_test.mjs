@@ -20,26 +20,53 @@ mkdirSync(folder, {recursive: true});
 function scenarioOf(file, port) {
   const text = readFileSync(join(robots, `${file}.yaml`), 'utf8');
   const robot = join(folder, `${file}.yaml`);
-  writeFileSync(robot, `${text.slice(0, text.lastIndexOf('program:'))}  - {name: navigate, driver: goal_point, actuator: wheels}\nprogram: {driver: obey, params: {velocity_sensor: "", goal_sensor: ""}}\n${file === 'create' ? 'guard: {arm: true}\n' : ''}`);
-  const walls = [['south', 4.2, 0.1, 2, -0.05], ['north', 4.2, 0.1, 2, 3.05], ['west', 0.1, 3, -0.05, 1.5], ['east', 0.1, 3, 4.05, 1.5]];
-  writeFileSync(join(folder, 'world.yaml'), `obstacles:\n${walls.map(([name, w, h, x, y]) => `  - {name: ${name}, box_m: [${w}, ${h}], x_m: ${x}, y_m: ${y}, layer: mapped_real}\n`).join('')}`);
+  writeFileSync(
+    robot,
+    `${text.slice(0, text.lastIndexOf('program:'))}  - {name: navigate, driver: goal_point, actuator: wheels}\nprogram: {driver: obey, params: {velocity_sensor: "", goal_sensor: ""}}\n${file === 'create' ? 'guard: {arm: true}\n' : ''}`,
+  );
+  const walls = [
+    ['south', 4.2, 0.1, 2, -0.05],
+    ['north', 4.2, 0.1, 2, 3.05],
+    ['west', 0.1, 3, -0.05, 1.5],
+    ['east', 0.1, 3, 4.05, 1.5],
+  ];
+  writeFileSync(
+    join(folder, 'world.yaml'),
+    `obstacles:\n${walls.map(([name, w, h, x, y]) => `  - {name: ${name}, box_m: [${w}, ${h}], x_m: ${x}, y_m: ${y}, layer: mapped_real}\n`).join('')}`,
+  );
   const scenario = join(folder, `scenario-${file}.yaml`);
   const {x_m, y_m, yaw_rad} = kStart;
-  writeFileSync(scenario, `name: ${file}\nduration_s: 600\nmax_missed_pct: 50\nworld: world.yaml\nrobots:\n  - name: rosie\n    file: ${robot}\n    pose: {x_m: ${x_m}, y_m: ${y_m}, yaw_deg: ${(yaw_rad * 180) / Math.PI}}\n    variables: {base: '${join(folder, 'base')}', laser: '${join(folder, 'laser')}', mocap_port: ${port}, mocap_body: create}\n`);
+  writeFileSync(
+    scenario,
+    `name: ${file}\nduration_s: 600\nmax_missed_pct: 50\nworld: world.yaml\nrobots:\n  - name: rosie\n    file: ${robot}\n    pose: {x_m: ${x_m}, y_m: ${y_m}, yaw_deg: ${(yaw_rad * 180) / Math.PI}}\n    variables: {base: '${join(folder, 'base')}', laser: '${join(folder, 'laser')}', mocap_port: ${port}, mocap_body: create}\n`,
+  );
   return scenario;
 }
 
 const browser = await launch();
 const children = [];
 try {
-  for (const [what, file] of [['simulated', 'create-simulated'], ['real', 'create']]) {
+  for (const [what, file] of [
+    ['simulated', 'create-simulated'],
+    ['real', 'create'],
+  ]) {
     const port = await freePort();
     const real = what === 'real' ? await startPeer(peer, folder, port, kStart) : null;
     if (real) children.push(real.child);
     const context = await browser.newContext({viewport: {width: 1500, height: 950}});
     const page = await context.newPage();
     showFailures(page, join(folder, `failure-${what}.png`));
-    const server = await startServer(rave, ['run', scenarioOf(file, port), '--gui', '--quiet', '--no-picture', '--pace', 'realtime', '--output', join(folder, what)]);
+    const server = await startServer(rave, [
+      'run',
+      scenarioOf(file, port),
+      '--gui',
+      '--quiet',
+      '--no-picture',
+      '--pace',
+      'realtime',
+      '--output',
+      join(folder, what),
+    ]);
     children.push(server.child);
 
     await check(`${what}: the page shows the robot, and what it is`, async () => {
@@ -50,7 +77,10 @@ try {
     });
 
     const refused = async (sentence) => {
-      const answer = await page.evaluate((goal) => document.querySelector('rave-app').commands.goal([0], [goal]), kGoal);
+      const answer = await page.evaluate(
+        (goal) => document.querySelector('rave-app').commands.goal([0], [goal]),
+        kGoal,
+      );
       assert.equal(answer.good, false, answer.text);
       const card = page.locator('rave-world .beside.refused');
       await card.waitFor();
@@ -60,7 +90,9 @@ try {
     if (real) {
       await check('real: before it is armed it takes no goal, and the page says why', async () => {
         await refused(/it waits to be armed/);
-        execFileSync(rave, ['arm', String(server.child.pid), '--robot', 'rosie'], {stdio: ['ignore', 'ignore', 'inherit']});
+        execFileSync(rave, ['arm', String(server.child.pid), '--robot', 'rosie'], {
+          stdio: ['ignore', 'ignore', 'inherit'],
+        });
       });
     }
 
@@ -68,7 +100,10 @@ try {
       await sendByClick(page, 'rosie', ...kGoal);
       if (!real) return;
       const {x, y} = await real.state();
-      assert.ok(Math.hypot(x - kGoal[0], y - kGoal[1]) < 0.35, `the body of the Create is at ${x}, ${y}`);
+      assert.ok(
+        Math.hypot(x - kGoal[0], y - kGoal[1]) < 0.35,
+        `the body of the Create is at ${x}, ${y}`,
+      );
     });
 
     await check(`${what}: the mouse drives it, and letting go stops it`, async () => {
@@ -81,10 +116,14 @@ try {
     });
 
     await check(`${what}: STOP holds it against a goal`, async () => {
-      await page.evaluate(() => document.querySelector('rave-app').link.send({type: 'halt', do: 'stop', slots: []}));
+      await page.evaluate(() =>
+        document.querySelector('rave-app').link.send({type: 'halt', do: 'stop', slots: []}),
+      );
       await until(page, `(${newest}.flags[0] & 4) !== 0`);
       if (real) assert.equal((await real.state()).left_mps, 0);
-      await page.evaluate(() => document.querySelector('rave-app').link.send({type: 'halt', do: 'release', slots: []}));
+      await page.evaluate(() =>
+        document.querySelector('rave-app').link.send({type: 'halt', do: 'release', slots: []}),
+      );
       await until(page, `(${newest}.flags[0] & 4) === 0`);
     });
     if (real) {

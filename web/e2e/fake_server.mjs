@@ -8,8 +8,15 @@ import {fileURLToPath} from 'node:url';
 import {WebSocketServer} from 'ws';
 import {FakeRun} from './fake_run.mjs';
 
-const kTypes = {'.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml', '.woff2': 'font/woff2'};
-const kPolicy = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; " +
+const kTypes = {
+  '.html': 'text/html',
+  '.js': 'text/javascript',
+  '.css': 'text/css',
+  '.svg': 'image/svg+xml',
+  '.woff2': 'font/woff2',
+};
+const kPolicy =
+  "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; " +
   "font-src 'self'; connect-src 'self'; manifest-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'";
 const kFrame_ms = 1000 / 30;
 const kInFlight = 2;
@@ -43,7 +50,13 @@ class Viewer {
     }
     if (message.type === 'edit') {
       this.server.say(this.server.run.edit(message));
-      this.say({type: 'answer', to: message.do, good: true, text: 'done', request: message.request});
+      this.say({
+        type: 'answer',
+        to: message.do,
+        good: true,
+        text: 'done',
+        request: message.request,
+      });
     }
     if (message.type === 'say') {
       this.server.say(this.server.run.say(message));
@@ -54,9 +67,14 @@ class Viewer {
       this.server.run.setRight(message);
       this.say(this.server.run.rights);
     }
-    if (['account', 'invitation', 'audit'].includes(message.type)) for (const told of this.server.run.people(message)) this.say(told);
+    if (['account', 'invitation', 'audit'].includes(message.type))
+      for (const told of this.server.run.people(message)) this.say(told);
     if (message.type === 'see_as') {
-      this.server.run.seeAs(message.role || message.user ? {name: message.user ?? message.role, role: message.role ?? 'observer'} : null);
+      this.server.run.seeAs(
+        message.role || message.user
+          ? {name: message.user ?? message.role, role: message.role ?? 'observer'}
+          : null,
+      );
       this.server.turnInto({});
     }
   }
@@ -80,7 +98,12 @@ class FakeServer {
 
   async listen(port) {
     this.http = createServer((request, response) => this.answer(request, response));
-    this.sockets = new WebSocketServer({server: this.http, path: '/ws', handleProtocols: () => 'rave.gui.1', perMessageDeflate: false});
+    this.sockets = new WebSocketServer({
+      server: this.http,
+      path: '/ws',
+      handleProtocols: () => 'rave.gui.1',
+      perMessageDeflate: false,
+    });
     this.sockets.on('connection', (socket) => {
       if (this.run === null) {
         socket.close(kNoRun, 'no run');
@@ -106,7 +129,9 @@ class FakeServer {
     const path = normalize(new URL(request.url, 'http://x').pathname);
     const component = this.components.get(path);
     if (component !== undefined) {
-      response.writeHead(200, {'Content-Type': 'text/javascript', 'Content-Security-Policy': kPolicy}).end(component);
+      response
+        .writeHead(200, {'Content-Type': 'text/javascript', 'Content-Security-Policy': kPolicy})
+        .end(component);
       return;
     }
     if (path === '/ticket') {
@@ -119,7 +144,10 @@ class FakeServer {
       response.writeHead(404).end();
       return;
     }
-    response.writeHead(200, {'Content-Type': kTypes[extname(file)] ?? 'application/octet-stream', 'Content-Security-Policy': kPolicy});
+    response.writeHead(200, {
+      'Content-Type': kTypes[extname(file)] ?? 'application/octet-stream',
+      'Content-Security-Policy': kPolicy,
+    });
     response.end(readFileSync(file));
   }
 

@@ -7,7 +7,10 @@ import {gzipSync} from 'node:zlib';
 /** Paths of all files that a page asks for from now on. */
 export function watchLoads(page) {
   const loaded = new Set();
-  page.on('request', (request) => /^https?:/.test(request.url()) && loaded.add(new URL(request.url()).pathname));
+  page.on(
+    'request',
+    (request) => /^https?:/.test(request.url()) && loaded.add(new URL(request.url()).pathname),
+  );
   return loaded;
 }
 
@@ -17,5 +20,7 @@ export function sizeOf(loaded, built) {
     const bytes = readFileSync(join(built, path === '/' ? 'index.html' : path));
     return /\.woff2$/.test(path) ? bytes.length : gzipSync(bytes).length;
   };
-  return [...loaded].filter((path) => path !== '/ws' && path !== '/ticket').reduce((sum, path) => sum + size(path), 0);
+  return [...loaded]
+    .filter((path) => path !== '/ws' && path !== '/ticket')
+    .reduce((sum, path) => sum + size(path), 0);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a person does with mouse, finger, pen and gamepad, for tests of the page.
 
-const kWorld = "(document.querySelector('rave-world') ?? document.querySelector('rave-app').renderRoot.querySelector('rave-world'))";
+const kWorld =
+  "(document.querySelector('rave-world') ?? document.querySelector('rave-app').renderRoot.querySelector('rave-world'))";
 
 /** Where a place of the world is on the page. */
 export async function placeOf(page, x, y) {
@@ -55,11 +56,22 @@ export class Hand {
     this.client ??= await this.page.context().newCDPSession(this.page);
     if (this.kind === 'touch') {
       const word = {down: 'touchStart', move: 'touchMove', up: 'touchEnd'}[type];
-      await this.client.send('Input.dispatchTouchEvent', {type: word, touchPoints: type === 'up' ? [] : [{x, y}]});
+      await this.client.send('Input.dispatchTouchEvent', {
+        type: word,
+        touchPoints: type === 'up' ? [] : [{x, y}],
+      });
       return;
     }
     const word = {down: 'mousePressed', move: 'mouseMoved', up: 'mouseReleased'}[type];
-    await this.client.send('Input.dispatchMouseEvent', {type: word, x, y, button: 'left', buttons: type === 'up' ? 0 : 1, clickCount: 1, pointerType: 'pen'});
+    await this.client.send('Input.dispatchMouseEvent', {
+      type: word,
+      x,
+      y,
+      button: 'left',
+      buttons: type === 'up' ? 0 : 1,
+      clickCount: 1,
+      pointerType: 'pen',
+    });
   }
 
   async drag(points, lift = true) {
@@ -67,7 +79,12 @@ export class Hand {
     for (let i = 1; i < points.length; ++i) {
       for (let k = 1; k <= 5; ++k) {
         const share = k / 5;
-        await this.send('move', [0, 1].map((axis) => points[i - 1][axis] + share * (points[i][axis] - points[i - 1][axis])));
+        await this.send(
+          'move',
+          [0, 1].map(
+            (axis) => points[i - 1][axis] + share * (points[i][axis] - points[i - 1][axis]),
+          ),
+        );
       }
     }
     if (lift) await this.send('up', points[points.length - 1]);
@@ -84,12 +101,32 @@ export class Hand {
 export async function stubPad(context) {
   await context.addInitScript(() => {
     window.padAxes = null;
-    navigator.getGamepads = () => (window.padAxes === null ? [] : [{id: 'Test pad', connected: true, axes: window.padAxes, buttons: window.padButtons ?? []}]);
+    navigator.getGamepads = () =>
+      window.padAxes === null
+        ? []
+        : [
+            {
+              id: 'Test pad',
+              connected: true,
+              axes: window.padAxes,
+              buttons: window.padButtons ?? [],
+            },
+          ];
   });
 }
 /** Presses buttons of it, by number, to a share from 0 to 1. */
-export const pressPad = (page, shares) => page.evaluate((by) => {
-  window.padAxes ??= [0, 0];
-  window.padButtons = Array.from({length: 16}, (_, i) => ({pressed: (by[i] ?? 0) > 0.5, value: by[i] ?? 0}));
-}, shares);
-export const setPad = (page, x, y) => page.evaluate(([ax, ay]) => { window.padAxes = [ax, ay]; }, [x, y]);
+export const pressPad = (page, shares) =>
+  page.evaluate((by) => {
+    window.padAxes ??= [0, 0];
+    window.padButtons = Array.from({length: 16}, (_, i) => ({
+      pressed: (by[i] ?? 0) > 0.5,
+      value: by[i] ?? 0,
+    }));
+  }, shares);
+export const setPad = (page, x, y) =>
+  page.evaluate(
+    ([ax, ay]) => {
+      window.padAxes = [ax, ay];
+    },
+    [x, y],
+  );

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // How old a state is when it is on the screen, of real runs in headless Chromium with software GL:
-// RAVE_PAGE=PAGE node latency.mjs RAVE [ROBOTS ...]. Prints one line of JSON for each number of robots.
-// The age is measured from the moment when the server takes a state from the run to the beginning of the
-// browser's frame behind the one in which it was painted, and counts the page's interpolation.
+// RAVE_PAGE=PAGE node latency.mjs RAVE [ROBOTS ...]. Prints one line of JSON for each number of
+// robots. The age is measured from the moment when the server takes a state from the run to the
+// beginning of the browser's frame behind the one in which it was painted, and counts the page's
+// interpolation.
 import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
 import {loadavg, tmpdir} from 'node:os';
 import {dirname, join} from 'node:path';
@@ -19,8 +20,11 @@ const robot = join(dirname(fileURLToPath(import.meta.url)), '../../robots/wander
 function writeScenario(folder, robots) {
   const half = Math.max(5, Math.round(Math.sqrt(robots)));
   const file = join(folder, `crowd-${robots}.yaml`);
-  writeFileSync(file, `name: crowd\nduration_s: 100000\nstep_s: 0.01\nrobots:\n  - name: walker\n    file: ${robot}\n    team: crowd\n` +
-    `    scatter: {count: ${robots}, x_m: [-${half}, ${half}], y_m: [-${half}, ${half}], clearance_m: 0.4}\n`);
+  writeFileSync(
+    file,
+    `name: crowd\nduration_s: 100000\nstep_s: 0.01\nrobots:\n  - name: walker\n    file: ${robot}\n    team: crowd\n` +
+      `    scatter: {count: ${robots}, x_m: [-${half}, ${half}], y_m: [-${half}, ${half}], clearance_m: 0.4}\n`,
+  );
   return file;
 }
 
@@ -61,24 +65,42 @@ async function measure(span_ms) {
 const folder = mkdtempSync(join(tmpdir(), 'rave-latency-'));
 const browser = await launch();
 const quantile = (sorted, share) => sorted[Math.floor(share * (sorted.length - 1))];
-const median = (values) => quantile([...values].sort((a, b) => a - b), 0.5);
+const median = (values) =>
+  quantile(
+    [...values].sort((a, b) => a - b),
+    0.5,
+  );
 for (const count of counts.length > 0 ? counts.map(Number) : [16, 1000]) {
   const rounds = [];
   for (let round = 0; round < kRounds; ++round) {
-    const gui = await startServer(rave, ['run', writeScenario(folder, count), '--gui', '--quiet', '--no-record', '--no-picture',
-      '--output', join(folder, `run-${count}-${round}`)]);
+    const gui = await startServer(rave, [
+      'run',
+      writeScenario(folder, count),
+      '--gui',
+      '--quiet',
+      '--no-record',
+      '--no-picture',
+      '--output',
+      join(folder, `run-${count}-${round}`),
+    ]);
     const page = await (await browser.newContext({viewport: kViewport})).newPage();
     await page.goto(gui.link);
     await page.waitForTimeout(kWarm_ms);
     const ages = (await page.evaluate(measure, kMeasured_ms)).sort((a, b) => a - b);
     const rate = await page.evaluate(() => document.querySelector('rave-app').link.rate_hz);
-    rounds.push({load: loadavg()[0], pictures_per_s: (1000 * ages.length) / kMeasured_ms, received_hz: rate,
-      age_ms_median: quantile(ages, 0.5), age_ms_p99: quantile(ages, 0.99)});
+    rounds.push({
+      load: loadavg()[0],
+      pictures_per_s: (1000 * ages.length) / kMeasured_ms,
+      received_hz: rate,
+      age_ms_median: quantile(ages, 0.5),
+      age_ms_p99: quantile(ages, 0.99),
+    });
     await page.close();
     await gui.end();
   }
   const result = {robots: count, rounds: kRounds};
-  for (const key of Object.keys(rounds[0])) result[key] = Number(median(rounds.map((one) => one[key])).toFixed(1));
+  for (const key of Object.keys(rounds[0]))
+    result[key] = Number(median(rounds.map((one) => one[key])).toFixed(1));
   console.log(JSON.stringify(result));
 }
 await browser.close();

@@ -13,7 +13,8 @@ const newest = `${app}.model.poses.newest`;
 const kStopped = 4;
 
 /** Says something to the server as the page does. */
-const say = (page, message) => page.evaluate((what) => document.querySelector('rave-app').link.send(what), message);
+const say = (page, message) =>
+  page.evaluate((what) => document.querySelector('rave-app').link.send(what), message);
 const stopped = `[...${newest}.flags].filter((flags) => flags & ${kStopped}).length`;
 const hash = (run) => JSON.parse(readFileSync(join(run, 'result.json'))).hash;
 
@@ -23,7 +24,9 @@ const kShort_s = 20;
 const short = ['--quiet', '--no-picture', '--duration', String(kShort_s)];
 const alone = join(folder, 'alone');
 try {
-  execFileSync(rave, ['run', scenario, ...short, '--pace', 'max', '--output', alone], {stdio: 'ignore'});
+  execFileSync(rave, ['run', scenario, ...short, '--pace', 'max', '--output', alone], {
+    stdio: 'ignore',
+  });
 } catch (error) {
   assert.equal(error.status, 1); // So short a run compares too little.
 }
@@ -41,10 +44,23 @@ try {
       if (typeof payload === 'string') said.push(JSON.parse(payload));
       else ++frames;
     });
-    socket.on('framesent', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
+    socket.on(
+      'framesent',
+      ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)),
+    );
   });
   const run = join(folder, 'watched');
-  const live = await startServer(rave, ['run', scenario, '--gui', '--quiet', '--no-picture', '--duration', '120', '--output', run]);
+  const live = await startServer(rave, [
+    'run',
+    scenario,
+    '--gui',
+    '--quiet',
+    '--no-picture',
+    '--duration',
+    '120',
+    '--output',
+    run,
+  ]);
   servers.push(live);
 
   await check('the run is alive on the page', async () => {
@@ -54,11 +70,17 @@ try {
     const before = await page.evaluate(`${newest}.time_s`);
     await until(page, `${newest}.time_s > ${before} + 1`);
     assert.ok((await page.evaluate(`${app}.model.bodies.size`)) > 10);
-    await until(page, `${app}.model.time.pace === 1 && ${app}.model.time.speed > 0 && ${app}.model.time.speed < 1.5`);
+    await until(
+      page,
+      `${app}.model.time.pace === 1 && ${app}.model.time.speed > 0 && ${app}.model.time.speed < 1.5`,
+    );
   });
 
   await check('the log begins with the begin of the run', async () => {
-    assert.match((await page.locator('rave-log .row').last().innerText()).replace(/\s+/g, ' '), /^00\.00 Run begins: 5 real and 11 simulated robots, seed \d+$/);
+    assert.match(
+      (await page.locator('rave-log .row').last().innerText()).replace(/\s+/g, ' '),
+      /^00\.00 Run begins: 5 real and 11 simulated robots, seed \d+$/,
+    );
     assert.equal(await page.locator('rave-log .row', {hasText: 'Run begins'}).count(), 1);
   });
 
@@ -66,7 +88,13 @@ try {
     await page.evaluate(`${app}.context.show('chat')`);
     await page.locator('rave-chat').getByRole('radio', {name: 'Super-users'}).waitFor();
     await until(page, `${app}.model.people.some(({name}) => name === 'the operator')`);
-    assert.equal(await page.locator('rave-chat').getByRole('radio', {name: /operator/}).count(), 0);
+    assert.equal(
+      await page
+        .locator('rave-chat')
+        .getByRole('radio', {name: /operator/})
+        .count(),
+      0,
+    );
     assert.equal(await page.locator('rave-top-bar .people').count(), 0);
     for (const id of ['log', 'world']) await page.evaluate(`${app}.context.show('${id}')`);
   });
@@ -75,7 +103,10 @@ try {
     const client = await context.newCDPSession(page);
     const {installabilityErrors} = await client.send('Page.getInstallabilityErrors');
     // Every context of a test is one that keeps nothing.
-    assert.deepEqual(installabilityErrors.filter(({errorId}) => errorId !== 'in-incognito'), []);
+    assert.deepEqual(
+      installabilityErrors.filter(({errorId}) => errorId !== 'in-incognito'),
+      [],
+    );
     const {errors: wrong, data} = await client.send('Page.getAppManifest');
     assert.deepEqual(wrong, []);
     assert.equal(JSON.parse(data).display, 'standalone');
@@ -95,20 +126,28 @@ try {
     await until(page, `${newest}.step === ${step} + 1`);
   });
 
-  await check('while it is held and nobody does anything, the page gets the time and no frames', async () => {
-    const times = () => said.filter((message) => message.type === 'time').length;
-    const next = async (count) => { for (const to = times() + count; times() < to;) await page.waitForTimeout(50); };
-    // What was on its way comes before the next time.
-    await next(2);
-    const before = frames;
-    await next(3);
-    assert.equal(frames, before);
-  });
+  await check(
+    'while it is held and nobody does anything, the page gets the time and no frames',
+    async () => {
+      const times = () => said.filter((message) => message.type === 'time').length;
+      const next = async (count) => {
+        for (const to = times() + count; times() < to; ) await page.waitForTimeout(50);
+      };
+      // What was on its way comes before the next time.
+      await next(2);
+      const before = frames;
+      await next(3);
+      assert.equal(frames, before);
+    },
+  );
 
   await check('this process is the host of a run of one process', async () => {
     await until(page, `${app}.model.hosts.length === 1`);
     const host = await page.evaluate(`${app}.model.hosts[0]`);
-    assert.deepEqual([host.name, host.state, host.real, host.simulated, host.pid], ['mixed-reality', 'here', 5, 11, live.child.pid]);
+    assert.deepEqual(
+      [host.name, host.state, host.real, host.simulated, host.pid],
+      ['mixed-reality', 'here', 5, 11, live.child.pid],
+    );
     assert.ok(host.memory_mb > 1 && host.cpu >= 0 && host.machine !== '', JSON.stringify(host));
   });
 
@@ -135,19 +174,26 @@ try {
     await until(page, `${stopped} === 16`);
     await say(page, {type: 'halt', do: 'release', slots: []});
     await until(page, `${stopped} === 0`);
-    assert.ok(said.some((message) => message.type === 'answer' && message.to === 'stop' && message.good));
+    assert.ok(
+      said.some((message) => message.type === 'answer' && message.to === 'stop' && message.good),
+    );
     await until(page, `${app}.model.events.some((event) => event.kind === 'stopped')`);
   });
 
   await check('one robot stops', async () => {
-    const slot = await page.evaluate(`${app}.model.robots.findIndex((robot) => robot.name === 'hunter')`);
+    const slot = await page.evaluate(
+      `${app}.model.robots.findIndex((robot) => robot.name === 'hunter')`,
+    );
     await say(page, {type: 'halt', do: 'stop', slots: [slot]});
     await until(page, `${stopped} === 1 && (${newest}.flags[${slot}] & ${kStopped}) !== 0`);
     await say(page, {type: 'halt', do: 'release', slots: [slot]});
   });
 
   await check('an obstacle that somebody adds stands on the page, moves and goes', async () => {
-    const edit = (...words) => execFileSync(rave, ['edit', String(live.child.pid), ...words], {stdio: ['ignore', 'ignore', 'inherit']});
+    const edit = (...words) =>
+      execFileSync(rave, ['edit', String(live.child.pid), ...words], {
+        stdio: ['ignore', 'ignore', 'inherit'],
+      });
     const parcel = `[...${app}.model.bodies.values()].find((body) => body.name === 'parcel')`;
     edit('add', 'box', '--name', 'parcel', '--at', '9,9', '--size', '0.3x0.3');
     await until(page, `${parcel}?.kind === 'virtual' && ${parcel}.pose[0] === 9`);
@@ -159,7 +205,8 @@ try {
 
   await check('a seek is refused with the reason', async () => {
     await say(page, {type: 'transport', do: 'seek', value: 1});
-    const refused = () => said.find((message) => message.type === 'answer' && message.to === 'transport');
+    const refused = () =>
+      said.find((message) => message.type === 'answer' && message.to === 'transport');
     await untilHere(page, refused, 'an answer');
     assert.equal(refused()?.good, false);
     assert.match(refused().text, /when the run has ended/);
@@ -191,9 +238,22 @@ try {
 
   await check('a run that is watched has the hash of one that is not', async () => {
     const other = join(folder, 'same');
-    const same = await startServer(rave, ['run', scenario, '--gui', ...short, '--pace', 'realtime', '--paused', '--output', other]);
+    const same = await startServer(rave, [
+      'run',
+      scenario,
+      '--gui',
+      ...short,
+      '--pace',
+      'realtime',
+      '--paused',
+      '--output',
+      other,
+    ]);
     servers.push(same);
-    console.log('watched', JSON.stringify(await watchUntouched(await context.newPage(), same.link, kShort_s)));
+    console.log(
+      'watched',
+      JSON.stringify(await watchUntouched(await context.newPage(), same.link, kShort_s)),
+    );
     await same.end();
     assert.match(hash(alone), /^[0-9a-f]{16}$/);
     assert.equal(hash(other), hash(alone));
@@ -202,8 +262,14 @@ try {
   await check('every message is as the schema describes it', async () => {
     const file = join(folder, 'messages.json');
     writeFileSync(file, JSON.stringify(said));
-    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {stdio: 'inherit'});
-    for (const kind of ['scene_change', 'answer', 'halt']) assert.ok(said.some((message) => message.type === kind), kind);
+    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {
+      stdio: 'inherit',
+    });
+    for (const kind of ['scene_change', 'answer', 'halt'])
+      assert.ok(
+        said.some((message) => message.type === kind),
+        kind,
+      );
     assert.deepEqual(errors, []);
   });
 } finally {

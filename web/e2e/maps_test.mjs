@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps of two robots and of the world, in one process and over two hosts: node maps_test.mjs RAVE SCENARIO FOLDER
+// Maps of two robots and of the world, in one process and over two hosts: node maps_test.mjs RAVE
+// SCENARIO FOLDER
 import assert from 'node:assert/strict';
 import {execFileSync, spawnSync} from 'node:child_process';
 import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
@@ -14,45 +15,64 @@ const kTile = 4;
 const tag = ['--run', `maps-${process.pid}`];
 
 /** Occupied cells of a map as places of the world, in centimetres. */
-const occupied = (page, key) => page.evaluate((of) => {
-  const grid = document.querySelector('rave-app').model.maps.of(of);
-  const places = [];
-  for (const tile of grid?.tiles.values() ?? []) {
-    tile.cells.forEach((cell, i) => {
-      if (cell < 80 || cell > 100) return;
-      const {x0, y0, resolution_m} = grid.frame;
-      places.push([x0 + (tile.column * 64 + (i % tile.width) + 0.5) * resolution_m, y0 + (tile.row * 64 + Math.floor(i / tile.width) + 0.5) * resolution_m]);
-    });
-  }
-  return places;
-}, key);
+const occupied = (page, key) =>
+  page.evaluate((of) => {
+    const grid = document.querySelector('rave-app').model.maps.of(of);
+    const places = [];
+    for (const tile of grid?.tiles.values() ?? []) {
+      tile.cells.forEach((cell, i) => {
+        if (cell < 80 || cell > 100) return;
+        const {x0, y0, resolution_m} = grid.frame;
+        places.push([
+          x0 + (tile.column * 64 + (i % tile.width) + 0.5) * resolution_m,
+          y0 + (tile.row * 64 + Math.floor(i / tile.width) + 0.5) * resolution_m,
+        ]);
+      });
+    }
+    return places;
+  }, key);
 
 /** Share of places that lie within 15 cm of one of the others. */
 function shareNear(places, others) {
   const taken = new Set();
-  for (const [x, y] of others) for (let i = -3; i <= 3; ++i) for (let j = -3; j <= 3; ++j) taken.add(`${Math.floor(20 * x) + i} ${Math.floor(20 * y) + j}`);
-  return places.filter(([x, y]) => taken.has(`${Math.floor(20 * x)} ${Math.floor(20 * y)}`)).length / places.length;
+  for (const [x, y] of others)
+    for (let i = -3; i <= 3; ++i)
+      for (let j = -3; j <= 3; ++j)
+        taken.add(`${Math.floor(20 * x) + i} ${Math.floor(20 * y) + j}`);
+  return (
+    places.filter(([x, y]) => taken.has(`${Math.floor(20 * x)} ${Math.floor(20 * y)}`)).length /
+    places.length
+  );
 }
 
 /** What is drawn: pixels of the colour of walls, and a number for the whole picture. */
-const drawn = (page) => page.locator('rave-map canvas').evaluate((canvas) => {
-  const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-  let walls = 0;
-  let sum = 0;
-  for (let i = 0; i < data.length; i += 4) {
-    if (Math.abs(data[i] - 0x8c) + Math.abs(data[i + 1] - 0x7a) + Math.abs(data[i + 2] - 0x66) < 24) ++walls;
-    sum = (31 * sum + data[i] + 7 * data[i + 1] + 13 * data[i + 2]) % 1000003;
-  }
-  return {walls, sum};
-});
+const drawn = (page) =>
+  page.locator('rave-map canvas').evaluate((canvas) => {
+    const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    let walls = 0;
+    let sum = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      if (
+        Math.abs(data[i] - 0x8c) + Math.abs(data[i + 1] - 0x7a) + Math.abs(data[i + 2] - 0x66) <
+        24
+      )
+        ++walls;
+      sum = (31 * sum + data[i] + 7 * data[i + 1] + 13 * data[i + 2]) % 1000003;
+    }
+    return {walls, sum};
+  });
 
 /** A number for the floor of the World View: what stands still, robots left out. */
-const floor = (page) => page.locator('rave-world .stage-top canvas').first().evaluate((canvas) => {
-  const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-  let sum = 0;
-  for (let i = 0; i < data.length; ++i) sum = (31 * sum + data[i]) % 1000003;
-  return sum;
-});
+const floor = (page) =>
+  page
+    .locator('rave-world .stage-top canvas')
+    .first()
+    .evaluate((canvas) => {
+      const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      let sum = 0;
+      for (let i = 0; i < data.length; ++i) sum = (31 * sum + data[i]) % 1000003;
+      return sum;
+    });
 
 async function openPanel(page) {
   await page.keyboard.press('Control+k');
@@ -65,23 +85,42 @@ const choose = (page, label) => page.locator('rave-map select').selectOption({la
 
 /** The drop-down switches between two robots and the world, and the picture with it. */
 async function switches(page) {
-  assert.deepEqual(await page.locator('rave-map select option').allTextContents(), ['local: anna', 'local: ben', 'global: world file']);
+  assert.deepEqual(await page.locator('rave-map select option').allTextContents(), [
+    'local: anna',
+    'local: ben',
+    'global: world file',
+  ]);
   await choose(page, 'global: world file');
   await until(page, `${maps}.of('world file')?.tiles.size > 1`);
   const world = await occupied(page, 'world file');
-  await until(page, `document.querySelector('rave-map').shadowRoot.querySelector('.waits') === null`);
+  await until(
+    page,
+    `document.querySelector('rave-map').shadowRoot.querySelector('.waits') === null`,
+  );
   const pictures = {world: await drawn(page)};
   assert.ok(pictures.world.walls > 500, `${pictures.world.walls} pixels of walls`);
   const places = {};
-  for (const [slot, name] of [[0, 'anna'], [1, 'ben']]) {
+  for (const [slot, name] of [
+    [0, 'anna'],
+    [1, 'ben'],
+  ]) {
     await choose(page, `local: ${name}`);
     await until(page, `${maps}.of(${slot})?.tiles.size > 0`);
     await page.waitForTimeout(1500);
     places[name] = await occupied(page, slot);
     pictures[name] = await drawn(page);
-    assert.ok(places[name].length > 20 && pictures[name].walls > 30, `${name}: ${places[name].length} cells, ${pictures[name].walls} pixels`);
-    assert.ok(shareNear(places[name], world) > 0.9, `${name}: ${shareNear(places[name], world)} of its cells are walls`);
-    assert.match(await page.locator('rave-map .about').textContent(), /^0\.05 m cells · [0-9.]+ s old$/);
+    assert.ok(
+      places[name].length > 20 && pictures[name].walls > 30,
+      `${name}: ${places[name].length} cells, ${pictures[name].walls} pixels`,
+    );
+    assert.ok(
+      shareNear(places[name], world) > 0.9,
+      `${name}: ${shareNear(places[name], world)} of its cells are walls`,
+    );
+    assert.match(
+      await page.locator('rave-map .about').textContent(),
+      /^0\.05 m cells · [0-9.]+ s old$/,
+    );
   }
   assert.equal(new Set(Object.values(pictures).map(({sum}) => sum)).size, 3);
   // Each has mapped its own room.
@@ -106,13 +145,22 @@ try {
       if (typeof payload === 'string') said.push(JSON.parse(payload));
       else if (payload[0] === kTile) ++tiles;
     });
-    socket.on('framesent', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
+    socket.on(
+      'framesent',
+      ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)),
+    );
   });
   showFailures(page, join(folder, 'failed.png'));
   const shared = ['--gui', '--quiet', '--no-picture', '--no-record', '--pace', 'realtime'];
 
   await check('the drop-down switches between two robots and the world', async () => {
-    const run = await startServer(rave, ['run', scenario, ...shared, '--output', join(folder, 'one')]);
+    const run = await startServer(rave, [
+      'run',
+      scenario,
+      ...shared,
+      '--output',
+      join(folder, 'one'),
+    ]);
     servers.push(run);
     await page.goto(run.link);
     await until(page, `${newest} != null && ${newest}.time_s > 1`);
@@ -196,12 +244,15 @@ try {
     await until(page, `${plane}.length > 0 && ${plane}.length === ${maps}.of(0).tiles.size`);
     await page.getByLabel('Opacity over the world').fill('100');
     await until(page, `${plane}.every((mesh) => mesh.material.opacity === 1)`);
-    assert.ok(await page.evaluate(`(() => {
+    assert.ok(
+      await page.evaluate(`(() => {
       const {frame, tiles} = ${maps}.of(0);
       const middle = (from, tile, cells) => from + (64 * tile + cells / 2) * frame.resolution_m;
       return [...tiles.values()].every(({column, row, width, height}) => ${plane}.some(({position}) =>
         Math.abs(position.x - middle(frame.x0, column, width)) < 1e-6 && Math.abs(position.y - middle(frame.y0, row, height)) < 1e-6));
-    })()`), 'each tile has its rectangle');
+    })()`),
+      'each tile has its rectangle',
+    );
     await page.waitForTimeout(1500);
     await page.screenshot({path: join(folder, 'map-3d-dark.png')});
     await page.evaluate(`${app}.palette.set('light')`);
@@ -213,24 +264,41 @@ try {
     await page.evaluate(`${world}.setMode('top')`);
   });
 
-  await check('the menu of layers lays a map over the world, whatever the panel shows', async () => {
-    const over = page.getByRole('switch', {name: 'over the world'});
-    await page.getByRole('button', {name: /^Layers/}).first().click();
-    await page.getByLabel('Map over the world').selectOption({label: 'ben'});
-    await until(page, `${maps}.overlay?.key === 1 && ${maps}.of(1)?.tiles.size > 0`);
-    await page.getByLabel('Opacity of the map').fill('80');
-    await until(page, `${maps}.overlay.opacity === 0.8`);
-    await page.screenshot({path: join(folder, 'map-menu.png')});
-    assert.equal(await over.isChecked(), false, 'the panel shows anna');
-    await choose(page, 'local: ben');
-    await until(page, `document.querySelector('rave-map').renderRoot.querySelector('.over input').checked`);
-    await page.getByLabel('Map over the world').selectOption({label: 'none'});
-    await until(page, `${maps}.overlay === null`);
-    await page.getByRole('button', {name: /^Layers/}).first().click();
-  });
+  await check(
+    'the menu of layers lays a map over the world, whatever the panel shows',
+    async () => {
+      const over = page.getByRole('switch', {name: 'over the world'});
+      await page
+        .getByRole('button', {name: /^Layers/})
+        .first()
+        .click();
+      await page.getByLabel('Map over the world').selectOption({label: 'ben'});
+      await until(page, `${maps}.overlay?.key === 1 && ${maps}.of(1)?.tiles.size > 0`);
+      await page.getByLabel('Opacity of the map').fill('80');
+      await until(page, `${maps}.overlay.opacity === 0.8`);
+      await page.screenshot({path: join(folder, 'map-menu.png')});
+      assert.equal(await over.isChecked(), false, 'the panel shows anna');
+      await choose(page, 'local: ben');
+      await until(
+        page,
+        `document.querySelector('rave-map').renderRoot.querySelector('.over input').checked`,
+      );
+      await page.getByLabel('Map over the world').selectOption({label: 'none'});
+      await until(page, `${maps}.overlay === null`);
+      await page
+        .getByRole('button', {name: /^Layers/})
+        .first()
+        .click();
+    },
+  );
 
   await check('on a phone', async () => {
-    const phone = await browser.newContext({viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true, storageState: await context.storageState()});
+    const phone = await browser.newContext({
+      viewport: {width: 390, height: 844},
+      hasTouch: true,
+      isMobile: true,
+      storageState: await context.storageState(),
+    });
     const hand = await phone.newPage();
     await hand.goto(servers[0].link.replace(/\/enter.*/, '/'));
     await until(hand, `${app}?.model?.poses?.newest != null`);
@@ -245,36 +313,78 @@ try {
   });
 
   await check('the same over two hosts', async () => {
-    const run = await startServer(rave, ['run', scenario, ...shared, '--processes', '2', '--output', join(folder, 'two'), ...tag]);
+    const run = await startServer(rave, [
+      'run',
+      scenario,
+      ...shared,
+      '--processes',
+      '2',
+      '--output',
+      join(folder, 'two'),
+      ...tag,
+    ]);
     servers.push(run);
     await page.goto(run.link);
-    await until(page, `${newest} != null && ${newest}.time_s > 1 && ${app}.model.hosts.length >= 3`, 60000);
+    await until(
+      page,
+      `${newest} != null && ${newest}.time_s > 1 && ${app}.model.hosts.length >= 3`,
+      60000,
+    );
     await openPanel(page);
     await switches(page);
   });
 
-  await check('a map that is looked at changes nothing of the run; its replay has the map of the world file alone', async () => {
-    const seconds = ['--quiet', '--no-picture', '--duration', '12'];
-    const alone = join(folder, 'alone');
-    spawnSync(rave, ['run', scenario, ...seconds, '--pace', 'max', '--no-record', '--output', alone], {stdio: 'ignore'});
-    servers.push(await startServer(rave, ['run', scenario, '--gui', ...seconds, '--output', join(folder, 'watched')]));
-    await page.goto(servers.at(-1).link);
-    await until(page, `${newest} != null`);
-    await openPanel(page);
-    await choose(page, 'local: ben');
-    await until(page, `${maps}.of(1)?.tiles.size > 0`);
-    await until(page, `${app}.model.hello.run.source === 'replay' && ${maps}.names.length > 0`, 40000);
-    assert.equal(await page.evaluate(`${app}.model.hello.run.hash`), JSON.parse(readFileSync(join(alone, 'result.json'))).hash);
-    assert.deepEqual(await page.evaluate(`${maps}.names`), [{name: 'world file'}]);
-    await until(page, `${maps}.of('world file')?.tiles.size > 1`);
-    assert.deepEqual(errors, []);
-  });
+  await check(
+    'a map that is looked at changes nothing of the run; its replay has the map of the world file alone',
+    async () => {
+      const seconds = ['--quiet', '--no-picture', '--duration', '12'];
+      const alone = join(folder, 'alone');
+      spawnSync(
+        rave,
+        ['run', scenario, ...seconds, '--pace', 'max', '--no-record', '--output', alone],
+        {stdio: 'ignore'},
+      );
+      servers.push(
+        await startServer(rave, [
+          'run',
+          scenario,
+          '--gui',
+          ...seconds,
+          '--output',
+          join(folder, 'watched'),
+        ]),
+      );
+      await page.goto(servers.at(-1).link);
+      await until(page, `${newest} != null`);
+      await openPanel(page);
+      await choose(page, 'local: ben');
+      await until(page, `${maps}.of(1)?.tiles.size > 0`);
+      await until(
+        page,
+        `${app}.model.hello.run.source === 'replay' && ${maps}.names.length > 0`,
+        40000,
+      );
+      assert.equal(
+        await page.evaluate(`${app}.model.hello.run.hash`),
+        JSON.parse(readFileSync(join(alone, 'result.json'))).hash,
+      );
+      assert.deepEqual(await page.evaluate(`${maps}.names`), [{name: 'world file'}]);
+      await until(page, `${maps}.of('world file')?.tiles.size > 1`);
+      assert.deepEqual(errors, []);
+    },
+  );
 
   await check('every message is as the schema describes it', async () => {
     const file = join(folder, 'messages.json');
     writeFileSync(file, JSON.stringify(said));
-    for (const type of ['maps', 'look_maps']) assert.ok(said.some((message) => message.type === type), type);
-    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {stdio: 'inherit'});
+    for (const type of ['maps', 'look_maps'])
+      assert.ok(
+        said.some((message) => message.type === type),
+        type,
+      );
+    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {
+      stdio: 'inherit',
+    });
   });
   report();
 } finally {

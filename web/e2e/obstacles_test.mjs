@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An obstacle that is drawn on the page stands in a robot's way, which avoids it; robots are placed.
-// node obstacles_test.mjs RAVE SCENARIO FOLDER
+// An obstacle that is drawn on the page stands in a robot's way, which avoids it; robots are
+// placed. node obstacles_test.mjs RAVE SCENARIO FOLDER
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {mkdirSync, rmSync} from 'node:fs';
@@ -13,20 +13,35 @@ import {clickAt, dragThrough} from './hands.mjs';
 const [rave, scenario, folder] = process.argv.slice(2);
 rmSync(folder, {recursive: true, force: true});
 mkdirSync(folder, {recursive: true});
-const server = await startServer(rave, ['run', scenario, '--gui', '--quiet', '--no-picture', '--pace', 'realtime', '--output', join(folder, 'run')]);
+const server = await startServer(rave, [
+  'run',
+  scenario,
+  '--gui',
+  '--quiet',
+  '--no-picture',
+  '--pace',
+  'realtime',
+  '--output',
+  join(folder, 'run'),
+]);
 const browser = await launch();
 const contacts = `${app}.model.events.filter((event) => event.kind === 'contact').length`;
 const drawn = `[...${app}.model.bodies.values()].find((body) => body.kind === 'virtual')`;
 /** What the run itself says of its obstacles. */
-const listed = () => execFileSync(rave, ['edit', String(server.child.pid), 'list'], {encoding: 'utf8'});
+const listed = () =>
+  execFileSync(rave, ['edit', String(server.child.pid), 'list'], {encoding: 'utf8'});
 
 try {
   const page = await (await browser.newContext({viewport: {width: 1500, height: 950}})).newPage();
   showFailures(page, join(folder, 'failure.png'));
-  const say = (message) => page.evaluate((what) => document.querySelector('rave-app').link.send(what), message);
+  const say = (message) =>
+    page.evaluate((what) => document.querySelector('rave-app').link.send(what), message);
   const stands = async () => {
     await say({type: 'halt', do: 'stop', slots: []});
-    await until(page, `[...${newest}.flags].every((flags, slot) => flags & 4 && ${newest}.speed[slot] === 0)`);
+    await until(
+      page,
+      `[...${newest}.flags].every((flags, slot) => flags & 4 && ${newest}.speed[slot] === 0)`,
+    );
     await page.waitForTimeout(300);
   };
   let anna = 0;
@@ -40,7 +55,10 @@ try {
     const [x, y] = await placeOf(page, anna);
     const yaw = await page.evaluate(`${newest}.yaw[${anna}]`);
     // A wedge 0.9 m ahead, broad enough that it cannot pass by chance.
-    const at = (ahead, left) => [x + ahead * Math.cos(yaw) - left * Math.sin(yaw), y + ahead * Math.sin(yaw) + left * Math.cos(yaw)];
+    const at = (ahead, left) => [
+      x + ahead * Math.cos(yaw) - left * Math.sin(yaw),
+      y + ahead * Math.sin(yaw) + left * Math.cos(yaw),
+    ];
     await page.keyboard.press('o');
     await page.getByRole('radio', {name: 'polygon'}).click();
     const corners = [at(0.9, -0.6), at(1.3, -0.4), at(1.3, 0.4), at(0.9, 0.6)];
@@ -71,11 +89,18 @@ try {
     const [x, y, yaw] = await pose();
     // To a corner where no robot is.
     const robots = await Promise.all([placeOf(page, anna), placeOf(page, ben)]);
-    const goal = [[-1.2, -1.2], [1.2, -1.2], [-1.2, 1.2]].find(([gx, gy]) => robots.every(([rx, ry]) => Math.hypot(rx - gx, ry - gy) > 1.1));
+    const goal = [
+      [-1.2, -1.2],
+      [1.2, -1.2],
+      [-1.2, 1.2],
+    ].find(([gx, gy]) => robots.every(([rx, ry]) => Math.hypot(rx - gx, ry - gy) > 1.1));
     await clickAt(page, x, y);
     await page.getByRole('button', {name: 'Turn left'}).waitFor();
     await dragThrough(page, [[x, y], goal]);
-    await until(page, `Math.hypot(${drawn}.pose[0] - ${goal[0]}, ${drawn}.pose[1] - ${goal[1]}) < 0.1`);
+    await until(
+      page,
+      `Math.hypot(${drawn}.pose[0] - ${goal[0]}, ${drawn}.pose[1] - ${goal[1]}) < 0.1`,
+    );
     assert.ok(listed().includes(`${(await pose())[0].toFixed(2)}`), listed());
     await page.getByRole('button', {name: 'Turn left'}).click();
     await until(page, `Math.abs(${drawn}.pose[2] - ${yaw} - Math.PI / 12) < 0.01`);
@@ -91,10 +116,16 @@ try {
     const [x, y] = await placeOf(page, ben);
     await page.keyboard.press('o');
     await page.getByRole('radio', {name: 'disc'}).click();
-    await dragThrough(page, [[x, y], [x + 0.3, y]]);
+    await dragThrough(page, [
+      [x, y],
+      [x + 0.3, y],
+    ]);
     const card = page.locator('rave-world .beside.refused');
     await card.waitFor();
-    assert.match(await card.innerText(), /would overlap the robot `ben` at .*; an obstacle does not push robots away, so put it elsewhere/);
+    assert.match(
+      await card.innerText(),
+      /would overlap the robot `ben` at .*; an obstacle does not push robots away, so put it elsewhere/,
+    );
     await page.screenshot({path: join(folder, 'overlap.png')});
     await card.getByRole('button', {name: 'Close'}).click();
     await page.keyboard.press('v');
@@ -108,7 +139,10 @@ try {
     const card = page.locator('rave-world .beside.refused');
     const [rx, ry] = await placeOf(page, anna);
     // A click on her would choose her.
-    for (const [what, [x, y]] of [['east', [2.05, 0.3]], ['anna', [rx - 0.25 * Math.sign(rx), ry]]]) {
+    for (const [what, [x, y]] of [
+      ['east', [2.05, 0.3]],
+      ['anna', [rx - 0.25 * Math.sign(rx), ry]],
+    ]) {
       await clickAt(page, x, y);
       await card.waitFor();
       assert.match(await card.innerText(), new RegExp(`it would overlap .*${what}`));
@@ -116,7 +150,11 @@ try {
       assert.deepEqual(await placeOf(page, ben), before);
     }
     const [ax, ay] = await placeOf(page, anna);
-    const [x, y] = [[-1.4, -1.4], [1.4, -1.4], [-1.4, 1.4]].find(([gx, gy]) => Math.hypot(ax - gx, ay - gy) > 0.8);
+    const [x, y] = [
+      [-1.4, -1.4],
+      [1.4, -1.4],
+      [-1.4, 1.4],
+    ].find(([gx, gy]) => Math.hypot(ax - gx, ay - gy) > 0.8);
     await clickAt(page, x, y);
     await until(page, `Math.hypot(${newest}.x[${ben}] - ${x}, ${newest}.y[${ben}] - ${y}) < 0.05`);
   });

@@ -18,7 +18,28 @@ export const freePort = () =>
 /** Starts it in a room of 4 x 3 m, at a place of that; it is asked by lines of text. */
 export async function startPeer(peer, folder, port, {x_m, y_m, yaw_rad}) {
   writeFileSync(join(folder, 'room'), '2 1.5 0 4 3\n');
-  const child = spawn(peer, ['--link', join(folder, 'base'), '--laser-link', join(folder, 'laser'), '--mocap-port', String(port), '--mocap-body', 'create', '--room', join(folder, 'room'), '--pose', `${x_m},${y_m},${yaw_rad}`, '--mocap-noise-m', '0.001', '--slip', '0.01,0.015'], {stdio: ['pipe', 'pipe', 'inherit']});
+  const child = spawn(
+    peer,
+    [
+      '--link',
+      join(folder, 'base'),
+      '--laser-link',
+      join(folder, 'laser'),
+      '--mocap-port',
+      String(port),
+      '--mocap-body',
+      'create',
+      '--room',
+      join(folder, 'room'),
+      '--pose',
+      `${x_m},${y_m},${yaw_rad}`,
+      '--mocap-noise-m',
+      '0.001',
+      '--slip',
+      '0.01,0.015',
+    ],
+    {stdio: ['pipe', 'pipe', 'inherit']},
+  );
   const lines = createInterface({input: child.stdout})[Symbol.asyncIterator]();
   const waitFor = async (beginning) => {
     for (;;) {

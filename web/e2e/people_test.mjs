@@ -14,11 +14,31 @@ const [rave, scenario, folder] = process.argv.slice(2);
 rmSync(folder, {recursive: true, force: true});
 mkdirSync(folder, {recursive: true});
 const accounts = join(folder, 'accounts');
-const kPeople = [['olga', 'red'], ['paul', 'red'], ['quinn', 'blue']];
+const kPeople = [
+  ['olga', 'red'],
+  ['paul', 'red'],
+  ['quinn', 'blue'],
+];
 for (const [name, team] of kPeople) {
-  execFileSync(rave, ['people', 'add', name, '--role', 'commander', '--teams', team, '--accounts', accounts], {input: `${name} has a horse\n`, stdio: ['pipe', 'ignore', 'inherit']});
+  execFileSync(
+    rave,
+    ['people', 'add', name, '--role', 'commander', '--teams', team, '--accounts', accounts],
+    {input: `${name} has a horse\n`, stdio: ['pipe', 'ignore', 'inherit']},
+  );
 }
-const server = await startServer(rave, ['run', scenario, '--gui', '--accounts', accounts, '--quiet', '--no-picture', '--pace', 'realtime', '--output', join(folder, 'run')]);
+const server = await startServer(rave, [
+  'run',
+  scenario,
+  '--gui',
+  '--accounts',
+  accounts,
+  '--quiet',
+  '--no-picture',
+  '--pace',
+  'realtime',
+  '--output',
+  join(folder, 'run'),
+]);
 const {origin} = new URL(server.link);
 const browsers = [];
 
@@ -28,7 +48,9 @@ async function person(name) {
   browsers.push(browser);
   const page = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
   const texts = [];
-  page.on('websocket', (socket) => socket.on('framereceived', ({payload}) => typeof payload === 'string' && texts.push(payload)));
+  page.on('websocket', (socket) =>
+    socket.on('framereceived', ({payload}) => typeof payload === 'string' && texts.push(payload)),
+  );
   await page.goto(`${origin}/`);
   await page.fill('#name', name);
   await page.fill('#password', `${name} has a horse`);
@@ -36,7 +58,13 @@ async function person(name) {
   await until(page, `${app}?.model?.robots?.length === 3 && ${newest} != null`, 60000);
   await page.getByRole('radio', {name: 'Drive'}).click();
   const heard = (text) => texts.filter((line) => line.includes(text));
-  return {name, page, heard, lease: page.locator('rave-joystick rave-lease'), chat: page.locator('rave-chat')};
+  return {
+    name,
+    page,
+    heard,
+    lease: page.locator('rave-joystick rave-lease'),
+    chat: page.locator('rave-chat'),
+  };
 }
 
 /** Says something in the panel Chat, to one of its addressees. */
@@ -75,18 +103,24 @@ try {
   await check('who has another team has no buttons for it, and no stick', async () => {
     assert.equal(await quinn.lease.getByRole('button').count(), 0);
     await quinn.lease.getByText('you may not command it').waitFor();
-    assert.equal(await quinn.page.locator('rave-joystick .stick').getAttribute('aria-disabled'), 'true');
+    assert.equal(
+      await quinn.page.locator('rave-joystick .stick').getAttribute('aria-disabled'),
+      'true',
+    );
   });
 
-  await check('Ask is a line in the chat of who drives, and Give hands the lease over', async () => {
-    await paul.lease.getByRole('button', {name: 'Ask'}).click();
-    await paul.lease.getByText('Asked olga').waitFor();
-    await reads(olga, 'May I drive anna?');
-    await olga.lease.getByLabel('Give the lease to').selectOption('paul');
-    await paul.lease.getByText('You hold the lease').waitFor();
-    await olga.lease.getByText('paul drives').waitFor();
-    assert.deepEqual(quinn.heard('May I drive'), []);
-  });
+  await check(
+    'Ask is a line in the chat of who drives, and Give hands the lease over',
+    async () => {
+      await paul.lease.getByRole('button', {name: 'Ask'}).click();
+      await paul.lease.getByText('Asked olga').waitFor();
+      await reads(olga, 'May I drive anna?');
+      await olga.lease.getByLabel('Give the lease to').selectOption('paul');
+      await paul.lease.getByText('You hold the lease').waitFor();
+      await olga.lease.getByText('paul drives').waitFor();
+      assert.deepEqual(quinn.heard('May I drive'), []);
+    },
+  );
 
   await check('Take needs a second press, and who drove is told', async () => {
     await olga.lease.getByRole('button', {name: 'Take …'}).click();
@@ -102,8 +136,15 @@ try {
   });
 
   await check('the faces of others have a hue of their own, the same on every page', async () => {
-    const hueOf = ({page}, of) => page.locator('rave-top-bar .people .face', {hasText: of}).evaluate((face) => getComputedStyle(face).backgroundColor);
-    const [paulAtOlga, quinnAtOlga, paulAtQuinn] = [await hueOf(olga, 'PA'), await hueOf(olga, 'QU'), await hueOf(quinn, 'PA')];
+    const hueOf = ({page}, of) =>
+      page
+        .locator('rave-top-bar .people .face', {hasText: of})
+        .evaluate((face) => getComputedStyle(face).backgroundColor);
+    const [paulAtOlga, quinnAtOlga, paulAtQuinn] = [
+      await hueOf(olga, 'PA'),
+      await hueOf(olga, 'QU'),
+      await hueOf(quinn, 'PA'),
+    ];
     assert.equal(paulAtOlga, paulAtQuinn);
     assert.notEqual(paulAtOlga, quinnAtOlga);
   });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Virtual sensors that are tried on robots: on a real one, in one process and over two hosts; no part of the run.
-// node probe_test.mjs RAVE MIXED_REALITY TWO_ROBOTS ROBOTS FOLDER
+// Virtual sensors that are tried on robots: on a real one, in one process and over two hosts; no
+// part of the run. node probe_test.mjs RAVE MIXED_REALITY TWO_ROBOTS ROBOTS FOLDER
 import assert from 'node:assert/strict';
 import {execFileSync, spawnSync} from 'node:child_process';
 import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
@@ -13,7 +13,9 @@ const [rave, mixed, twoRobots, robots, folder] = process.argv.slice(2);
 const kFirst = 0xf000;
 rmSync(folder, {recursive: true, force: true});
 mkdirSync(folder, {recursive: true});
-const {drivers} = JSON.parse(execFileSync(rave, ['drivers', '--kind', 'virtual_sensor', '--json'], {encoding: 'utf8'}));
+const {drivers} = JSON.parse(
+  execFileSync(rave, ['drivers', '--kind', 'virtual_sensor', '--json'], {encoding: 'utf8'}),
+);
 
 const browser = await launch();
 const servers = [];
@@ -22,14 +24,18 @@ const errors = [];
 /** Readings of probes that came, as frames. */
 let frames = 0;
 try {
-  const context = await browser.newContext({viewport: {width: 1500, height: 950}, permissions: ['clipboard-read', 'clipboard-write']});
+  const context = await browser.newContext({
+    viewport: {width: 1500, height: 950},
+    permissions: ['clipboard-read', 'clipboard-write'],
+  });
   const page = await context.newPage();
   page.on('pageerror', (error) => errors.push(String(error)));
   page.on('websocket', (socket) => {
-    for (const way of ['framesent', 'framereceived']) socket.on(way, ({payload}) => {
-      if (typeof payload === 'string') said.push(JSON.parse(payload));
-      else if (payload[0] === 2 && payload.readUInt16LE(2) >= kFirst) ++frames;
-    });
+    for (const way of ['framesent', 'framereceived'])
+      socket.on(way, ({payload}) => {
+        if (typeof payload === 'string') said.push(JSON.parse(payload));
+        else if (payload[0] === 2 && payload.readUInt16LE(2) >= kFirst) ++frames;
+      });
   });
   showFailures(page, join(folder, 'failure.png'));
   const panel = page.locator('rave-probe');
@@ -55,7 +61,18 @@ try {
     return page.evaluate(() => navigator.clipboard.readText());
   };
 
-  await start(['run', mixed, '--gui', '--quiet', '--no-picture', '--no-record', '--pace', 'realtime', '--output', join(folder, 'one')]);
+  await start([
+    'run',
+    mixed,
+    '--gui',
+    '--quiet',
+    '--no-picture',
+    '--no-record',
+    '--pace',
+    'realtime',
+    '--output',
+    join(folder, 'one'),
+  ]);
   const real = await slotOf(page, 'real-3');
 
   await check('the form is made from the description of the driver', async () => {
@@ -63,37 +80,57 @@ try {
     const offered = await panel.getByLabel('Virtual sensor').locator('option').allInnerTexts();
     assert.deepEqual(offered.toSorted(), drivers.map(({name}) => name).toSorted());
     await choosesDriver('virtual_sonar');
-    for (const {name} of drivers.find((driver) => driver.name === 'virtual_sonar').params) await panel.getByLabel(name, {exact: true}).waitFor();
-    assert.match(await panel.locator('label', {hasText: 'cone_deg'}).getAttribute('title'), /From 0.1 to 180/);
+    for (const {name} of drivers.find((driver) => driver.name === 'virtual_sonar').params)
+      await panel.getByLabel(name, {exact: true}).waitFor();
+    assert.match(
+      await panel.locator('label', {hasText: 'cone_deg'}).getAttribute('title'),
+      /From 0.1 to 180/,
+    );
   });
 
-  await check('a real robot gets a sensor that it never had, and its readings at once', async () => {
-    await choosesDriver('virtual_laser');
-    await until(page, `${reading(real)}?.rows === 180`);
-    await fill('rays', 91);
-    await fill('fov_deg', 360);
-    await until(page, `${reading(real)}?.rows === 91`);
-    // The robots and tubes around it are what it meets.
-    const met = await page.evaluate((slot) => {
-      const {model} = document.querySelector('rave-app');
-      const {values} = model.readings.of(slot, 0xf000);
-      const {newest} = model.poses;
-      const nearest = Math.min(...values);
-      const distances = [...model.robots.keys()].filter((other) => other !== slot).map((other) => Math.hypot(newest.x[other] - newest.x[slot], newest.y[other] - newest.y[slot]));
-      return {nearest, robot: Math.min(...distances), finite: values.filter(Number.isFinite).length};
-    }, real);
-    assert.ok(met.finite > 3 && met.nearest > 0 && met.nearest < met.robot, JSON.stringify(met));
-    const [kind, known] = await page.evaluate(`[${app}.model.robots[${real}].kind, ${app}.model.robots[${real}].sensors.map(({name}) => name)]`);
-    assert.equal(kind, 'real');
-    await until(page, `${app}.model.probes.sensor(${kFirst}) !== undefined`);
-    assert.ok(!known.includes(await page.evaluate(`${app}.model.probes.sensor(${kFirst}).name`)), 'the robot has the sensor itself');
-    await page.evaluate(`${app}.palette.set('dark')`);
-    await page.waitForTimeout(500);
-    await page.screenshot({path: join(folder, 'probe-dark.png')});
-    await page.evaluate(`${app}.palette.set('light')`);
-    await page.waitForTimeout(500);
-    await page.screenshot({path: join(folder, 'probe-light.png')});
-  });
+  await check(
+    'a real robot gets a sensor that it never had, and its readings at once',
+    async () => {
+      await choosesDriver('virtual_laser');
+      await until(page, `${reading(real)}?.rows === 180`);
+      await fill('rays', 91);
+      await fill('fov_deg', 360);
+      await until(page, `${reading(real)}?.rows === 91`);
+      // The robots and tubes around it are what it meets.
+      const met = await page.evaluate((slot) => {
+        const {model} = document.querySelector('rave-app');
+        const {values} = model.readings.of(slot, 0xf000);
+        const {newest} = model.poses;
+        const nearest = Math.min(...values);
+        const distances = [...model.robots.keys()]
+          .filter((other) => other !== slot)
+          .map((other) =>
+            Math.hypot(newest.x[other] - newest.x[slot], newest.y[other] - newest.y[slot]),
+          );
+        return {
+          nearest,
+          robot: Math.min(...distances),
+          finite: values.filter(Number.isFinite).length,
+        };
+      }, real);
+      assert.ok(met.finite > 3 && met.nearest > 0 && met.nearest < met.robot, JSON.stringify(met));
+      const [kind, known] = await page.evaluate(
+        `[${app}.model.robots[${real}].kind, ${app}.model.robots[${real}].sensors.map(({name}) => name)]`,
+      );
+      assert.equal(kind, 'real');
+      await until(page, `${app}.model.probes.sensor(${kFirst}) !== undefined`);
+      assert.ok(
+        !known.includes(await page.evaluate(`${app}.model.probes.sensor(${kFirst}).name`)),
+        'the robot has the sensor itself',
+      );
+      await page.evaluate(`${app}.palette.set('dark')`);
+      await page.waitForTimeout(500);
+      await page.screenshot({path: join(folder, 'probe-dark.png')});
+      await page.evaluate(`${app}.palette.set('light')`);
+      await page.waitForTimeout(500);
+      await page.screenshot({path: join(folder, 'probe-light.png')});
+    },
+  );
 
   await check('what cannot be is refused with a sentence, and nothing is read', async () => {
     await fill('range_min_m', 9);
@@ -107,7 +144,10 @@ try {
   await check('the block that is copied is good for the robot file', async () => {
     await fill('x_m', -0.16);
     await fill('yaw_deg', 180);
-    await until(page, `((mount) => mount?.[0] === -0.16 && Math.abs(mount[2] - Math.PI) < 1e-6)(${app}.model.probes.sensor(${kFirst})?.mount)`);
+    await until(
+      page,
+      `((mount) => mount?.[0] === -0.16 && Math.abs(mount[2] - Math.PI) < 1e-6)(${app}.model.probes.sensor(${kFirst})?.mount)`,
+    );
     await until(page, `${reading(real)}?.rows === 91`);
     const block = await copied();
     assert.match(block, /mount: \{x_m: -0.16, y_m: 0, z_m: 0.1, yaw_deg: 180\}/);
@@ -132,7 +172,10 @@ try {
 
   await check('it ends when nobody looks', async () => {
     await page.evaluate(`${app}.showPanel('robot')`);
-    await until(page, `document.querySelector('rave-app').model.probes.sensor(${kFirst}) === undefined`);
+    await until(
+      page,
+      `document.querySelector('rave-app').model.probes.sensor(${kFirst}) === undefined`,
+    );
     assert.deepEqual(said.findLast(({type}) => type === 'look_probes').probes, []);
     await page.waitForTimeout(500);
     const before = frames;
@@ -141,14 +184,22 @@ try {
   });
 
   await check('on a phone', async () => {
-    const phone = await browser.newContext({viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true, storageState: await context.storageState()});
+    const phone = await browser.newContext({
+      viewport: {width: 390, height: 844},
+      hasTouch: true,
+      isMobile: true,
+      storageState: await context.storageState(),
+    });
     const hand = await phone.newPage();
     await hand.goto(servers[0].link.replace(/\/enter.*/, '/'));
     await until(hand, `${app}?.model?.poses?.newest != null`);
     await choose(hand, real);
     await hand.evaluate(`${app}.showPanel('probe')`);
     await until(hand, `${reading(real)}?.rows === 180`);
-    assert.ok((await hand.locator('rave-probe').evaluate((view) => view.scrollWidth - view.clientWidth)) <= 0);
+    assert.ok(
+      (await hand.locator('rave-probe').evaluate((view) => view.scrollWidth - view.clientWidth)) <=
+        0,
+    );
     await hand.waitForTimeout(400);
     await hand.screenshot({path: join(folder, 'probe-phone.png')});
     await phone.close();
@@ -156,34 +207,82 @@ try {
   });
 
   await check('over two hosts, as the robot that has the same sensor reads it', async () => {
-    await start(['run', twoRobots, '--gui', '--quiet', '--no-picture', '--no-record', '--pace', 'realtime', '--processes', '2', '--output', join(folder, 'two'), '--run', `probe-${process.pid}`]);
+    await start([
+      'run',
+      twoRobots,
+      '--gui',
+      '--quiet',
+      '--no-picture',
+      '--no-record',
+      '--pace',
+      'realtime',
+      '--processes',
+      '2',
+      '--output',
+      join(folder, 'two'),
+      '--run',
+      `probe-${process.pid}`,
+    ]);
     for (const name of ['anna', 'ben']) {
       const slot = await slotOf(page, name);
       await open(name);
       await choosesDriver('virtual_laser');
-      for (const [field, value] of [['rays', 61], ['fov_deg', 240], ['range_max_m', 3], ['x_m', 0.05], ['z_m', 0.08]]) await fill(field, value);
-      await until(page, `${reading(slot)}?.rows === 61 && ${app}.model.probes.sensor(${kFirst})?.mount[0] === 0.05`);
+      for (const [field, value] of [
+        ['rays', 61],
+        ['fov_deg', 240],
+        ['range_max_m', 3],
+        ['x_m', 0.05],
+        ['z_m', 0.08],
+      ])
+        await fill(field, value);
+      await until(
+        page,
+        `${reading(slot)}?.rows === 61 && ${app}.model.probes.sensor(${kFirst})?.mount[0] === 0.05`,
+      );
       // Of one step both see the same, but for the noise of the robot file.
-      await page.evaluate((of) => document.querySelector('rave-app').link.look(window, [[of, 0]]), slot);
-      await until(page, `(() => {
+      await page.evaluate(
+        (of) => document.querySelector('rave-app').link.look(window, [[of, 0]]),
+        slot,
+      );
+      await until(
+        page,
+        `(() => {
         const {readings} = document.querySelector('rave-app').model;
         const [own, tried] = [readings.of(${slot}, 0), readings.of(${slot}, ${kFirst})];
         if (own === null || tried === null || own.stamp_s !== tried.stamp_s || own.rows !== 61) return false;
         return own.values.filter((range, i) => Number.isFinite(range) !== Number.isFinite(tried.values[i]) || (Number.isFinite(range) && Math.abs(range - tried.values[i]) > 0.06)).length <= 2;
-      })()`, 30000);
+      })()`,
+        30000,
+      );
     }
     await servers.at(-1).end();
   });
 
   await check('a run with a probe has the hash of the run without', async () => {
     const seconds = ['--quiet', '--no-picture', '--duration', '8'];
-    spawnSync(rave, ['run', mixed, ...seconds, '--pace', 'max', '--no-record', '--output', join(folder, 'alone')], {stdio: 'ignore'});
-    await start(['run', mixed, '--gui', ...seconds, '--pace', 'realtime', '--output', join(folder, 'watched')]);
+    spawnSync(
+      rave,
+      ['run', mixed, ...seconds, '--pace', 'max', '--no-record', '--output', join(folder, 'alone')],
+      {stdio: 'ignore'},
+    );
+    await start([
+      'run',
+      mixed,
+      '--gui',
+      ...seconds,
+      '--pace',
+      'realtime',
+      '--output',
+      join(folder, 'watched'),
+    ]);
     await open('real-3');
     await choosesDriver('neighbour_velocity');
     await until(page, `${reading(real)} != null`);
     await until(page, `${app}.model.hello.run.source === 'replay'`, 40000);
-    assert.equal(await page.evaluate(`${app}.model.hello.run.hash`), JSON.parse(readFileSync(join(folder, 'alone', 'result.json'))).hash);
+    assert.equal(
+      await page.evaluate(`${app}.model.hello.run.hash`),
+      JSON.parse(readFileSync(join(folder, 'alone', 'result.json'))).hash,
+    );
     assert.equal(await page.evaluate(`${app}.model.may('probe')`), false);
     assert.deepEqual(errors, []);
   });
@@ -192,8 +291,14 @@ try {
     const file = join(folder, 'messages.json');
     const types = ['catalogue', 'ask_catalogue', 'probes', 'look_probes'];
     writeFileSync(file, JSON.stringify(said.filter(({type}) => types.includes(type))));
-    for (const type of types) assert.ok(said.some((message) => message.type === type), type);
-    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {stdio: 'inherit'});
+    for (const type of types)
+      assert.ok(
+        said.some((message) => message.type === type),
+        type,
+      );
+    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {
+      stdio: 'inherit',
+    });
   });
 } finally {
   for (const server of servers) server.child.kill('SIGTERM');

@@ -22,26 +22,34 @@ async function open(link) {
   const page = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
   showFailures(page, join(folder, 'failed.png'));
   const seen = {page, truths: 0};
-  page.on('websocket', (socket) => socket.on('framereceived', ({payload}) => {
-    if (typeof payload !== 'string' && payload[0] === 1 && (payload[1] & kTruth) !== 0) ++seen.truths;
-  }));
+  page.on('websocket', (socket) =>
+    socket.on('framereceived', ({payload}) => {
+      if (typeof payload !== 'string' && payload[0] === 1 && (payload[1] & kTruth) !== 0)
+        ++seen.truths;
+    }),
+  );
   await page.goto(link);
   await until(page, `${app}?.model?.poses?.newest !== null`);
   return seen;
 }
 
 async function choose(page, poses) {
-  if ((await page.getByLabel('Poses', {exact: true}).count()) === 0) await page.getByRole('button', {name: 'Layers'}).click();
+  if ((await page.getByLabel('Poses', {exact: true}).count()) === 0)
+    await page.getByRole('button', {name: 'Layers'}).click();
   await page.getByLabel('Poses', {exact: true}).selectOption(poses);
 }
 
 /** Distances between true and reported poses of the newest frames, metres. */
-const gaps = (page) => page.evaluate(() => {
-  const {truth, poses} = document.querySelector('rave-app').model;
-  return [...truth.newest.x].map((x, i) => Math.hypot(x - poses.newest.x[i], truth.newest.y[i] - poses.newest.y[i]));
-});
+const gaps = (page) =>
+  page.evaluate(() => {
+    const {truth, poses} = document.querySelector('rave-app').model;
+    return [...truth.newest.x].map((x, i) =>
+      Math.hypot(x - poses.newest.x[i], truth.newest.y[i] - poses.newest.y[i]),
+    );
+  });
 
-/** Both robots are off by more than they would be by chance of rounding, and by less than the noise allows. */
+/** Both robots are off by more than they would be by chance of rounding, and by less than the noise
+ * allows. */
 async function differ(page) {
   await until(page, `${truth} !== null && ${truth}.flags.every((flags) => flags === 1)`);
   const largest = [0, 0];
@@ -85,21 +93,27 @@ try {
   await check('in place of reported ones robots are drawn there', async () => {
     await choose(page, 'true');
     await page.waitForTimeout(200);
-    await page.evaluate(() => document.querySelector('rave-app').link.send({type: 'transport', do: 'pause'}));
+    await page.evaluate(() =>
+      document.querySelector('rave-app').link.send({type: 'transport', do: 'pause'}),
+    );
     await until(page, `${app}.model.time.state === 'paused'`);
     await page.waitForTimeout(300);
     const off = await page.evaluate(() => {
       const world = document.querySelector('rave-world');
       const {model} = document.querySelector('rave-app');
       world.paint();
-      return [...model.truth.newest.x].map((x, i) => Math.hypot(world.placed.x[i] - x, world.placed.y[i] - model.truth.newest.y[i]));
+      return [...model.truth.newest.x].map((x, i) =>
+        Math.hypot(world.placed.x[i] - x, world.placed.y[i] - model.truth.newest.y[i]),
+      );
     });
     for (const gap of off) assert.ok(gap < kSent_m, `${off}`);
     await page.screenshot({path: join(folder, 'true.png')});
   });
 
   await check('who sees with the eyes of an observer gets none, and no choice', async () => {
-    await page.evaluate(() => document.querySelector('rave-app').link.send({type: 'see_as', role: 'observer'}));
+    await page.evaluate(() =>
+      document.querySelector('rave-app').link.send({type: 'see_as', role: 'observer'}),
+    );
     await until(page, `!${app}.model.may('true_pose')`);
     assert.equal(await page.getByLabel('Poses', {exact: true}).count(), 0);
     assert.equal(await page.evaluate(`${truth}`), null);
@@ -118,13 +132,30 @@ try {
     await choose(other, 'both');
     await until(other, `${truth} !== null && Math.abs(${truth}.time_s - ${moment.time_s}) < 1e-6`);
     const now = await other.evaluate(`({x: [...${truth}.x], y: [...${truth}.y]})`);
-    now.x.forEach((x, i) => assert.ok(Math.hypot(x - moment.x[i], now.y[i] - moment.y[i]) < kSent_m, `robot ${i} at ${moment.time_s} s`));
+    now.x.forEach((x, i) =>
+      assert.ok(
+        Math.hypot(x - moment.x[i], now.y[i] - moment.y[i]) < kSent_m,
+        `robot ${i} at ${moment.time_s} s`,
+      ),
+    );
     await other.close();
     await replay.end();
   });
 
   await check('of two processes they come over the bus', async () => {
-    const shared = await serve('run', scenario, '--gui', '--processes', '2', '--quiet', '--no-picture', '--no-record', '--output', join(folder, 'shared'), ...tag);
+    const shared = await serve(
+      'run',
+      scenario,
+      '--gui',
+      '--processes',
+      '2',
+      '--quiet',
+      '--no-picture',
+      '--no-record',
+      '--output',
+      join(folder, 'shared'),
+      ...tag,
+    );
     const {page: other} = await open(shared.link);
     await choose(other, 'both');
     await differ(other);

@@ -20,7 +20,10 @@ export async function watchUntouched(page, link, duration_s) {
       ++seen.frames;
       if (Number.isNaN(seen.first_s)) seen.first_s = time_s;
       seen.last_s = time_s;
-      const stamp_s = model.readings.of(0, model.robots[0].sensors.findIndex(({kind}) => kind === 'ranges'))?.stamp_s;
+      const stamp_s = model.readings.of(
+        0,
+        model.robots[0].sensors.findIndex(({kind}) => kind === 'ranges'),
+      )?.stamp_s;
       if (stamp_s !== undefined && !known.has(stamp_s)) known.add(stamp_s);
       seen.readings = known.size;
     });
@@ -28,10 +31,15 @@ export async function watchUntouched(page, link, duration_s) {
     if (model.time?.state === 'paused') link.send({type: 'transport', do: 'play'});
   });
   await until(page, 'globalThis.watched.frames > 10 && globalThis.watched.readings > 10');
-  await page.evaluate(() => document.querySelector('rave-app').link.send({type: 'transport', do: 'pace', value: 8}));
+  await page.evaluate(() =>
+    document.querySelector('rave-app').link.send({type: 'transport', do: 'pace', value: 8}),
+  );
   await until(page, `${app}.model.hello.run.source === 'replay'`);
   const watched = await page.evaluate('globalThis.watched');
-  assert.ok(watched.first_s < 0.5 * duration_s && watched.last_s > 0.8 * duration_s, `watched from ${watched.first_s} s to ${watched.last_s} s`);
+  assert.ok(
+    watched.first_s < 0.5 * duration_s && watched.last_s > 0.8 * duration_s,
+    `watched from ${watched.first_s} s to ${watched.last_s} s`,
+  );
   assert.ok(watched.frames > 20 && watched.readings > 20, JSON.stringify(watched));
   return watched;
 }

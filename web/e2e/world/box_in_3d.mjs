@@ -6,7 +6,8 @@ import {stageBox, texts} from './look.mjs';
 
 const world = "document.querySelector('rave-world')";
 
-/** A box and the lens in 3-D, of a run that is held. `real`: slot of the robot around which the box is drawn. */
+/** A box and the lens in 3-D, of a run that is held. `real`: slot of the robot around which the box
+ * is drawn. */
 export async function boxIn3d(page, real, folder) {
   await check('so they do in 3-D, without turning it, and Z goes to the top view', async () => {
     await page.keyboard.press('t');
@@ -15,7 +16,9 @@ export async function boxIn3d(page, real, folder) {
     await page.evaluate(`${world}.paint()`);
     const looked = await page.evaluate(`${world}.viewpoint()`);
     const {left, top} = await stageBox(page);
-    const places = await page.evaluate(`${app}.model.robots.map((_, slot) => ${world}.screenOf(slot))`);
+    const places = await page.evaluate(
+      `${app}.model.robots.map((_, slot) => ${world}.screenOf(slot))`,
+    );
     const drag = async (box) => {
       await page.keyboard.down('Shift');
       await page.mouse.move(left + box[0], top + box[1]);
@@ -27,10 +30,15 @@ export async function boxIn3d(page, real, folder) {
     };
     const [x, y] = places[real];
     const box = [x - 90, y - 90, x + 90, y + 90];
-    const inside = places.flatMap(([px, py], slot) => (px >= box[0] && px <= box[2] && py >= box[1] && py <= box[3] ? [slot] : []));
+    const inside = places.flatMap(([px, py], slot) =>
+      px >= box[0] && px <= box[2] && py >= box[1] && py <= box[3] ? [slot] : [],
+    );
     assert.ok(inside.length > 0 && inside.length < places.length, `${inside}`);
     await drag(box);
-    assert.deepEqual((await page.evaluate(`${app}.selection.slots`)).toSorted((a, b) => a - b), inside);
+    assert.deepEqual(
+      (await page.evaluate(`${app}.selection.slots`)).toSorted((a, b) => a - b),
+      inside,
+    );
     assert.equal(await page.evaluate(`${world}.viewpoint()`), looked);
     await page.keyboard.down('z');
     await until(page, `${world}.viewpoint().startsWith('top')`);

@@ -79,6 +79,14 @@ class ScenarioRun {
                      [&](const nlohmann::json& count) { return count.get<int>() >= times; });
     EXPECT_GE(counted.get<int>(), times) << text;
   }
+  /// How many times the console log contains `text`.
+  [[nodiscard]] int said(const std::string& text) const {
+    std::ifstream stream(file("out/console.log"));
+    const std::string log{std::istreambuf_iterator<char>(stream), {}};
+    int times = 0;
+    for (auto at = log.find(text); at != std::string::npos; at = log.find(text, at + 1)) ++times;
+    return times;
+  }
   [[nodiscard]] std::string file(const std::string& name) const { return scratch_.file(name); }
   /// Writes a file. A scenario without `max_missed_pct` gets 100: these tests are not about
   /// deadlines, which a loaded test machine misses.
@@ -91,14 +99,6 @@ class ScenarioRun {
   std::unique_ptr<RaveRun> rave;
 
  private:
-  [[nodiscard]] int said(const std::string& text) const {
-    std::ifstream stream(file("out/console.log"));
-    const std::string log{std::istreambuf_iterator<char>(stream), {}};
-    int times = 0;
-    for (auto at = log.find(text); at != std::string::npos; at = log.find(text, at + 1)) ++times;
-    return times;
-  }
-
   Scratch scratch_;
 };
 

@@ -5,6 +5,7 @@
 
 #include "driver_data.hpp"
 #include "rave/plugin/params_text.hpp"
+#include "rave/robot/reading_type.hpp"
 
 namespace rave::cli {
 namespace {
@@ -63,7 +64,7 @@ RawNode driver_json(const plugin::Driver& driver) {
     if (fact.key == "gives") {
       const auto kind = static_cast<ReadingKind>(info.data_kind);
       node.append("gives", RawNode::text(std::string(to_string(kind))));
-      node.append("record_type", RawNode::text(std::string(record_type(kind))));
+      node.append("record_type", RawNode::text(std::string(reading_type(kind).record)));
     } else {
       node.append(fact.key, RawNode::text(fact.value));
     }

@@ -13,6 +13,7 @@
 #include "rave/base/table.hpp"
 #include "rave/config/yaml.hpp"
 #include "rave/plugin/params_text.hpp"
+#include "rave/robot/reading_type.hpp"
 
 namespace rave::cli {
 namespace {
@@ -71,11 +72,67 @@ std::string rejected_text(const plugin::Catalogue& catalogue, const Terminal& te
   return text;
 }
 
+std::string_view noise_word(NoiseTerm term) {
+  switch (term) {
+    case NoiseTerm::kCoordinate:
+    case NoiseTerm::kDistance:
+      return "length";
+    case NoiseTerm::kAngle:
+      return "angle";
+    case NoiseTerm::kVelocity:
+      return "velocity";
+    case NoiseTerm::kNone:
+      break;
+  }
+  return "";
+}
+
+std::string_view shape_words(ReadingShape shape) {
+  switch (shape) {
+    case ReadingShape::kState:
+      return "A sample has one record.";
+    case ReadingShape::kSeries:
+      return "A sample has a fixed number of records; `rave export` numbers their columns from 0.";
+    case ReadingShape::kList:
+      return "A sample has one record for each thing that is seen.";
+  }
+  return "";
+}
+
+/// What a record of each kind of readings consists of.
+std::string readings_reference() {
+  std::string text =
+      "\n# Readings\n\nWhat the records of sensors consist of, from "
+      "`libs/robot/src/reading_table.hpp`. "
+      "Numbers are little endian.\nThe columns of `rave export` have the names of the fields; "
+      "`stamp_ns` and `reserved` are no columns. *Noise* is the\nterm of `noise:` in the robot "
+      "file "
+      "that acts on a field, *filters* whether its filters do.\n";
+  for (std::uint32_t kind = 1; record_size(ReadingKind{kind}) > 0; ++kind) {
+    const ReadingType& type = reading_type(ReadingKind{kind});
+    text += fmt::format(
+        "\n### Readings of kind `{}`\n\n{} bytes, C++ type `{}`, number {} in recordings. {}\n\n"
+        "| field | at byte | format | unit | noise | filters | variance "
+        "|\n|---|---|---|---|---|---|---|\n",
+        type.name, type.record_bytes, type.record, kind, shape_words(type.shape));
+    for (const ReadingField& field : type.fields) {
+      const auto code = [](std::string_view name) {
+        return name.empty() ? std::string() : fmt::format("`{}`", name);
+      };
+      text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", code(field.name), field.offset,
+                          to_string(field.format), field.unit, noise_word(field.noise),
+                          field.filtered ? "yes" : "", code(field.variance));
+    }
+  }
+  return text;
+}
+
 /// The generated reference: the same on every machine.
 std::string reference_of(const Drivers& drivers) {
   std::string text =
       "# Drivers and programs\n\nThe output of `rave describe` for the drivers and programs that "
-      "come with RAVE.\nGenerated from the code by `tools/reference.sh`; edit the drivers "
+      "come with RAVE, and the [readings](#readings) of sensors.\nGenerated from the code by "
+      "`tools/reference.sh`; edit the drivers "
       "instead.\n";
   std::string_view last;
   for (const plugin::Driver* driver : drivers) {
@@ -84,7 +141,7 @@ std::string reference_of(const Drivers& drivers) {
     last = kind;
     text += "\n" + plugin::markdown(*driver, data_facts(driver->info));
   }
-  return text;
+  return text + readings_reference();
 }
 
 std::string json_of(const Drivers& drivers, const plugin::Catalogue& catalogue) {

@@ -12,10 +12,9 @@
 
 #include "error_text.hpp"
 #include "places.hpp"
-#include "rave/base/word_table.hpp"
 #include "rave/record/mcap_reader.hpp"
 #include "rave/record/run_reader.hpp"
-#include "rave/robot/reading.hpp"
+#include "rave/robot/reading_type.hpp"
 
 namespace rave::cli {
 namespace {
@@ -104,72 +103,38 @@ Status export_events(const record::McapReader& reader, const record::RunInfo& ru
       });
 }
 
-/// Calls `row(record)` for each record of type T.
-template <class T, class Row>
-void each(std::span<const std::byte> bytes, Row row) {
-  for (std::size_t at = 0; at + sizeof(T) <= bytes.size(); at += sizeof(T)) {
-    // Copied, because records in a message need not be aligned.
-    T record;
-    std::memcpy(&record, bytes.data() + at, sizeof record);
-    row(record);
-  }
-}
+bool has_one_row(ReadingKind kind) { return reading_type(kind).shape == ReadingShape::kSeries; }
 
-/// The columns of a kind of reading behind `time_s,stamp_s`; ranges and values have one per record.
+/// The columns of a kind of reading behind `time_s,stamp_s`; a series has one per record.
 std::string columns_of(ReadingKind kind, std::size_t most) {
-  const auto numbered = [most](std::string_view name) {
-    std::string text;
-    for (std::size_t i = 0; i < most; ++i)
-      text += fmt::format("{}{}_{}", i > 0 ? "," : "", name, i);
-    return text;
-  };
-  if (kind == ReadingKind::kRanges) return numbered("range_m");
-  if (kind == ReadingKind::kValues) return numbered("value");
-  constexpr WordTable<ReadingKind, 6> kColumns = {
-      {{"code,range_m,bearing_rad", ReadingKind::kSightings},
-       {"x_m,y_m,yaw_rad,variance_xy_m2,variance_yaw_rad2", ReadingKind::kPose},
-       {"x_m,y_m,yaw_rad,v_mps,w_radps,variance_xy_m2,variance_yaw_rad2", ReadingKind::kOdometry},
-       {"robot,range_m,bearing_rad,vx_mps,vy_mps", ReadingKind::kNeighbours},
-       {"touching,bearing_rad", ReadingKind::kContact},
-       {"v_mps,w_radps", ReadingKind::kVelocity}}};
-  return std::string(kColumns.of(kind));
-}
-
-template <class T>
-std::string joined(std::span<const std::byte> bytes) {
   std::string text;
-  each<T>(bytes, [&](T value) { text += fmt::format("{}{}", text.empty() ? "" : ",", value); });
+  const auto add = [&text](std::string_view name) {
+    if (!text.empty()) text += ',';
+    text += name;
+  };
+  for (std::size_t i = 0; i < (has_one_row(kind) ? most : 1); ++i) {
+    for (const ReadingField& field : reading_type(kind).columns) {
+      add(has_one_row(kind) ? fmt::format("{}_{}", field.name, i) : std::string(field.name));
+    }
+  }
   return text;
 }
 
 /// The rows of one sample, each behind `front`.
 void write_sample(ReadingKind kind, const std::string& front, std::span<const std::byte> bytes,
                   CsvFile& out) {
-  const auto row = [&](const std::string& text) { out.line(front + text); };
-  switch (kind) {
-    case ReadingKind::kRanges:
-      return row(joined<float>(bytes));
-    case ReadingKind::kValues:
-      return row(joined<double>(bytes));
-    case ReadingKind::kSightings:
-      return each<Sighting>(bytes, [&](const Sighting& s) {
-        row(fmt::format("{},{},{}", s.code, s.range_m, s.bearing_rad));
+  const ReadingType& type = reading_type(kind);
+  const std::size_t size = type.record_bytes;
+  std::string row;
+  for (std::size_t at = 0; size > 0 && at + size <= bytes.size(); at += size) {
+    for (const ReadingField& field : type.columns) {
+      with_number(field, bytes.data() + at, [&row](auto number) {
+        row += fmt::format("{}{}", row.empty() ? "" : ",", number);
       });
-    case ReadingKind::kNeighbours:
-      return each<NeighbourReading>(bytes, [&](const NeighbourReading& n) {
-        row(fmt::format("{},{},{},{},{}", n.robot, n.range_m, n.bearing_rad, n.vx_mps, n.vy_mps));
-      });
-    case ReadingKind::kContact:
-      return each<ContactReading>(bytes, [&](const ContactReading& c) {
-        row(fmt::format("{},{}", c.touching, c.bearing_rad));
-      });
-    case ReadingKind::kPose:
-    case ReadingKind::kOdometry:
-    case ReadingKind::kVelocity:
-      // Records of doubles alone, in the order of the columns.
-      return row(joined<double>(bytes));
-    case ReadingKind::kNone:
-      return;
+    }
+    if (has_one_row(kind) && at + 2 * size <= bytes.size()) continue;
+    out.line(front + row);
+    row.clear();
   }
 }
 

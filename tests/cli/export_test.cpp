@@ -80,6 +80,30 @@ TEST_F(Export, ReadingsOfASensor) {
   EXPECT_EQ(std::stof(rows[1].back()), last);
 }
 
+/// The columns of a kind are part of the files of users.
+TEST_F(Export, EachKindHasItsColumns) {
+  const std::string played = folder_.path() / "played";
+  ASSERT_EQ(run_rave({"run", "played.yaml", "--output", played, "--quiet"}).exit_code, 0);
+  constexpr std::pair<const char*, const char*> kColumns[] = {
+      {"sonar", "range_m_0"},
+      {"camera", "code,range_m,bearing_rad"},
+      {"odometry", "x_m,y_m,yaw_rad,v_mps,w_radps,variance_xy_m2,variance_yaw_rad2"},
+      {"indoor", "x_m,y_m,yaw_rad,variance_xy_m2,variance_yaw_rad2"},
+      {"bumper", "touching,bearing_rad"},
+      {"others", "robot,range_m,bearing_rad,vx_mps,vy_mps"},
+  };
+  for (const auto& [sensor, columns] : kColumns) {
+    const Ended ended =
+        run_rave({"export", played, "readings", "--robot", "anna", "--sensor", sensor});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_TRUE(ended.out.starts_with(std::string("time_s,stamp_s,") + columns + "\n"))
+        << ended.out.substr(0, 200);
+    const Rows rows = rows_of(ended.out);
+    EXPECT_GT(rows.size(), 1U) << sensor;
+    for (const std::vector<std::string>& row : rows) EXPECT_EQ(row.size(), rows[0].size());
+  }
+}
+
 TEST_F(Export, EventsAreQuoted) {
   const Ended ended = rave_export({"events"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;

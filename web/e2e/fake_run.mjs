@@ -29,7 +29,7 @@ export function makeRobots(count, real = 5) {
 function laser() {
   const bearings = Array.from({length: kRays}, (_, i) => -2 + (4 * i) / (kRays - 1));
   return {name: 'laser', kind: 'ranges', origin: 'virtual', driver: 'virtual_laser', mount: [0.1, 0, 0], z: 0.2,
-    period_s: 0.1, range: [0.05, kRange_m], bearings, fields: ['range [m]']};
+    period_s: 0.1, range: [0.05, kRange_m], bearings, fields: [{name: 'range_m', label: 'range', unit: 'm', format: 'float32'}]};
 }
 
 export function makeBodies(half_m) {

@@ -255,6 +255,12 @@ try {
     // Odometry is the less sure the farther it went.
     assert.ok(early > 0 && early < late && late < later, `${early} ${late} ${later}`);
     await replay.screenshot({path: join(folder, 'variance.png')});
+    // A reading has the numbers here that it has in an export.
+    const sensors = await replay.evaluate(`${app}.model.robots[${slot}].sensors`);
+    for (const {name, fields} of sensors.filter(({kind}) => kind !== 'ranges')) {
+      const csv = execFileSync(rave, ['export', guesses, 'readings', '--robot', 'anna', '--sensor', name]).toString();
+      assert.equal(csv.split('\n')[0], ['time_s', 'stamp_s', ...fields.map((field) => field.name)].join(','));
+    }
     await other.end();
   });
 

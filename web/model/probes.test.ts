@@ -19,7 +19,7 @@ const sensor = (name: string): Sensor => ({
   mount: [0, 0, 0],
   z: 0,
   period_s: 0.1,
-  fields: ['range [m]'],
+  fields: [{name: 'range_m', label: 'range', unit: 'm', format: 'float32'}],
 });
 
 it('numbers what the page tries, and knows the sensor behind a number', () => {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "rave/math/scalar.hpp"
+#include "rave/robot/reading_type.hpp"
 
 namespace rave::detail {
 namespace {
@@ -36,19 +37,13 @@ bool before(double a, double b) noexcept {
 }  // namespace
 
 FilterFields filter_fields(ReadingKind kind) noexcept {
-  switch (kind) {
-    case ReadingKind::kRanges:
-    case ReadingKind::kValues:
-      return {1};
-    case ReadingKind::kVelocity:
-      return {2};
-    case ReadingKind::kPose:
-      return {3, 2};
-    case ReadingKind::kOdometry:
-      return {5, 2};
-    default:
-      return {};
+  FilterFields found;
+  for (const ReadingField& field : reading_type(kind).fields) {
+    if (!field.filtered) break;
+    if (field.noise == NoiseTerm::kAngle) found.angles |= 1U << found.count;
+    ++found.count;
   }
+  return found;
 }
 
 std::size_t filter_memory(const FilterSpec& filter) noexcept {

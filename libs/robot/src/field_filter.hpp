@@ -12,7 +12,7 @@ namespace rave::detail {
 /// cannot be filtered. Ranges have filters of their own (range_filter.hpp).
 struct FilterFields {
   std::uint32_t count = 0;
-  std::uint32_t angle = UINT32_MAX;  ///< Index of the one that is an angle.
+  std::uint32_t angles = 0;  ///< Bit i: number i is an angle.
 };
 
 [[nodiscard]] FilterFields filter_fields(ReadingKind kind) noexcept;

@@ -3,12 +3,16 @@
 // its sample; see docs/explanation/determinism.md.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 #include "noise_batch.hpp"
 #include "range_kernel.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/robot/processing.hpp"
+#include "reading_table.hpp"
 
 namespace rave {
 namespace {
@@ -69,71 +73,95 @@ struct Terms {
   }
 };
 
-/// Normal numbers per record: one for each field that noise can change.
+template <ReadingKind kKind>
+constexpr ReadingType kType = detail::kReadingTypes[static_cast<std::size_t>(kKind)];
+
+/// Normal numbers of the first fields of a record: one for each that noise can change.
 /// The numbers are part of the run hash: another order, or one number more, changes all noise.
-template <class Record>
-constexpr std::uint32_t kNormals = 0;
-template <>
-constexpr std::uint32_t kNormals<Sighting> = 2;
-template <>
-constexpr std::uint32_t kNormals<PoseReading> = 3;
-template <>
-constexpr std::uint32_t kNormals<OdometryReading> = 4;
-template <>
-constexpr std::uint32_t kNormals<NeighbourReading> = 4;
-template <>
-constexpr std::uint32_t kNormals<VelocityReading> = 1;
-
-void disturb(Sighting& seen, const Terms& terms, const float* normals) noexcept {
-  terms.length.distance(seen.range_m, normals[0]);
-  terms.angle.angle(seen.bearing_rad, normals[1]);
-}
-template <class Posed>
-void disturb_pose(Posed& pose, const Terms& terms, const float* normals) noexcept {
-  terms.length.plain(pose.x_m, normals[0]);
-  terms.length.plain(pose.y_m, normals[1]);
-  terms.angle.angle(pose.yaw_rad, normals[2]);
-  // Noise of the file is known, so the reading says so; variances of independent errors add.
-  pose.variance_xy_m2 += terms.length.variance();
-  pose.variance_yaw_rad2 += terms.angle.variance();
-}
-void disturb(PoseReading& pose, const Terms& terms, const float* normals) noexcept {
-  disturb_pose(pose, terms, normals);
-}
-void disturb(OdometryReading& odometry, const Terms& terms, const float* normals) noexcept {
-  disturb_pose(odometry, terms, normals);
-  terms.velocity.plain(odometry.v_mps, normals[3]);
-}
-void disturb(NeighbourReading& other, const Terms& terms, const float* normals) noexcept {
-  terms.length.distance(other.range_m, normals[0]);
-  terms.angle.angle(other.bearing_rad, normals[1]);
-  terms.velocity.plain(other.vx_mps, normals[2]);
-  terms.velocity.plain(other.vy_mps, normals[3]);
-}
-void disturb(VelocityReading& velocity, const Terms& terms, const float* normals) noexcept {
-  terms.velocity.plain(velocity.v_mps, normals[0]);
+constexpr std::uint32_t normals_of(std::span<const ReadingField> fields) noexcept {
+  return static_cast<std::uint32_t>(std::ranges::count_if(
+      fields, [](const ReadingField& field) { return field.noise != NoiseTerm::kNone; }));
 }
 
-template <class Record>
-void disturb_all(Items items, const Terms& terms) noexcept {
-  constexpr std::uint32_t kEach = kNormals<Record>;
-  if (terms.scatter()) {
-    const auto use = [&terms](const NoisePiece& piece, const float* normals) {
-      Record* const records = piece.records<Record>();
-      for (std::uint32_t i = 0; i < piece.count; ++i) {
-        disturb(records[i], terms, normals + std::size_t{kEach} * i);
-      }
-    };
-    NoiseBatch<float, kEach, decltype(use)> batch(kNormalBlock, use);
-    for (const NoiseItem& item : items) batch.add(item, item.header->count);
-    return;
+constexpr std::size_t place_of(std::span<const ReadingField> fields, std::string_view name) {
+  std::size_t at = 0;
+  while (fields[at].name != name) ++at;
+  return at;
+}
+
+/// Whether one of `fields` has the variance of that name.
+constexpr bool varies(std::span<const ReadingField> fields, std::string_view name) noexcept {
+  return std::ranges::any_of(fields,
+                             [name](const ReadingField& field) { return field.variance == name; });
+}
+
+template <NoiseTerm kNoise>
+const Term& term_of(const Terms& terms) noexcept {
+  if constexpr (kNoise == NoiseTerm::kAngle) return terms.angle;
+  if constexpr (kNoise == NoiseTerm::kVelocity) return terms.velocity;
+  return terms.length;
+}
+
+/// All but the numbers is known to the compiler.
+template <ReadingKind kKind, std::size_t kField>
+void disturb_field(std::byte* record, const Terms& terms, const float* normals) noexcept {
+  constexpr std::span<const ReadingField> kFields = kType<kKind>.fields;
+  constexpr ReadingField kIt = kFields[kField];
+  if constexpr (kIt.noise != NoiseTerm::kNone) {
+    using Number = std::conditional_t<kIt.format == NumberFormat::kFloat32, float, double>;
+    static_assert(kIt.format == NumberFormat::kFloat32 || kIt.format == NumberFormat::kFloat64);
+    const Term& term = term_of<kIt.noise>(terms);
+    const float normal = normals[normals_of(kFields.first(kField))];
+    auto& x = *reinterpret_cast<Number*>(record + kIt.offset);
+    if constexpr (kIt.noise == NoiseTerm::kDistance) {
+      term.distance(x, normal);
+    } else if constexpr (kIt.noise == NoiseTerm::kAngle) {
+      term.angle(x, normal);
+    } else {
+      term.plain(x, normal);
+    }
+    // Noise of the file is known, so the reading says so; variances of independent errors add. One
+    // variance may stand for several fields.
+    if constexpr (!kIt.variance.empty() && !varies(kFields.first(kField), kIt.variance)) {
+      constexpr ReadingField kVariance = kFields[place_of(kFields, kIt.variance)];
+      static_assert(kVariance.format == NumberFormat::kFloat64);
+      *reinterpret_cast<double*>(record + kVariance.offset) += term.variance();
+    }
   }
-  if (!terms.round()) return;
-  // Rounding without noise draws no random numbers.
-  constexpr float kNothing[kEach] = {};
-  for (const NoiseItem& item : items) {
-    auto* const records = static_cast<Record*>(item.records);
-    for (std::uint32_t i = 0; i < item.header->count; ++i) disturb(records[i], terms, kNothing);
+}
+
+template <ReadingKind kKind>
+void disturb(std::byte* record, const Terms& terms, const float* normals) noexcept {
+  [&]<std::size_t... kField>(std::index_sequence<kField...>) {
+    (disturb_field<kKind, kField>(record, terms, normals), ...);
+  }(std::make_index_sequence<kType<kKind>.fields.size()>());
+}
+
+template <ReadingKind kKind>
+void disturb_all(Items items, const Terms& terms) noexcept {
+  constexpr std::uint32_t kEach = normals_of(kType<kKind>.fields);
+  constexpr std::size_t kBytes = kType<kKind>.record_bytes;
+  if constexpr (kEach > 0) {
+    if (terms.scatter()) {
+      const auto use = [&terms](const NoisePiece& piece, const float* normals) {
+        std::byte* record = piece.records<std::byte[kBytes]>()[0];
+        for (std::uint32_t i = 0; i < piece.count; ++i, record += kBytes, normals += kEach) {
+          disturb<kKind>(record, terms, normals);
+        }
+      };
+      NoiseBatch<float, kEach, decltype(use)> batch(kNormalBlock, use);
+      for (const NoiseItem& item : items) batch.add(item, item.header->count);
+      return;
+    }
+    if (!terms.round()) return;
+    // Rounding without noise draws no random numbers.
+    constexpr float kNothing[kEach] = {};
+    for (const NoiseItem& item : items) {
+      auto* record = static_cast<std::byte*>(item.records);
+      for (std::uint32_t i = 0; i < item.header->count; ++i, record += kBytes) {
+        disturb<kKind>(record, terms, kNothing);
+      }
+    }
   }
 }
 
@@ -186,16 +214,16 @@ void silence(Items items, std::uint32_t limit) noexcept {
 }
 
 /// Removes records, keeping the order of the others.
-template <class Record>
-void thin_out(Items items, std::uint32_t limit) noexcept {
-  drop_out(items, all_records, [limit](const NoisePiece& piece, const std::uint32_t* words) {
-    auto* const records = static_cast<Record*>(piece.item->records);
+void thin_out(Items items, std::size_t bytes, std::uint32_t limit) noexcept {
+  drop_out(items, all_records, [=](const NoisePiece& piece, const std::uint32_t* words) {
+    auto* const records = static_cast<std::byte*>(piece.item->records);
     std::uint32_t& kept = piece.item->header->count;
     // A sample may come in several pieces. Records move forward only, so no piece overwrites what
     // is still to be read.
     if (piece.first == 0) kept = 0;
     for (std::uint32_t i = 0; i < piece.count; ++i) {
-      if (words[i] > limit) records[kept++] = records[piece.first + i];
+      if (words[i] <= limit) continue;
+      std::memmove(records + bytes * kept++, records + bytes * (piece.first + i), bytes);
     }
   });
 }
@@ -207,16 +235,20 @@ void empty_samples(Items items, std::uint32_t limit) noexcept {
 }
 
 void lose(ReadingKind kind, Items items, std::uint32_t limit) noexcept {
-  switch (kind) {
-    case ReadingKind::kRanges:
-      return silence(items, limit);
-    case ReadingKind::kSightings:
-      return thin_out<Sighting>(items, limit);
-    case ReadingKind::kNeighbours:
-      return thin_out<NeighbourReading>(items, limit);
-    default:
-      return empty_samples(items, limit);
-  }
+  const ReadingType& type = reading_type(kind);
+  if (kind == ReadingKind::kRanges) return silence(items, limit);
+  if (type.shape == ReadingShape::kList) return thin_out(items, type.record_bytes, limit);
+  empty_samples(items, limit);
+}
+
+/// Ranges have a way of their own, in vectors.
+void disturb_kind(ReadingKind kind, Items items, const Terms& terms) noexcept {
+  const auto number = static_cast<std::size_t>(kind);
+  [&]<std::size_t... kKind>(std::index_sequence<kKind...>) {
+    (static_cast<void>(number == kKind &&
+                       (disturb_all<static_cast<ReadingKind>(kKind)>(items, terms), true)),
+     ...);
+  }(std::make_index_sequence<detail::kReadingKinds>());
 }
 
 }  // namespace
@@ -238,29 +270,10 @@ void Processing::apply_noise(std::span<const NoiseItem> items) const noexcept {
   const Terms terms{{noise_.length_sigma_m, noise_.length_quantum_m},
                     {noise_.angle_sigma_rad, noise_.angle_quantum_rad},
                     {noise_.velocity_sigma_mps, noise_.velocity_quantum_mps}};
-  switch (kind_) {
-    case ReadingKind::kRanges:
-      disturb_ranges(items, noise_, limits_);
-      break;
-    case ReadingKind::kSightings:
-      disturb_all<Sighting>(items, terms);
-      break;
-    case ReadingKind::kNeighbours:
-      disturb_all<NeighbourReading>(items, terms);
-      break;
-    case ReadingKind::kPose:
-      disturb_all<PoseReading>(items, terms);
-      break;
-    case ReadingKind::kOdometry:
-      disturb_all<OdometryReading>(items, terms);
-      break;
-    case ReadingKind::kVelocity:
-      disturb_all<VelocityReading>(items, terms);
-      break;
-    case ReadingKind::kContact:
-    case ReadingKind::kValues:
-    case ReadingKind::kNone:
-      break;
+  if (kind_ == ReadingKind::kRanges) {
+    disturb_ranges(items, noise_, limits_);
+  } else {
+    disturb_kind(kind_, items, terms);
   }
   // After the noise, which has the number of records that the sensor gave: drop-out changes it.
   if (noise_.dropout_probability > 0) lose(kind_, items, dropout_limit(noise_.dropout_probability));

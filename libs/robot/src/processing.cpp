@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string>
 
 #include "field_filter.hpp"
 #include "range_filter.hpp"
+#include "rave/robot/reading_type.hpp"
 
 namespace rave {
 namespace {
@@ -43,12 +45,13 @@ Status check_amount(const char* name, double value, bool applies, ReadingKind ki
 }
 
 Status check_noise(const NoiseSpec& noise, ReadingKind kind) {
-  using enum ReadingKind;
-  // Which terms mean something for a kind of reading.
-  const bool posed = kind == kPose || kind == kOdometry;
-  const bool angle = posed || kind == kSightings || kind == kNeighbours;
-  const bool length = angle || kind == kRanges;
-  const bool velocity = kind == kOdometry || kind == kNeighbours || kind == kVelocity;
+  const auto acts = [kind](NoiseTerm term) {
+    return std::ranges::any_of(reading_type(kind).fields,
+                               [term](const ReadingField& field) { return field.noise == term; });
+  };
+  const bool length = acts(NoiseTerm::kCoordinate) || acts(NoiseTerm::kDistance);
+  const bool angle = acts(NoiseTerm::kAngle);
+  const bool velocity = acts(NoiseTerm::kVelocity);
   RAVE_TRY(check_amount("length_sigma_m", noise.length_sigma_m, length, kind));
   RAVE_TRY(check_amount("length_quantum_m", noise.length_quantum_m, length, kind));
   RAVE_TRY(check_amount("angle_sigma_rad", noise.angle_sigma_rad, angle, kind));
@@ -63,13 +66,26 @@ Status check_noise(const NoiseSpec& noise, ReadingKind kind) {
   return {};
 }
 
+/// As words: `ranges, pose and values`.
+std::string filtered_kinds() {
+  std::vector<std::string_view> names;
+  for (std::uint32_t kind = 1; record_size(ReadingKind{kind}) > 0; ++kind) {
+    if (detail::filter_fields(ReadingKind{kind}).count > 0) {
+      names.push_back(to_string(ReadingKind{kind}));
+    }
+  }
+  const std::string_view last = names.back();
+  names.pop_back();
+  return fmt::format("{} and {}", fmt::join(names, ", "), last);
+}
+
 Status check_filter(const FilterSpec& filter, ReadingKind kind) {
   // A filter needs the same number in each sample; sightings come and go.
   if (detail::filter_fields(kind).count == 0) {
     return fail(ErrorCode::kInvalidArgument,
                 "filter: a sensor of kind `{}` cannot be filtered, because its number of records "
-                "varies; filters work on ranges, pose, odometry, velocity and values",
-                to_string(kind));
+                "varies; filters work on {}",
+                to_string(kind), filtered_kinds());
   }
   if (filter.kind == FilterSpec::Kind::kMedian) {
     if (filter.window < 1 || filter.window > 99 || filter.window % 2 == 0) {
@@ -264,7 +280,7 @@ void Processing::filter(const Stage& stage, const SampleHeader& header, void* re
   // Each field of each record has its own state, one behind the other.
   for (std::uint32_t i = 0; i < header.count; ++i, record += record_size_ / sizeof(double)) {
     for (std::uint32_t k = 0; k < fields.count; ++k, memory += each) {
-      record[k] = run(record[k], header.stamp_ns, k == fields.angle, memory);
+      record[k] = run(record[k], header.stamp_ns, (fields.angles >> k & 1U) != 0, memory);
     }
   }
 }

@@ -10,7 +10,7 @@
 #include "rave/record/moment_cursor.hpp"
 #include "rave/record/run_messages.hpp"
 #include "rave/robot/command.hpp"
-#include "rave/robot/reading.hpp"
+#include "rave/robot/reading_type.hpp"
 #include "rave/sim/event.hpp"
 
 namespace rave::runtime {
@@ -67,26 +67,20 @@ std::string command_text(ByteSpan bytes) {
 std::string reading_text(const record::Percept& percept) {
   std::string text = fmt::format("stamp {:.9f} s, {} records",
                                  SimTime{percept.header.stamp_ns}.seconds(), percept.header.count);
-  const auto kind = static_cast<ReadingKind>(percept.kind);
-  // Ranges are floats, the other plain readings consist of doubles.
-  const std::size_t word = kind == ReadingKind::kRanges ? sizeof(float) : sizeof(double);
-  const bool plain = kind == ReadingKind::kRanges || kind == ReadingKind::kPose ||
-                     kind == ReadingKind::kOdometry || kind == ReadingKind::kVelocity ||
-                     kind == ReadingKind::kValues;
-  if (!plain) return text;
+  const ReadingType& type = reading_type(static_cast<ReadingKind>(percept.kind));
+  if (type.record_bytes == 0) return text;
+  constexpr std::size_t kMost = 8;
+  std::size_t numbers = 0;
   text += ":";
-  for (std::size_t at = 0; at + word <= percept.records.size() && at < 8 * word; at += word) {
-    double value = 0;
-    float range = 0;
-    if (word == sizeof(float)) {
-      std::memcpy(&range, percept.records.data() + at, word);
-      text += fmt::format(" {}", range);
-    } else {
-      std::memcpy(&value, percept.records.data() + at, word);
-      text += fmt::format(" {}", value);
+  for (std::size_t at = 0; at + type.record_bytes <= percept.records.size();
+       at += type.record_bytes) {
+    for (const ReadingField& field : type.columns) {
+      if (++numbers > kMost) return text + " ...";
+      with_number(field, percept.records.data() + at,
+                  [&text](auto number) { text += fmt::format(" {}", number); });
     }
   }
-  return text + (percept.records.size() > 8 * word ? " ..." : "");
+  return text;
 }
 
 Bytes bytes_of(ByteSpan span) { return {span.begin(), span.end()}; }

@@ -40,12 +40,13 @@ class FakeRun : public Source {
     for (const auto& [name, team] : {std::pair("walker-1", "green"), std::pair("spy-2", "blue"),
                                      std::pair("walker-3", "green"), std::pair("spy-4", "blue")}) {
       robots_ += robots_.empty() ? "[" : ",";
-      robots_ += std::string(R"({"name":")") + name + R"(","team":")" + team +
-                 R"(","kind":"simulated","word":"","recorded":false,"program":"","drivers":[],)" +
-                 R"("shapes":[{"disc":[0,0,0.2],"z":[0,0.3]}],)" +
-                 R"("sensors":[{"name":"scan","kind":"ranges","origin":"hybrid","driver":"",)" +
-                 R"("mount":[0.1,0,0],"z":0.15,"period_s":0.1,"fields":["range [m]"],)" +
-                 R"("range":[0,10],"bearings":[0],"cone":0}]})";
+      robots_ +=
+          std::string(R"({"name":")") + name + R"(","team":")" + team +
+          R"(","kind":"simulated","word":"","recorded":false,"program":"","drivers":[],)" +
+          R"("shapes":[{"disc":[0,0,0.2],"z":[0,0.3]}],)" +
+          R"("sensors":[{"name":"scan","kind":"ranges","origin":"hybrid","driver":"",)" +
+          R"("mount":[0.1,0,0],"z":0.15,"period_s":0.1,"fields":[{"name":"range_m","label":"range","unit":"m","format":"float32"}],)" +
+          R"("range":[0,10],"bearings":[0],"cone":0}]})";
     }
     robots_ += "]";
     events_.push_back({1, 1, 1, "stopped", LogEvent::Level::kWarn, "spy-2: stopped", {1}});
@@ -104,10 +105,11 @@ class FakeRun : public Source {
   [[nodiscard]] Result<ProbeMade> probe(const ProbeRequest& request) override {
     const std::lock_guard lock(mutex_);
     requests_.push_back(request);
-    return ProbeMade{{request.slot, kProbeNumber, "{}"},
-                     "  - name: p\n",
-                     R"({"name":"p","kind":"ranges","origin":"virtual","driver":"virtual_laser",)"
-                     R"("mount":[0,0,0],"z":0,"period_s":0.1,"fields":["range [m]"]})"};
+    return ProbeMade{
+        {request.slot, kProbeNumber, "{}"},
+        "  - name: p\n",
+        R"({"name":"p","kind":"ranges","origin":"virtual","driver":"virtual_laser",)"
+        R"("mount":[0,0,0],"z":0,"period_s":0.1,"fields":[{"name":"range_m","label":"range","unit":"m","format":"float32"}]})"};
   }
   /// What pages requested to try, by robots of the run.
   [[nodiscard]] std::vector<ProbeRequest> requests() {

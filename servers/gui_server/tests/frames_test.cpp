@@ -8,9 +8,11 @@
 #include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "rave/base/file.hpp"
 #include "rave/onlook/reading_rows.hpp"
+#include "run/reading_json.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -124,12 +126,29 @@ TEST(Frames, AreThoseThatThePageIsTestedWith) {
   EXPECT_EQ(*kept, text);
 }
 
+/// The page names the numbers of a row by `fields` of the sensor.
+TEST(Frames, ARowHasANumberForEachFieldThatThePageIsTold) {
+  const OdometryReading odometry{1, 2, 3, 4, 5, 6, 7};
+  std::vector<float> values;
+  EXPECT_EQ(
+      onlook::add_rows(ReadingKind::kOdometry, 1, std::as_bytes(std::span(&odometry, 1)), values),
+      1U);
+  EXPECT_EQ(values, (std::vector<float>{1, 2, 3, 4, 5, 6, 7}));
+  Json sensor;
+  add_reading_type(sensor, ReadingKind::kOdometry);
+  ASSERT_EQ(sensor.at("fields").size(), values.size());
+  EXPECT_EQ(
+      sensor.at("fields")[6].dump(),
+      R"({"name":"variance_yaw_rad2","label":"variance yaw","unit":"rad²","format":"float64"})");
+  EXPECT_EQ(sensor.at("fields")[2].at("variance"), "variance_yaw_rad2");
+  EXPECT_FALSE(sensor.contains("list"));
+  add_reading_type(sensor, ReadingKind::kSightings);
+  EXPECT_EQ(sensor.at("list"), true);
+}
+
 /// As in a recording of a later version.
 TEST(Frames, AReadingOfAnUnknownKindHasNoFields) {
-  const auto unknown = static_cast<ReadingKind>(200);
-  EXPECT_EQ(onlook::field_count(unknown), 0U);
-  EXPECT_TRUE(onlook::fields_of(unknown).empty());
-  EXPECT_FALSE(onlook::fields_of(ReadingKind::kRanges).empty());
+  EXPECT_EQ(onlook::field_count(static_cast<ReadingKind>(200)), 0U);
 }
 
 TEST(Frames, TakeFourteenBytesARobot) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {expect, it} from 'vitest';
 import {Readings} from '../../model/readings';
-import type {Sensor} from '../../protocol/messages';
+import type {Field, Sensor} from '../../protocol/messages';
 import {beamText, courseFieldsOf} from './course_fields';
 
 const sensor = (more: Partial<Sensor>): Sensor => ({
@@ -14,6 +14,14 @@ const sensor = (more: Partial<Sensor>): Sensor => ({
   period_s: 0,
   fields: [],
   ...more,
+});
+
+const kEnds: Record<string, string> = {m: '_m', rad: '_rad', 'm/s': '_mps'};
+const field = (label: string, unit: string): Field => ({
+  name: label + (kEnds[unit] ?? ''),
+  label,
+  unit,
+  format: 'float32',
 });
 
 /** What each field of a sensor has been in readings of these rows. */
@@ -41,7 +49,11 @@ function courses(of: Sensor, beam: number, ...readings: number[][][]): Record<st
 }
 
 it('a camera has the course of the nearest range, its bearing, and how many it sees', () => {
-  const camera = sensor({kind: 'sightings', fields: ['code', 'range [m]', 'bearing [rad]']});
+  const camera = sensor({
+    kind: 'sightings',
+    list: true,
+    fields: [field('code', ''), field('range', 'm'), field('bearing', 'rad')],
+  });
   expect(
     courses(
       camera,
@@ -59,7 +71,7 @@ it('a camera has the course of the nearest range, its bearing, and how many it s
 it('ranges have the nearest and a chosen beam; no return is a gap', () => {
   const laser = sensor({
     kind: 'ranges',
-    fields: ['range [m]'],
+    fields: [field('range', 'm')],
     range: [0, 5],
     bearings: [-0.5, 0, 0.5],
   });
@@ -68,14 +80,16 @@ it('ranges have the nearest and a chosen beam; no return is a gap', () => {
     'beam m': [2, NaN],
   });
   expect(
-    courseFieldsOf(sensor({kind: 'ranges', fields: ['range [m]'], bearings: [0]})).map(
+    courseFieldsOf(sensor({kind: 'ranges', fields: [field('range', 'm')], bearings: [0]})).map(
       ({label}) => label,
     ),
   ).toEqual(['nearest']);
 });
 
 it('other sensors have each of their fields', () => {
-  expect(courses(sensor({fields: ['v [m/s]', 'on']}), 0, [[0.5, 1]], [[0.25, 0]])).toEqual({
+  expect(
+    courses(sensor({fields: [field('v', 'm/s'), field('on', '')]}), 0, [[0.5, 1]], [[0.25, 0]]),
+  ).toEqual({
     'v m/s': [0.5, 0.25],
     on: [1, 0],
   });

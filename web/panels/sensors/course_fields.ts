@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {CoursePoint} from '../../model/readings';
+import {columnOf} from '../../model/sightings';
 import type {Sensor} from '../../protocol/messages';
 
 /** Something of a sensor that is drawn over time. */
@@ -10,7 +11,6 @@ export interface CourseField {
   of(point: CoursePoint): number;
 }
 
-const kRange = 1;
 const kDegrees = 180 / Math.PI;
 
 /** What can be drawn of a sensor. `beam`: of a sensor with several the one that is looked at. */
@@ -32,9 +32,10 @@ export function courseFieldsOf(sensor: Sensor, beam = 0): CourseField[] {
         ]
       : [nearest];
   }
-  if (sensor.kind === 'sightings' || sensor.kind === 'neighbours') return ofTheNearest(sensor);
-  return sensor.fields.map((name, i) => ({
-    ...wordAndUnit(name),
+  if (sensor.list) return ofTheNearest(sensor);
+  return sensor.fields.map(({label, unit}, i) => ({
+    label,
+    unit,
     of: ({values}) => values[i] ?? NaN,
   }));
 }
@@ -46,29 +47,25 @@ function returned(sensor: Sensor, value: number): number {
 
 /** Each row is something that is seen: its number is left out, and how many there are is added. */
 function ofTheNearest(sensor: Sensor): CourseField[] {
-  const seen = sensor.fields.slice(1).map((name, i): CourseField => {
-    const {label, unit} = wordAndUnit(name);
+  const range = columnOf(sensor, 'range_m');
+  const seen = sensor.fields.slice(1).map(({label, unit}, i): CourseField => {
     const degrees = unit === 'rad';
     return {
-      label: i + 1 === kRange ? `nearest ${label}` : label,
+      label: i + 1 === range ? `nearest ${label}` : label,
       unit: degrees ? '°' : unit,
       of: (point) =>
-        (point.values[nearestRow(point) * point.fields + i + 1] ?? NaN) * (degrees ? kDegrees : 1),
+        (point.values[nearestRow(point, range) * point.fields + i + 1] ?? NaN) *
+        (degrees ? kDegrees : 1),
     };
   });
   return [...seen, {label: 'count', unit: '', of: ({rows}) => rows}];
 }
 
-function nearestRow({rows, fields, values}: CoursePoint): number {
+function nearestRow({rows, fields, values}: CoursePoint, range: number): number {
   let nearest = 0;
   for (let row = 1; row < rows; ++row)
-    if (values[row * fields + kRange] < values[nearest * fields + kRange]) nearest = row;
+    if (values[row * fields + range] < values[nearest * fields + range]) nearest = row;
   return nearest;
-}
-
-function wordAndUnit(name: string): {label: string; unit: string} {
-  const parts = /^(.*?)(?: \[(.*)\])?$/.exec(name);
-  return {label: parts?.[1] ?? name, unit: parts?.[2] ?? ''};
 }
 
 /** The beam in words: `12° left`. */

@@ -4,7 +4,7 @@ import {css, html, nothing, type TemplateResult} from 'lit';
 import type {Placed} from '../../model/pose_history';
 import type {Palette} from '../../panel_api';
 import type {Reading} from '../../protocol/frames';
-import type {Sensor} from '../../protocol/messages';
+import type {Field, Sensor} from '../../protocol/messages';
 import {bearingsOf, mountOf} from '../world/scan_layer';
 import {pointSurface, type Met, type Surface} from '../world/surface';
 import {nearestRay} from './nearest';
@@ -54,16 +54,15 @@ export function renderValues(sensor: Sensor, reading: Reading | null): TemplateR
     return html`<p class="none">
       ${reading === null ? 'No reading yet.' : 'It sees nothing at present.'}
     </p>`;
-  if (reading.rows > 1 || sensor.kind === 'sightings' || sensor.kind === 'neighbours')
-    return renderTable(sensor, reading);
+  if (reading.rows > 1 || sensor.list) return renderTable(sensor, reading);
   return html`<dl>
-    ${sensor.fields.map((name, i) => {
-      const [word, unit] = splitField(name);
-      return html`<div>
-        <dt>${word}</dt>
-        <dd>${numberText(reading.values[i])} <em>${unit}</em></dd>
-      </div>`;
-    })}
+    ${sensor.fields.map(
+      (field, i) =>
+        html`<div>
+          <dt>${field.label}</dt>
+          <dd>${numberText(field, reading.values[i])} <em>${field.unit}</em></dd>
+        </div>`,
+    )}
   </dl>`;
 }
 
@@ -76,7 +75,7 @@ export function renderTable(sensor: Sensor, reading: Reading | null): TemplateRe
       <thead>
         <tr>
           ${bearings ? html`<th>bearing [°]</th>` : nothing}${sensor.fields.map(
-            (name) => html`<th>${name}</th>`,
+            ({label, unit}) => html`<th>${unit === '' ? label : `${label} [${unit}]`}</th>`,
           )}
         </tr>
       </thead>
@@ -88,7 +87,8 @@ export function renderTable(sensor: Sensor, reading: Reading | null): TemplateRe
                 ? html`<td>${((bearings[row] * 180) / Math.PI).toFixed(1).replace('-', '−')}</td>`
                 : nothing}
               ${sensor.fields.map(
-                (_, i) => html`<td>${numberText(reading.values[row * reading.fields + i])}</td>`,
+                (field, i) =>
+                  html`<td>${numberText(field, reading.values[row * reading.fields + i])}</td>`,
               )}
             </tr>`,
         )}
@@ -116,15 +116,12 @@ export function ageText(age_s: number): string {
   return age_s < 1 ? `age ${Math.round(age_s * 1000)} ms` : `age ${age_s.toFixed(1)} s`;
 }
 
-function splitField(name: string): [string, string] {
-  const parts = /^(.*?)(?: \[(.*)\])?$/.exec(name);
-  return [parts?.[1] ?? name, parts?.[2] ?? ''];
-}
-
-function numberText(value: number | undefined): string {
+/** Measured numbers always have three digits, so that they stand still; others what they need. */
+export function numberText({unit, format}: Field, value: number | undefined): string {
   if (value === undefined || Number.isNaN(value)) return '–';
   if (!Number.isFinite(value)) return value > 0 ? 'no return' : '−∞';
-  const text = Number.isInteger(value) ? String(value) : value.toFixed(3);
+  const measured = format.startsWith('float') && unit !== '';
+  const text = Number.isInteger(value) && !measured ? String(value) : value.toFixed(3);
   return text.replace('-', '−');
 }
 

@@ -275,7 +275,7 @@ export class SensorsPanel extends LookingPanel {
     const robot = this.context.model.robots[slot];
     const twin = twinOf(robot, robot.sensors.indexOf(sensor));
     const expected = twin === null ? null : this.context.model.readings.of(slot, twin);
-    const count = pairsOf(reading, expected);
+    const count = pairsOf(sensor, reading, expected);
     return html` <p class="halves">
         <span><i class="dot saw"></i>saw ${reading?.rows ?? 0}</span> ${twin === null
           ? nothing

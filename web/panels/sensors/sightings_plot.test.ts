@@ -2,8 +2,9 @@
 import {expect, it} from 'vitest';
 import type {Palette} from '../../panel_api';
 import type {Reading} from '../../protocol/frames';
-import type {Robot, Sensor} from '../../protocol/messages';
-import {drawSightingsPlot, pairsOf, sightingsOf} from './sightings_plot';
+import type {Field, Robot, Sensor} from '../../protocol/messages';
+import {sightingsOf} from '../../model/sightings';
+import {drawSightingsPlot, pairsOf} from './sightings_plot';
 import {twinOf} from './twin';
 
 function reading(...rows: [number, number, number][]): Reading {
@@ -20,11 +21,28 @@ function reading(...rows: [number, number, number][]): Reading {
   };
 }
 
+const fields: Field[] = [
+  {name: 'code', label: 'code', unit: '', format: 'int32'},
+  {name: 'range_m', label: 'range', unit: 'm', format: 'float32'},
+  {name: 'bearing_rad', label: 'bearing', unit: 'rad', format: 'float32'},
+];
+const camera: Sensor = {
+  name: 'camera',
+  kind: 'sightings',
+  list: true,
+  origin: 'real',
+  driver: '',
+  mount: [0, 0, 0],
+  z: 0,
+  period_s: 0.1,
+  fields,
+};
+
 it('pairs what was seen with what was expected by its code', () => {
   const saw = reading([7, 1, 0], [9, 2, 0.5]);
-  expect(sightingsOf(saw)[1]).toEqual({code: 9, range_m: 2, bearing_rad: 0.5});
-  expect(pairsOf(saw, reading([9, 2.1, 0.5], [11, 3, 0]))).toBe(1);
-  expect(pairsOf(null, saw)).toBe(0);
+  expect(sightingsOf(camera, saw)[1]).toEqual({code: 9, range_m: 2, bearing_rad: 0.5});
+  expect(pairsOf(camera, saw, reading([9, 2.1, 0.5], [11, 3, 0]))).toBe(1);
+  expect(pairsOf(camera, null, saw)).toBe(0);
 });
 
 it('finds the twin of a camera, both ways', () => {
@@ -57,16 +75,6 @@ it('finds the twin of a camera, both ways', () => {
 });
 
 it('draws what was seen long ago hollow and faint, and what is current full', () => {
-  const sensor: Sensor = {
-    name: 'camera',
-    kind: 'sightings',
-    origin: 'real',
-    driver: '',
-    mount: [0, 0, 0],
-    z: 0,
-    period_s: 0.1,
-    fields: [],
-  };
   const palette = {token: (name: string) => name} as unknown as Palette;
   const marks = (now_s: number) => {
     const drawn: [string, number][] = [];
@@ -87,7 +95,7 @@ it('draws what was seen long ago hollow and faint, and what is current full', ()
       ctx as unknown as CanvasRenderingContext2D,
       300,
       200,
-      sensor,
+      camera,
       reading([7, 1, 0]),
       null,
       () => ({name: 'a', colour: 'red'}),

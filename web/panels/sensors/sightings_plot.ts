@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import {sightingsOf, type Sighting} from '../../model/sightings';
 import type {Palette, PanelContext} from '../../panel_api';
 import type {Reading} from '../../protocol/frames';
 import type {Sensor} from '../../protocol/messages';
@@ -13,32 +14,13 @@ export interface Named {
   colour: string;
 }
 
-/** A row of a reading of a camera: code, range, bearing. */
-interface Sighting {
-  code: number;
-  range_m: number;
-  bearing_rad: number;
-}
-
 const kLeast_rad = 0.3;
 const kMargin = {left: 34, right: 14, top: 10, bottom: 22};
 
-export function sightingsOf(reading: Reading | null): Sighting[] {
-  if (reading === null || reading.fields < 3) return [];
-  return Array.from({length: reading.rows}, (_, row) => {
-    const at = row * reading.fields;
-    return {
-      code: reading.values[at],
-      range_m: reading.values[at + 1],
-      bearing_rad: reading.values[at + 2],
-    };
-  });
-}
-
-/** How many codes are in both readings. */
-export function pairsOf(saw: Reading | null, expected: Reading | null): number {
-  const codes = new Set(sightingsOf(saw).map((one) => one.code));
-  return sightingsOf(expected).filter((one) => codes.has(one.code)).length;
+/** How many codes are in both readings; `sensor`: the camera or its twin. */
+export function pairsOf(sensor: Sensor, saw: Reading | null, expected: Reading | null): number {
+  const codes = new Set(sightingsOf(sensor, saw).map((one) => one.code));
+  return sightingsOf(sensor, expected).filter((one) => codes.has(one.code)).length;
 }
 
 /** Range over bearing: discs were seen, squares are expected, a line joins a pair. What is old at
@@ -55,7 +37,7 @@ export function drawSightingsPlot(
   now_s: number,
 ): void {
   const [ofCamera, ofTwin] = sensor.origin === 'virtual' ? [twin, reading] : [reading, twin];
-  const [saw, expected] = [sightingsOf(ofCamera), sightingsOf(ofTwin)];
+  const [saw, expected] = [sightingsOf(sensor, ofCamera), sightingsOf(sensor, ofTwin)];
   const strength = (of: Reading | null) =>
     of === null ? 1 : strengthOf(now_s - of.stamp_s, sensor.period_s);
   const [strengthOfSaw, strengthOfExpected] = [strength(ofCamera), strength(ofTwin)];

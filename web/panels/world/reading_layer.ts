@@ -120,7 +120,7 @@ export function drawReadings(
       ? {fill: palette.token('virtual'), ink: palette.token('virtual-ink')}
       : palette.hue(slot);
     if (sensor.kind === 'sightings') {
-      if (layers.sightings) drawSightings(ctx, camera, mount, reading, hue.ink, strength);
+      if (layers.sightings) drawSightings(ctx, camera, mount, sensor, reading, hue.ink, strength);
       continue;
     }
     if (tried) ctx.setLineDash([4, 3]);

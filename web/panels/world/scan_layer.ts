@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {Palette} from '../../panel_api';
 import type {Placed} from '../../model/pose_history';
+import {sightingsOf} from '../../model/sightings';
 import type {Reading} from '../../protocol/frames';
 import type {Robot, Sensor} from '../../protocol/messages';
 import type {Camera} from './camera';
@@ -117,6 +118,7 @@ export function drawSightings(
   ctx: CanvasRenderingContext2D,
   camera: Camera,
   mount: Mount,
+  sensor: Sensor,
   reading: Reading,
   hue: string,
   strength: number,
@@ -124,11 +126,10 @@ export function drawSightings(
   ctx.save();
   ctx.strokeStyle = hue;
   ctx.lineWidth = 1;
-  for (let row = 0; row < reading.rows; ++row) {
-    const range = reading.values[row * reading.fields + 1];
-    const a = mount.yaw + reading.values[row * reading.fields + 2];
-    const x = camera.toScreenX(mount.x + range * Math.cos(a));
-    const y = camera.toScreenY(mount.y + range * Math.sin(a));
+  for (const {range_m, bearing_rad} of sightingsOf(sensor, reading)) {
+    const a = mount.yaw + bearing_rad;
+    const x = camera.toScreenX(mount.x + range_m * Math.cos(a));
+    const y = camera.toScreenY(mount.y + range_m * Math.sin(a));
     ctx.globalAlpha = 0.7 * strength;
     ctx.beginPath();
     ctx.moveTo(camera.toScreenX(mount.x), camera.toScreenY(mount.y));

@@ -13,9 +13,9 @@
 #include "live/parameters_json.hpp"
 #include "rave/base/json_text.hpp"
 #include "rave/math/scalar.hpp"
-#include "rave/onlook/reading_rows.hpp"
 #include "rave/probe/probe_block.hpp"
 #include "rave/sim/lone_sensor.hpp"
+#include "run/reading_json.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -43,13 +43,12 @@ std::vector<std::string> lines_of(const ProbeRequest& request) {
 ProbeJson sensor_of(const sim::LoneSensor& sensor) {
   const SensorInfo& info = sensor.info();
   ProbeJson json = {{"name", info.name},
-                    {"kind", std::string(to_string(info.kind))},
                     {"origin", "virtual"},
                     {"driver", sensor.spec().driver},
                     {"mount", ProbeJson::array({info.X_RS.x, info.X_RS.y, info.X_RS.yaw})},
                     {"z", info.z_m},
-                    {"period_s", info.period_s},
-                    {"fields", onlook::fields_of(info.kind)}};
+                    {"period_s", info.period_s}};
+  add_reading_type(json, info.kind);
   if (info.kind == ReadingKind::kRanges && info.bearings_rad != nullptr) {
     json["range"] = ProbeJson::array({info.range_min_m, info.range_max_m});
     json["bearings"] = std::vector<double>(info.bearings_rad, info.bearings_rad + info.capacity);

@@ -8,8 +8,8 @@
 #include "rave/config/map_image.hpp"
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
-#include "rave/onlook/reading_rows.hpp"
 #include "rave/robot/reading.hpp"
+#include "run/reading_json.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -88,14 +88,11 @@ Json sensor_json(const record::RecordedSensor& sensor, const config::SensorFile*
   const auto kind = static_cast<ReadingKind>(sensor.kind);
   const std::string driver = file == nullptr ? std::string() : file->driver.value;
   const bool is_virtual = sensor.is_virtual || !real;
-  Json json = {{"name", sensor.name},
-               {"kind", std::string(to_string(kind))},
-               {"origin", hybrid ? "hybrid" : (is_virtual ? "virtual" : "real")},
-               {"driver", driver},
-               {"mount", pose_json(sensor.X_RS)},
-               {"z", sensor.z_m},
-               {"period_s", sensor.period_s},
-               {"fields", onlook::fields_of(kind)}};
+  Json json = {
+      {"name", sensor.name}, {"origin", hybrid ? "hybrid" : (is_virtual ? "virtual" : "real")},
+      {"driver", driver},    {"mount", pose_json(sensor.X_RS)},
+      {"z", sensor.z_m},     {"period_s", sensor.period_s}};
+  add_reading_type(json, kind);
   if (kind == ReadingKind::kRanges) {
     json["range"] = Json::array({sensor.range_min_m, sensor.range_max_m});
     json["bearings"] = sensor.bearings_rad;

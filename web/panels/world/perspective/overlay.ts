@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import {sightingsOf} from '../../../model/sightings';
 import {RobotFlag} from '../../../protocol/frames';
 import {bodyState} from '../body_state';
 import {kFont, LabelPlacer, type Label} from '../labels';
@@ -172,12 +173,11 @@ export class Overlay {
     if (from === null) return;
     ctx.strokeStyle = palette.hue(slot).ink;
     ctx.lineWidth = 1;
-    for (let row = 0; row < reading.rows; ++row) {
-      const range = reading.values[row * reading.fields + 1];
-      const a = mount.yaw + reading.values[row * reading.fields + 2];
+    for (const {range_m, bearing_rad} of sightingsOf(sensor, reading)) {
+      const a = mount.yaw + bearing_rad;
       const to = this.orbit.project(
-        mount.x + range * Math.cos(a),
-        mount.y + range * Math.sin(a),
+        mount.x + range_m * Math.cos(a),
+        mount.y + range_m * Math.sin(a),
         sensor.z,
       );
       if (to === null) continue;

@@ -15,14 +15,8 @@
 namespace rave {
 
 /// Errors that are added to the readings of a sensor. Zero disables a term. The kind of the sensor
-/// determines which fields a term changes:
-///   ranges      length: each ray
-///   sightings   length: range; angle: bearing
-///   pose        length: x and y; angle: yaw
-///   odometry    as pose; velocity: v (w is not changed)
-///   neighbours  length: range; angle: bearing; velocity: vx and vy
-///   velocity    velocity: v (w is not changed)
-///   contact, values   drop-out only
+/// determines which fields a term changes (`noise` of its fields in reading_type.hpp); a kind
+/// without such a field has drop-out only.
 struct NoiseSpec {
   double length_sigma_m = 0;  ///< Standard deviation of Gaussian noise with mean 0.
   double angle_sigma_rad = 0;

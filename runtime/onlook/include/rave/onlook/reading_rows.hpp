@@ -4,18 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "rave/robot/reading.hpp"
 
 namespace rave::onlook {
 
-/// Names and units of the numbers of a row, such as `range [m]`. What those of kValues mean only
-/// their driver knows.
-[[nodiscard]] std::vector<std::string> fields_of(ReadingKind kind);
-
-/// Number of values per row; 0 for kNone.
+/// Number of values per row, one for each column of the reading_type(); 0 for kNone.
 [[nodiscard]] std::uint32_t field_count(ReadingKind kind) noexcept;
 
 /// Appends the records of a reading to `values` as rows; returns the number of rows. `count`:

@@ -46,13 +46,20 @@ TEST_F(LiveEdits, AnEditIsAroundAllRobotsWithinAMeasuredTime) {
   for (const char* const host : {"@one", "@two"}) {
     EXPECT_NE(stop.out.find(host), std::string::npos) << stop.out;
   }
-  end_by_hand("env", 1);
+  // All of them are told, so what the hosts have measured comes to the manager.
+  EXPECT_EQ(rave({"end", "live"}).exit_code, 0);
+  for (const char* const who : {"env", "one", "two"}) EXPECT_EQ(end_of(who), 0) << console(who);
   const auto result = this->result("env");
   EXPECT_EQ(result["edits"], 3) << result.dump();
   EXPECT_EQ(result["edits_confirmed_by_all"], 3) << result.dump();
   EXPECT_TRUE(result["edit_slowest_s"].is_number()) << result.dump();
   const std::string summary = content_of(folder("env") + "/summary.txt");
   EXPECT_NE(summary.find("edits to other hosts"), std::string::npos) << summary;
+  // The same of poses, which the hosts measure.
+  EXPECT_GT(result["poses_of_others"], 0) << result.dump();
+  EXPECT_GT(result["pose_mean_s"], 0) << result.dump();
+  EXPECT_GE(result["pose_slowest_s"], result["pose_mean_s"]) << result.dump();
+  EXPECT_NE(summary.find("poses to other hosts"), std::string::npos) << summary;
 }
 
 TEST_F(LiveEdits, WhoComesLateHasAllObstaclesBeforeItsFirstStep) {

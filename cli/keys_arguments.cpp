@@ -13,7 +13,7 @@ void add_folder(CLI::App& app, std::string& folder, const char* what) {
   add_word(app, "folder", folder, what, "DIR");
 }
 
-void add_new(CLI::App& parent, Command& chosen) {
+void add_new_keys(CLI::App& parent, Command& chosen) {
   const auto [app, c] =
       add_command(parent, chosen, "new", "Create a set of certificates", new_keys);
   add_folder(app, c.folder, "Folder to create");
@@ -81,7 +81,7 @@ void add_keys_commands(CLI::App& root, Command& chosen) {
       *root.add_subcommand("keys", "Create certificates for encrypted communication");
   parent.require_subcommand(1);
   parent.footer("Example:\n  rave keys new lab-keys env left right");
-  add_new(parent, chosen);
+  add_new_keys(parent, chosen);
   add_add(parent, chosen);
   add_show(parent, chosen);
   add_web(parent, chosen);

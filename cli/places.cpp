@@ -5,12 +5,11 @@
 #include <array>
 #include <cstdlib>
 #include <optional>
-#include <ranges>
 #include <string_view>
 
 #include "error_text.hpp"
-#include "rave/assemble/build.hpp"
 #include "rave/base/names.hpp"
+#include "rave/launch/plugin_folders.hpp"
 #include "rave/record/merge.hpp"
 
 namespace rave::cli {
@@ -60,15 +59,6 @@ std::vector<std::string> names_in(const std::vector<fs::path>& folders) {
   return names;
 }
 
-std::vector<std::string> folders_of_environment() {
-  std::vector<std::string> folders;
-  const char* const value = std::getenv("RAVE_PLUGIN_PATH");
-  for (const auto word : std::views::split(std::string_view(value == nullptr ? "" : value), ':')) {
-    if (!word.empty()) folders.emplace_back(word.begin(), word.end());
-  }
-  return folders;
-}
-
 }  // namespace
 
 fs::path executable_folder() {
@@ -86,21 +76,6 @@ std::vector<std::string> shipped_scenarios() { return names_in({share_folder() /
 
 fs::path program_runner() { return executable_folder() / "rave-program-runner"; }
 
-Status add_plugin_folders(const std::vector<std::string>& given, plugin::Catalogue& catalogue) {
-  for (const std::string& folder : given) {
-    if (auto added = catalogue.add_folder(folder); !added) {
-      return tl::unexpected(std::move(added).error().with_context("--plugins"));
-    }
-  }
-  for (const std::string& folder : folders_of_environment()) {
-    if (auto added = catalogue.add_folder(folder); !added) {
-      return tl::unexpected(std::move(added).error().with_context("RAVE_PLUGIN_PATH"));
-    }
-  }
-  const fs::path own = executable_folder().parent_path() / "lib" / "rave" / "plugins";
-  return catalogue.add_folder(own);
-}
-
 Result<fs::path> record_file(std::string_view word) {
   RAVE_TRY_ASSIGN(auto run, record::open_run(word));
   for (const std::string& note : run.notes) put_note(terminal_of(stderr).yellow("missing:"), note);
@@ -108,9 +83,7 @@ Result<fs::path> record_file(std::string_view word) {
 }
 
 Result<std::unique_ptr<plugin::Catalogue>> open_catalogue(const std::vector<std::string>& given) {
-  auto catalogue = std::make_unique<plugin::Catalogue>(runtime::host_stamp());
-  RAVE_TRY(add_plugin_folders(given, *catalogue));
-  return catalogue;
+  return launch::open_catalogue(given, executable_folder() / "rave");
 }
 
 Result<fs::path> find_scenario(std::string_view word) {

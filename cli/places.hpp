@@ -25,11 +25,8 @@ namespace rave::cli {
 /// The executable for programs with `isolate: true`.
 [[nodiscard]] std::filesystem::path program_runner();
 
-/// Adds the folders given on the command line, those of RAVE_PLUGIN_PATH (separated by colons) and
-/// the built-in one; earlier ones win. Errors: a folder that is missing or cannot be read.
-Status add_plugin_folders(const std::vector<std::string>& given, plugin::Catalogue& catalogue);
-
-/// A catalogue of those folders, for the interfaces of this build. The same errors.
+/// A catalogue of the folders given on the command line, those of RAVE_PLUGIN_PATH and the built-in
+/// one: launch::open_catalogue().
 [[nodiscard]] Result<std::unique_ptr<plugin::Catalogue>> open_catalogue(
     const std::vector<std::string>& given);
 

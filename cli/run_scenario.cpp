@@ -5,8 +5,8 @@
 
 #include <utility>
 
-#include "input_file.hpp"
 #include "places.hpp"
+#include "rave/config/any_file.hpp"
 
 namespace rave::cli {
 namespace {
@@ -35,8 +35,8 @@ Status override_settings(const RunCommand& options, config::ScenarioFile& scenar
 
 /// Of a robot or a world the missing keys of a scenario would say nothing.
 Error why_no_scenario(const std::filesystem::path& path, Error error) {
-  const auto kind = recognise(path);
-  if (!kind || *kind == FileKind::kScenario) return error;
+  const auto kind = config::recognise(path);
+  if (!kind || *kind == config::FileKind::kScenario) return error;
   return {ErrorCode::kInvalidArgument,
           fmt::format("`{0}` is a {1} file; expected a scenario, which names it (`rave check {0}` "
                       "checks it alone)",

@@ -5,26 +5,16 @@
 
 #include "interrupt.hpp"
 #include "places.hpp"
-#include "rave/host/host_run.hpp"
 
 namespace rave::cli {
 
-Result<bus::BusConfig> bus_of_run(const BusOptions& options, const std::string& participant,
-                                  const config::ExpandedScenario& scenario, bus::Reach reach) {
-  RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
-  RAVE_TRY_ASSIGN(auto bus, bus_config(options, participant, runtime::shared_number(scenario)));
-  // Runs of many hosts need a higher limit of participants than the default.
-  make_room(bus, hosts.size(), reach);
-  return bus;
-}
-
-RunStart::RunStart(RunFolder folder, bool quiet)
+RunStart::RunStart(launch::RunFolder folder, bool quiet)
     : folder_(std::move(folder)), console_(quiet), control_(ended_by_signals()) {}
 
 Result<std::unique_ptr<RunStart>> RunStart::open(const RunCommand& options, std::string_view name) {
-  const WantedFolder wanted{options.output, options.replace,
-                            find_scenario(options.scenario).value_or("")};
-  RAVE_TRY_ASSIGN(auto folder, RunFolder::create(wanted, name));
+  const launch::WantedFolder wanted{options.output, options.replace,
+                                    find_scenario(options.scenario).value_or("")};
+  RAVE_TRY_ASSIGN(auto folder, launch::RunFolder::create(wanted, name));
   std::unique_ptr<RunStart> start(new RunStart(std::move(folder), options.quiet));
   // As soon as there is a folder, so that all later messages are in the file, too.
   RAVE_TRY(start->console_.open_file(start->path() / "console.log"));

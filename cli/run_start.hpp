@@ -5,26 +5,16 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "bus_options.hpp"
 #include "commands/run.hpp"
 #include "console.hpp"
 #include "rave/base/result.hpp"
-#include "rave/config/expanded_scenario.hpp"
 #include "rave/control/run_control.hpp"
 #include "rave/control/server.hpp"
 #include "rave/host/run.hpp"
-#include "run_folder.hpp"
+#include "rave/launch/run_folder.hpp"
 
 namespace rave::cli {
-
-/// The bus of a process of a run, with room for all hosts. Errors: of the hosts of the scenario,
-/// those of bus_config().
-[[nodiscard]] Result<bus::BusConfig> bus_of_run(const BusOptions& options,
-                                                const std::string& participant,
-                                                const config::ExpandedScenario& scenario,
-                                                bus::Reach reach);
 
 /// What every command that starts a process of a run begins with: the folder, the console with its
 /// file, the control that signals end, and the socket for other terminals. One thread.
@@ -50,9 +40,9 @@ class RunStart {
   void discard() const { folder_.discard(); }
 
  private:
-  RunStart(RunFolder folder, bool quiet);
+  RunStart(launch::RunFolder folder, bool quiet);
 
-  RunFolder folder_;
+  launch::RunFolder folder_;
   Console console_;
   runtime::RunControl& control_;
   std::unique_ptr<control::Server> server_;

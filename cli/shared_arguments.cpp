@@ -96,7 +96,7 @@ void add_page_options(CLI::App& app, PageOptions& page) {
       ->needs(foxglove);
 }
 
-void add_line_options(CLI::App& app, LineArguments& line) {
+void add_line_options(CLI::App& app, launch::LineArguments& line) {
   add_value(app, "--web", line.web,
             "Address of the direct line, on which pages reach this host without the GUI Server "
             "[127.0.0.1, any port]",

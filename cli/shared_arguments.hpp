@@ -11,8 +11,8 @@
 
 #include "arguments.hpp"
 #include "bus_options.hpp"
-#include "host_line.hpp"
 #include "page.hpp"
+#include "rave/launch/host_line.hpp"
 
 /// What the arguments of several subcommands have in common. All write to what they are given.
 namespace rave::cli {
@@ -86,7 +86,7 @@ void add_scenario(CLI::App& app, std::string& scenario);
 void add_page_options(CLI::App& app, PageOptions& page);
 
 /// The direct line of a host.
-void add_line_options(CLI::App& app, LineArguments& line);
+void add_line_options(CLI::App& app, launch::LineArguments& line);
 
 /// What all that run something have in common: output, seed, threads, time, pace and the like.
 void add_run_options(CLI::App& app, RunCommand& c);

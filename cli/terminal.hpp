@@ -35,7 +35,4 @@ void put(std::FILE* stream, std::string_view text);
 /// Writes a line to standard error: a text behind its label, which may be coloured.
 void put_note(std::string_view label, std::string_view text);
 
-/// A word as a shell takes it for one: in quotes where it must be.
-[[nodiscard]] std::string shell_word(const std::string& word);
-
 }  // namespace rave::cli

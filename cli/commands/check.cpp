@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "build_errors.hpp"
-#include "drawing.hpp"
 #include "error_text.hpp"
-#include "input_file.hpp"
 #include "places.hpp"
 #include "rave/assemble/build.hpp"
+#include "rave/config/any_file.hpp"
+#include "rave/drawing/drawing.hpp"
 #include "rave/sim/engine.hpp"
 
 namespace rave::cli {
@@ -32,19 +32,19 @@ std::string devices_text(const config::RobotFile& robot) {
 }
 
 /// What a file was taken for and what is in it, in a line.
-std::string summary_of(const InputFile& input, const runtime::BuiltScenario& built) {
+std::string summary_of(const config::AnyFile& input, const runtime::BuiltScenario& built) {
   const std::size_t obstacles = built.spec.world.obstacles.size();
   std::size_t simulated = 0;
   for (const sim::RobotSpec& robot : built.spec.robots) {
     if (built.spec.types[robot.type].simulated) ++simulated;
   }
   switch (input.kind) {
-    case FileKind::kRobot:
+    case config::FileKind::kRobot:
       return fmt::format("{} robot with {}", simulated == 1 ? "simulated" : "real",
                          devices_text(input.scenario.groups[0].robot));
-    case FileKind::kWorld:
+    case config::FileKind::kWorld:
       return fmt::format("world with {}", counted(obstacles, "obstacle"));
-    case FileKind::kScenario:
+    case config::FileKind::kScenario:
       break;
   }
   std::set<std::string> drivers;
@@ -108,18 +108,18 @@ class Checker {
 
   /// Programs and drivers check what they are given when they start. With hardware that would open
   /// devices, so only runs without any are tried.
-  [[nodiscard]] Status try_start(const InputFile& input, const runtime::BuildOptions& how) {
+  [[nodiscard]] Status try_start(const config::AnyFile& input, const runtime::BuildOptions& how) {
     RAVE_TRY_ASSIGN(auto built, runtime::build(input.scenario, catalogue_, how));
-    if (input.kind == FileKind::kWorld || !built.live_reason.empty()) return {};
+    if (input.kind == config::FileKind::kWorld || !built.live_reason.empty()) return {};
     RAVE_TRY_ASSIGN(const auto engine, sim::Engine::create(std::move(built.spec)));
     return {};
   }
 
   bool check_file(const std::string& word) {
     const std::string file = file_of(word);
-    const auto kind = recognise(file);
+    const auto kind = config::recognise(file);
     if (!kind) return bad(file, "", kind.error());
-    auto input = read_input(file);
+    auto input = config::read_any_file(file);
     if (!input) return bad(file, to_string(*kind), input.error());
     runtime::BuildOptions build_options;
     build_options.program_runner = program_runner();
@@ -141,13 +141,13 @@ class Checker {
       return bad(file, to_string(*kind), started.error());
     }
     report_good(file, *input, *built);
-    if (options_.expand) put(stdout, write_input(*input));
+    if (options_.expand) put(stdout, config::write_any_file(*input));
     if (!options_.draw.empty()) return draw_file(*input, *std::move(built));
     return true;
   }
 
   /// The verdict goes beside the errors when the expanded file takes the standard output.
-  void report_good(const std::string& file, const InputFile& input,
+  void report_good(const std::string& file, const config::AnyFile& input,
                    const runtime::BuiltScenario& built) const {
     std::FILE* const stream = options_.expand ? stderr : stdout;
     const Terminal terminal = terminal_of(stream);
@@ -167,8 +167,8 @@ class Checker {
     }
   }
 
-  [[nodiscard]] bool draw_file(const InputFile& input, runtime::BuiltScenario built) const {
-    const Status drawn = draw(input, std::move(built), options_.draw);
+  [[nodiscard]] bool draw_file(const config::AnyFile& input, runtime::BuiltScenario built) const {
+    const Status drawn = drawing::draw(input, std::move(built), options_.draw);
     if (!drawn) return complain(drawn.error()) == kGood;
     put(options_.expand ? stderr : stdout, fmt::format("drawn: {}\n", options_.draw));
     return true;

@@ -10,15 +10,15 @@
 #include <thread>
 #include <utility>
 
-#include "bus_search.hpp"
 #include "console.hpp"
 #include "error_text.hpp"
-#include "managed_run.hpp"
 #include "places.hpp"
 #include "rave/base/thread.hpp"
+#include "rave/client/bus_search.hpp"
+#include "rave/client/sought_run.hpp"
 #include "rave/protocol/agreement.hpp"
+#include "run_page.hpp"
 #include "run_scenario.hpp"
-#include "sought_run.hpp"
 
 namespace rave::cli {
 namespace {
@@ -63,13 +63,13 @@ class ScenarioPage {
 
   Result<std::unique_ptr<gui_server::GuiServer>> serve() {
     RAVE_TRY_ASSIGN(bus_,
-                    bus_config(options_.bus, "GUI Server", runtime::shared_number(scenario_)));
-    make_room(bus_, kMostHosts);
+                    bus::bus_config(options_.bus, "GUI Server", runtime::shared_number(scenario_)));
+    bus::make_room(bus_, bus::kMostHosts);
     // The search has a bus of its own.
     bus_.beside = true;
     // A run that is named has that number, whatever it runs.
     named_ = !options_.bus.run.empty();
-    if (!named_) RAVE_TRY(seek(search_patience(bus_), {}));
+    if (!named_) RAVE_TRY(seek(client::search_patience(bus_), {}));
     return show_run(options_, scenario_, bus_, nullptr, console_, when_over());
   }
 
@@ -120,7 +120,7 @@ class ScenarioPage {
   RunCommand options_;
   config::ExpandedScenario scenario_;
   Afterwards& afterwards_;
-  RunSeeker seeker_;
+  client::RunSeeker seeker_;
   Console console_{false};
   bus::BusConfig bus_;
   bool named_ = false;

@@ -6,13 +6,14 @@
 #include <filesystem>
 
 #include "error_text.hpp"
-#include "managed_run.hpp"
 #include "places.hpp"
 #include "rave/base/control_characters.hpp"
 #include "rave/control/bus_requests.hpp"
 #include "rave/control/commands.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/host/host_run.hpp"
+#include "rave/launch/managed_run.hpp"
+#include "rave/launch/run_bus.hpp"
 #include "run_scenario.hpp"
 #include "run_start.hpp"
 
@@ -46,7 +47,7 @@ Result<int> robot(const RobotCommand& options) {
   RAVE_TRY_ASSIGN(how.others, open_catalogue(run.plugins));
   how.host = options.host;
   how.manager_patience = from_seconds(options.manager_patience_s);
-  RAVE_TRY_ASSIGN(how.bus, bus_of_run(run.bus, options.host, scenario, bus::Reach::kHubs));
+  RAVE_TRY_ASSIGN(how.bus, launch::bus_of_run(run.bus, options.host, scenario, bus::Reach::kHubs));
   RAVE_TRY_ASSIGN(const auto opened, RunStart::open(run, name));
   RunStart& start = *opened;
   runtime::RunControl& control = start.control();
@@ -56,7 +57,8 @@ Result<int> robot(const RobotCommand& options) {
   how.begin_request = control::bus_requests_of(control, &relay);
   RAVE_TRY_ASSIGN(how.begin_command, control::commands_of(control, scenario, options.host));
   start.serve(how.run.run_name, "host", "this host");
-  const auto line = open_host_line(run.line, options.host, how.bus, control, start.console());
+  const auto line =
+      launch::open_host_line(run.line, options.host, how.bus, control, start.console());
   if (!line) {
     start.discard();
     return tl::unexpected(line.error());
@@ -75,7 +77,8 @@ Result<int> robot(const RobotCommand& options) {
 Result<int> env(const EnvCommand& options) {
   const RunCommand& run = options.run;
   RAVE_TRY_ASSIGN(auto scenario, read_scenario(run));
-  RAVE_TRY_ASSIGN(auto bus, bus_of_run(run.bus, "environment manager", scenario, bus::Reach::kHub));
+  RAVE_TRY_ASSIGN(auto bus,
+                  launch::bus_of_run(run.bus, "environment manager", scenario, bus::Reach::kHub));
   const std::string& name = scenario.scenario.name.value;
   RAVE_TRY_ASSIGN(const auto opened, RunStart::open(run, name + "-env"));
   RunStart& start = *opened;
@@ -83,18 +86,20 @@ Result<int> env(const EnvCommand& options) {
   runtime::RunControl& control = start.control();
   start.serve(control::own_run_name(name), "run", "this run");
   bool started = false;
-  auto managed = manage_run({scenario,
-                             run,
-                             bus,
-                             start.path(),
-                             console,
-                             control,
-                             [&] {
-                               started = true;
-                               return control.stopping();
-                             },
-                             {},
-                             options.resume});
+  auto managed = launch::manage_run(
+      {.scenario = scenario,
+       .settings = run,
+       .bus = bus,
+       .folder = start.path(),
+       .log = console,
+       .control = control,
+       .stopping =
+           [&] {
+             started = true;
+             return control.stopping();
+           },
+       .resume = options.resume,
+       .on_progress = [&console](const report::Progress& progress) { console.show(progress); }});
   console.clear();
   if (!managed && !started) start.discard();
   if (!managed) return tl::unexpected(managed.error());

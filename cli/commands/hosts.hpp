@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "bus_options.hpp"
 #include "commands/run.hpp"
 #include "rave/base/result.hpp"
 

@@ -6,6 +6,7 @@
 #include "error_text.hpp"
 #include "new_project.hpp"
 #include "places.hpp"
+#include "rave/process/shell_word.hpp"
 
 namespace rave::cli {
 namespace {
@@ -39,17 +40,17 @@ Result<int> new_project(const NewCommand& options) {
                             "then name it in a scenario, and run that with --gui:\n"
                             "  gui:\n    components:\n"
                             "      - {{module: {0}/{1}.mjs, roles: [observer, commander]}}\n",
-                            folder, options.name, shell_word(folder)));
+                            folder, options.name, process::shell_word(folder)));
     return kGood;
   }
   const std::string prefix = executable_folder().parent_path().string();
-  const std::string shell_folder = shell_word(folder);
-  const std::string build = shell_word(folder + "/build");
+  const std::string shell_folder = process::shell_word(folder);
+  const std::string build = process::shell_word(folder + "/build");
   put(stdout, fmt::format("created {0}; edit {0}/{1}.cpp\n\nnext:\n"
                           "  cmake -S {2} -B {3} -DCMAKE_PREFIX_PATH={4}\n"
                           "  cmake --build {3}\n"
                           "  rave describe {1} --plugins {3}\n",
-                          folder, options.name, shell_folder, build, shell_word(prefix)));
+                          folder, options.name, shell_folder, build, process::shell_word(prefix)));
   put(stdout,
       "then name it as `driver:` in a robot file, and pass --plugins to `rave run` or set "
       "RAVE_PLUGIN_PATH\n");

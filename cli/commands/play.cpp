@@ -5,7 +5,7 @@
 
 #include "error_text.hpp"
 #include "places.hpp"
-#include "run_folder.hpp"
+#include "rave/launch/run_folder.hpp"
 
 namespace rave::cli {
 namespace {
@@ -15,9 +15,9 @@ namespace fs = std::filesystem;
 /// In the folder of a run, the scenario that was made for it.
 constexpr const char* kScenarioFolder = "played";
 
-Result<PlayedScenario> make(const PlayCommand& options) {
+Result<replay::PlayedScenario> make(const PlayCommand& options) {
   RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.run.plugins));
-  PlayArguments arguments = options.how;
+  replay::PlayArguments arguments = options.how;
   RAVE_TRY_ASSIGN(arguments.record, record_file(options.file));
   if (!options.write.empty()) {
     arguments.folder = options.write;
@@ -26,7 +26,7 @@ Result<PlayedScenario> make(const PlayCommand& options) {
     arguments.folder =
         fs::path(options.run.output.empty() ? "runs/new" : options.run.output) / kScenarioFolder;
   }
-  return played_scenario(arguments, *catalogue);
+  return replay::played_scenario(arguments, *catalogue);
 }
 
 /// The recording is read throughout the run, so `--replace` must not remove it.
@@ -46,17 +46,17 @@ Result<int> play(const PlayCommand& options) {
   RAVE_TRY_ASSIGN(const auto played, make(options));
   for (const std::string& note : played.notes) put_note(terminal_of(stderr).yellow("note:"), note);
   if (!options.write.empty()) {
-    RAVE_TRY(write_played(played, options.write));
+    RAVE_TRY(replay::write_played(played, options.write));
     put(stdout, fmt::format("wrote {0}; run it with `rave run {0}`\n", options.write));
     return kGood;
   }
   RAVE_TRY(keeps_its_record(options));
-  RAVE_TRY_ASSIGN(const auto folder,
-                  RunFolder::create({options.run.output, options.run.replace}, played.name));
+  RAVE_TRY_ASSIGN(const auto folder, launch::RunFolder::create(
+                                         {options.run.output, options.run.replace}, played.name));
   const fs::path scenario = folder.path() / kScenarioFolder;
   std::error_code error;
   if (options.run.replace) fs::remove_all(scenario, error);
-  RAVE_TRY(write_played(played, scenario));
+  RAVE_TRY(replay::write_played(played, scenario));
   RunCommand run_options = options.run;
   run_options.scenario = scenario.string();
   run_options.output = folder.path().string();

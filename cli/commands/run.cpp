@@ -5,6 +5,7 @@
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/gui_server/live_run.hpp"
+#include "rave/gui_server/run_lines.hpp"
 #include "rave/host/run.hpp"
 #include "run_report.hpp"
 #include "run_scenario.hpp"
@@ -15,13 +16,16 @@ namespace rave::cli {
 namespace {
 
 /// The direct line of a run of this process; none if none is asked for.
-Result<HostLineEnds> open_line(const RunCommand& options, const config::ExpandedScenario& scenario,
-                               gui_server::GuiServer* page, RunStart& start) {
-  if (!options.line.web) return HostLineEnds{};
+Result<std::unique_ptr<direct_line::LineServer>> open_line(const RunCommand& options,
+                                                           const config::ExpandedScenario& scenario,
+                                                           gui_server::GuiServer* page,
+                                                           RunStart& start) {
+  if (!options.line.web) return nullptr;
   if (page == nullptr) {
     return fail(ErrorCode::kInvalidArgument, "--web: a run of one process also needs --gui");
   }
-  return open_line_here(options.line, scenario, start.control(), *page, start.console());
+  RAVE_TRY_ASSIGN(auto line, launch::line_options(options.line, start.console()));
+  return gui_server::open_line_here(std::move(line), scenario, start.control(), *page);
 }
 
 /// A run whose robots all belong to this process.

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "bus_search.hpp"
 #include "error_text.hpp"
 #include "key_watch.hpp"
+#include "rave/client/bus_search.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/watch/lone_run.hpp"
 #include "rave/watch/observer.hpp"
@@ -65,7 +65,7 @@ Result<Look> join(bus::BusConfig config, const bus::RunId& run) {
 Result<Look> find_shared_run(const bus::BusConfig& config, const std::string& word,
                              const std::stop_token& stop) {
   RAVE_TRY_ASSIGN(const bus::RunId run,
-                  find_bus_run(config, word, SearchFor::kLook, kSearch, stop));
+                  client::find_bus_run(config, word, client::SearchFor::kLook, kSearch, stop));
   return join(config, run);
 }
 

@@ -137,8 +137,8 @@ function forget() {
   run.lines = [];
 }
 
-/** Pixels below the top of the picture: its height, the driven robot and its way in two seconds, and
- * what the controls cover. */
+/** Pixels below the top of the picture: its height, the driven robot and its way in two seconds,
+ * and what the controls cover. */
 function placesOf(page, controls) {
   return page.evaluate((part) => {
     const {world, joystick} = document.querySelector('rave-app');

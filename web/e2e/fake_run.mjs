@@ -1,62 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // A made-up run of any size, as messages and frames of the GUI Server, for tests of the page alone.
+import {
+  fakeAccounts,
+  fakeAudit,
+  fakeRights,
+  kCommanderMay,
+  kRays,
+  kTeams,
+  makeBodies,
+  makeRobots,
+} from './fake_scene.mjs';
 
-const kTeams = ['north', 'south', 'east', 'scouts'];
-const kRange_m = 4;
-const kRays = 61;
 const kPoseHeader = 48;
 /** The sensor that stands for what a robot was asked and what is left of it. */
 const kCommandsOf = 0xefff;
-
-/** A roster of `count` robots: the first `real` of them are real and have a laser. */
-export function makeRobots(count, real = 5) {
-  return Array.from({length: count}, (_, i) => {
-    const isReal = i < real;
-    return {
-      name: isReal ? `real-${i + 1}` : `walker-${i + 1 - real}`,
-      team: isReal ? 'utias' : kTeams[i % kTeams.length],
-      kind: isReal ? 'real' : 'simulated', word: '', recorded: false, program: 'wander', drivers: ['create'],
-      parameters: [
-        {key: 'program.cruise_mps', kind: 'number', unit: 'm/s', doc: 'How fast it goes.', range: [0, 1], value: 0.2},
-        {key: 'program.avoid_m', kind: 'number', unit: 'm', doc: 'From where on it turns away.', range: [0, 2], value: 0.45}],
-      host: `host-${(i % 3) + 1}`,
-      shapes: [{disc: [0, 0, 0.17], z: [0, 0.12]}, ...(isReal ? [{disc: [0, 0, 0.04], z: [0.12, 0.5]}] : [])],
-      sensors: isReal || count <= 64 ? [laser()] : [],
-    };
-  });
-}
-
-function laser() {
-  const bearings = Array.from({length: kRays}, (_, i) => -2 + (4 * i) / (kRays - 1));
-  return {name: 'laser', kind: 'ranges', origin: 'virtual', driver: 'virtual_laser', mount: [0.1, 0, 0], z: 0.2,
-    period_s: 0.1, range: [0.05, kRange_m], bearings, fields: [{name: 'range_m', label: 'range', unit: 'm', format: 'float32'}]};
-}
-
-export function makeBodies(half_m) {
-  const box = (w, h) => [[-w, -h], [w, -h], [w, h], [-w, h]];
-  return [
-    {id: 1, name: 'crate', kind: 'virtual', pose: [-half_m / 3, half_m / 4, 0.4], shapes: [{polygon: box(0.5, 0.3), z: [0, 0.5]}]},
-    {id: 2, name: 'pond', kind: 'virtual', pose: [half_m / 3, -half_m / 3, 0], shapes: [{disc: [0, 0, 0.5], z: [0, 0.3]}]},
-    {id: 3, name: 'tube-1', kind: 'landmark', pose: [0, half_m / 2, 0], shapes: [{disc: [0, 0, 0.04], z: [0, 0.7]}], barcode: 23},
-    {id: 4, name: 'wall', kind: 'wall', pose: [0, -half_m, 0], shapes: [{polygon: box(half_m, 0.05), z: [0, 1]}]},
-  ];
-}
-
-/** Who may come in, with everything that is shown of it. */
-function fakeAccounts() {
-  const now_s = Math.floor(Date.now() / 1000);
-  const person = (name, role, teams, pages, more = {}) => ({name, role, teams, guest: false, name_given: true, disabled: false, pages, sessions: pages === 0 ? 0 : 1, seen_s: now_s - 26 * 3600, ...more});
-  return {type: 'accounts', kept: true, why_not: '', links: 1,
-    people: [person('Ada N', 'super_user', '*', 2), person('ben', 'commander', '*', 1), person('carla', 'observer', 'north', 1, {guest: true, name_given: false}),
-      person('fatima', 'observer', 'south,west', 0), person('gil', 'commander', '-', 0, {disabled: true, seen_s: 0})],
-    invitations: [{id: 'a1', role: 'observer', teams: '*', uses: 7, until_s: now_s + 23 * 3600 + 60, by: 'Ada N', name: ''}, {id: 'a2', role: 'commander', teams: 'east', uses: 1, until_s: now_s + 5 * 86400 + 60, by: 'operator', name: ''}]};
-}
-
-function fakeAudit() {
-  const at = (ago_s) => new Date(Date.now() - 1000 * ago_s).toISOString().slice(0, 19) + 'Z';
-  return [{time: at(5), what: 'right', user: 'Ada N', detail: 'obstacles of carla: none'}, {time: at(30), what: 'refused', user: 'carla', why: 'order', detail: 'goal, 1 robots: Your rights do not include this.'},
-    {time: at(60), what: 'stop', user: 'ben', detail: '1 robots'}, {time: at(90), what: 'login', user: 'ben', by: 'password', from: '192.168.1.20'}, {time: at(90000), what: 'invitation', user: 'Ada N', detail: 'made: observer, teams *, 10 uses, 1 days'}];
-}
 
 /** Robots on circles of their own about the middle of their team. */
 export class FakeRun {
@@ -67,7 +24,7 @@ export class FakeRun {
     this.name = options.name ?? 'fake';
     this.duration_s = options.duration_s ?? 120;
     this.source = options.source ?? 'live';
-    this.may = options.may ?? ['play', 'pace', 'step', 'stop', 'release', 'readings', 'obstacles', 'log', 'command', 'edit', 'chat'];
+    this.may = options.may ?? kCommanderMay;
     this.role = options.role ?? 'commander';
     this.now_s = options.now_s ?? 0;
     this.state = 'running';
@@ -81,14 +38,16 @@ export class FakeRun {
     this.driven = [];
     /** By slot: what was asked, and what the guard left of it; m/s and rad/s each. */
     this.told = new Map();
-    this.drives = new Map(this.robots.map((_, slot) => [slot, {lease: '', takes: ['drive', 'goal', 'path', 'text', 'place'], order: ''}]));
+    this.drives = new Map(
+      this.robots.map((_, slot) => [
+        slot,
+        {lease: '', takes: ['drive', 'goal', 'path', 'text', 'place'], order: ''},
+      ]),
+    );
     this.lines = [];
     this.hosts = null;
     this.seenBy = null;
-    this.rights = {type: 'rights', classes: ['pose', 'true_pose', 'readings', 'hybrid_parts', 'obstacles', 'log', 'recording', 'stop'], teams: kTeams,
-      rows: ['observer', 'commander', 'super_user'].map((role, i) => ({role, cells: Object.fromEntries(
-        ['pose', 'true_pose', 'readings', 'hybrid_parts', 'obstacles', 'log', 'recording', 'stop'].map((what, k) => [what, i === 2 || k % 3 === 0 ? 'all' : i === 1 ? 'own' : 'none']))})),
-      people: [{name: 'carla', role: 'observer', teams: 'north'}, {name: 'ben', role: 'commander', teams: '*'}]};
+    this.rights = fakeRights();
     this.accounts = fakeAccounts();
     this.audit = fakeAudit();
     this.events = [];
@@ -97,35 +56,112 @@ export class FakeRun {
 
   hello() {
     const recorded = 'This is a recording: it takes no orders.';
-    const why = this.source === 'live' ? {seek: 'A live run cannot be moved in time.'} : {stop: recorded, release: recorded, command: recorded, edit: recorded};
-    const every = ['play', 'seek', 'pace', 'step', 'stop', 'release', 'true_pose', 'readings', 'hybrid_parts', 'obstacles', 'log', 'recording', 'command', 'edit', 'chat', 'maps', 'probe'];
-    const why_not = Object.fromEntries(every.filter((power) => !this.may.includes(power)).map((power) => [power, why[power] ?? 'Your rights do not include this.']));
-    return {type: 'hello', protocol: 1, server: 'fake 0', user: {name: 'Ada N', role: this.role}, ...(this.seenBy ? {user: this.seenBy.as, seen_by: this.seenBy.by} : {}), may: this.may, why_not, ...(this.components.length ? {components: this.components} : {}),
-      run: {name: this.name, source: this.source, clock: 'lock_step', started: '', step_s: 0.01, seed: 1, hash: null, recording: null}};
+    const why =
+      this.source === 'live'
+        ? {seek: 'A live run cannot be moved in time.'}
+        : {stop: recorded, release: recorded, command: recorded, edit: recorded};
+    const every = [
+      'play',
+      'seek',
+      'pace',
+      'step',
+      'stop',
+      'release',
+      'true_pose',
+      'readings',
+      'hybrid_parts',
+      'obstacles',
+      'log',
+      'recording',
+      'command',
+      'edit',
+      'chat',
+      'maps',
+      'probe',
+    ];
+    const why_not = Object.fromEntries(
+      every
+        .filter((power) => !this.may.includes(power))
+        .map((power) => [power, why[power] ?? 'Your rights do not include this.']),
+    );
+    return {
+      type: 'hello',
+      protocol: 1,
+      server: 'fake 0',
+      user: {name: 'Ada N', role: this.role},
+      ...(this.seenBy ? {user: this.seenBy.as, seen_by: this.seenBy.by} : {}),
+      may: this.may,
+      why_not,
+      ...(this.components.length ? {components: this.components} : {}),
+      run: {
+        name: this.name,
+        source: this.source,
+        clock: 'lock_step',
+        started: '',
+        step_s: 0.01,
+        seed: 1,
+        hash: null,
+        recording: null,
+      },
+    };
   }
 
   time() {
-    return {type: 'time', now_s: this.now_s, step: Math.round(this.now_s * 100), begin_s: this.source === 'live' ? this.now_s : 0, duration_s: this.duration_s,
-      end_s: this.source === 'live' ? this.now_s : this.duration_s, state: this.state, reason: this.reason,
-      pace: this.pace, speed: this.state === 'running' ? this.pace : 0};
+    return {
+      type: 'time',
+      now_s: this.now_s,
+      step: Math.round(this.now_s * 100),
+      begin_s: this.source === 'live' ? this.now_s : 0,
+      duration_s: this.duration_s,
+      end_s: this.source === 'live' ? this.now_s : this.duration_s,
+      state: this.state,
+      reason: this.reason,
+      pace: this.pace,
+      speed: this.state === 'running' ? this.pace : 0,
+    };
   }
 
   opening() {
     const all = this.may.includes('obstacles');
     const bodies = this.bodies.filter((body) => all || body.kind !== 'virtual');
-    return [this.hello(), {type: 'scene', bodies, hidden: all ? [] : ['virtual']},
+    return [
+      this.hello(),
+      {type: 'scene', bodies, hidden: all ? [] : ['virtual']},
       {type: 'roster', robots: this.robots},
-      {type: 'events', reset: true, first: 0, events: this.events}, this.time(),
-      ...(this.hosts ? [{type: 'hosts', hosts: this.hosts}] : []), ...(this.may.includes('rights') ? [this.rights, this.accounts] : []),
-      ...(this.source === 'live' ? [this.leases([...this.drives.keys()], true), {type: 'chat', reset: true, lines: this.lines}] : []),
-      {type: 'people', people: [{name: 'Ada N', role: this.role}, {name: 'Ben K', role: 'observer'}]}];
+      {type: 'events', reset: true, first: 0, events: this.events},
+      this.time(),
+      ...(this.hosts ? [{type: 'hosts', hosts: this.hosts}] : []),
+      ...(this.may.includes('rights') ? [this.rights, this.accounts] : []),
+      ...(this.source === 'live'
+        ? [
+            this.leases([...this.drives.keys()], true),
+            {type: 'chat', reset: true, lines: this.lines},
+          ]
+        : []),
+      {
+        type: 'people',
+        people: [
+          {name: 'Ada N', role: this.role},
+          {name: 'Ben K', role: 'observer'},
+        ],
+      },
+    ];
   }
 
   leases(slots, reset = false) {
-    return {type: 'leases', reset, robots: slots.map((slot) => ({slot, ...this.drives.get(slot), yours: this.drives.get(slot).lease === 'Ada N'}))};
+    return {
+      type: 'leases',
+      reset,
+      robots: slots.map((slot) => ({
+        slot,
+        ...this.drives.get(slot),
+        yours: this.drives.get(slot).lease === 'Ada N',
+      })),
+    };
   }
 
-  /** Robots with an even slot take orders of anybody; others are of Ben as long as nobody forces them. */
+  /** Robots with an even slot take orders of anybody; others are of Ben as long as nobody forces
+   * them. */
   command(message) {
     const slots = message.slots ?? [];
     const refused = [];
@@ -141,14 +177,26 @@ export class FakeRun {
         continue;
       } else drive.lease = 'Ada N';
       if (message.kind === 'goal' || message.kind === 'path') {
-        const [x, y] = message.points[message.points.length === slots.length && message.kind === 'goal' ? slots.indexOf(slot) : message.points.length - 1];
+        const [x, y] =
+          message.points[
+            message.points.length === slots.length && message.kind === 'goal'
+              ? slots.indexOf(slot)
+              : message.points.length - 1
+          ];
         drive.order = `${message.kind} ${x.toFixed(2)}, ${y.toFixed(2)}`;
       }
       if (message.kind === 'cancel') drive.order = '';
       if (message.kind === 'drive') this.driven.push([slot, message.v, message.w]);
     }
     const to = message.kind ?? message.do ?? message.type;
-    return {type: 'answer', to, good: refused.length === 0, text: refused[0]?.text ?? `${to}: done`, request: message.request, ...(refused.length ? {refused} : {})};
+    return {
+      type: 'answer',
+      to,
+      good: refused.length === 0,
+      text: refused[0]?.text ?? `${to}: done`,
+      request: message.request,
+      ...(refused.length ? {refused} : {}),
+    };
   }
 
   outside(message) {
@@ -158,7 +206,13 @@ export class FakeRun {
   edit({do: what, name, pose, disc, polygon}) {
     const known = this.bodies.findIndex((body) => body.name === name);
     if (what === 'add') {
-      const body = {id: 100 + this.bodies.length, name, kind: 'virtual', pose, shapes: [{...(disc ? {disc: [0, 0, disc]} : {polygon}), z: [0, 0.5]}]};
+      const body = {
+        id: 100 + this.bodies.length,
+        name,
+        kind: 'virtual',
+        pose,
+        shapes: [{...(disc ? {disc: [0, 0, disc]} : {polygon}), z: [0, 0.5]}],
+      };
       this.bodies.push(body);
       return {type: 'scene_change', set: [body], gone: []};
     }
@@ -173,13 +227,23 @@ export class FakeRun {
 
   say(message, from = {name: 'Ada N', role: 'commander'}) {
     const name = message.to === 'robot' ? this.robots[message.slot].name : (message.name ?? '');
-    const line = {number: this.lines.length + 1, t: this.now_s, from, yours: from.name === 'Ada N', to: message.to, name, text: message.text};
+    const line = {
+      number: this.lines.length + 1,
+      t: this.now_s,
+      from,
+      yours: from.name === 'Ada N',
+      to: message.to,
+      name,
+      text: message.text,
+    };
     this.lines.push(line);
     return {type: 'chat', reset: false, lines: [line]};
   }
 
   setRight({role, user, class: what, reach}) {
-    let row = this.rights.rows.find((known) => (user ? known.user === user : known.role === role && !known.user));
+    let row = this.rights.rows.find((known) =>
+      user ? known.user === user : known.role === role && !known.user,
+    );
     if (!row) this.rights.rows.push((row = {user, cells: {}}));
     if (reach === null) delete row.cells[what];
     else row.cells[what] = reach;
@@ -191,22 +255,70 @@ export class FakeRun {
     const {people, invitations} = this.accounts;
     if (type === 'audit') {
       const text = (message.contains ?? '').toLowerCase();
-      const lines = this.audit.filter((line) => (!message.what || line.what === message.what) && JSON.stringify(line).toLowerCase().includes(text));
-      return [{type: 'audit_lines', request, more: lines.length > message.most, lines: lines.slice(0, message.most)}, {type: 'answer', to: 'audit', good: true, text: '', request}];
+      const lines = this.audit.filter(
+        (line) =>
+          (!message.what || line.what === message.what) &&
+          JSON.stringify(line).toLowerCase().includes(text),
+      );
+      return [
+        {
+          type: 'audit_lines',
+          request,
+          more: lines.length > message.most,
+          lines: lines.slice(0, message.most),
+        },
+        {type: 'answer', to: 'audit', good: true, text: '', request},
+      ];
     }
-    const answer = {type: 'answer', to: what, good: true, text: `${name ?? 'invitation'}: ${what}`, request};
+    const answer = {
+      type: 'answer',
+      to: what,
+      good: true,
+      text: `${name ?? 'invitation'}: ${what}`,
+      request,
+    };
     const known = people.find((person) => person.name === name);
     if (what === 'change') Object.assign(known, {role: message.role, teams: message.teams});
-    else if (what === 'disable' || what === 'enable') Object.assign(known, {disabled: what === 'disable', pages: 0, sessions: 0});
+    else if (what === 'disable' || what === 'enable')
+      Object.assign(known, {disabled: what === 'disable', pages: 0, sessions: 0});
     else if (what === 'end_sessions') Object.assign(known, {pages: 0, sessions: 0});
-    else if (what === 'withdraw') invitations.splice(invitations.findIndex(({id}) => id === message.id), 1);
-    else invitations.push({id: `b${request}`, role: message.role, teams: message.teams, uses: message.uses, until_s: Math.floor(Date.now() / 1000) + message.days * 86400, by: 'Ada N', name: message.name});
-    return [this.accounts, ...(what === 'make' ? [{type: 'invited', request, link: '/join?invite=0123456789abcdef'}] : []), answer];
+    else if (what === 'withdraw')
+      invitations.splice(
+        invitations.findIndex(({id}) => id === message.id),
+        1,
+      );
+    else
+      invitations.push({
+        id: `b${request}`,
+        role: message.role,
+        teams: message.teams,
+        uses: message.uses,
+        until_s: Math.floor(Date.now() / 1000) + message.days * 86400,
+        by: 'Ada N',
+        name: message.name,
+      });
+    return [
+      this.accounts,
+      ...(what === 'make'
+        ? [{type: 'invited', request, link: '/join?invite=0123456789abcdef'}]
+        : []),
+      answer,
+    ];
   }
 
   /** What a super-user is shown as another one; without `as` everything again. */
   seeAs(as) {
-    const all = ['play', 'pace', 'step', 'stop', 'release', 'readings', 'obstacles', 'log', 'rights'];
+    const all = [
+      'play',
+      'pace',
+      'step',
+      'stop',
+      'release',
+      'readings',
+      'obstacles',
+      'log',
+      'rights',
+    ];
     this.seenBy = as ? {as, by: {name: 'Ada N', role: 'super_user'}} : null;
     this.may = as ? ['readings', 'log'] : all;
   }
@@ -214,15 +326,19 @@ export class FakeRun {
   advance(seconds) {
     if (this.state !== 'running') return;
     this.now_s += seconds * this.pace;
-    this.robots.forEach((_, i) => { if (!this.stopped.has(i)) this.travelled[i] += seconds * this.pace; });
+    this.robots.forEach((_, i) => {
+      if (!this.stopped.has(i)) this.travelled[i] += seconds * this.pace;
+    });
   }
 
   place(i) {
     const team = i % kTeams.length;
     const golden = i * 2.399963;
     const spread = 0.55 * Math.sqrt(i / kTeams.length + 1);
-    const cx = this.half_m * 0.45 * Math.cos((team * Math.PI) / 2 + 0.5) + spread * Math.cos(golden);
-    const cy = this.half_m * 0.45 * Math.sin((team * Math.PI) / 2 + 0.5) + spread * Math.sin(golden);
+    const cx =
+      this.half_m * 0.45 * Math.cos((team * Math.PI) / 2 + 0.5) + spread * Math.cos(golden);
+    const cy =
+      this.half_m * 0.45 * Math.sin((team * Math.PI) / 2 + 0.5) + spread * Math.sin(golden);
     const a = golden + (0.2 * this.travelled[i]) / 0.4;
     return [cx + 0.4 * Math.cos(a), cy + 0.4 * Math.sin(a), a + Math.PI / 2];
   }
@@ -249,14 +365,18 @@ export class FakeRun {
       yaw[i] = Math.round(((((a % turn) + turn) % turn) / turn) * 65536) & 0xffff;
       const stopped = this.stopped.has(i);
       speed[i] = stopped || this.state !== 'running' ? 0 : 200;
-      flags[i] = i >= this.known ? 0 : 1 + (stopped ? 4 : 0) + (this.robots[i].kind === 'real' ? 16 : 0);
+      flags[i] =
+        i >= this.known ? 0 : 1 + (stopped ? 4 : 0) + (this.robots[i].kind === 'real' ? 16 : 0);
     }
     return buffer;
   }
 
   reading(slot, sensor) {
-    if (sensor === kCommandsOf && this.told.has(slot)) return this.row(slot, sensor, this.told.get(slot));
-    const ranges = Array.from({length: kRays}, (_, i) => (i % 20 < 12 ? Infinity : 1 + 0.05 * (i % 7)));
+    if (sensor === kCommandsOf && this.told.has(slot))
+      return this.row(slot, sensor, this.told.get(slot));
+    const ranges = Array.from({length: kRays}, (_, i) =>
+      i % 20 < 12 ? Infinity : 1 + 0.05 * (i % 7),
+    );
     return this.row(slot, sensor, ranges, ranges.length, 1);
   }
 

@@ -7,10 +7,12 @@ import {join} from 'node:path';
 import {gzipSync} from 'node:zlib';
 import {launch} from './browser.mjs';
 import {app, check, report, showFailures, until, untilHere, watch} from './checks.mjs';
+import {checkComponents} from './component_checks.mjs';
 import {checkDriving} from './driving_checks.mjs';
 import {FakeRun} from './fake_run.mjs';
 import {serveFake} from './fake_server.mjs';
-import {clickAt, dragThrough, freePlace, Hand, placeOf, stubPad} from './hands.mjs';
+import {checkHand} from './hand_check.mjs';
+import {clickAt, dragThrough, freePlace, placeOf, stubPad} from './hands.mjs';
 
 const [pageFolder, folder] = process.argv.slice(2);
 const kFirstLoad = 300_000;
@@ -20,10 +22,16 @@ mkdirSync(folder, {recursive: true});
 
 const browser = await launch();
 const server = await serveFake(pageFolder, new FakeRun(16, {real: 5}));
-const heard = (type, kind) => server.heard.filter((message) => message.type === type && (kind === undefined || message.kind === kind || message.do === kind));
+const heard = (type, kind) =>
+  server.heard.filter(
+    (message) =>
+      message.type === type && (kind === undefined || message.kind === kind || message.do === kind),
+  );
 const last = (type, kind) => heard(type, kind).at(-1);
-const choose = (page, ...slots) => page.evaluate((what) => document.querySelector('rave-app').selection.set(what), slots);
-const pending = (page) => page.evaluate(`${app}.commands.pending.map(({kind, state, text}) => ({kind, state, text}))`);
+const choose = (page, ...slots) =>
+  page.evaluate((what) => document.querySelector('rave-app').selection.set(what), slots);
+const pending = (page) =>
+  page.evaluate(`${app}.commands.pending.map(({kind, state, text}) => ({kind, state, text}))`);
 
 async function opened(context) {
   const page = await context.newPage();
@@ -36,8 +44,15 @@ async function opened(context) {
 /** No serious finding of axe-core; it is injected past the page's policy. */
 async function seriousOf(page) {
   await page.evaluate(axe);
-  return page.evaluate(() => window.axe.run(document, {resultTypes: ['violations']}).then(({violations}) =>
-    violations.filter(({impact}) => impact === 'serious' || impact === 'critical').map(({id, nodes}) => `${id}: ${nodes.map(({html}) => html.slice(0, 120)).join(' | ')}`)));
+  return page.evaluate(() =>
+    window.axe
+      .run(document, {resultTypes: ['violations']})
+      .then(({violations}) =>
+        violations
+          .filter(({impact}) => impact === 'serious' || impact === 'critical')
+          .map(({id, nodes}) => `${id}: ${nodes.map(({html}) => html.slice(0, 120)).join(' | ')}`),
+      ),
+  );
 }
 
 try {
@@ -48,8 +63,13 @@ try {
   showFailures(page, join(folder, 'failure.png'));
 
   await check('the page is small enough to come at once', async () => {
-    const assets = readdirSync(join(pageFolder, 'assets')).filter((name) => /^index.*\.(js|css)$/.test(name));
-    const bytes = assets.reduce((sum, name) => sum + gzipSync(readFileSync(join(pageFolder, 'assets', name))).length, 0);
+    const assets = readdirSync(join(pageFolder, 'assets')).filter((name) =>
+      /^index.*\.(js|css)$/.test(name),
+    );
+    const bytes = assets.reduce(
+      (sum, name) => sum + gzipSync(readFileSync(join(pageFolder, 'assets', name))).length,
+      0,
+    );
     assert.ok(assets.length >= 2 && bytes < kFirstLoad, `${bytes} bytes`);
   });
 
@@ -95,9 +115,17 @@ try {
   await check('a drag with the tool is a path, which Enter sends and Escape drops', async () => {
     await choose(page, 6);
     await page.keyboard.press('w');
-    const line = [[-1, -1], [0, 0.5], [1, 0], [2, 1]];
+    const line = [
+      [-1, -1],
+      [0, 0.5],
+      [1, 0],
+      [2, 1],
+    ];
     await dragThrough(page, line);
-    await until(page, `document.querySelector('rave-world').renderRoot.querySelector('.beside.draft') !== null`);
+    await until(
+      page,
+      `document.querySelector('rave-world').renderRoot.querySelector('.beside.draft') !== null`,
+    );
     await page.keyboard.press('Escape');
     await page.keyboard.press('Enter');
     assert.equal(heard('order', 'path').length, 0);
@@ -123,7 +151,10 @@ try {
     assert.match(await card.innerText(), /`Ben K` drives walker-4/);
     await page.screenshot({path: join(folder, 'refused.png')});
     await card.getByRole('button', {name: 'Drop'}).click();
-    assert.deepEqual((await pending(page)).filter(({state}) => state === 'refused'), []);
+    assert.deepEqual(
+      (await pending(page)).filter(({state}) => state === 'refused'),
+      [],
+    );
     await page.keyboard.press('Escape');
   });
 
@@ -133,7 +164,11 @@ try {
     await page.waitForTimeout(300);
     await choose(page, 6);
     const [x, y] = server.run.place(6);
-    await dragThrough(page, [[x, y], [x + 0.5, y + 0.8], [x + 1, y + 1]]);
+    await dragThrough(page, [
+      [x, y],
+      [x + 0.5, y + 0.8],
+      [x + 1, y + 1],
+    ]);
     await until(page, `document.querySelector('rave-world').orders.desk.draft?.kind === 'path'`);
     await page.keyboard.press('Escape');
   });
@@ -141,12 +176,18 @@ try {
   await check('boxes, discs and polygons are drawn, moved, turned and removed', async () => {
     await page.keyboard.press('o');
     const [x, y] = await freePlace(page, 0.9);
-    await dragThrough(page, [[x - 0.3, y - 0.2], [x + 0.3, y + 0.2]]);
+    await dragThrough(page, [
+      [x - 0.3, y - 0.2],
+      [x + 0.3, y + 0.2],
+    ]);
     await untilHere(page, () => heard('edit', 'add').length === 1, 'a box');
     assert.equal(last('edit').polygon.length, 4);
     assert.ok(Math.hypot(last('edit').pose[0] - x, last('edit').pose[1] - y) < 0.05);
     // It is the run that puts it there.
-    await until(page, `[...${app}.model.bodies.values()].some(({name}) => name === ${JSON.stringify(last('edit').name)})`);
+    await until(
+      page,
+      `[...${app}.model.bodies.values()].some(({name}) => name === ${JSON.stringify(last('edit').name)})`,
+    );
     await page.waitForTimeout(200);
     await page.keyboard.press('v');
     await clickAt(page, x, y);
@@ -154,19 +195,31 @@ try {
     await untilHere(page, () => heard('edit', 'move').length === 1, 'a turn');
     assert.ok(Math.abs(last('edit').pose[2] - Math.PI / 12) < 1e-6);
     await page.waitForTimeout(150);
-    await dragThrough(page, [[x, y], [x + 0.2, y + 0.3]]);
+    await dragThrough(page, [
+      [x, y],
+      [x + 0.2, y + 0.3],
+    ]);
     await untilHere(page, () => heard('edit', 'move').length === 2, 'a move');
     assert.ok(Math.hypot(last('edit').pose[0] - x - 0.2, last('edit').pose[1] - y - 0.3) < 0.05);
     await page.keyboard.press('Delete');
     await untilHere(page, () => heard('edit', 'remove').length === 1, 'it goes');
     await page.keyboard.press('o');
     await page.getByRole('radio', {name: 'disc'}).click();
-    await dragThrough(page, [[x, y], [x + 0.3, y]]);
+    await dragThrough(page, [
+      [x, y],
+      [x + 0.3, y],
+    ]);
     await untilHere(page, () => heard('edit', 'add').length === 2, 'a disc');
     assert.ok(Math.abs(last('edit').disc - 0.3) < 0.03);
     await page.getByRole('radio', {name: 'polygon'}).click();
     const [px, py] = await freePlace(page, 0.8);
-    for (const [dx, dy] of [[0, 0], [0.4, 0], [0.4, 0.4], [0, 0]]) await clickAt(page, px + dx, py + dy);
+    for (const [dx, dy] of [
+      [0, 0],
+      [0.4, 0],
+      [0.4, 0.4],
+      [0, 0],
+    ])
+      await clickAt(page, px + dx, py + dy);
     await untilHere(page, () => heard('edit', 'add').length === 3, 'a polygon');
     assert.equal(last('edit').polygon.length, 3);
     await page.keyboard.press('v');
@@ -183,21 +236,27 @@ try {
     server.run.state = 'running';
   });
 
-  await check('the menu of a robot comes with the right button, and by keys it is left', async () => {
-    await choose(page, 6);
-    const [x, y] = await placeOf(page, ...(await freePlace(page)));
-    await page.mouse.click(x, y, {button: 'right'});
-    const ring = page.locator('rave-ring');
-    await ring.getByRole('menuitem', {name: 'Goal'}).waitFor();
-    assert.equal(await ring.getByRole('menuitem').count(), 6);
-    await page.screenshot({path: join(folder, 'ring.png')});
-    await page.keyboard.press('Escape');
-    await until(page, `document.querySelector('rave-world').renderRoot.querySelector('rave-ring') === null`);
-    await page.mouse.click(x, y, {button: 'right'});
-    await ring.getByRole('menuitem', {name: 'Stop'}).click();
-    await untilHere(page, () => JSON.stringify(last('halt')?.slots) === '[6]', 'it stops');
-    server.run.stopped.clear();
-  });
+  await check(
+    'the menu of a robot comes with the right button, and by keys it is left',
+    async () => {
+      await choose(page, 6);
+      const [x, y] = await placeOf(page, ...(await freePlace(page)));
+      await page.mouse.click(x, y, {button: 'right'});
+      const ring = page.locator('rave-ring');
+      await ring.getByRole('menuitem', {name: 'Goal'}).waitFor();
+      assert.equal(await ring.getByRole('menuitem').count(), 6);
+      await page.screenshot({path: join(folder, 'ring.png')});
+      await page.keyboard.press('Escape');
+      await until(
+        page,
+        `document.querySelector('rave-world').renderRoot.querySelector('rave-ring') === null`,
+      );
+      await page.mouse.click(x, y, {button: 'right'});
+      await ring.getByRole('menuitem', {name: 'Stop'}).click();
+      await untilHere(page, () => JSON.stringify(last('halt')?.slots) === '[6]', 'it stops');
+      server.run.stopped.clear();
+    },
+  );
 
   const {stick, drive, stands} = await checkDriving(page, server, choose, folder);
 
@@ -235,65 +294,32 @@ try {
     await chat.getByRole('radio', {name: 'walker-2'}).click();
     await chat.locator('textarea').fill('Where are you?');
     await chat.locator('textarea').press('Enter');
-    await untilHere(page, () => last('say')?.to === 'robot' && last('say').slot === 6, 'the robot is asked');
-    server.run.events.push({t: server.run.now_s + 1, until: server.run.now_s + 1, count: 1, kind: 'said', level: 'info', text: 'walker-2: said, in the corner', slots: [6]});
-    server.say({type: 'events', reset: false, first: server.run.events.length - 1, events: [server.run.events.at(-1)]});
+    await untilHere(
+      page,
+      () => last('say')?.to === 'robot' && last('say').slot === 6,
+      'the robot is asked',
+    );
+    server.run.events.push({
+      t: server.run.now_s + 1,
+      until: server.run.now_s + 1,
+      count: 1,
+      kind: 'said',
+      level: 'info',
+      text: 'walker-2: said, in the corner',
+      slots: [6],
+    });
+    server.say({
+      type: 'events',
+      reset: false,
+      first: server.run.events.length - 1,
+      events: [server.run.events.at(-1)],
+    });
     await chat.getByText('in the corner', {exact: true}).waitFor();
     assert.match(await chat.locator('.lines').innerText(), /Where are you\?/);
     await page.screenshot({path: join(folder, 'chat.png')});
   });
 
-  await check('a component has its panel and draws over the world; a broken one harms nothing', async () => {
-    server.components.set('/components/0/heat.js', `
-      class Heat extends HTMLElement { connectedCallback() { this.textContent = this.context.model.robots.length + ' robots are warm'; } }
-      export const component = {api: 1, name: 'heat', version: '1.2', panels: [{id: 'heat', title: 'Heat map', element: Heat}],
-        extend(context) { const layer = () => { globalThis.layers = (globalThis.layers ?? 0) + 1; }; context.worldLayers.add(layer); return () => context.worldLayers.delete(layer); }};`);
-    server.components.set('/components/1/broken.js', `
-      class Broken extends HTMLElement { connectedCallback() { cells.draw(); } }
-      export const component = {api: 1, name: 'broken', version: '0.1', panels: [{id: 'broken', title: 'Broken', element: Broken}]};`);
-    server.run.components = [{name: 'heat', url: 'components/0/heat.js'}, {name: 'broken', url: 'components/1/broken.js'}, {name: 'gone', url: 'components/2/gone.js'}];
-    server.turnInto({});
-    await page.locator('.dv-tab', {hasText: 'Heat map'}).click();
-    await page.getByText('16 robots are warm').waitFor();
-    await until(page, 'globalThis.layers > 3');
-    await page.locator('.dv-tab', {hasText: 'Broken'}).click();
-    await page.getByText('This panel stopped').first().waitFor();
-    await page.getByText('cells is not defined').first().waitFor();
-    await page.screenshot({path: join(folder, 'broken.png')});
-    const before = await page.evaluate(`${app}.model.poses.newest.time_s`);
-    await until(page, `${app}.model.poses.newest.time_s > ${before}`);
-    await page.locator('.dv-tab', {hasText: 'gone'}).click();
-    await page.getByText(/Failed to fetch|error/).first().waitFor();
-  });
-
-  await check('a layout that was kept has its component in its place, and outlives a run without it', async () => {
-    const own = await (await browser.newContext({viewport: {width: 1500, height: 950}})).newPage();
-    const errors = [];
-    own.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
-    const kept = () => own.evaluate(() => JSON.parse(localStorage.getItem('rave.layout.Ada N.wide.Watch')).layout);
-    server.run.components = [{name: 'heat', url: 'components/0/heat.js'}];
-    await own.goto(server.origin);
-    await own.locator('.dv-tab', {hasText: 'Heat map'}).waitFor();
-    // Among the tabs of the log, where no layout of the page has it.
-    await own.locator('.dv-tab', {hasText: 'Heat map'}).dragTo(own.locator('.dv-tab', {hasText: 'Log'}));
-    await own.locator('.dv-groupview', {has: own.locator('.dv-tab', {hasText: 'Heat map'})}).locator('.dv-tab', {hasText: 'Log'}).waitFor();
-    const before = Object.keys((await kept()).panels).sort();
-    await own.reload();
-    await own.locator('.dv-groupview', {has: own.locator('.dv-tab', {hasText: 'Heat map'})}).locator('.dv-tab', {hasText: 'Log'}).waitFor();
-    await own.getByText('16 robots are warm').waitFor();
-    assert.deepEqual(Object.keys((await kept()).panels).sort(), before);
-    await own.locator('.dv-tab', {hasText: 'Hosts'}).click();
-    await own.locator('.dv-tab', {hasText: 'Hosts'}).locator('.dv-default-tab-action').click();
-    await own.locator('.dv-tab', {hasText: 'Hosts'}).waitFor({state: 'detached'});
-    server.run.components = [];
-    await own.reload();
-    await until(own, `${app}?.model?.poses?.newest != null`);
-    await own.locator('.dv-tab', {hasText: 'Heat map'}).waitFor({state: 'detached'});
-    assert.equal(await own.locator('.dv-tab', {hasText: 'Hosts'}).count(), 0, 'what was closed stays closed');
-    assert.equal(await own.locator('.dv-tab', {hasText: 'World View'}).count(), 1);
-    assert.deepEqual(errors, []);
-    await own.close();
-  });
+  await checkComponents({page, browser, server, folder});
 
   await check('axe-core finds nothing serious', async () => {
     await page.getByRole('radio', {name: 'Drive'}).click();
@@ -308,59 +334,32 @@ try {
     for (const socket of server.sockets.clients) socket.terminate();
     await until(page, `document.querySelector('rave-joystick').loop.held === null`, 2000);
     await page.keyboard.up('w');
-    const foreign = seen.errors.filter((text) => !/cells|gone\.js|WebSocket|Failed to load resource/.test(text));
+    const foreign = seen.errors.filter(
+      (text) => !/cells|gone\.js|WebSocket|Failed to load resource/.test(text),
+    );
     assert.deepEqual(foreign, []);
     assert.deepEqual(seen.foreign, []);
     await page.close();
   });
 
-  for (const [name, width, height] of [['phone', 390, 844], ['pen', 480, 640]]) {
-    await check(`${name}: long press opens the menu, a drag draws a path, finger and pen drive`, async () => {
-      server.run.components = [];
-      server.run.state = 'paused';
-      const small = await browser.newContext({viewport: {width, height}, hasTouch: true, isMobile: true});
-      const hand = await opened(small);
-      showFailures(hand, join(folder, `failure-${name}.png`));
-      const stop = await hand.locator('rave-stop .stop').boundingBox();
-      assert.deepEqual([stop.width, stop.height], name === 'pen' ? [132, 64] : [140, 60]);
-      await choose(hand, 6);
-      const finger = new Hand(hand, 'touch');
-      const at = await placeOf(hand, ...(await freePlace(hand, 0.5)));
-      await finger.press(at, 600);
-      await hand.locator('rave-ring').getByRole('menuitem', {name: 'Goal'}).waitFor();
-      await hand.screenshot({path: join(folder, `${name}-ring.png`)});
-      const goals = heard('order', 'goal').length;
-      await hand.locator('rave-ring').getByRole('menuitem', {name: 'Goal'}).tap();
-      await hand.touchscreen.tap(...at);
-      await hand.locator('rave-world .beside.draft').waitFor();
-      assert.equal(heard('order', 'goal').length, goals, 'a finger looks before it sends');
-      await hand.locator('rave-world .beside.draft').getByRole('button', {name: 'Send'}).tap();
-      await untilHere(hand, () => heard('order', 'goal').length === goals + 1, 'the goal is sent');
-      await hand.evaluate(() => document.querySelector('rave-app').renderRoot.querySelector('rave-world').chooseTool('select'));
-      await choose(hand, 6);
-      const paths = heard('order', 'path').length;
-      const pen = new Hand(hand, 'pen');
-      const [x, y] = await placeOf(hand, ...(await freePlace(hand, 0.5)));
-      await pen.drag([[x, y], [x + 40, y - 50], [x + 80, y]]);
-      await hand.locator('rave-world .beside.draft').getByRole('button', {name: 'Send'}).tap();
-      await untilHere(hand, () => heard('order', 'path').length === paths + 1, 'the path is sent');
-      await hand.evaluate(() => document.querySelector('rave-app').showPanel('joystick'));
-      const box = await hand.locator('rave-joystick .stick').boundingBox();
-      assert.ok(box.width >= 130, `a stick of ${box.width} px`);
-      const middle = [box.x + box.width / 2, box.y + box.height / 2];
-      await finger.drag([middle, [middle[0], middle[1] - box.height / 4]], false);
-      await untilHere(hand, () => drive()?.[1] > 0.1, 'a finger drives');
-      await hand.screenshot({path: join(folder, `${name}-stick.png`)});
-      await finger.send('up', middle);
-      await stands('the finger', hand);
-      await pen.drag([middle, [middle[0], middle[1] + box.height / 4]], false);
-      await untilHere(hand, () => drive()?.[1] < -0.1, 'a pen drives');
-      await pen.send('up', middle);
-      await stands('the pen', hand);
-      assert.deepEqual(await seriousOf(hand), []);
-      await small.close();
+  for (const [name, width, height] of [
+    ['phone', 390, 844],
+    ['pen', 480, 640],
+  ])
+    await checkHand({
+      name,
+      width,
+      height,
+      browser,
+      server,
+      folder,
+      opened,
+      choose,
+      heard,
+      drive,
+      stands,
+      seriousOf,
     });
-  }
 
   await check('who looks on has no tools and no stick', async () => {
     server.turnInto({may: ['readings', 'log'], role: 'observer'});
@@ -381,8 +380,11 @@ try {
   await check('every message of the page is as the schema describes it', async () => {
     const file = join(folder, 'messages.json');
     writeFileSync(file, JSON.stringify(server.heard));
-    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {stdio: 'inherit'});
-    for (const type of ['order', 'lease', 'set', 'edit', 'say']) assert.ok(heard(type).length > 0, type);
+    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {
+      stdio: 'inherit',
+    });
+    for (const type of ['order', 'lease', 'set', 'edit', 'say'])
+      assert.ok(heard(type).length > 0, type);
   });
 } finally {
   await browser.close();

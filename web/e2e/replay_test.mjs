@@ -8,16 +8,21 @@ import {join} from 'node:path';
 import WebSocket from 'ws';
 import {launch, startServer} from './browser.mjs';
 import {standsStill} from './commander.mjs';
+import {checkOwnReplays} from './own_replay_checks.mjs';
 import {app, check, report, showFailures, until, watch} from './checks.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
 function get(url, headers = {}) {
   return new Promise((resolve, reject) => {
-    http.get(url, {headers}, (response) => {
-      let body = '';
-      response.on('data', (data) => (body += data));
-      response.on('end', () => resolve({status: response.statusCode, headers: response.headers, body}));
-    }).on('error', reject);
+    http
+      .get(url, {headers}, (response) => {
+        let body = '';
+        response.on('data', (data) => (body += data));
+        response.on('end', () =>
+          resolve({status: response.statusCode, headers: response.headers, body}),
+        );
+      })
+      .on('error', reject);
   });
 }
 
@@ -25,7 +30,10 @@ function get(url, headers = {}) {
 async function openPanel(page, title) {
   await page.keyboard.press('Control+k');
   await page.keyboard.type(title);
-  await page.getByRole('option', {name: new RegExp(`^${title}`)}).first().click();
+  await page
+    .getByRole('option', {name: new RegExp(`^${title}`)})
+    .first()
+    .click();
 }
 
 rmSync(folder, {recursive: true, force: true});
@@ -44,8 +52,14 @@ try {
   const {errors, foreign} = watch(page, origin);
   const said = [];
   page.on('websocket', (socket) => {
-    socket.on('framereceived', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
-    socket.on('framesent', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
+    socket.on(
+      'framereceived',
+      ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)),
+    );
+    socket.on(
+      'framesent',
+      ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)),
+    );
   });
 
   await check('a stranger gets the page and no run', async () => {
@@ -70,7 +84,8 @@ try {
     const seen = await page.evaluate(() => {
       const {model} = document.querySelector('rave-app');
       return {
-        name: model.hello.run.name, hash: model.hello.run.hash,
+        name: model.hello.run.name,
+        hash: model.hello.run.hash,
         real: model.robots.filter((robot) => robot.kind === 'real').length,
         kinds: [...new Set([...model.bodies.values()].map((body) => body.kind))].sort(),
         known: [...model.poses.newest.flags].filter((flags) => flags & 1).length,
@@ -108,17 +123,23 @@ try {
   await check('a click on a row selects, and the sensor of that robot is read', async () => {
     await page.locator('rave-robots .row', {hasText: 'real-3'}).click();
     await until(page, `${app}.selection.primary !== null`);
-    await until(page, `(() => { const a = ${app}; const slot = a.selection.primary;
+    await until(
+      page,
+      `(() => { const a = ${app}; const slot = a.selection.primary;
       const laser = a.model.robots[slot].sensors.findIndex((sensor) => sensor.kind === 'ranges');
-      return a.model.readings.of(slot, laser)?.rows === 121; })()`);
+      return a.model.readings.of(slot, laser)?.rows === 121; })()`,
+    );
     await page.locator('rave-sensors').getByText('121 rays').waitFor();
     // In a paused replay, too, its course is what it read in the seconds before.
-    await until(page, `(() => { const a = ${app}; const slot = a.selection.primary;
+    await until(
+      page,
+      `(() => { const a = ${app}; const slot = a.selection.primary;
       const laser = a.model.robots[slot].sensors.findIndex((sensor) => sensor.kind === 'ranges');
       const course = a.model.readings.course(slot, laser);
       const times = course.map(({time_s}) => time_s);
       return course.length > 40 && times.every((time_s, i) => i === 0 || time_s > times[i - 1]) &&
-        times.at(-1) - times[0] > 10 && times.at(-1) <= a.model.poses.newest.time_s + 0.01; })()`);
+        times.at(-1) - times[0] > 10 && times.at(-1) <= a.model.poses.newest.time_s + 0.01; })()`,
+    );
   });
 
   await check('a click in the World View selects the robot that is there', async () => {
@@ -128,7 +149,9 @@ try {
     const at = await page.evaluate(() => {
       const world = document.querySelector('rave-world');
       const box = world.renderRoot.querySelector('.canvas').getBoundingClientRect();
-      const slot = document.querySelector('rave-app').model.robots.findIndex((robot) => robot.name === 'hunter');
+      const slot = document
+        .querySelector('rave-app')
+        .model.robots.findIndex((robot) => robot.name === 'hunter');
       const [x, y] = world.screenOf(slot);
       return {x: box.left + x, y: box.top + y, slot};
     });
@@ -146,7 +169,10 @@ try {
     const view = await page.evaluate(`document.querySelector('rave-world').viewpoint()`);
     const other = await context.newPage();
     await other.goto(page.url());
-    await until(other, `${app}?.selection.primary === ${app}?.model.robots.findIndex((robot) => robot.name === 'hunter')`);
+    await until(
+      other,
+      `${app}?.selection.primary === ${app}?.model.robots.findIndex((robot) => robot.name === 'hunter')`,
+    );
     await until(other, `document.querySelector('rave-world').viewpoint() === '${view}'`);
     await other.close();
   });
@@ -156,22 +182,34 @@ try {
     const t = await page.evaluate(`${app}.model.events[0].t`);
     await until(page, `Math.abs(${app}.model.poses.newest?.time_s - ${t}) < 0.02`);
     await page.getByPlaceholder('source, text').fill('no such thing');
-    await until(page, `document.querySelector('rave-log').renderRoot.querySelectorAll('.row').length === 0`);
+    await until(
+      page,
+      `document.querySelector('rave-log').renderRoot.querySelectorAll('.row').length === 0`,
+    );
     await page.getByPlaceholder('source, text').fill('');
   });
 
   await check('the log begins with the begin of the run, and a click goes there', async () => {
     const first = page.locator('rave-log .row').last();
-    assert.match((await first.innerText()).replace(/\s+/g, ' '), /^00\.00 Run begins: 5 real and 11 simulated robots, seed \d+$/);
+    assert.match(
+      (await first.innerText()).replace(/\s+/g, ' '),
+      /^00\.00 Run begins: 5 real and 11 simulated robots, seed \d+$/,
+    );
     await first.click();
     await until(page, `${app}.model.poses.newest?.time_s < 0.02`);
     await page.getByPlaceholder('source, text').fill('run begins');
-    await until(page, `document.querySelector('rave-log').renderRoot.querySelectorAll('.row').length === 1`);
+    await until(
+      page,
+      `document.querySelector('rave-log').renderRoot.querySelectorAll('.row').length === 1`,
+    );
     await page.getByPlaceholder('source, text').fill('');
   });
 
   await check('the recording is downloaded as it is', async () => {
-    const [download] = await Promise.all([page.waitForEvent('download'), page.getByLabel('Download the recording').click()]);
+    const [download] = await Promise.all([
+      page.waitForEvent('download'),
+      page.getByLabel('Download the recording').click(),
+    ]);
     assert.equal(download.suggestedFilename(), 'mixed-reality.mcap');
     const file = join(folder, 'downloaded.mcap');
     await download.saveAs(file);
@@ -217,7 +255,10 @@ try {
   await check('a killed server comes back to the page by itself', async () => {
     const port = new URL(origin).port;
     await gui.end();
-    await page.getByText(/Link lost/).first().waitFor();
+    await page
+      .getByText(/Link lost/)
+      .first()
+      .waitFor();
     const next = await startServer(rave, ['gui', run, '--port', port]);
     // Sessions end with the server that began them; the page says that it needs another link.
     await page.getByText('You are not signed in').waitFor();
@@ -229,13 +270,21 @@ try {
   await check('how sure a robot was of its pose is in its recording, at any moment', async () => {
     const guesses = join(folder, 'guesses');
     const odometry = new URL('../../tests/cli/data/played.yaml', import.meta.url).pathname;
-    execFileSync(rave, ['run', odometry, '--pace', 'max', '--quiet', '--no-picture', '--output', guesses], {stdio: ['ignore', 'ignore', 'inherit']});
+    execFileSync(
+      rave,
+      ['run', odometry, '--pace', 'max', '--quiet', '--no-picture', '--output', guesses],
+      {stdio: ['ignore', 'ignore', 'inherit']},
+    );
     const other = await startServer(rave, ['gui', guesses]);
-    const replay = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
+    const replay = await (
+      await browser.newContext({viewport: {width: 1400, height: 900}})
+    ).newPage();
     await replay.goto(other.link);
     await until(replay, `${app}?.model?.poses?.newest != null`);
     assert.equal(await replay.getByLabel('Watch in Foxglove').count(), 0, 'it serves no Foxglove');
-    const slot = await replay.evaluate(`${app}.model.robots.findIndex((robot) => robot.name === 'anna')`);
+    const slot = await replay.evaluate(
+      `${app}.model.robots.findIndex((robot) => robot.name === 'anna')`,
+    );
     await replay.evaluate((anna) => {
       const there = document.querySelector('rave-app');
       there.selection.set([anna]);
@@ -248,7 +297,10 @@ try {
         there.link.send({type: 'transport', do: 'seek', value});
       }, time_s);
       await until(replay, `Math.abs(${app}.model.poses.newest.time_s - ${time_s}) < 0.011`);
-      await until(replay, `${app}.model.variances !== globalThis.variancesBefore && ${app}.model.variances.has(${slot})`);
+      await until(
+        replay,
+        `${app}.model.variances !== globalThis.variancesBefore && ${app}.model.variances.has(${slot})`,
+      );
       return replay.evaluate(`${app}.model.variances.get(${slot})?.xy_m2 ?? 0`);
     };
     const [late, early, later] = [await varianceAt(3), await varianceAt(1), await varianceAt(3.8)];
@@ -266,77 +318,27 @@ try {
 
   await check('every message is as the schema describes it', async () => {
     const kinds = new Set(said.map((message) => message.type));
-    for (const kind of ['hello', 'scene', 'roster', 'time', 'events', 'look', 'ack', 'transport']) assert.ok(kinds.has(kind), kind);
+    for (const kind of ['hello', 'scene', 'roster', 'time', 'events', 'look', 'ack', 'transport'])
+      assert.ok(kinds.has(kind), kind);
     const file = join(folder, 'messages.json');
     writeFileSync(file, JSON.stringify(said));
-    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {stdio: 'inherit'});
+    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {
+      stdio: 'inherit',
+    });
   });
 
   await check('nothing was asked of another origin, and nothing was complained of', async () => {
     assert.deepEqual(foreign, []);
     // The link that was lost is told by the browser as well.
-    assert.deepEqual(errors.filter((text) => !/WebSocket|ERR_CONNECTION_REFUSED|Failed to load resource/.test(text)), []);
+    assert.deepEqual(
+      errors.filter(
+        (text) => !/WebSocket|ERR_CONNECTION_REFUSED|Failed to load resource/.test(text),
+      ),
+      [],
+    );
   });
 
-  await check('a panel of the scenario is there in the replay, and a module that is gone is no error', async () => {
-    const home = join(folder, 'panels');
-    mkdirSync(home);
-    writeFileSync(join(home, 'count.mjs'), `class Count extends HTMLElement { connectedCallback() { this.textContent = this.context.model.robots.length + ' robot counted'; } }
-      export const component = {api: 1, name: 'count', version: '1', panels: [{id: 'count', title: 'Counted', element: Count}]};`);
-    writeFileSync(join(home, 'lost.mjs'), 'export const component = {};');
-    writeFileSync(join(home, 'scenario.yaml'), `name: counted
-duration_s: 1
-gui: {components: [{module: lost.mjs, roles: [observer]}, {module: count.mjs, roles: [observer]}]}
-robots: [{name: r, pose: {x_m: 0, y_m: 0}, robot: {body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}}}]
-`);
-    execFileSync(rave, ['run', join(home, 'scenario.yaml'), '--pace', 'max', '--quiet', '--no-picture', '--output', join(home, 'run')], {stdio: ['ignore', 'ignore', 'inherit']});
-    rmSync(join(home, 'lost.mjs'));
-    const other = await startServer(rave, ['gui', join(home, 'run')]);
-    const replay = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
-    await replay.goto(other.link);
-    await replay.locator('.dv-tab', {hasText: 'Counted'}).click();
-    await replay.getByText('1 robot counted').waitFor();
-    assert.equal(await replay.locator('.dv-tab', {hasText: 'lost'}).count(), 0);
-    await replay.close();
-    await other.end();
-  });
-
-  await check('what was said in a run is read in its replay, and nothing can be said there', async () => {
-    const home = join(folder, 'chat');
-    mkdirSync(home);
-    writeFileSync(join(home, 'scenario.yaml'), `name: talked
-duration_s: 120
-robots: [{name: r, pose: {x_m: 0, y_m: 0}, robot: {body: {shapes: [{disc_radius_m: 0.2, z_m: [0, 0.3]}]}}}]
-`);
-    const live = await startServer(rave, ['run', join(home, 'scenario.yaml'), '--gui', '--quiet', '--no-picture', '--output', join(home, 'run')]);
-    const talking = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
-    await talking.goto(live.link);
-    await until(talking, `${app}?.model?.robots?.length === 1`);
-    const chat = talking.locator('rave-chat');
-    await openPanel(talking, 'Chat');
-    for (const role of ['Commanders', 'Observers', 'Super-users']) await chat.getByRole('radio', {name: role}).waitFor();
-    await chat.getByRole('radio', {name: 'Super-users'}).click();
-    await chat.locator('textarea').fill('Watch the red robot');
-    await chat.locator('textarea').press('Enter');
-    await chat.locator('article', {hasText: 'Watch the red robot'}).waitFor();
-    await chat.getByText('The chat is recorded with the run.').waitFor();
-    await talking.close();
-    await live.end();
-
-    const other = await startServer(rave, ['gui', join(home, 'run')]);
-    const replay = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
-    await replay.goto(other.link);
-    await until(replay, `${app}?.model?.robots?.length === 1`);
-    await openPanel(replay, 'Chat');
-    const shown = replay.locator('rave-chat');
-    await shown.locator('article', {hasText: 'Watch the red robot'}).waitFor();
-    await shown.getByText('to super-users').waitFor();
-    assert.equal(await shown.locator('textarea').count(), 0);
-    assert.equal(await shown.getByRole('radio').count(), 0);
-    await replay.screenshot({path: join(folder, 'chat.png')});
-    await replay.close();
-    await other.end();
-  });
+  await checkOwnReplays({rave, folder, browser, openPanel});
 } finally {
   await browser.close();
   gui.child.kill('SIGKILL');

@@ -8,6 +8,8 @@ import {launch} from './browser.mjs';
 import {app, check, report, showFailures, until, untilHere, watch} from './checks.mjs';
 import {FakeRun} from './fake_run.mjs';
 import {serveFake} from './fake_server.mjs';
+import {checkOpening} from './opening_checks.mjs';
+import {checkPeople, checkScene} from './scene_checks.mjs';
 import {sizeOf, watchLoads} from './first_load.mjs';
 
 const [built, folder] = process.argv.slice(2);
@@ -16,24 +18,31 @@ const run = new FakeRun(16, {now_s: 5});
 let server = await serveFake(built, run);
 const port = Number(new URL(server.origin).port);
 const browser = await launch();
-const heard = (type, what) => server.heard.filter((message) => message.type === type && (what === undefined || message.do === what));
+const heard = (type, what) =>
+  server.heard.filter(
+    (message) => message.type === type && (what === undefined || message.do === what),
+  );
 try {
   const page = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
   showFailures(page, join(folder, 'failed.png'));
   const seen = watch(page, server.origin);
   const said = [];
   page.on('websocket', (socket) => {
-    for (const way of ['framereceived', 'framesent']) socket.on(way, ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
+    for (const way of ['framereceived', 'framesent'])
+      socket.on(way, ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)));
   });
   const loaded = watchLoads(page);
   await page.goto(server.origin);
   await until(page, `${app}?.model?.poses?.newest !== null`);
 
-  await check('the first load is small: the renderer of the perspective comes when it is asked for', async () => {
-    const all = sizeOf(loaded, built);
-    assert.ok(all < 400e3, `${all} bytes`);
-    assert.ok(![...loaded].some((path) => path.includes('perspective')));
-  });
+  await check(
+    'the first load is small: the renderer of the perspective comes when it is asked for',
+    async () => {
+      const all = sizeOf(loaded, built);
+      assert.ok(all < 400e3, `${all} bytes`);
+      assert.ok(![...loaded].some((path) => path.includes('perspective')));
+    },
+  );
 
   await check('a live run goes on by itself, without a knob', async () => {
     await page.getByText('Live', {exact: true}).waitFor();
@@ -48,23 +57,29 @@ try {
     await page.mouse.click(box.x + 20, box.y + 30);
     await page.waitForTimeout(100);
     assert.deepEqual(heard('transport', 'seek'), []);
-    assert.equal(await page.locator('rave-timeline .line').getAttribute('title'), 'A live run cannot be moved in time.');
+    assert.equal(
+      await page.locator('rave-timeline .line').getAttribute('title'),
+      'A live run cannot be moved in time.',
+    );
   });
 
-  await check('one click stops all robots; a short press releases nobody, a long one does', async () => {
-    await page.getByText('STOP', {exact: true}).click();
-    await untilHere(page, () => run.stopped.size === 16, 'all stopped');
-    const release = page.getByRole('button', {name: 'Hold to release 16 robots'});
-    await release.waitFor();
-    await release.click({delay: 100});
-    await page.waitForTimeout(200);
-    assert.equal(run.stopped.size, 16);
-    await release.hover();
-    await page.mouse.down();
-    await untilHere(page, () => run.stopped.size === 0, 'released');
-    await page.mouse.up();
-    await page.getByText('STOP', {exact: true}).waitFor();
-  });
+  await check(
+    'one click stops all robots; a short press releases nobody, a long one does',
+    async () => {
+      await page.getByText('STOP', {exact: true}).click();
+      await untilHere(page, () => run.stopped.size === 16, 'all stopped');
+      const release = page.getByRole('button', {name: 'Hold to release 16 robots'});
+      await release.waitFor();
+      await release.click({delay: 100});
+      await page.waitForTimeout(200);
+      assert.equal(run.stopped.size, 16);
+      await release.hover();
+      await page.mouse.down();
+      await untilHere(page, () => run.stopped.size === 0, 'released');
+      await page.mouse.up();
+      await page.getByText('STOP', {exact: true}).waitFor();
+    },
+  );
 
   await check('one Space does nothing, two stop', async () => {
     await page.locator('rave-world .canvas').focus();
@@ -79,35 +94,56 @@ try {
     run.stopped.clear();
   });
 
-  await check('a plot over time says where it has no readings, and keeps those that it had', async () => {
-    const fresh = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
-    await fresh.goto(server.origin);
-    const plot = (name) => fresh.locator('rave-sensors').getByRole('img', {name}).waitFor();
-    await plot(/^nearest of laser in the last 15 seconds; no readings \d+ to \d s ago$/);
-    await until(fresh, `${app}.model.readings.course(0, 0).length > 5`);
-    // Nothing looks at the sensor while the panel is hidden and the world shows no scans.
-    await fresh.evaluate(`${app}.context.kept.write('world', {scans: 'off', hits: false}); ${app}.context.kept.changed.emit(); ${app}.context.show('map')`);
-    await until(fresh, `${app}.link.lastLook.includes('"readings":[]')`);
-    const before = await fresh.evaluate(`${app}.model.readings.course(0, 0).length`);
-    await until(fresh, `${app}.model.poses.newest.time_s - ${app}.model.readings.course(0, 0).at(-1).time_s > 2`);
-    await fresh.evaluate(`${app}.context.show('sensors')`);
-    await until(fresh, `${app}.model.readings.course(0, 0).length > ${before}`);
-    await plot(/; no readings \d+ to \d+ s ago, \d+ to \d s ago$/);
-    await fresh.screenshot({path: join(folder, 'gaps.png')});
-    await fresh.close();
-  });
+  await check(
+    'a plot over time says where it has no readings, and keeps those that it had',
+    async () => {
+      const fresh = await (
+        await browser.newContext({viewport: {width: 1400, height: 900}})
+      ).newPage();
+      await fresh.goto(server.origin);
+      const plot = (name) => fresh.locator('rave-sensors').getByRole('img', {name}).waitFor();
+      await plot(/^nearest of laser in the last 15 seconds; no readings \d+ to \d s ago$/);
+      await until(fresh, `${app}.model.readings.course(0, 0).length > 5`);
+      // Nothing looks at the sensor while the panel is hidden and the world shows no scans.
+      await fresh.evaluate(
+        `${app}.context.kept.write('world', {scans: 'off', hits: false}); ${app}.context.kept.changed.emit(); ${app}.context.show('map')`,
+      );
+      await until(fresh, `${app}.link.lastLook.includes('"readings":[]')`);
+      const before = await fresh.evaluate(`${app}.model.readings.course(0, 0).length`);
+      await until(
+        fresh,
+        `${app}.model.poses.newest.time_s - ${app}.model.readings.course(0, 0).at(-1).time_s > 2`,
+      );
+      await fresh.evaluate(`${app}.context.show('sensors')`);
+      await until(fresh, `${app}.model.readings.course(0, 0).length > ${before}`);
+      await plot(/; no readings \d+ to \d+ s ago, \d+ to \d s ago$/);
+      await fresh.screenshot({path: join(folder, 'gaps.png')});
+      await fresh.close();
+    },
+  );
 
   await check('a stop of somebody else says who and when, and is one row of the log', async () => {
     for (let slot = 0; slot < 16; ++slot) run.stopped.add(slot);
     await page.evaluate(() => {
       const {model} = document.querySelector('rave-app');
-      const events = model.robots.map(({name}, slot) => ({t: 83, until: 83, count: 1, kind: 'stopped', level: 'warn', text: `${name}: stopped, by hand: Ben K`, slots: [slot]}));
+      const events = model.robots.map(({name}, slot) => ({
+        t: 83,
+        until: 83,
+        count: 1,
+        kind: 'stopped',
+        level: 'warn',
+        text: `${name}: stopped, by hand: Ben K`,
+        slots: [slot],
+      }));
       model.takeMessage({type: 'events', first: model.events.length, events});
     });
     await page.getByText('16 robots, stopped by Ben K at 01:23').waitFor();
     const row = page.locator('rave-log .row', {hasText: 'stopped, by hand: Ben K'});
     assert.equal(await row.count(), 1);
-    assert.match((await row.innerText()).replace(/\s+/g, ' '), /real-1 … walker-11: stopped, by hand: Ben K ×16/);
+    assert.match(
+      (await row.innerText()).replace(/\s+/g, ' '),
+      /real-1 … walker-11: stopped, by hand: Ben K ×16/,
+    );
     await page.screenshot({path: join(folder, 'stopped-by-another.png')});
     run.stopped.clear();
     await page.evaluate(() => {
@@ -132,62 +168,90 @@ try {
     await page.locator('rave-top-bar .rate.slow .age', {hasText: '420 ms'}).waitFor();
   });
 
-  await check('a live run has a link to the moment; on narrow pages pace and link are in a menu', async () => {
-    await page.getByRole('button', {name: 'Link', exact: true}).click();
-    await until(page, `/#t=[0-9.]+/.test(location.hash)`);
-    for (const [width, height] of [[820, 900], [390, 844]]) {
-      const narrow = await (await browser.newContext({viewport: {width, height}})).newPage();
-      await narrow.goto(server.origin);
-      await until(narrow, `${app}?.model?.poses?.newest !== null`);
-      assert.equal(await narrow.getByRole('radio', {name: '4×'}).count(), 0);
-      await narrow.getByRole('button', {name: 'Pace and link'}).click();
-      await narrow.getByRole('radio', {name: '4×'}).waitFor();
-      await narrow.getByRole('button', {name: 'Link', exact: true}).waitFor();
-      assert.ok(await narrow.locator('rave-run-bar .card').evaluate((card) => {
-        const box = card.getBoundingClientRect();
-        return box.left >= 0 && box.right <= innerWidth && box.top >= 0;
-      }));
-      await narrow.screenshot({path: join(folder, `menu-${width}.png`)});
-      await narrow.keyboard.press('Escape');
-      await narrow.getByRole('radio', {name: '4×'}).waitFor({state: 'detached'});
-      await narrow.close();
-    }
-  });
+  await check(
+    'a live run has a link to the moment; on narrow pages pace and link are in a menu',
+    async () => {
+      await page.getByRole('button', {name: 'Link', exact: true}).click();
+      await until(page, `/#t=[0-9.]+/.test(location.hash)`);
+      for (const [width, height] of [
+        [820, 900],
+        [390, 844],
+      ]) {
+        const narrow = await (await browser.newContext({viewport: {width, height}})).newPage();
+        await narrow.goto(server.origin);
+        await until(narrow, `${app}?.model?.poses?.newest !== null`);
+        assert.equal(await narrow.getByRole('radio', {name: '4×'}).count(), 0);
+        await narrow.getByRole('button', {name: 'Pace and link'}).click();
+        await narrow.getByRole('radio', {name: '4×'}).waitFor();
+        await narrow.getByRole('button', {name: 'Link', exact: true}).waitFor();
+        assert.ok(
+          await narrow.locator('rave-run-bar .card').evaluate((card) => {
+            const box = card.getBoundingClientRect();
+            return box.left >= 0 && box.right <= innerWidth && box.top >= 0;
+          }),
+        );
+        await narrow.screenshot({path: join(folder, `menu-${width}.png`)});
+        await narrow.keyboard.press('Escape');
+        await narrow.getByRole('radio', {name: '4×'}).waitFor({state: 'detached'});
+        await narrow.close();
+      }
+    },
+  );
 
-  await check('beside the tools of a commander the legend keeps its words, and so do the tools', async () => {
-    for (const width of [1600, 1280, 900]) {
-      const wide = await (await browser.newContext({viewport: {width, height: 900}})).newPage();
-      await wide.goto(server.origin);
-      await until(wide, `${app}?.model?.poses?.newest !== null`);
-      const legend = wide.locator('rave-world .legend');
-      for (const word of ['real', 'simulated', 'virtual', 'tube', 'wall']) await legend.getByText(word, {exact: true}).waitFor();
-      assert.ok(await legend.evaluate((all) => all.scrollWidth <= all.clientWidth && all.getBoundingClientRect().right <= all.getRootNode().host.getBoundingClientRect().right));
-      if (width === 1600) await wide.locator('rave-world .tool').getByText('Obstacle').waitFor();
-      await wide.close();
-    }
-  });
+  await check(
+    'beside the tools of a commander the legend keeps its words, and so do the tools',
+    async () => {
+      for (const width of [1600, 1280, 900]) {
+        const wide = await (await browser.newContext({viewport: {width, height: 900}})).newPage();
+        await wide.goto(server.origin);
+        await until(wide, `${app}?.model?.poses?.newest !== null`);
+        const legend = wide.locator('rave-world .legend');
+        for (const word of ['real', 'simulated', 'virtual', 'tube', 'wall'])
+          await legend.getByText(word, {exact: true}).waitFor();
+        assert.ok(
+          await legend.evaluate(
+            (all) =>
+              all.scrollWidth <= all.clientWidth &&
+              all.getBoundingClientRect().right <=
+                all.getRootNode().host.getBoundingClientRect().right,
+          ),
+        );
+        if (width === 1600) await wide.locator('rave-world .tool').getByText('Obstacle').waitFor();
+        await wide.close();
+      }
+    },
+  );
 
-  await check('the closed sheet of a phone has a plot of the selected robot, its nearest value and its speed', async () => {
-    const phone = await (await browser.newContext({viewport: {width: 390, height: 844}, hasTouch: true, isMobile: true})).newPage();
-    await phone.goto(server.origin);
-    await until(phone, `${app}?.model?.poses?.newest !== null`);
-    await phone.evaluate(`${app}.selection.set([2])`);
-    const glance = phone.locator('rave-glance');
-    await glance.getByText('1.00 m').waitFor();
-    await glance.getByText('0.20 m/s').waitFor();
-    const looks = `[...${app}.link.interests].filter(([owner]) => owner.localName === 'rave-glance').map(([, sensors]) => sensors.join()).join(' ')`;
-    assert.equal(await phone.evaluate(looks), '2,0');
-    const painted = await glance.locator('canvas').evaluate((canvas) => {
-      const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-      return data.filter((value, i) => i % 4 === 3 && value > 0).length / (data.length / 4);
-    });
-    assert.ok(painted > 0.2, `${painted}`);
-    await phone.screenshot({path: join(folder, 'phone.png')});
-    await phone.locator('rave-sheet .more').tap();
-    await phone.locator('rave-sheet rave-sensors').waitFor();
-    assert.equal(await phone.evaluate(looks), '');
-    await phone.close();
-  });
+  await check(
+    'the closed sheet of a phone has a plot of the selected robot, its nearest value and its speed',
+    async () => {
+      const phone = await (
+        await browser.newContext({
+          viewport: {width: 390, height: 844},
+          hasTouch: true,
+          isMobile: true,
+        })
+      ).newPage();
+      await phone.goto(server.origin);
+      await until(phone, `${app}?.model?.poses?.newest !== null`);
+      await phone.evaluate(`${app}.selection.set([2])`);
+      const glance = phone.locator('rave-glance');
+      await glance.getByText('1.00 m').waitFor();
+      await glance.getByText('0.20 m/s').waitFor();
+      const looks = `[...${app}.link.interests].filter(([owner]) => owner.localName === 'rave-glance').map(([, sensors]) => sensors.join()).join(' ')`;
+      assert.equal(await phone.evaluate(looks), '2,0');
+      const painted = await glance.locator('canvas').evaluate((canvas) => {
+        const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+        return data.filter((value, i) => i % 4 === 3 && value > 0).length / (data.length / 4);
+      });
+      assert.ok(painted > 0.2, `${painted}`);
+      await phone.screenshot({path: join(folder, 'phone.png')});
+      await phone.locator('rave-sheet .more').tap();
+      await phone.locator('rave-sheet rave-sensors').waitFor();
+      assert.equal(await phone.evaluate(looks), '');
+      await phone.close();
+    },
+  );
 
   await check('pause, step and pace reach the server', async () => {
     await page.keyboard.press('k');
@@ -195,31 +259,28 @@ try {
     await page.keyboard.press('.');
     await untilHere(page, () => heard('transport', 'step').length === 1, 'step');
     await page.getByRole('radio', {name: 'Max'}).click();
-    await untilHere(page, () => heard('transport', 'pace').some((message) => message.value === 0), 'pace');
+    await untilHere(
+      page,
+      () => heard('transport', 'pace').some((message) => message.value === 0),
+      'pace',
+    );
     run.pace = 1;
     await page.keyboard.press('k');
     await page.getByText('Live', {exact: true}).waitFor();
   });
 
   await check('a run that waits says for whom', async () => {
-    Object.assign(run, {state: 'waiting', reason: 'Waiting for host-3: no answer for 2.9 s (limit 10 s).'});
+    Object.assign(run, {
+      state: 'waiting',
+      reason: 'Waiting for host-3: no answer for 2.9 s (limit 10 s).',
+    });
     server.say(run.time());
     await page.getByText('Waiting for host-3').waitFor();
     Object.assign(run, {state: 'running', reason: ''});
     server.say(run.time());
   });
 
-  await check('bodies come, move and go', async () => {
-    server.say({type: 'scene_change', set: [{id: 9, name: 'cone', kind: 'virtual', pose: [1, 1, 0], shapes: [{disc: [0, 0, 0.2], z: [0, 0.4]}]}], gone: [1]});
-    await until(page, `${app}.model.bodies.has(9) && !${app}.model.bodies.has(1)`);
-  });
-
-  await check('hosts are listed', async () => {
-    server.say({type: 'hosts', hosts: [{name: 'host-3', machine: 'lab-3', state: 'late', late_s: 2.9, real: 0, simulated: 5, step: 1461, steps_per_s: 0, delay_s: 0.000225, cpu: 0, lost: 2}]});
-    await page.locator('.dv-tab', {hasText: 'Hosts'}).click();
-    await page.getByText('late 2.9 s', {exact: true}).waitFor();
-    await page.getByText('225 µs').waitFor();
-  });
+  await checkScene({page, server});
 
   await check('T shows the world in perspective, and a click picks there, too', async () => {
     await page.keyboard.press('Escape');
@@ -248,7 +309,11 @@ try {
     await page.mouse.wheel(0, -300);
     const scale = await page.evaluate(`document.querySelector('rave-world').viewpoint()`);
     const robots = [...run.robots].reverse();
-    server.turnInto({source: 'replay', robots, may: ['play', 'seek', 'pace', 'step', 'readings', 'log', 'recording', 'obstacles']});
+    server.turnInto({
+      source: 'replay',
+      robots,
+      may: ['play', 'seek', 'pace', 'step', 'readings', 'log', 'recording', 'obstacles'],
+    });
     await page.getByText('Replay', {exact: true}).waitFor();
     await page.getByText('this is a recording').waitFor();
     assert.equal(await page.locator('rave-timeline .knob').count(), 1);
@@ -257,13 +322,20 @@ try {
     await page.keyboard.press('Control+k');
     await page.keyboard.type('3.5');
     await page.keyboard.press('Enter');
-    await untilHere(page, () => heard('transport', 'seek').some((message) => message.value === 3.5), 'seek');
+    await untilHere(
+      page,
+      () => heard('transport', 'seek').some((message) => message.value === 3.5),
+      'seek',
+    );
   });
 
   await check('a server that comes back is reached without a reload', async () => {
     const mark = await page.evaluate('window.mark = 7');
     await server.end();
-    await page.getByText(/Link lost/).first().waitFor();
+    await page
+      .getByText(/Link lost/)
+      .first()
+      .waitFor();
     const again = new FakeRun(16, {now_s: 50, may: ['readings', 'log'], role: 'observer'});
     server = await serveFake(built, again, port);
     await page.getByText('Live', {exact: true}).waitFor();
@@ -275,7 +347,10 @@ try {
 
   await check('a server without a run says so, and the next run is shown by itself', async () => {
     await server.end();
-    await page.getByText(/Link lost/).first().waitFor();
+    await page
+      .getByText(/Link lost/)
+      .first()
+      .waitFor();
     server = await serveFake(built, null, port);
     await page.getByText('No run in progress').waitFor();
     server.run = new FakeRun(8, {name: 'next'});
@@ -285,102 +360,23 @@ try {
     await page.locator('rave-robots .row').first().waitFor();
   });
 
-  await check('before the data come the page says that it loads, not that there is nothing', async () => {
-    const late = new FakeRun(3, {name: 'late'});
-    const opening = late.opening.bind(late);
-    late.opening = () => [late.hello()];
-    const other = await serveFake(built, late);
-    clearInterval(other.clock);
-    const early = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
-    await early.goto(other.origin);
-    await early.getByText('late', {exact: true}).waitFor();
-    await early.getByText('Loading the robots ...').waitFor();
-    await early.getByText('Loading the run ...').waitFor();
-    assert.equal(await early.getByText('No robots in this run.').count(), 0);
-    assert.equal(await early.locator('rave-robots .chip').count(), 0);
-    assert.equal(await early.locator('rave-run-bar .clock b').count(), 0);
-    late.opening = opening;
-    for (const message of opening()) other.say(message);
-    await early.locator('rave-robots .row').first().waitFor();
-    await early.locator('rave-run-bar .clock b').waitFor();
-    assert.equal(await early.getByText('Loading').count(), 0);
-    await early.close();
-    await other.end();
-  });
-
-  await check('the World View shows robots whose poses come after the world, host by host', async () => {
-    const slow = new FakeRun(16, {name: 'slow', known: 0});
-    const other = await serveFake(built, slow);
-    const early = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
-    await early.goto(other.origin);
-    await until(early, `${app}?.model?.bodies?.size > 0 && ${app}.model.poses.newest !== null`);
-    const inside = `(() => {
-      const world = document.querySelector('rave-world');
-      const {placed, stage} = world;
-      const {clientWidth, clientHeight} = world.renderRoot.querySelector('.canvas');
-      return Array.from(placed.x, (x, i) => [placed.flags[i] & 1, ...stage.screenAt(x, placed.y[i])])
-        .filter(([known, x, y]) => known && x > 0 && y > 0 && x < clientWidth && y < clientHeight).length;
-    })()`;
-    for (const known of [5, 16]) {
-      slow.known = known;
-      await until(early, `${inside} === ${known}`);
-    }
-    await early.close();
-    await other.end();
-  });
-
-  await check('a super-user changes a right, takes it back, and sees as somebody else', async () => {
-    server.run.role = 'super_user';
-    server.run.seeAs(null);
-    server.turnInto({});
-    await page.getByRole('radio', {name: 'Conduct'}).click();
-    const cell = page.getByRole('button', {name: /^Obstacles of carla/});
-    await cell.click();
-    await untilHere(page, () => heard('set_right').length === 1, 'set_right');
-    assert.deepEqual(heard('set_right')[0], {type: 'set_right', user: 'carla', class: 'obstacles', reach: 'all'});
-    await page.getByText(/in force after/).waitFor();
-    await page.getByRole('button', {name: 'Undo'}).click();
-    await untilHere(page, () => heard('set_right').length === 2, 'undo');
-    assert.equal(heard('set_right')[1].reach, null);
-    await page.getByRole('button', {name: 'See as carla'}).click();
-    await page.getByText('This is what').waitFor();
-    assert.equal(await page.evaluate(`${app}.model.rights`), null);
-    await page.getByRole('button', {name: 'Back'}).click();
-    await until(page, `${app}.model.rights !== null`);
-  });
-
-  await check('who else watches is in the top bar, and leads super-users to the list of people', async () => {
-    const people = ['Ben K', 'carla', 'Dana Q', 'Emil', 'Fatima'].map((name) => ({name, role: 'observer'}));
-    server.say({type: 'people', people: [{name: 'Ada N', role: 'super_user'}, ...people]});
-    const faces = page.getByRole('button', {name: '6 people watch: you; Ben K, Observer; carla, Observer; Dana Q, Observer; Emil, Observer; Fatima, Observer. Open the list'});
-    await faces.waitFor();
-    assert.deepEqual(await faces.locator('.face').allInnerTexts(), ['BK', 'CA', 'DQ', '+2']);
-    for (const layout of ['Watch', 'Conduct']) {
-      await page.getByRole('radio', {name: layout}).click();
-      await faces.focus();
-      await page.keyboard.press('Enter');
-      await page.getByRole('tab', {name: /^People/, selected: true}).waitFor();
-      await page.getByRole('tab', {name: 'Audit log'}).click();
-    }
-    await page.screenshot({path: join(folder, 'faces.png')});
-    server.turnInto({may: ['readings', 'log'], role: 'observer'});
-    server.say({type: 'people', people: [{name: 'Ada N', role: 'observer'}, ...people]});
-    await page.getByRole('img', {name: /^6 people watch: you; Ben K/}).waitFor();
-    assert.equal(await page.locator('rave-top-bar button.people').count(), 0);
-    // Who may not talk is told a new view of the run, and no names.
-    server.say(server.run.hello());
-    await page.locator('rave-top-bar .people').waitFor({state: 'detached'});
-  });
+  await checkOpening({browser, built});
+  await checkPeople({page, server, heard, folder});
 
   await check('every message is as the schema describes it', async () => {
     const file = join(folder, 'messages.json');
     writeFileSync(file, JSON.stringify(said));
-    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {stdio: 'inherit'});
+    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {
+      stdio: 'inherit',
+    });
   });
 
   await check('nothing was asked of another origin, and nothing was complained of', async () => {
     assert.deepEqual(seen.foreign, []);
-    assert.deepEqual(seen.errors.filter((text) => !/WebSocket|ERR_CONNECTION_REFUSED/.test(text)), []);
+    assert.deepEqual(
+      seen.errors.filter((text) => !/WebSocket|ERR_CONNECTION_REFUSED/.test(text)),
+      [],
+    );
   });
 } finally {
   await browser.close();

@@ -7,7 +7,18 @@ import {join} from 'node:path';
 import {launch, startServer} from './browser.mjs';
 import {app, check, report, showFailures, until, watch} from './checks.mjs';
 import {boxIn3d} from './world/box_in_3d.mjs';
-import {differ, inside, keep, noteTexts, robotAt, stageBox, texts, withFlags} from './world/look.mjs';
+import {crowdChecks, varianceCheck} from './world/crowd_checks.mjs';
+import {hold, layer, openLayers, settled, switches} from './world/layer_hands.mjs';
+import {
+  differ,
+  inside,
+  keep,
+  noteTexts,
+  robotAt,
+  stageBox,
+  texts,
+  withFlags,
+} from './world/look.mjs';
 
 const [rave, scenario, crowd, folder] = process.argv.slice(2);
 rmSync(folder, {recursive: true, force: true});
@@ -20,116 +31,39 @@ const [kStale, kUnarmed] = [2, 8];
 
 /** A page that looks at a run of its own. */
 async function open(file, name) {
-  const gui = await startServer(rave, ['run', file, '--gui', '--quiet', '--no-picture', '--no-record', '--output', join(folder, name)]);
+  const gui = await startServer(rave, [
+    'run',
+    file,
+    '--gui',
+    '--quiet',
+    '--no-picture',
+    '--no-record',
+    '--output',
+    join(folder, name),
+  ]);
   const page = await (await browser.newContext({viewport: {width: 1400, height: 900}})).newPage();
   showFailures(page, join(folder, 'failed.png'));
   const seen = watch(page, new URL(gui.link).origin);
-  page.on('websocket', (socket) => socket.on('framesent', ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload))));
+  page.on('websocket', (socket) =>
+    socket.on(
+      'framesent',
+      ({payload}) => typeof payload === 'string' && said.push(JSON.parse(payload)),
+    ),
+  );
   await noteTexts(page);
   await page.goto(gui.link);
   await until(page, `${app}?.model?.poses?.newest?.time_s > 1.5`);
-  return {gui, page, ...seen, slot: (robot) => page.evaluate((robot) => document.querySelector('rave-app').model.robots.findIndex(({name}) => name === robot), robot)};
-}
-
-/** Holds the run, so that pictures differ only by what the test does. */
-async function hold(page) {
-  await page.evaluate(`${app}.link.send({type: 'transport', do: 'pause'})`);
-  await until(page, `${app}.model.time.state === 'paused'`);
-  await settled(page);
-}
-
-/** Until two pictures in a row are the same. */
-async function settled(page) {
-  for (let same = 0; same < 3; same = (await differ(page)) === 0 ? same + 1 : 0) {
-    await keep(page);
-    await page.waitForTimeout(60);
-  }
-}
-
-const layer = (page, name) => page.getByRole('switch', {name});
-const openLayers = async (page) => {
-  if ((await layer(page, 'Names').count()) === 0) await page.getByRole('button', {name: 'Layers'}).click();
-};
-
-/** A switch of the menu takes so many pixels out of the picture at least, and brings them back. */
-async function switches(page, name, least) {
-  await keep(page);
-  await layer(page, name).click();
-  const gone = await differ(page);
-  assert.ok(gone >= least, `${name}: ${gone} pixels`);
-  await layer(page, name).click();
-  // What the layer needs may have to come again.
-  let left = await differ(page);
-  for (const end = Date.now() + 20000; left >= least / 4 && Date.now() < end; left = await differ(page)) await page.waitForTimeout(25);
-  assert.ok(left < least / 4, `${name} came back but for ${left} pixels`);
-}
-
-/** More than 200 robots: arrowheads, density, plates, histograms. */
-async function crowdChecks({page}) {
-  await until(page, `${app}.model.poses.past.length > 6`);
-  await hold(page);
-
-  await check('a crowd is seen from afar: arrowheads, density, plates of teams, a small map', async () => {
-    assert.ok(!(await page.evaluate(`${world}.top.swarm.empty`)));
-    const shown = await texts(page);
-    assert.ok(shown.some((text) => /^north/.test(text)) && shown.some((text) => /150 · 0\.\d\d m\/s/.test(text)), `${shown}`);
-    assert.ok(!shown.includes('north-1'), 'no names of a crowd');
-    await openLayers(page);
-    for (const [name, least] of [['Density of crowds', 200], ['Small map', 1000], ['Trails', 60]]) await switches(page, name, least);
-    await page.screenshot({path: join(folder, 'crowd.png')});
-  });
-
-  await check('near enough each of them is an outline with its name', async () => {
-    const at = await page.evaluate(`(() => { const {placed} = ${world}; return [placed.x[5], placed.y[5]]; })()`);
-    const before = await page.evaluate(`${world}.viewpoint()`);
-    await page.evaluate(`${world}.lookFrom('top,${at[0]},${at[1]},120')`);
-    await settled(page);
-    assert.ok(await page.evaluate(`${world}.top.swarm.empty`));
-    const name = await page.evaluate(`${app}.model.robots[5].name`);
-    assert.ok((await texts(page)).includes(name), name);
-    await page.evaluate(`${world}.lookFrom('${before}')`);
-    await settled(page);
-  });
-
-  await check('colour by team tints the crowd, and the legend has its scale', async () => {
-    await keep(page);
-    await page.getByRole('combobox', {name: 'Colour by'}).selectOption('team');
-    assert.ok((await differ(page)) > 2000);
-    await page.locator('rave-world .ramp').getByText('south').waitFor();
-    await page.getByRole('combobox', {name: 'Colour by'}).selectOption('kind');
-    assert.equal(await differ(page), 0);
-  });
-
-  await check('a team of many is a histogram of speeds, with rows on demand', async () => {
-    const robots = page.locator('rave-robots');
-    assert.equal(await robots.getByRole('img', {name: /^Speeds from 0 to/}).count(), 3);
-    assert.equal(await robots.locator('.row').count(), 0);
-    assert.ok((await robots.locator('.team.many rect').count()) > 10);
-    await robots.locator('.team.many', {hasText: 'south'}).click();
-    await robots.locator('.row', {hasText: 'south-1'}).first().waitFor();
-  });
-
-}
-
-/** One robot of the crowd is not sure where it is. */
-async function varianceCheck({page, slot}) {
-  await check('how sure a robot is needs no reading: the ellipse is there without scans, in both views', async () => {
-    const anna = await slot('anna');
-    await page.getByRole('combobox', {name: 'Scans'}).selectOption('off');
-    await page.evaluate(`${app}.selection.set([${anna}])`);
-    await until(page, `${app}.model.variances.get(${anna})?.xy_m2 > 0.05`);
-    await page.evaluate(`${world}.lookFrom('top,0,0,90')`);
-    await settled(page);
-    await switches(page, 'Uncertainty of reported poses', 3000);
-    await page.screenshot({path: join(folder, 'variance-top.png')});
-    await page.evaluate(`${world}.lookFrom('3d,0,0,6,-1.8,0.7')`);
-    await until(page, `${world}.viewpoint().startsWith('3d')`);
-    await settled(page);
-    await switches(page, 'Uncertainty of reported poses', 1000);
-    await page.screenshot({path: join(folder, 'variance-3d.png')});
-    await layer(page, 'Uncertainty of reported poses').click();
-    await until(page, `!${app}.model.variances.has(${anna})`);
-  });
+  return {
+    gui,
+    page,
+    ...seen,
+    slot: (robot) =>
+      page.evaluate(
+        (robot) =>
+          document.querySelector('rave-app').model.robots.findIndex(({name}) => name === robot),
+        robot,
+      ),
+  };
 }
 
 const mixed = await open(scenario, 'mixed');
@@ -154,45 +88,63 @@ try {
     await page.keyboard.press('f');
   });
 
-  await check('the Sensor Display has a camera beside its twin, and its course in three fields', async () => {
-    const panel = page.locator('rave-sensors');
-    await panel.getByRole('radio', {name: 'camera', exact: true}).click();
-    await panel.getByText(/camera_twin expects [1-9]/).waitFor();
-    for (const field of ['bearing', 'count', 'nearest range']) {
-      await panel.getByRole('radio', {name: field, exact: true}).click();
-      await panel.getByRole('img', {name: new RegExp(`^${field} of camera`)}).waitFor();
-    }
-    // Both lines are there: of the camera, and of its twin.
-    await until(page, `(() => { const {plot} = document.querySelector('rave-sensors').course; return plot?.data.length === 3 && [1, 2].every((i) => plot.data[i].some((value) => value > 0)); })()`);
-    await page.screenshot({path: join(folder, 'camera.png')});
-  });
+  await check(
+    'the Sensor Display has a camera beside its twin, and its course in three fields',
+    async () => {
+      const panel = page.locator('rave-sensors');
+      await panel.getByRole('radio', {name: 'camera', exact: true}).click();
+      await panel.getByText(/camera_twin expects [1-9]/).waitFor();
+      for (const field of ['bearing', 'count', 'nearest range']) {
+        await panel.getByRole('radio', {name: field, exact: true}).click();
+        await panel.getByRole('img', {name: new RegExp(`^${field} of camera`)}).waitFor();
+      }
+      // Both lines are there: of the camera, and of its twin.
+      await until(
+        page,
+        `(() => { const {plot} = document.querySelector('rave-sensors').course; return plot?.data.length === 3 && [1, 2].every((i) => plot.data[i].some((value) => value > 0)); })()`,
+      );
+      await page.screenshot({path: join(folder, 'camera.png')});
+    },
+  );
 
-  await check('ranges have a table with the age of the reading, and the course of a chosen beam', async () => {
-    const panel = page.locator('rave-sensors');
-    await panel.getByRole('radio', {name: 'laser', exact: true}).click();
-    await panel.getByText(/121 rays · 240° · 10 Hz · age \d+ ms/).waitFor();
-    await panel.getByRole('button', {name: 'Show the numbers'}).click();
-    assert.equal(await panel.locator('tbody tr').count(), 121);
-    assert.match(await panel.locator('tbody tr').first().innerText(), /^−?120\.0\s+(\d+\.\d+|\d+|no return)$/);
-    await panel.getByRole('button', {name: 'Show the numbers'}).click();
-    await panel.getByRole('radio', {name: 'beam', exact: true}).click();
-    const beam = panel.getByRole('slider', {name: 'Beam'});
-    await beam.focus();
-    await page.keyboard.press('Home');
-    await panel.getByText('120° right').waitFor();
-    await panel.getByRole('radio', {name: 'nearest', exact: true}).click();
-    await until(page, `(() => { const {plot} = document.querySelector('rave-sensors').course; return plot?.data[1]?.at(-1) > 0 && plot.data[0].at(0) < -1; })()`);
-    const line = await panel.locator('.course .u-over').boundingBox();
-    await page.mouse.move(line.x + line.width - 4, line.y + 10);
-    await panel.getByText(/\d m, \d\.\d s ago/).waitFor();
-  });
+  await check(
+    'ranges have a table with the age of the reading, and the course of a chosen beam',
+    async () => {
+      const panel = page.locator('rave-sensors');
+      await panel.getByRole('radio', {name: 'laser', exact: true}).click();
+      await panel.getByText(/121 rays · 240° · 10 Hz · age \d+ ms/).waitFor();
+      await panel.getByRole('button', {name: 'Show the numbers'}).click();
+      assert.equal(await panel.locator('tbody tr').count(), 121);
+      assert.match(
+        await panel.locator('tbody tr').first().innerText(),
+        /^−?120\.0\s+(\d+\.\d+|\d+|no return)$/,
+      );
+      await panel.getByRole('button', {name: 'Show the numbers'}).click();
+      await panel.getByRole('radio', {name: 'beam', exact: true}).click();
+      const beam = panel.getByRole('slider', {name: 'Beam'});
+      await beam.focus();
+      await page.keyboard.press('Home');
+      await panel.getByText('120° right').waitFor();
+      await panel.getByRole('radio', {name: 'nearest', exact: true}).click();
+      await until(
+        page,
+        `(() => { const {plot} = document.querySelector('rave-sensors').course; return plot?.data[1]?.at(-1) > 0 && plot.data[0].at(0) < -1; })()`,
+      );
+      const line = await panel.locator('.course .u-over').boundingBox();
+      await page.mouse.move(line.x + line.width - 4, line.y + 10);
+      await panel.getByText(/\d m, \d\.\d s ago/).waitFor();
+    },
+  );
 
   await hold(page);
 
   await check('real is filled, simulated is hollow', async () => {
     await openLayers(page);
     await page.getByRole('combobox', {name: 'Scans'}).selectOption('off');
-    for (const [robot, token] of [[real, 'fill'], [simulated, 'sim-fill']]) {
+    for (const [robot, token] of [
+      [real, 'fill'],
+      [simulated, 'sim-fill'],
+    ]) {
       const {is, wanted} = await inside(page, robot, token);
       assert.deepEqual(is, wanted, `robot ${robot}`);
     }
@@ -201,7 +153,14 @@ try {
   });
 
   await check('each layer is drawn, from above and in perspective', async () => {
-    for (const [name, least] of [['Trails', 150], ['Camera sightings', 80], ['Where readings hit', 40], ['Names', 400], ['Grid', 300]]) await switches(page, name, least);
+    for (const [name, least] of [
+      ['Trails', 150],
+      ['Camera sightings', 80],
+      ['Where readings hit', 40],
+      ['Names', 400],
+      ['Grid', 300],
+    ])
+      await switches(page, name, least);
     await keep(page);
     await page.getByRole('combobox', {name: 'Scans'}).selectOption('off');
     assert.ok((await differ(page)) > 5000, 'scans');
@@ -211,20 +170,37 @@ try {
     // What stands is drawn finely, also without a graphics card.
     await until(page, `${world}.viewpoint().startsWith('3d') && ${world}.stage.ratio >= 1`);
     await settled(page);
-    for (const [name, least] of [['Trails', 60], ['Camera sightings', 60], ['Where readings hit', 30], ['Names', 300], ['Grid', 300]]) await switches(page, name, least);
+    for (const [name, least] of [
+      ['Trails', 60],
+      ['Camera sightings', 60],
+      ['Where readings hit', 30],
+      ['Names', 300],
+      ['Grid', 300],
+    ])
+      await switches(page, name, least);
   });
 
-  await check('a stale robot is a ghost with its age, and one that waits says so, in both views', async () => {
-    for (const mode of ['3d', 'top']) {
-      await page.evaluate(`${world}.setMode('${mode}')`);
-      await settled(page);
-      const plain = await withFlags(page, []);
-      assert.ok(!plain.texts.some((text) => /(^|  )(arm|0\.0 s)$/.test(text)));
-      const {texts: shown, pixels} = await withFlags(page, [[real, kUnarmed], [simulated, kStale]]);
-      assert.ok(shown.some((text) => /(^|  )arm$/.test(text)) && shown.some((text) => /(^|  )0\.0 s$/.test(text)), `${mode}: ${shown}`);
-      assert.ok(pixels > plain.pixels + 100, `${mode}: ${pixels}`);
-    }
-  });
+  await check(
+    'a stale robot is a ghost with its age, and one that waits says so, in both views',
+    async () => {
+      for (const mode of ['3d', 'top']) {
+        await page.evaluate(`${world}.setMode('${mode}')`);
+        await settled(page);
+        const plain = await withFlags(page, []);
+        assert.ok(!plain.texts.some((text) => /(^|  )(arm|0\.0 s)$/.test(text)));
+        const {texts: shown, pixels} = await withFlags(page, [
+          [real, kUnarmed],
+          [simulated, kStale],
+        ]);
+        assert.ok(
+          shown.some((text) => /(^|  )arm$/.test(text)) &&
+            shown.some((text) => /(^|  )0\.0 s$/.test(text)),
+          `${mode}: ${shown}`,
+        );
+        assert.ok(pixels > plain.pixels + 100, `${mode}: ${pixels}`);
+      }
+    },
+  );
 
   await check('the shadow of a real robot has its gap in both views, and a switch', async () => {
     await page.evaluate((real) => {
@@ -238,7 +214,10 @@ try {
       await switches(page, 'Shadows of real robots', 60);
       await page.screenshot({path: join(folder, `shadow-${mode}.png`)});
     }
-    await page.evaluate((real) => document.querySelector('rave-app').model.drives.get(real).shadow = undefined, real);
+    await page.evaluate(
+      (real) => (document.querySelector('rave-app').model.drives.get(real).shadow = undefined),
+      real,
+    );
   });
 
   await check('who is pointed at has a name, also where names are off', async () => {
@@ -267,7 +246,10 @@ try {
     await legend.getByRole('button', {name: '5 real'}).click({modifiers: ['Alt']});
     assert.equal(await hidden(), 'simulated,virtual,landmark,wall');
     const shown = await texts(page);
-    assert.ok(shown.includes('real-3') && !shown.some((text) => /walker|hunter|wedge/.test(text)), `${shown}`);
+    assert.ok(
+      shown.includes('real-3') && !shown.some((text) => /walker|hunter|wedge/.test(text)),
+      `${shown}`,
+    );
     await legend.getByRole('button', {name: '5 real'}).click({modifiers: ['Alt']});
     assert.equal(await hidden(), '');
     await settled(page);
@@ -291,12 +273,17 @@ try {
   await check('M measures between two places', async () => {
     await page.keyboard.press('m');
     const {left, top} = await stageBox(page);
-    const ends = await page.evaluate(`[${world}.stage.screenAt(1, 1), ${world}.stage.screenAt(2, 1)]`);
+    const ends = await page.evaluate(
+      `[${world}.stage.screenAt(1, 1), ${world}.stage.screenAt(2, 1)]`,
+    );
     await page.mouse.move(left + ends[0][0], top + ends[0][1]);
     await page.mouse.down();
     await page.mouse.move(left + ends[1][0], top + ends[1][1], {steps: 4});
     await page.mouse.up();
-    assert.match((await texts(page)).find((text) => / m, /.test(text)), /^(1\.0[01]|0\.99) m, −?0°$/);
+    assert.match(
+      (await texts(page)).find((text) => / m, /.test(text)),
+      /^(1\.0[01]|0\.99) m, −?0°$/,
+    );
     await page.keyboard.press('Escape');
     await until(page, `!${world}.top.measure.on`);
   });
@@ -316,22 +303,30 @@ try {
   await boxIn3d(page, real, folder);
 
   await check('the picture moves, zooms, turns and measures at the keyboard alone', async () => {
-    const look = async () => (await page.evaluate(`${world}.viewpoint()`)).split(',').slice(1).map(Number);
+    const look = async () =>
+      (await page.evaluate(`${world}.viewpoint()`)).split(',').slice(1).map(Number);
     await page.getByRole('button', {name: 'Save a picture'}).focus();
     await page.keyboard.press('Tab');
-    const ring = await page.evaluate(`(() => { const canvas = ${world}.renderRoot.querySelector('.canvas'); return [canvas.matches(':focus-visible'), getComputedStyle(canvas, '::after').borderTopWidth]; })()`);
+    const ring = await page.evaluate(
+      `(() => { const canvas = ${world}.renderRoot.querySelector('.canvas'); return [canvas.matches(':focus-visible'), getComputedStyle(canvas, '::after').borderTopWidth]; })()`,
+    );
     assert.deepEqual(ring, [true, '2px']);
     const [x, y, scale] = await look();
     await page.keyboard.press('ArrowRight');
     await page.keyboard.press('ArrowUp');
     const moved = await look();
-    assert.ok(Math.abs(moved[0] - x - 48 / scale) < 0.01 && Math.abs(moved[1] - y - 48 / scale) < 0.01, `${moved}`);
+    assert.ok(
+      Math.abs(moved[0] - x - 48 / scale) < 0.01 && Math.abs(moved[1] - y - 48 / scale) < 0.01,
+      `${moved}`,
+    );
     await page.keyboard.press('+');
     assert.ok(Math.abs((await look())[2] / scale - 1.25) < 0.01);
     await page.keyboard.press('-');
     await page.keyboard.press('m');
     for (let i = 0; i < 4; ++i) await page.keyboard.press('ArrowLeft');
-    await page.locator('rave-world [role=status]', {hasText: `${(192 / scale).toFixed(2)} m, 180°`}).waitFor({state: 'attached'});
+    await page
+      .locator('rave-world [role=status]', {hasText: `${(192 / scale).toFixed(2)} m, 180°`})
+      .waitFor({state: 'attached'});
     assert.deepEqual(await look(), moved);
     await page.screenshot({path: join(folder, 'keyboard.png')});
     await page.keyboard.press('Escape');
@@ -341,7 +336,11 @@ try {
     await page.keyboard.press('Control+ArrowLeft');
     await page.keyboard.press('ArrowDown');
     const after = await look();
-    assert.ok(Math.abs(after[3] - before[3]) > 0.1 && Math.hypot(after[0] - before[0], after[1] - before[1]) > 0.1, `${after}`);
+    assert.ok(
+      Math.abs(after[3] - before[3]) > 0.1 &&
+        Math.hypot(after[0] - before[0], after[1] - before[1]) > 0.1,
+      `${after}`,
+    );
     await page.keyboard.press('t');
   });
 
@@ -351,27 +350,35 @@ try {
     const png = readFileSync(await download.path());
     assert.equal(png.subarray(1, 4).toString(), 'PNG');
     const {width, height} = await stageBox(page);
-    assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], [Math.round(width), Math.round(height)]);
+    assert.deepEqual(
+      [png.readUInt32BE(16), png.readUInt32BE(20)],
+      [Math.round(width), Math.round(height)],
+    );
     assert.ok(png.length > 30000, `${png.length} bytes`);
   });
 
-  await check('in all of that nothing was complained of, and no other origin was asked', async () => {
-    assert.deepEqual(mixed.errors, []);
-    assert.deepEqual(mixed.foreign, []);
-  });
+  await check(
+    'in all of that nothing was complained of, and no other origin was asked',
+    async () => {
+      assert.deepEqual(mixed.errors, []);
+      assert.deepEqual(mixed.foreign, []);
+    },
+  );
   await page.close();
   mixed.gui.child.kill('SIGKILL');
 
   const many = await open(crowd, 'crowd');
   servers.push(many.gui);
-  await crowdChecks(many);
-  await varianceCheck(many);
+  await crowdChecks({...many, folder});
+  await varianceCheck({...many, folder});
 
   await check('every message is as the schema describes it', async () => {
     assert.ok(said.some((message) => message.type === 'look' && message.variances.length > 0));
     const file = join(folder, 'messages.json');
     writeFileSync(file, JSON.stringify(said));
-    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {stdio: 'inherit'});
+    execFileSync('python3', [new URL('check_messages.py', import.meta.url).pathname, file], {
+      stdio: 'inherit',
+    });
   });
 } finally {
   await browser.close();

@@ -310,8 +310,19 @@ try {
     // A reading has the numbers here that it has in an export.
     const sensors = await replay.evaluate(`${app}.model.robots[${slot}].sensors`);
     for (const {name, fields} of sensors.filter(({kind}) => kind !== 'ranges')) {
-      const csv = execFileSync(rave, ['export', guesses, 'readings', '--robot', 'anna', '--sensor', name]).toString();
-      assert.equal(csv.split('\n')[0], ['time_s', 'stamp_s', ...fields.map((field) => field.name)].join(','));
+      const csv = execFileSync(rave, [
+        'export',
+        guesses,
+        'readings',
+        '--robot',
+        'anna',
+        '--sensor',
+        name,
+      ]).toString();
+      assert.equal(
+        csv.split('\n')[0],
+        ['time_s', 'stamp_s', ...fields.map((field) => field.name)].join(','),
+      );
     }
     await other.end();
   });

@@ -276,13 +276,11 @@ export class SensorsPanel extends LookingPanel {
     const twin = twinOf(robot, robot.sensors.indexOf(sensor));
     const expected = twin === null ? null : this.context.model.readings.of(slot, twin);
     const count = pairsOf(sensor, reading, expected);
+    const saw = `${sensor.origin === 'virtual' ? 'saw' : 'expects'} ${expected?.rows ?? 0}`;
     return html` <p class="halves">
         <span><i class="dot saw"></i>saw ${reading?.rows ?? 0}</span> ${twin === null
           ? nothing
-          : html`<span
-                ><i class="square"></i>${robot.sensors[twin].name}
-                ${sensor.origin === 'virtual' ? 'saw' : 'expects'} ${expected?.rows ?? 0}</span
-              >
+          : html`<span><i class="square"></i>${robot.sensors[twin].name} ${saw}</span>
               <span class="space"></span><em>${count} of ${expected?.rows ?? 0} in both</em>`}
       </p>
       <canvas

@@ -85,11 +85,11 @@ const choose = (page, label) => page.locator('rave-map select').selectOption({la
 
 /** The drop-down switches between two robots and the world, and the picture with it. */
 async function switches(page) {
-  assert.deepEqual(await page.locator('rave-map select option').allTextContents(), [
-    'local: anna',
-    'local: ben',
-    'global: world file',
-  ]);
+  const options = await page.locator('rave-map select option').allTextContents();
+  assert.deepEqual(
+    options.map((text) => text.trim()),
+    ['local: anna', 'local: ben', 'global: world file'],
+  );
   await choose(page, 'global: world file');
   await until(page, `${maps}.of('world file')?.tiles.size > 1`);
   const world = await occupied(page, 'world file');

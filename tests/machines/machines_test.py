@@ -56,7 +56,21 @@ class Lab:
             call("ip", "-n", space, "addr", "add", f"{self.address(name)}/24", "dev", "eth0")
             call("ip", "-n", space, "link", "set", "eth0", "up")
             call("ip", "-n", space, "link", "set", "lo", "up")
+        for number, name in enumerate(self.names, 1):
+            self.await_link(self.space(name), "eth0")
+            self.await_link(self.hub, f"port{number}")
         return self
+
+    def await_link(self, space, link):
+        """The kernel brings a cable up some time after it was told to, and drops packets until then."""
+        end = time.monotonic() + PATIENCE_S
+        while True:
+            shown = subprocess.run(["ip", "-n", space, "-json", "link", "show", "dev", link],
+                                   stdout=subprocess.PIPE, text=True, check=True)
+            if json.loads(shown.stdout)[0]["operstate"] == "UP":
+                return
+            assert time.monotonic() < end, f"{link} in {space} never came up"
+            time.sleep(0.02)
 
     def __exit__(self, *_):
         for process in self.processes:

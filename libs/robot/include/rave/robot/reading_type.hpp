@@ -16,6 +16,7 @@ enum class NumberFormat : std::uint8_t { kInt32, kUint32, kInt64, kFloat32, kFlo
 
 /// Such as `float64`.
 [[nodiscard]] std::string_view to_string(NumberFormat format) noexcept;
+/// Bytes of a number in a record.
 [[nodiscard]] std::uint32_t size_of(NumberFormat format) noexcept;
 
 /// What the noise of a NoiseSpec does to a number.

@@ -15,12 +15,20 @@ Result<ReaderCore> ReaderCore::create(Bus& bus, const TopicSpec& topic) {
   ReaderCore core;
   RAVE_TRY_ASSIGN(const Bus::Endpoint* const endpoint, core.add(bus, topic, true));
   core.local_ = endpoint->receiver.get();
-  core.recalled_ = endpoint->recalls ? topic.type : nullptr;
+  if (!endpoint->recalls) return core;
+  core.recalled_ = topic.type;
+  // Ends with the reader.
+  core.news_ = dds_create_readcondition(
+      core.entity_, DDS_NOT_READ_SAMPLE_STATE | DDS_ANY_VIEW_STATE | DDS_ANY_INSTANCE_STATE);
+  if (core.news_ < 0) return fail(ErrorCode::kIo, "{}: {}", topic.name, dds_strretcode(core.news_));
   return core;
 }
 
 void ReaderCore::recall(const Visit& visit) {
   if (recalled_ == nullptr) return;
+  Bus::Endpoint& endpoint = *bus_->endpoint(entity_);
+  // DDS would look at every sample that is kept, and a step must not cost that.
+  if (!has_news() && endpoint.returned.empty()) return;
   // Nothing may come twice while its writer is there, so what a process said is kept as long.
   constexpr std::uint32_t kOfTheGone = DDS_READ_SAMPLE_STATE | DDS_ANY_VIEW_STATE |
                                        DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE |
@@ -33,7 +41,7 @@ void ReaderCore::recall(const Visit& visit) {
     loan.size = count > 0 ? static_cast<std::size_t>(count) : 0;
     give_back(entity_, loan);
   } while (loan.size == Loan::kBatch);
-  const auto returned = std::exchange(bus_->endpoint(entity_)->returned, {});
+  const auto returned = std::exchange(endpoint.returned, {});
   if (returned.empty()) return;
   read_all_again([&](const void* sample, const dds_sample_info_t& info) {
     const dds_guid_t from = participant_of(entity_, true, info.publication_handle);
@@ -64,11 +72,9 @@ void ReaderCore::read_all_again(const Visit& visit) const {
 }
 
 void ReaderCore::next(Loan& loan) {
-  if (recalled_ != nullptr) {
-    read_new(entity_, loan);
-  } else {
-    take(entity_, loan);
-  }
+  if (recalled_ == nullptr) return take(entity_, loan);
+  loan.size = 0;
+  if (has_news()) read_new(entity_, loan);
 }
 
 std::size_t ReaderCore::begin_take() {

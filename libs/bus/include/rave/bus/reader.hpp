@@ -49,6 +49,10 @@ class ReaderCore : public EndpointOwner {
   void read_all_again(const Visit& visit) const;
 
   LocalReceiver* local_ = nullptr;  ///< Owned by the bus; null: all samples come through DDS.
+  /// Whether a sample has come that was not read. Only of topics with QosProfile::recalls.
+  [[nodiscard]] bool has_news() const { return dds_triggered(news_) > 0; }
+
+  dds_entity_t news_ = 0;  ///< The condition that has_news() asks.
   /// The type of the samples of a topic with QosProfile::recalls; null: of another.
   const dds_topic_descriptor_t* recalled_ = nullptr;
   std::uint64_t sender_ = 0;  ///< The sender of the last sample of the local transport.

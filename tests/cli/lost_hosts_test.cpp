@@ -158,7 +158,7 @@ TEST_F(Hosts, AHostThatHangsIsDroppedAfterItsTime) {
   write_policy("drop", 0.3);
   start_crowd({});
   signal("one", SIGSTOP);
-  wait_for_line("env", "host `one`");
+  wait_for_line("env", "its robots stop from this step on");
   wait_for_more("two");
   signal("one", SIGCONT);
   signal("env", SIGINT);

@@ -236,7 +236,7 @@ try {
     await world.mouse.down();
     await world.waitForTimeout(900);
     await world.mouse.up();
-    await page.locator('rave-run-bar').getByText('STOP').waitFor();
+    await page.locator('rave-run-bar').getByText('STOP', {exact: true}).waitFor();
   });
 
   let sensors;

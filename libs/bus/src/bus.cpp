@@ -251,10 +251,11 @@ Status Bus::await_arrival(dds_entity_t writer, Duration patience) {
   // How often it looks whether the readers are still alive.
   constexpr std::chrono::milliseconds kLook{50};
   const auto end = Clock::now() + std::chrono::nanoseconds(patience.ns);
-  while (true) {
+  // It looks before it waits: none waits for readers that are known to be lost.
+  for (std::chrono::nanoseconds wait{0};; wait = kLook) {
     const std::chrono::nanoseconds left = end - Clock::now();
-    const dds_return_t code = dds_wait_for_acks(
-        writer, std::clamp<std::int64_t>(left.count(), 0, DDS_MSECS(kLook.count())));
+    const dds_return_t code =
+        dds_wait_for_acks(writer, std::clamp<std::int64_t>(left.count(), 0, wait.count()));
     if (code == DDS_RETCODE_OK) return {};
     if (code != DDS_RETCODE_TIMEOUT) return fail(ErrorCode::kIo, "{}", dds_strretcode(code));
     participants_->collect(events_);
@@ -270,8 +271,14 @@ Status Bus::await_arrival(dds_entity_t writer, Duration patience) {
 
 void Bus::remove_endpoint(dds_entity_t entity) {
   const Endpoint* const end = endpoint(entity);
-  // Samples that do not arrive are lost without a word: no caller could do anything about it.
-  if (end != nullptr && !end->reads) static_cast<void>(await_arrival(entity, kLastWords));
+  if (end != nullptr && !end->reads) {
+    const auto began = Standstill::Clock::now();
+    // Samples that do not arrive are lost without a word: no caller could do anything about it.
+    if (!await_arrival(entity, last_words_)) {
+      const std::chrono::nanoseconds waited = Standstill::Clock::now() - began;
+      last_words_ = Duration{std::max<std::int64_t>(0, last_words_.ns - waited.count())};
+    }
+  }
   std::erase_if(endpoints_, [&](const Endpoint& e) { return e.entity == entity; });
   dds_delete(entity);
 }

@@ -67,7 +67,8 @@ class Bus {
   [[nodiscard]] std::uint64_t refused_samples() const noexcept { return refused_samples_; }
 
   static constexpr std::size_t kMaxEvents = 1000;
-  /// How long a writer that ends waits for readers that are alive, but do not confirm its samples.
+  /// How long writers that end wait for readers that are alive, but do not confirm their samples.
+  /// All writers of a bus share it, as a process closes some twenty of them, one after another.
   static constexpr Duration kLastWords{1'000'000'000};
 
  private:
@@ -140,6 +141,7 @@ class Bus {
       local_transport_;  ///< The socket to send from; null: all samples use DDS.
   std::vector<Endpoint> endpoints_;
   std::vector<BusEvent> events_;
+  Duration last_words_ = kLastWords;  ///< What is left of it: time waited in vain is used up.
   std::uint64_t silences_ = 0;  ///< Participants::silences() that the matches already reflect.
   std::uint64_t foreign_samples_ = 0;
   /// The foreign samples already reported, without those of the local transport.

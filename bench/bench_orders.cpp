@@ -134,11 +134,7 @@ std::string measure_stick(plugin::Catalogue& catalogue) {
   std::vector<double> took_ms;
   for (int i = 0; i < 500; ++i) {
     const std::uint32_t seen = watch.changes.load();
-    RunRequest drive;
-    drive.kind = RunRequest::Kind::kDrive;
-    drive.robot = "r1";
-    drive.by = "anna";
-    drive.v_mps = i % 2 == 0 ? 0.1 : 0.2;
+    request::Request drive{request::Drive{i % 2 == 0 ? 0.1 : 0.2, 0}, "r1", "anna"};
     const auto begin = Clock::now();
     if (!control.post(std::move(drive))) std::abort();
     watch.changes.wait(seen);

@@ -80,7 +80,7 @@ void add_set(CLI::App& root, Command& chosen) {
 }
 
 Subcommand<HoldCommand> add_hold(CLI::App& root, Command& chosen, const char* name,
-                                 const char* what, control::Request::What request) {
+                                 const char* what, const control::ProcessAction& request) {
   const auto hold = add_command(root, chosen, name, what, hold_run);
   hold.options.what = request;
   add_run_name(hold.app, hold.options.run);
@@ -89,11 +89,10 @@ Subcommand<HoldCommand> add_hold(CLI::App& root, Command& chosen, const char* na
 }
 
 void add_holds(CLI::App& root, Command& chosen) {
-  using What = control::Request::What;
-  add_hold(root, chosen, "pause", "Pause a run (not a live one)", What::kPause);
-  add_hold(root, chosen, "resume", "Continue a paused run", What::kResume);
+  add_hold(root, chosen, "pause", "Pause a run (not a live one)", control::Pause());
+  add_hold(root, chosen, "resume", "Continue a paused run", control::Resume());
   const auto [step, c] =
-      add_hold(root, chosen, "step", "Compute single steps of a paused run", What::kStep);
+      add_hold(root, chosen, "step", "Compute single steps of a paused run", control::Step());
   add_value(step, "--count", c.count, "Number of steps [1]", "N")
       ->check(whole_number_in(1, 1'000'000'000));
 }

@@ -21,7 +21,6 @@ namespace {
 
 using control::Request;
 using control::request_of;
-using RunKind = runtime::RunRequest::Kind;
 
 /// Asks all; those here at once, so that one that stands keeps no stop from the others.
 std::vector<Reply> ask_all(const std::vector<AskedRun>& runs, const Request& request) {
@@ -203,7 +202,7 @@ Result<int> list_runs(const PsCommand& options) {
 }
 
 Result<int> stop_robots(const StopCommand& options) {
-  const Request request = request_of({RunKind::kStop, options.robot});
+  const Request request = request_of({request::Stop(), options.robot});
   if (!options.all) return stop_run(options, request);
   if (!options.run.empty() || !options.robot.empty() || options.bus.says_where()) {
     return fail(ErrorCode::kInvalidArgument,
@@ -235,26 +234,24 @@ Result<int> stop_robots(const StopCommand& options) {
 Result<int> arm_robots(const ArmCommand& options) {
   RAVE_TRY_ASSIGN(const auto run, AskedRun::find(options.run, options.bus));
   if (options.release) {
-    const Request release = request_of({RunKind::kRelease, options.robot});
+    const Request release = request_of({request::Release(), options.robot});
     // Release first: if it fails, nothing is armed.
     RAVE_TRY_ASSIGN(const int code, ask_controllers(run, release, true));
     if (code != kGood) return code;
   }
-  return ask_controllers(run, request_of({RunKind::kArm, options.robot}), true);
+  return ask_controllers(run, request_of({request::Arm(), options.robot}), true);
 }
 
 Result<int> set_parameter(const SetCommand& options) {
-  Request request = request_of({RunKind::kSet, options.robot});
-  request.run.key = options.key;
-  request.run.value = options.value;
+  const Request request = request_of({request::Set{options.key, options.value}, options.robot});
   RAVE_TRY_ASSIGN(const auto run, AskedRun::find(options.run, options.bus));
   return ask_and_tell(run, request);
 }
 
 Result<int> hold_run(const HoldCommand& options) {
   Request request;
-  request.what = options.what;
-  request.count = options.count;
+  request.own = options.what;
+  if (auto* const step = std::get_if<control::Step>(&*request.own)) step->count = options.count;
   RAVE_TRY_ASSIGN(const auto run, AskedRun::find(options.run, options.bus));
   return ask_and_tell(run, request);
 }

@@ -46,7 +46,7 @@ struct SetCommand {
 
 /// `rave pause`, `rave resume` and `rave step`.
 struct HoldCommand {
-  control::Request::What what = control::Request::What::kPause;  ///< Or kResume, kStep.
+  control::ProcessAction what = control::Pause();  ///< Or resume, step.
   std::string run;
   std::uint64_t count = 1;
   BusOptions bus;

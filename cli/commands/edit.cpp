@@ -92,8 +92,9 @@ Result<config::ObstacleFile> obstacle_of(const EditCommand& options) {
 }
 
 Result<control::Request> request_of(const EditCommand& options) {
-  using Kind = runtime::RunRequest::Kind;
-  if (options.what == EditCommand::What::kList) return control::request_of({Kind::kList, ""});
+  if (options.what == EditCommand::What::kList) {
+    return control::request_of({request::ListObstacles()});
+  }
   config::ObstacleEdit edit;
   if (options.what == EditCommand::What::kRemove) {
     edit.remove_obstacle = options.name;
@@ -103,9 +104,7 @@ Result<control::Request> request_of(const EditCommand& options) {
   } else {
     RAVE_TRY_ASSIGN(edit.add_obstacle, obstacle_of(options));
   }
-  runtime::RunRequest run{Kind::kEdit, ""};
-  run.edit = std::move(edit);
-  return control::request_of(std::move(run));
+  return control::request_of({request::Edit{std::move(edit)}});
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace rave::cli {
 Result<int> end_run(const EndCommand& options) {
   RAVE_TRY_ASSIGN(const auto processes, AskedRun::find_to_end(options.run, options.bus));
   control::Request request;
-  request.what = control::Request::What::kEnd;
+  request.own = control::End();
   int code = kGood;
   for (const AskedRun& process : processes) {
     const auto answer = process.ask(request);

@@ -22,7 +22,6 @@ namespace {
 
 using control::Request;
 using control::request_of;
-using RunKind = runtime::RunRequest::Kind;
 using runtime::RunStatus;
 
 constexpr auto kLook = std::chrono::milliseconds(50);
@@ -162,8 +161,7 @@ Result<int> hand_over(const HandOverCommand& options) {
   RAVE_TRY_ASSIGN(const auto status, run.status());
   // Before the request, or a fast hand-over would be missed.
   const auto before = hand_over_of(status, options.robot).value_or(RunStatus::HandOver{});
-  Request request = request_of({RunKind::kHandOver, options.robot});
-  request.run.value = options.to;
+  const Request request = request_of({request::HandOver{options.to}, options.robot});
   RAVE_TRY_ASSIGN(const auto answer, run.ask(request));
   if (!answer.good) return refused(run, answer.text);
   return await(run, options.robot, before);
@@ -175,7 +173,7 @@ Result<int> show_shadows(const ShadowCommand& options) {
   };
   RAVE_TRY_ASSIGN(const auto run, find_process(options.run, {}, options.bus, has));
   if (options.reset) {
-    return ask_and_tell(run, request_of({RunKind::kResetShadow, options.robot}));
+    return ask_and_tell(run, request_of({request::ResetShadow(), options.robot}));
   }
   RAVE_TRY_ASSIGN(const auto status, run.status());
   Table table;

@@ -13,7 +13,6 @@
 
 #include "asked_run.hpp"
 #include "error_text.hpp"
-#include "rave/control/order_words.hpp"
 #include "rave/math/scalar.hpp"
 
 namespace rave::cli {
@@ -21,7 +20,6 @@ namespace {
 
 using control::Request;
 using control::request_of;
-using RunKind = runtime::RunRequest::Kind;
 using Clock = std::chrono::steady_clock;
 
 /// Well within the time after which a driver counts as gone.
@@ -57,37 +55,26 @@ Result<std::vector<Vec2>> points_of(const OrderCommand& options) {
   return points;
 }
 
-Result<Request> read_request(const OrderCommand& options) {
+Result<request::Action> read_action(const OrderCommand& options) {
   using What = OrderCommand::What;
+  const std::vector<double>& numbers = options.numbers;
   switch (options.what) {
-    case What::kDrive: {
-      Request request = request_of({RunKind::kDrive, options.robot});
-      request.run.page = own_page();
-      request.run.v_mps = options.numbers[0];
-      request.run.w_radps = options.numbers[1];
-      return request;
-    }
+    case What::kDrive:
+      return request::Drive{numbers[0], numbers[1]};
     case What::kGoal: {
-      if (options.cancel) return request_of({RunKind::kCancel, options.robot});
+      if (options.cancel) return request::Cancel();
       RAVE_TRY_ASSIGN(auto points, points_of(options));
-      Request request =
-          request_of({points.size() == 1 ? RunKind::kGoal : RunKind::kPath, options.robot});
+      if (points.size() == 1) return request::Goal{points.front(), {}, options.speed_mps};
       // Here as well as in the run, so that a mistake is reported before a run is searched for.
-      if (points.size() > 1) RAVE_TRY(runtime::check_path_size(points.size()));
-      request.run.points = std::move(points);
-      request.run.speed_mps = options.speed_mps;
-      return request;
+      RAVE_TRY(request::check_path_size(points.size()));
+      return request::Path{std::move(points), options.speed_mps};
     }
-    case What::kSay: {
-      Request request = request_of({RunKind::kText, options.robot});
-      request.run.value = options.text;
-      return request;
-    }
+    case What::kSay:
+      return request::Text{options.text};
     case What::kPlace: {
-      Request request = request_of({RunKind::kPlace, options.robot});
-      request.run.points = {{options.numbers[0], options.numbers[1]}};
-      if (options.numbers.size() > 2) request.run.yaw_rad = deg_to_rad(options.numbers[2]);
-      return request;
+      request::Place place{{numbers[0], numbers[1]}, {}};
+      if (numbers.size() > 2) place.yaw_rad = deg_to_rad(numbers[2]);
+      return place;
     }
   }
   return fail(ErrorCode::kInvalidArgument, "no order");
@@ -112,8 +99,8 @@ const AskedRun* ask(const std::vector<AskedRun>& runs, const Request& request) {
 }
 
 Request cancel_of(const Request& drive) {
-  Request cancel = request_of({RunKind::kCancel, drive.run.robot});
-  cancel.run.page = drive.run.page;
+  Request cancel = drive;
+  cancel.run.action = request::Cancel();
   return cancel;
 }
 
@@ -140,14 +127,15 @@ Result<int> drive_on(const AskedRun& run, const Request& drive, double for_s) {
 }  // namespace
 
 Result<int> give_order(const OrderCommand& options) {
-  RAVE_TRY_ASSIGN(const auto request, read_request(options));
+  RAVE_TRY_ASSIGN(auto action, read_action(options));
+  Request request = request_of({std::move(action), options.robot});
+  if (options.what == OrderCommand::What::kDrive) request.run.page = own_page();
   note_suspensions();
   RAVE_TRY_ASSIGN(const auto run, AskedRun::find(options.run, options.bus));
   const std::vector<AskedRun> runs = run.takers_of_orders(options.robot);
   if (options.force) {
-    Request take = request_of({RunKind::kTake, options.robot});
-    take.run.value = "force";
-    take.run.page = request.run.page;
+    Request take = request;
+    take.run.action = request::Take{.force = true};
     if (ask(runs, take) == nullptr) return kNotGood;
   }
   const AskedRun* const by = ask(runs, request);

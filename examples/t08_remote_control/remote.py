@@ -37,7 +37,7 @@ class Run:
             time.sleep(0.05)
 
     def ask(self, do, **more):
-        self.line.write(json.dumps({"rave": 1, "do": do, **more}) + "\n")
+        self.line.write(json.dumps({"rave": 2, "do": do, **more}) + "\n")
         self.line.flush()
         answer = json.loads(self.line.readline())
         if not answer["good"]:

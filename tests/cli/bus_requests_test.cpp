@@ -50,17 +50,17 @@ TEST_F(BusRequests, ARunInLockStepDoesWhatIsAskedFromElsewhere) {
   EXPECT_NE(stopped.out.find("stopped left-1; counts from step "), std::string::npos);
   EXPECT_EQ(far({"set", "right-2", "body.scale", "0.8"}).exit_code, 0);
   // Who asked, and what, is in the log of whoever was asked.
-  EXPECT_TRUE(logged("env", R"({"rave":1,"do":"stop","robot":"left-1"})")) << console("env");
-  EXPECT_TRUE(logged("env", R"({"rave":1,"do":"edit","edit":{"remove_obstacle":"pillar"}})"))
+  EXPECT_TRUE(logged("env", R"({"rave": 2, "do": "stop", "robot": "left-1"})")) << console("env");
+  EXPECT_TRUE(logged("env", R"({"rave": 2, "do": "edit", "edit": {"remove_obstacle": "pillar"}})"))
       << console("env");
-  EXPECT_FALSE(logged("env", R"({"rave":1,"do":"list"})"));
+  EXPECT_FALSE(logged("env", R"({"rave": 2, "do": "list"})"));
 
   refused({"edit", "remove", "pillar"}, "there is no obstacle `pillar`");
   refused({"stop", "--robot", "left-99"}, "there is no robot `left-99`");
   refused({"set", "left-1", "program.cruise_mps", "0.1"}, "are set at its host");
   const Ended there = far({"set", "left-1", "program.cruise_mps", "0.1", "--run", "crowd@one"});
   EXPECT_EQ(there.exit_code, 0) << there.err;
-  EXPECT_TRUE(logged("one", R"({"rave":1,"do":"set","robot":"left-1")")) << console("one");
+  EXPECT_TRUE(logged("one", R"({"rave": 2, "do": "set", "robot": "left-1")")) << console("one");
   const Ended nobody = far({"stop", "crowd@three"});
   EXPECT_EQ(nobody.exit_code, 2);
   EXPECT_NE(nobody.err.find("host `three` of the run was not found"), std::string::npos)
@@ -83,11 +83,11 @@ TEST_F(BusRequests, ARunInRealTimeDoesWhatIsAskedFromElsewhere) {
   EXPECT_EQ(added.exit_code, 0) << added.err;
   EXPECT_NE(added.out.find("in effect at all 2 hosts "), std::string::npos) << added.out;
   EXPECT_NE(near({"edit", "live_twins@two", "list"}).out.find("bale"), std::string::npos);
-  EXPECT_NE(console("env").find(R"(over the bus: {"rave":1,"do":"edit")"), std::string::npos);
+  EXPECT_NE(console("env").find(R"(over the bus: {"rave": 2, "do": "edit")"), std::string::npos);
   refused({"pause", "live_twins"}, "a live run cannot be paused");
   const Ended stopped = far({"stop", "live_twins@one"});
   EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
-  EXPECT_TRUE(logged("one", R"({"rave":1,"do":"stop"})")) << console("one");
+  EXPECT_TRUE(logged("one", R"({"rave": 2, "do": "stop"})")) << console("one");
   end_by_hand("env", 1);
 }
 
@@ -137,7 +137,7 @@ TEST_F(BusRequests, RunsOfOtherMachinesAreListedWhenTheyAreAskedFor) {
     EXPECT_NE(stopped.err.find("on this machine"), std::string::npos) << stopped.err;
     EXPECT_NE(stopped.err.find("rave ps --network"), std::string::npos) << stopped.err;
   }
-  EXPECT_FALSE(logged("env", R"({"rave":1,"do":"stop"})")) << console("env");
+  EXPECT_FALSE(logged("env", R"({"rave": 2, "do": "stop"})")) << console("env");
   end_by_hand("env");
 }
 
@@ -156,7 +156,7 @@ TEST_F(BusRequests, OfSeveralRunsOneHasToBeNamed) {
   EXPECT_NE(either.err.find("name one by its number"), std::string::npos) << either.err;
   for (const Words& stop : {Words{"stop", "crowd"}, Words{"stop", "--robot", "left-1"}}) {
     const std::string asked =
-        stop.size() == 2 ? R"({"rave":1,"do":"stop"})" : R"("robot":"left-1")";
+        stop.size() == 2 ? R"({"rave": 2, "do": "stop"})" : R"("robot": "left-1")";
     wait_until(
         [&] {
           static_cast<void>(far(stop));
@@ -222,7 +222,7 @@ TEST_F(SecretRequests, AMemberOfTheSetAloneReachesTheRun) {
       << stopped.out;
   const Ended set = as_member({"set", "right-2", "body.scale", "0.8"});
   EXPECT_EQ(set.exit_code, 0) << set.err;
-  EXPECT_TRUE(logged("env", R"({"rave":1,"do":"stop","robot":"left-1"})")) << console("env");
+  EXPECT_TRUE(logged("env", R"({"rave": 2, "do": "stop", "robot": "left-1"})")) << console("env");
   end_by_hand("env");
 }
 
@@ -231,7 +231,7 @@ TEST_F(SecretRequests, AHostInRealTimeHearsAMemberToo) {
   wait_for_line("env", "all hosts have joined");
   const Ended stopped = as_member({"stop", "live_twins@one"});
   EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
-  EXPECT_TRUE(logged("one", R"({"rave":1,"do":"stop"})")) << console("one");
+  EXPECT_TRUE(logged("one", R"({"rave": 2, "do": "stop"})")) << console("one");
   not_found({"stop"});
   end_by_hand("env", 1);
 }

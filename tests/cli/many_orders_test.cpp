@@ -13,9 +13,9 @@
 namespace rave::cli_test {
 namespace {
 
-using runtime::RunRequest;
-using Kind = RunRequest::Kind;
 using Answer = std::future<Result<std::string>>;
+
+const request::Goal kGoal{{0, 15}, {}};
 
 class ManyOrders : public BusRequests {
  protected:
@@ -42,26 +42,21 @@ class ManyOrders : public BusRequests {
     ASSERT_TRUE(sender) << sender.error().text();
     sender_ = *std::move(sender);
   }
-  RunRequest order(Kind kind, const std::string& robot, const std::string& by = "lisa") const {
-    RunRequest request;
-    request.kind = kind;
-    request.robot = robot;
-    request.by = by;
-    if (kind == Kind::kGoal) request.points = {{0, 15}};
-    if (kind == Kind::kText) request.value = "hello";
-    return request;
+  static request::Request order(request::Action action, const std::string& robot,
+                                const std::string& by = "lisa") {
+    return {std::move(action), robot, by};
   }
-  std::string answer(RunRequest request) {
+  std::string answer(request::Request request) {
     auto posted = sender_->post(std::move(request));
     if (!posted) return "not sent: " + posted.error().message;
     const auto result = posted->get();
     return result ? "done: " + *result : "refused: " + result.error().message;
   }
   /// All orders are on their way before the first answer is looked at.
-  void order_all(Kind kind) {
+  void order_all(const request::Action& action) {
     std::vector<Answer> answers;
     for (const std::string& robot : robots_) {
-      auto posted = sender_->post(order(kind, robot));
+      auto posted = sender_->post(order(action, robot));
       ASSERT_TRUE(posted) << posted.error().text();
       answers.push_back(*std::move(posted));
     }
@@ -87,34 +82,34 @@ class ManyOrders : public BusRequests {
 
 TEST_F(ManyOrders, InLockStepAllAreAnsweredAndObeyed) {
   start_with_sender("many_orders.yaml", false);
-  order_all(Kind::kGoal);
+  order_all(kGoal);
   wait_until([this] { return robots_with("goal 0.00, 15.00") >= robots_.size(); }, "all go there");
   // Who drives is decided at the hosts, for each of their robots.
-  EXPECT_EQ(answer(order(Kind::kGoal, "right-7", "mark")), "refused: `lisa` drives right-7");
-  EXPECT_EQ(answer(order(Kind::kText, "left-3")),
+  EXPECT_EQ(answer(order(kGoal, "right-7", "mark")), "refused: `lisa` drives right-7");
+  EXPECT_EQ(answer(order(request::Text{"hello"}, "left-3")),
             "refused: robot `left-3`, text: its program takes no texts");
-  order_all(Kind::kCancel);
+  order_all(request::Cancel());
   wait_until([this] { return robots_with("goal 0.00, 15.00") == 0; }, "no order is left");
   end_by_hand("env");
 }
 
 TEST_F(ManyOrders, InRealTimeAllAreAnsweredAndObeyed) {
   start_with_sender("many_live_orders.yaml", true);
-  order_all(Kind::kGoal);
+  order_all(kGoal);
   wait_until([this] { return robots_with("goal 0.00, 15.00") >= robots_.size(); }, "all go there");
-  order_all(Kind::kCancel);
+  order_all(request::Cancel());
 }
 
 TEST_F(ManyOrders, AHostThatIsGoneDoesNotAnswerAndTheSenderSaysSo) {
   start_with_sender("many_live_orders.yaml", true);
-  EXPECT_EQ(answer(order(Kind::kGoal, "right-1")).substr(0, 5), "done:");
+  EXPECT_EQ(answer(order(kGoal, "right-1")).substr(0, 5), "done:");
   signal("two", SIGKILL);
   static_cast<void>(end_of("two"));
-  EXPECT_EQ(answer(order(Kind::kGoal, "right-1")),
+  EXPECT_EQ(answer(order(kGoal, "right-1")),
             "refused: the host of right-1 has not answered for 5 s; the order may still be carried "
             "out");
-  EXPECT_EQ(answer(order(Kind::kGoal, "left-1")).substr(0, 5), "done:");
-  EXPECT_EQ(answer(order(Kind::kGoal, "left-999")), "not sent: there is no robot `left-999`");
+  EXPECT_EQ(answer(order(kGoal, "left-1")).substr(0, 5), "done:");
+  EXPECT_EQ(answer(order(kGoal, "left-999")), "not sent: there is no robot `left-999`");
 }
 
 }  // namespace

@@ -69,9 +69,7 @@ class OrdersOverHosts : public HeldRun {
   /// inputs, all of the step for which the run waits.
   void drive_and_let_go() {
     const std::string drives = "`terminal` drives it";
-    control::Request drive = control::request_of({runtime::RunRequest::Kind::kDrive, "bert"});
-    drive.run.v_mps = 0.3;
-    drive.run.w_radps = 0.1;
+    const control::Request drive = control::request_of({request::Drive{0.3, 0.1}, "bert"});
     EXPECT_EQ(said_by(host_of("bert"), drive).substr(0, 5), "good:");
     const auto robots = [this] { return rave({"ps", "--robots"}).out; };
     EXPECT_NE(robots().find(drives), std::string::npos) << robots();
@@ -139,15 +137,12 @@ TEST_F(OrdersOverHosts, WhatAHostRefusesIsSaid) {
 }
 
 /// What a person asks, as a page would.
-control::Request of_person(runtime::RunRequest::Kind kind, const std::string& robot,
+control::Request of_person(request::Action action, const std::string& robot,
                            const std::string& by) {
-  control::Request request = control::request_of({kind, robot});
-  request.run.by = by;
-  return request;
+  return control::request_of({std::move(action), robot, by});
 }
 
 TEST_F(OrdersOverHosts, TheHostOfTheRobotKeepsItsLeaseAndTheManagerIsNotAsked) {
-  using Kind = runtime::RunRequest::Kind;
   start("split", [this] {
     Words words = split();
     words.emplace_back("--no-record");
@@ -158,17 +153,18 @@ TEST_F(OrdersOverHosts, TheHostOfTheRobotKeepsItsLeaseAndTheManagerIsNotAsked) {
   ASSERT_NE(host.find('@'), std::string::npos) << host;
   const auto manager = control::find_run("orders");
   ASSERT_TRUE(manager) << manager.error().text();
-  EXPECT_EQ(said_by(host, of_person(Kind::kTake, "bert", "anna")), "good: bert is yours");
-  control::Request drive = of_person(Kind::kDrive, "bert", "mona");
-  drive.run.v_mps = 0.1;
+  EXPECT_EQ(said_by(host, of_person(request::Take(), "bert", "anna")), "good: bert is yours");
+  const control::Request drive = of_person(request::Drive{0.1, 0}, "bert", "mona");
   EXPECT_EQ(said_by(host, drive), "refused: `anna` drives bert");
-  EXPECT_EQ(said_by(host, of_person(Kind::kRelease, "bert", "mona")),
+  EXPECT_EQ(said_by(host, of_person(request::Release(), "bert", "mona")),
             "refused: `anna` drives bert");
-  EXPECT_EQ(said_by(host, of_person(Kind::kTake, "bert", "mona")), "refused: `anna` drives bert");
-  EXPECT_EQ(said_by(host, of_person(Kind::kTake, "carl", "mona")),
+  EXPECT_EQ(said_by(host, of_person(request::Take(), "bert", "mona")),
+            "refused: `anna` drives bert");
+  EXPECT_EQ(said_by(host, of_person(request::Take(), "carl", "mona")),
             "refused: robot `carl` runs in another process of this run");
-  EXPECT_NE(said_by(*manager, of_person(Kind::kTake, "bert", "anna")).find("which keeps its lease"),
-            std::string::npos);
+  EXPECT_NE(
+      said_by(*manager, of_person(request::Take(), "bert", "anna")).find("which keeps its lease"),
+      std::string::npos);
   // All who ask how the run stands hear of it, also from the manager.
   const auto told = [&](const std::string& process) {
     const auto answer = control::ask(process, control::Request{});
@@ -181,8 +177,8 @@ TEST_F(OrdersOverHosts, TheHostOfTheRobotKeepsItsLeaseAndTheManagerIsNotAsked) {
   EXPECT_EQ(told(host), "anna");
   wait_until([&] { return told(*manager) == "anna"; });
   // A stop needs no lease.
-  EXPECT_EQ(said_by(host, of_person(Kind::kStop, "bert", "mona")).substr(0, 5), "good:");
-  EXPECT_EQ(said_by(host, of_person(Kind::kGive, "bert", "anna")),
+  EXPECT_EQ(said_by(host, of_person(request::Stop(), "bert", "mona")).substr(0, 5), "good:");
+  EXPECT_EQ(said_by(host, of_person(request::Give(), "bert", "anna")),
             "good: no person drives bert now");
   wait_until([&] { return told(*manager).empty(); });
 }

@@ -122,7 +122,7 @@ TEST_F(StrangeRequests, WhoAsksNonsenseWithoutEndKeepsNobodyFromBeingHeard) {
 
 TEST_F(StrangeRequests, WhatIsOfAnotherRunOrForAnotherProcessIsNotDone) {
   start_all("crowd.yaml", {"--duration", "100000", "--no-record", "--run", run_.text()});
-  const std::string stop = R"({"rave":1,"do":"stop"})";
+  const std::string stop = R"({"rave":2,"do":"stop"})";
   std::uint64_t manager = 0;
   {
     auto asker = open_asker(run_);
@@ -131,8 +131,8 @@ TEST_F(StrangeRequests, WhatIsOfAnotherRunOrForAnotherProcessIsNotDone) {
     wait_until([&] { return asker->requests.readers() >= 3; }, "all hear it");
     send(*asker, manager + 1, 1, stop);
     stray(*asker, manager, 2, stop);
-    send(*asker, manager, 3, R"({"rave":1,"do":"release"})");
-    wait_until([&] { return logged("env", R"({"rave":1,"do":"release"})"); },
+    send(*asker, manager, 3, R"({"rave":2,"do":"release"})");
+    wait_until([&] { return logged("env", R"({"rave": 2, "do": "release"})"); },
                "what comes after both is heard");
     wait_until(
         [&] {

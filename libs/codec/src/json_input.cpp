@@ -27,7 +27,11 @@ class Builder : public nlohmann::json_sax<Json> {
   bool number_float(number_float_t value, const string_t& /*text*/) override {
     return add(RawNode::number(value));
   }
-  bool string(string_t& value) override { return add(RawNode::text(std::move(value))); }
+  bool string(string_t& value) override {
+    // Much that receives texts would end them there.
+    if (value.find('\0') != string_t::npos) return refuse("a text with a character 0");
+    return add(RawNode::text(std::move(value)));
+  }
   bool binary(binary_t& /*value*/) override { return refuse("binary data"); }
   bool start_object(std::size_t /*size*/) override { return open(RawNode::mapping()); }
   bool start_array(std::size_t /*size*/) override { return open(RawNode::sequence()); }

@@ -71,6 +71,7 @@ void describe(V& v, HandOver& c) {
 template <class V>
 void describe(V& v, Take& c) {
   v.field("force", c.force, {.doc = "Takes it over from another person."});
+  v.field("drives", c.drives, {.doc = "Refused also while the stick of this page is held."});
 }
 template <class V>
 void describe(V& v, Give& c) {
@@ -109,7 +110,7 @@ template <class V>
 void describe(V& v, Chat& c) {
   v.required("number", c.number, {.doc = "Number at its server.", .min = 1});
   v.required("role", c.role, text_of("Role of the sender.", 16));
-  v.required("to", c.to, {.doc = "Kind of receiver."});
+  v.field("to", c.to, {.doc = "Kind of receiver."});
   v.field("name", c.name, text_of("Name of the receiver; none for all.", kMostChatName, 0));
   v.required("text", c.text, text_of("Text.", kMostOrderText));
 }
@@ -134,7 +135,7 @@ void describe(V& v, Sender& c) {
   v.field("robot", c.robot, text_of("Robot; empty: all.", 4096, 0));
   v.field("by", c.by, text_of("Person; empty: the terminal.", kMostOrderAuthor, 0));
   v.field("overrides", c.overrides, {.doc = "The person is a super-user."});
-  v.field("page", c.page, {.doc = "Page of the person; 0: none."});
+  v.field("page", c.page, {.doc = "Page of the person.", .min = 1});
 }
 
 }  // namespace rave::request

@@ -38,6 +38,13 @@ Result<Order> make_nth(std::size_t n, const OrderParts& parts,
 
 }  // namespace
 
+std::optional<OrderKind> order_named(std::string_view name) noexcept {
+  for (std::uint32_t kind = 1; kind <= std::variant_size_v<Order>; ++kind) {
+    if (to_string(static_cast<OrderKind>(kind)) == name) return static_cast<OrderKind>(kind);
+  }
+  return std::nullopt;
+}
+
 OrderParts parts_of(const Order& order) noexcept {
   return std::visit(
       [](const auto& one) {

@@ -39,9 +39,12 @@ std::span<const std::string_view> action_names() noexcept { return codec::Codec<
 bool is_order(const Action& action) noexcept {
   return is_any_of<Drive, Goal, Path, Cancel, Text, Place>(action);
 }
-const Drive* drive_of(const Action& action) noexcept { return std::get_if<Drive>(&action); }
+bool is_hold(const Action& action) noexcept { return is_any_of<Stop, Release, Arm>(action); }
 bool is_of_lease(const Action& action) noexcept { return is_any_of<Take, Give>(action); }
 bool only_reads(const Action& action) noexcept { return is_any_of<ListObstacles>(action); }
+bool is_of_no_robot(const Action& action) noexcept {
+  return is_any_of<Edit, ListObstacles, Chat>(action);
+}
 bool needs_robot(const Action& action) noexcept {
   return is_any_of<Set, HandOver, Drive, Goal, Path, Text, Place, Take, Give>(action);
 }
@@ -63,11 +66,32 @@ std::optional<Order> order_of(const Action& action) {
       action);
 }
 
+void append_sender(const Request& sender, codec::RawNode& node) {
+  const Sender said{sender.robot, sender.by, sender.overrides, sender.page};
+  append_said(codec::write_node(said), codec::write_node(Sender{}), node);
+}
+
+Result<Request> take_sender(codec::RawNode& node) {
+  codec::RawNode of_sender = codec::RawNode::mapping();
+  for (const char* const key : {"robot", "by", "overrides", "page"}) {
+    const codec::RawNode* const value = node.find(key);
+    if (value == nullptr) continue;
+    of_sender.append(key, *value);
+    node.erase(key);
+  }
+  RAVE_TRY_ASSIGN(auto sender, codec::read_node<Sender>(of_sender));
+  Request request;
+  request.robot = std::move(sender.robot);
+  request.by = std::move(sender.by);
+  request.overrides = sender.overrides;
+  request.page = sender.page;
+  return request;
+}
+
 codec::RawNode to_node(const Request& request) {
   codec::RawNode node = codec::RawNode::mapping(
       {{codec::kVariantKey, codec::RawNode::text(std::string(name_of(request.action)))}});
-  const Sender sender{request.robot, request.by, request.overrides, request.page};
-  append_said(codec::write_node(sender), codec::write_node(Sender{}), node);
+  append_sender(request, node);
   const codec::RawNode action = codec::write_node(request.action);
   codec::RawNode defaults = defaults_of(request.action);
   for (const std::string_view key : action.keys()) {
@@ -79,26 +103,25 @@ codec::RawNode to_node(const Request& request) {
 }
 
 Result<Request> from_node(const codec::RawNode& node) {
-  codec::RawNode of_action = node;
-  codec::RawNode of_sender = codec::RawNode::mapping();
-  for (const char* const key : {"robot", "by", "overrides", "page"}) {
-    const codec::RawNode* const value = node.find(key);
-    if (value == nullptr) continue;
-    of_sender.append(key, *value);
-    of_action.erase(key);
+  if (!node.is_mapping()) return fail(ErrorCode::kParse, "expected an object");
+  codec::RawNode rest = node;
+  RAVE_TRY_ASSIGN(Request request, take_sender(rest));
+  RAVE_TRY_ASSIGN(request.action, codec::read_node<Action>(rest));
+  const std::string_view name = name_of(request.action);
+  if (request.robot.empty() && needs_robot(request.action)) {
+    return fail(ErrorCode::kParse, "`{}` needs a robot", name);
   }
-  codec::Diagnostics diagnostics;
-  auto sender = codec::read_node<Sender>(of_sender, diagnostics);
-  Request request;
-  request.action = codec::read_node<Action>(of_action, diagnostics);
-  request.robot = std::move(sender.robot);
-  request.by = std::move(sender.by);
-  request.overrides = sender.overrides;
-  request.page = sender.page;
-  if (diagnostics.ok() && request.robot.empty() && needs_robot(request.action)) {
-    return fail(ErrorCode::kParse, "`{}` needs a robot", name_of(request.action));
+  if (!request.robot.empty() && is_of_no_robot(request.action)) {
+    return fail(ErrorCode::kParse, "`{}` concerns no robot: unexpected key `robot`", name);
   }
-  return diagnostics.value_or_errors(std::move(request));
+  const bool has_author = !request.by.empty() || request.overrides || request.page != 0;
+  if (only_reads(request.action) && has_author) {
+    return fail(ErrorCode::kParse, "`{}` changes nothing: unexpected author", name);
+  }
+  if (request.is<Chat>() && request.by.empty()) {
+    return fail(ErrorCode::kParse, "`{}` needs its author: expected the key `by`", name);
+  }
+  return request;
 }
 
 std::string to_json_line(const Request& request) { return codec::to_json_line(to_node(request)); }

@@ -40,7 +40,9 @@ TEST(Request, EachIsReadAsItWasWritten) {
   const auto all = one_of_each();
   ASSERT_EQ(all.size(), action_names().size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const Request request{all[i], "r1", "anna", true, 7};
+    Request request{all[i], "r1", "anna", true, 7};
+    if (is_of_no_robot(all[i])) request.robot.clear();
+    if (only_reads(all[i])) request = {all[i]};
     const auto again = from_json(to_json_line(request));
     ASSERT_TRUE(again.has_value()) << to_json_line(request) << ": " << again.error().message;
     EXPECT_EQ(*again, request);
@@ -63,6 +65,13 @@ TEST(Request, RefusesWithReasons) {
   EXPECT_NE(error_of(R"({"do": "drive", "robot": "r", "v": 101, "w": 0})").find("100"),
             std::string::npos);
   EXPECT_NE(error_of(R"({"do": "stop", "speed": 1})").find("unknown key `speed`"),
+            std::string::npos);
+  EXPECT_NE(error_of(R"({"do": "list", "robot": "r"})").find("concerns no robot"),
+            std::string::npos);
+  EXPECT_NE(error_of(R"({"do": "list", "by": "anna"})").find("unexpected author"),
+            std::string::npos);
+  EXPECT_NE(error_of(R"({"do": "chat", "number": 1, "role": "observer", "text": "a"})")
+                .find("needs its author"),
             std::string::npos);
   EXPECT_NE(error_of(R"({"do": "edit", "edit": {}})").find("add_obstacle"), std::string::npos);
 }

@@ -4,8 +4,6 @@
 namespace rave::control {
 namespace {
 
-using What = Request::What;
-
 /// Pause, resume and step, which a live run refuses.
 Answer hold(runtime::RunControl& control, const Request& request) {
   if (const auto idle = control.idle(); !idle.empty()) return {false, std::string(idle), {}};
@@ -16,17 +14,19 @@ Answer hold(runtime::RunControl& control, const Request& request) {
   if (status.live) return {false, "a live run cannot be paused: the real world continues", {}};
   const std::string waits =
       status.waits_for.empty() ? "" : fmt::format("; the run waits for {}", status.waits_for);
-  if (request.what == What::kPause) {
+  if (request.as<Pause>() != nullptr) {
     control.pause();
     return {true, "paused" + waits, {}};
   }
-  if (request.what == What::kResume) {
+  if (request.as<Resume>() != nullptr) {
     control.resume();
     return {true, "resumed" + waits, {}};
   }
   if (!status.paused) return {false, "the run is not paused", {}};
-  control.step(request.count);
-  const std::string steps = fmt::format("{} step{}", request.count, request.count == 1 ? "" : "s");
+  const auto* const step = request.as<Step>();
+  const std::uint64_t count = step != nullptr ? step->count : 0;
+  control.step(count);
+  const std::string steps = fmt::format("{} step{}", count, count == 1 ? "" : "s");
   if (waits.empty()) return {true, steps, {}};
   return {true, fmt::format("{} requested{}, which is late or lost", steps, waits), {}};
 }
@@ -37,19 +37,11 @@ std::optional<Answer> answer_at_once(runtime::RunControl& control, const Request
   if (request.relay && control.status().follows) {
     return Answer{false, "only requests over the bus are forwarded: address the manager", {}};
   }
-  switch (request.what) {
-    case What::kStatus:
-      return Answer{true, "", control.status()};
-    case What::kPause:
-    case What::kResume:
-    case What::kStep:
-      return hold(control, request);
-    case What::kEnd:
-      control.end_run();
-      return Answer{true, "ends", {}};
-    default:
-      return std::nullopt;
-  }
+  if (!request.own) return std::nullopt;
+  if (request.as<AskStatus>() != nullptr) return Answer{true, "", control.status()};
+  if (request.as<End>() == nullptr) return hold(control, request);
+  control.end_run();
+  return Answer{true, "ends", {}};
 }
 
 Answer answer_of(const Result<std::string>& result) {

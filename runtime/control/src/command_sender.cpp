@@ -23,13 +23,12 @@ namespace rave::control {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using runtime::RunRequest;
 
 /// How long an order waits for its answer.
 constexpr std::chrono::seconds kOrderPatience{5};
 
 struct Order {
-  RunRequest request;
+  request::Request request;
   std::uint32_t robot = 0;
   std::promise<Result<std::string>> promise{};
   Clock::time_point until = Clock::now() + kOrderPatience;
@@ -124,7 +123,7 @@ bool CommandSender::Impl::send_if_due(std::uint64_t command_number, Order& order
     order.promise.set_value(tl::unexpected(std::move(sent).error()));
     return true;
   }
-  if (order.request.kind == RunRequest::Kind::kDrive) {
+  if (order.request.is<request::Drive>()) {
     order.promise.set_value(fmt::format("sent to {}", robot));
     return true;
   }
@@ -172,7 +171,7 @@ Result<std::unique_ptr<CommandSender>> CommandSender::open(bus::BusConfig config
   return std::unique_ptr<CommandSender>(new CommandSender(std::move(impl)));
 }
 
-Result<std::future<Result<std::string>>> CommandSender::post(RunRequest order) {
+Result<std::future<Result<std::string>>> CommandSender::post(request::Request order) {
   const auto id = impl_->ids.find(order.robot);
   if (id == impl_->ids.end()) {
     return fail(ErrorCode::kNotFound, "there is no robot `{}`", order.robot);

@@ -1,32 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rave/control/commands.hpp"
 
-#include <array>
 #include <chrono>
 #include <future>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "rave/base/control_characters.hpp"
 #include "rave/base/text_width.hpp"
 #include "rave/bus/sequence.hpp"
 #include "rave/control/host_leases.hpp"
-#include "rave/control/order_words.hpp"
 #include "rave/robot/order.hpp"
 
 namespace rave::control {
 namespace {
 
 using runtime::RunControl;
-using runtime::RunRequest;
-using Kind = RunRequest::Kind;
 
-/// In the order of rave_wire_CommandKind.
-constexpr std::array kKinds = {Kind::kDrive,  Kind::kGoal,    Kind::kPath,
-                               Kind::kCancel, Kind::kText,    Kind::kPlace,
-                               Kind::kStop,   Kind::kRelease, Kind::kArm};
-static_assert(kKinds.size() == rave_wire_COMMAND_ARM + 1);
+/// The kind on the wire: orders come first, in the order of their variant, then what holds robots.
+static_assert(std::variant_size_v<request::Order> == rave_wire_COMMAND_STOP);
+
+std::optional<rave_wire_CommandKind> wire_kind(const request::Request& request) {
+  if (const auto order = request::order_of(request.action)) {
+    return static_cast<rave_wire_CommandKind>(order->index());
+  }
+  if (request.is<request::Stop>()) return rave_wire_COMMAND_STOP;
+  if (request.is<request::Release>()) return rave_wire_COMMAND_RELEASE;
+  if (request.is<request::Arm>()) return rave_wire_COMMAND_ARM;
+  return std::nullopt;
+}
+
+Result<request::Action> action_of(const bus::Command& command) {
+  if (command.kind == rave_wire_COMMAND_STOP) return request::Stop();
+  if (command.kind == rave_wire_COMMAND_RELEASE) return request::Release();
+  if (command.kind == rave_wire_COMMAND_ARM) return request::Arm();
+  std::vector<Vec2> points_W;
+  for (const auto& point : bus::elements(command.points)) {
+    points_W.push_back({point.x_m, point.y_m});
+  }
+  request::OrderParts parts{points_W,          {},          command.v_mps, command.w_radps,
+                            command.speed_mps, command.text};
+  if (command.has_yaw) parts.yaw_rad = command.yaw_rad;
+  const auto kind = static_cast<OrderKind>(command.kind + 1);
+  if (kind == OrderKind::kPath) RAVE_TRY(request::check_path_size(points_W.size()));
+  RAVE_TRY_ASSIGN(auto order, request::make_order(kind, parts));
+  return request::action_of(std::move(order));
+}
 
 bus::CommandResult result_of(const Result<std::string>& result) {
   std::string text = without_control_characters(result ? *result : result.error().message, " ");
@@ -45,7 +66,7 @@ bus::BegunCommand refused(Error error) {
 
 bus::BegunCommand begin(RunControl& control, const bus::Command& command,
                         const std::string& robot) {
-  auto order = order_of(command, robot);
+  auto order = request_of(command, robot);
   // A drive gets no answer: its driver sees what the robot does, and renews it many times a second.
   const bool drive = command.kind == rave_wire_COMMAND_DRIVE;
   if (!order) return drive ? bus::BegunCommand() : refused(std::move(order).error());
@@ -86,59 +107,50 @@ Result<bus::BeginCommand> commands_of(RunControl& control, const config::Expande
   };
 }
 
-Status to_command(const RunRequest& order, bus::Command& command,
+Status to_command(const request::Request& request, bus::Command& command,
                   std::vector<rave_wire_OrderPoint>& points) {
-  const auto* const kind = std::ranges::find(kKinds, order.kind);
-  if (kind == kKinds.end()) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` is not an order", to_string(order.kind));
+  const auto kind = wire_kind(request);
+  if (!kind) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` is not an order",
+                request::name_of(request.action));
   }
-  if (order.kind == Kind::kPath) RAVE_TRY(runtime::check_path_size(order.points.size()));
+  const auto order = request::order_of(request.action);
+  const auto parts = request::parts_of(order ? &*order : nullptr);
+  if (request.is<request::Path>()) RAVE_TRY(request::check_path_size(parts.points_W.size()));
   command = {};
-  command.kind = static_cast<rave_wire_CommandKind>(kind - kKinds.begin());
-  command.page = order.page;
+  command.kind = *kind;
+  command.page = request.page;
   // An order needs the lease, even that of a super-user.
-  command.overrides = order.overrides && !runtime::is_order(order.kind);
-  if (order.by.empty() || !bus::put_text(command.author, order.by)) {
-    return fail(ErrorCode::kInvalidArgument, "the author `{}`: expected 1 to {} bytes", order.by,
+  command.overrides = request.overrides && !order;
+  if (request.by.empty() || !bus::put_text(command.author, request.by)) {
+    return fail(ErrorCode::kInvalidArgument, "the author `{}`: expected 1 to {} bytes", request.by,
                 sizeof command.author - 1);
   }
-  if (!bus::put_text(command.text, order.value)) {
+  if (!bus::put_text(command.text, std::string(parts.text))) {
     return fail(ErrorCode::kInvalidArgument, "the text has {} bytes; expected at most {}",
-                order.value.size(), sizeof command.text - 1);
+                parts.text.size(), sizeof command.text - 1);
   }
   points.clear();
-  for (const Vec2 p_W : order.points) points.push_back({p_W.x, p_W.y});
+  for (const Vec2 p_W : parts.points_W) points.push_back({p_W.x, p_W.y});
   bus::borrow(command.points, points);
-  command.has_yaw = order.yaw_rad.has_value();
-  command.yaw_rad = order.yaw_rad.value_or(0);
-  command.v_mps = order.v_mps;
-  command.w_radps = order.w_radps;
-  command.speed_mps = order.speed_mps;
+  command.has_yaw = parts.yaw_rad.has_value();
+  command.yaw_rad = parts.yaw_rad.value_or(0);
+  command.v_mps = parts.v_mps;
+  command.w_radps = parts.w_radps;
+  command.speed_mps = parts.speed_mps;
   return {};
 }
 
-Result<RunRequest> order_of(const bus::Command& command, std::string robot) {
-  RunRequest order;
-  order.kind = kKinds[command.kind];
-  order.robot = std::move(robot);
-  order.by = command.author;
+Result<request::Request> request_of(const bus::Command& command, std::string robot) {
   // This name stands for the terminal on the run's own machine, so commands from the bus may not
   // use it.
-  if (order.by == runtime::HostLeases::kTerminal) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` is not a valid name of a person", order.by);
+  if (command.author == std::string_view(runtime::HostLeases::kTerminal)) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` is not a valid name of a person",
+                command.author);
   }
-  if (order.kind == Kind::kPath) RAVE_TRY(runtime::check_path_size(command.points._length));
-  for (const auto& point : bus::elements(command.points)) {
-    order.points.push_back({point.x_m, point.y_m});
-  }
-  if (command.has_yaw) order.yaw_rad = command.yaw_rad;
-  order.value = command.text;
-  order.v_mps = command.v_mps;
-  order.w_radps = command.w_radps;
-  order.speed_mps = command.speed_mps;
-  order.page = command.page;
-  order.overrides = command.overrides;
-  return order;
+  RAVE_TRY_ASSIGN(auto action, action_of(command));
+  return request::Request{std::move(action), std::move(robot), command.author, command.overrides,
+                          command.page};
 }
 
 }  // namespace rave::control

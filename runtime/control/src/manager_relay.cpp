@@ -34,12 +34,8 @@ ManagerRelay::Lane::~Lane() {
 }
 
 std::future<Result<Answer>> ManagerRelay::post(Request request) {
-  using RequestKind = runtime::RunRequest::Kind;
   request.relay = false;
-  const RequestKind kind = request.run.kind;
-  const bool hold =
-      kind == RequestKind::kStop || kind == RequestKind::kRelease || kind == RequestKind::kArm;
-  Lane& lane = hold ? holds_ : others_;
+  Lane& lane = request::is_hold(request.run.action) ? holds_ : others_;
   const std::lock_guard lock(lane.mutex);
   auto& [asked, promise] =
       lane.waiting.emplace_back(std::move(request), std::promise<Result<Answer>>());

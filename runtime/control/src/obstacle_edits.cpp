@@ -36,19 +36,19 @@ Result<config::ObstacleEdit> old_edit(std::string_view member, std::string_view 
 
 }  // namespace
 
-Result<sim::ObstacleChange> requested_change(const RunRequest& request) {
+Result<sim::ObstacleChange> requested_change(const config::ObstacleEdit& edit,
+                                             const std::string& by) {
   // The place of an error within a request does not help the user, so it is omitted.
   const auto without_place = [](const Error& error) {
     return fail(error.code, "{}", error.message);
   };
-  if (!request.edit) return fail(ErrorCode::kInvalidArgument, "expected the edit of an obstacle");
   // Requests also come from code that puts them together, such as the GUI Server.
-  const Status checked = config::check_edit(*request.edit);
+  const Status checked = config::check_edit(edit);
   if (!checked) return without_place(checked.error());
-  auto change = change_of(*request.edit);
+  auto change = change_of(edit);
   if (!change) return without_place(change.error());
-  change->by = request.by;
-  change->asked = config::write_edit(*request.edit);
+  change->by = by;
+  change->asked = config::write_edit(edit);
   RAVE_TRY(sim::check_obstacle_change(*change));
   return change;
 }
@@ -61,7 +61,7 @@ std::string_view word_of(const config::ObstacleEdit& edit) noexcept {
 std::optional<Result<config::ObstacleEdit>> recorded_edit(std::string_view kind,
                                                           std::string_view key,
                                                           std::string_view value) {
-  if (kind == to_string(RunRequest::Kind::kEdit)) return config::read_edit(value, "value");
+  if (kind == request::Edit::kName) return config::read_edit(value, "value");
   for (const auto& [word, member] : kOldKinds) {
     if (kind == word) return old_edit(member, key, value);
   }

@@ -10,13 +10,11 @@
 
 #include "rave/assemble/parameter_key.hpp"
 #include "rave/base/number.hpp"
+#include "rave/control/obstacle_edits.hpp"
 #include "rave/robot/order.hpp"
-#include "rave/sim/orders.hpp"
 
 namespace rave::runtime {
 namespace {
-
-using Kind = RunRequest::Kind;
 
 /// Reads the words of a line one after the other.
 class Words {
@@ -44,27 +42,33 @@ class Words {
   std::string_view left_;
 };
 
-bool read_points(Words& words, RunRequest& request) {
+/// What the words of an order are.
+struct ReadParts {
+  std::vector<Vec2> points;
+  request::OrderParts parts;
+};
+
+bool read_points(Words& words, std::vector<Vec2>& points) {
   while (const auto x = words.number()) {
     const auto y = words.number();
-    if (!y || request.points.size() >= kMostOrderPoints) return false;
-    request.points.push_back({*x, *y});
+    if (!y || points.size() >= kMostOrderPoints) return false;
+    points.push_back({*x, *y});
   }
-  return !request.points.empty();
+  return !points.empty();
 }
 
-bool read_word(Words& words, RunRequest& request) {
+bool read_word(Words& words, ReadParts& read) {
   const std::string_view word = words.next();
-  if (word == "points") return read_points(words, request);
+  if (word == "points") return read_points(words, read.points);
   const auto number = words.number();
   if (!number) return false;
   if (word == "yaw") {
-    request.yaw_rad = *number;
+    read.parts.yaw_rad = *number;
     return true;
   }
-  for (const auto& [name, value] : {std::pair<std::string_view, double*>{"v", &request.v_mps},
-                                    {"w", &request.w_radps},
-                                    {"speed", &request.speed_mps}}) {
+  for (const auto& [name, value] : {std::pair<std::string_view, double*>{"v", &read.parts.v_mps},
+                                    {"w", &read.parts.w_radps},
+                                    {"speed", &read.parts.speed_mps}}) {
     if (name != word) continue;
     *value = *number;
     return true;
@@ -72,52 +76,92 @@ bool read_word(Words& words, RunRequest& request) {
   return false;
 }
 
-}  // namespace
-
-Status check_path_size(std::size_t points) { return request::check_path_size(points); }
-
-Result<sim::WorldInput::Action> input_action(const RunRequest& request) {
-  using Action = sim::WorldInput::Action;
-  if (request.kind == Kind::kStop) return Action(request::Stop());
-  if (request.kind == Kind::kRelease) return Action(request::Release());
-  if (request.kind == Kind::kArm) return Action(request::Arm());
-  const auto kind = static_cast<std::uint32_t>(request.kind) -
-                    static_cast<std::uint32_t>(Kind::kDrive) +
-                    static_cast<std::uint32_t>(OrderKind::kDrive);
-  request::OrderParts parts{request.points,  request.yaw_rad,   request.v_mps,
-                            request.w_radps, request.speed_mps, request.value};
-  RAVE_TRY_ASSIGN(auto order, request::make_order(static_cast<OrderKind>(kind), parts));
-  return Action(std::move(order));
+std::string order_words(const request::Order& order) {
+  const request::OrderParts parts = request::parts_of(order);
+  if (const auto* const text = std::get_if<request::Text>(&order)) return text->text;
+  if (std::holds_alternative<request::Drive>(order)) {
+    return fmt::format("v {} w {}", parts.v_mps, parts.w_radps);
+  }
+  std::string words;
+  const auto add = [&words](std::string_view word) {
+    if (!words.empty()) words += ' ';
+    words += word;
+  };
+  if (!parts.points_W.empty()) add("points");
+  // `{}` prints the shortest text that reads back as the same number, so that a repeated run gets
+  // the same order to the bit.
+  for (const Vec2 p_W : parts.points_W) add(fmt::format("{} {}", p_W.x, p_W.y));
+  if (parts.yaw_rad) add(fmt::format("yaw {}", *parts.yaw_rad));
+  if (parts.speed_mps != 0) add(fmt::format("speed {}", parts.speed_mps));
+  return words;
 }
 
-Result<sim::WorldInput> order_input(const sim::EngineSpec& spec, const RunRequest& request) {
+Result<request::Action> read_order(OrderKind kind, const std::string& text) {
+  ReadParts read;
+  if (kind == OrderKind::kText) {
+    read.parts.text = text;
+  } else {
+    Words words(text);
+    while (!words.empty()) {
+      if (read_word(words, read)) continue;
+      return fail(ErrorCode::kParse, "the details `{}` do not fit an order of kind `{}`", text,
+                  to_string(kind));
+    }
+  }
+  read.parts.points_W = read.points;
+  auto order = request::make_order(kind, read.parts);
+  if (order) return request::action_of(*std::move(order));
+  return fail(ErrorCode::kParse, "the details `{}` do not fit an order of kind `{}`: {}", text,
+              to_string(kind), order.error().message);
+}
+
+/// Writes what an action that is no order has.
+struct WriteWords {
+  RecordedWords& words;
+  void operator()(const request::Set& set) const {
+    words.key = set.key;
+    words.value = set.value;
+  }
+  void operator()(const request::HandOver& hand_over) const { words.value = hand_over.to; }
+  void operator()(const request::Edit& edit) const { words.value = config::write_edit(edit.edit); }
+  /// The others say nothing more, or are no inputs of the run.
+  template <class One>
+  void operator()(const One& /*one*/) const {}
+};
+
+}  // namespace
+
+Result<sim::WorldInput> input_for(const sim::EngineSpec& spec, const request::Request& request) {
   sim::WorldInput input;
   input.author = {true, request.by};
   if (!request.robot.empty()) {
     RAVE_TRY_ASSIGN(input.robot, find_robot(spec, request.robot));
-  } else if (request.kind != Kind::kCancel) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` needs a robot", to_string(request.kind));
+  } else if (request::needs_robot(request.action)) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` needs a robot",
+                request::name_of(request.action));
   }
-  RAVE_TRY_ASSIGN(input.action, input_action(request));
+  if (auto order = request::order_of(request.action)) {
+    input.action = *std::move(order);
+  } else if (request.is<request::Release>()) {
+    input.action = request::Release();
+  } else if (request.is<request::Arm>()) {
+    input.action = request::Arm();
+  } else if (!request.is<request::Stop>()) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` is not an order",
+                request::name_of(request.action));
+  }
   return input;
 }
 
-RunRequest input_request(const sim::EngineSpec& spec, const sim::WorldInput& input) {
-  RunRequest request;
+request::Request input_request(const sim::EngineSpec& spec, const sim::WorldInput& input) {
+  request::Request request;
   if (input.robot.valid()) request.robot = spec.robots[input.robot.value()].name;
   request.by = input.author.name;
-  if (input.is<request::Release>()) request.kind = Kind::kRelease;
-  if (input.is<request::Arm>()) request.kind = Kind::kArm;
-  const auto* const order = input.as<request::Order>();
-  if (order == nullptr) return request;
-  request.kind = static_cast<Kind>(static_cast<std::size_t>(Kind::kDrive) + order->index());
-  const request::OrderParts parts = request::parts_of(*order);
-  request.value = parts.text;
-  request.points.assign(parts.points_W.begin(), parts.points_W.end());
-  request.yaw_rad = parts.yaw_rad;
-  request.v_mps = parts.v_mps;
-  request.w_radps = parts.w_radps;
-  request.speed_mps = parts.speed_mps;
+  if (input.is<request::Release>()) request.action = request::Release();
+  if (input.is<request::Arm>()) request.action = request::Arm();
+  if (const auto* const order = input.as<request::Order>()) {
+    request.action = request::action_of(*order);
+  }
   return request;
 }
 
@@ -138,60 +182,53 @@ void write_takes(OrderSet set, std::vector<std::string>& words) {
   }
 }
 
-std::string order_answer(const RunRequest& request) {
-  std::string whom = request.robot.empty() ? "all robots" : request.robot;
-  const auto last = [&request] {
-    return fmt::format("{:.2f}, {:.2f}", request.points.back().x, request.points.back().y);
-  };
-  switch (request.kind) {
-    case RunRequest::Kind::kDrive:
-      return fmt::format("{} is driven", whom);
-    case RunRequest::Kind::kGoal:
-      return fmt::format("{} is sent to {}", whom, last());
-    case RunRequest::Kind::kPath:
-      return fmt::format("{} is sent along {} points to {}", whom, request.points.size(), last());
-    case RunRequest::Kind::kCancel:
-      return fmt::format("{}: the orders of people are cancelled", whom);
-    case RunRequest::Kind::kText:
-      return fmt::format("the text was sent to {}", whom);
-    case RunRequest::Kind::kPlace:
-      return fmt::format("{} is placed at {}", whom, last());
-    default:
-      return whom;
+std::string order_answer(const request::Request& request) {
+  const std::string whom = request.robot.empty() ? "all robots" : request.robot;
+  const auto at = [](Vec2 p_W) { return fmt::format("{:.2f}, {:.2f}", p_W.x, p_W.y); };
+  if (request.is<request::Drive>()) return fmt::format("{} is driven", whom);
+  if (const auto* const goal = request.as<request::Goal>()) {
+    return fmt::format("{} is sent to {}", whom, at(goal->p_W));
   }
+  if (const auto* const path = request.as<request::Path>()) {
+    return fmt::format("{} is sent along {} points to {}", whom, path->points_W.size(),
+                       at(path->points_W.back()));
+  }
+  if (request.is<request::Cancel>()) {
+    return fmt::format("{}: the orders of people are cancelled", whom);
+  }
+  if (request.is<request::Text>()) return fmt::format("the text was sent to {}", whom);
+  if (const auto* const place = request.as<request::Place>()) {
+    return fmt::format("{} is placed at {}", whom, at(place->p_W));
+  }
+  return whom;
 }
 
-std::string order_words(const RunRequest& request) {
-  if (request.kind == RunRequest::Kind::kText) return request.value;
-  if (request.kind == RunRequest::Kind::kDrive) {
-    return fmt::format("v {} w {}", request.v_mps, request.w_radps);
+RecordedWords recorded_words(const request::Action& action) {
+  RecordedWords words{std::string(request::name_of(action)), {}, {}};
+  if (const auto order = request::order_of(action)) {
+    words.value = order_words(*order);
+  } else {
+    std::visit(WriteWords{words}, action);
   }
-  std::string words;
-  const auto add = [&words](std::string_view word) {
-    if (!words.empty()) words += ' ';
-    words += word;
-  };
-  if (!request.points.empty()) add("points");
-  // `{}` prints the shortest text that reads back as the same number, so that a repeated run gets
-  // the same order to the bit.
-  for (const Vec2 p_W : request.points) add(fmt::format("{} {}", p_W.x, p_W.y));
-  if (request.yaw_rad) add(fmt::format("yaw {}", *request.yaw_rad));
-  if (request.speed_mps != 0) add(fmt::format("speed {}", request.speed_mps));
   return words;
 }
 
-Status read_order_words(std::string_view text, RunRequest& request) {
-  if (request.kind == RunRequest::Kind::kText) {
-    request.value = text;
-    return {};
+Result<request::Action> recorded_action(const RecordedWords& words) {
+  if (auto edit = recorded_edit(words.kind, words.key, words.value)) {
+    RAVE_TRY_ASSIGN(auto read, *std::move(edit));
+    return request::Edit{std::move(read)};
   }
-  Words words(text);
-  while (!words.empty()) {
-    if (read_word(words, request)) continue;
-    return fail(ErrorCode::kParse, "the details `{}` do not fit an order of kind `{}`", text,
-                to_string(request.kind));
+  if (const auto order = request::order_named(words.kind)) return read_order(*order, words.value);
+  for (request::Action plain :
+       {request::Action(request::Stop()), request::Action(request::Release()),
+        request::Action(request::Arm()), request::Action(request::ResetShadow())}) {
+    if (request::name_of(plain) == words.kind) return plain;
   }
-  return {};
+  if (words.kind == request::Set::kName) return request::Set{words.key, words.value};
+  if (words.kind == request::HandOver::kName) return request::HandOver{words.value};
+  return fail(ErrorCode::kParse,
+              "the recording has an input `{}`, which this version of RAVE does not know",
+              words.kind);
 }
 
 }  // namespace rave::runtime

@@ -51,18 +51,67 @@ Result<std::string> arm(sim::Engine& engine, RobotId robot, const sim::Author& a
   return "armed " + waiting;
 }
 
-Result<std::string> set(sim::Engine& engine, RobotId robot, const RunRequest& request) {
-  RAVE_TRY_ASSIGN(const auto change, requested_parameter(engine.spec(), robot, request));
+/// Executes what is asked between two steps.
+struct Serve {
+  sim::Engine& engine;
+  const request::Request& request;
+  RobotId robot;
+  sim::Author author;
+
+  Result<std::string> operator()(const request::Stop& stop) const;
+  Result<std::string> operator()(const request::Release& release) const;
+  Result<std::string> operator()(const request::Arm& /*arm*/) const {
+    return arm(engine, robot, author);
+  }
+  Result<std::string> operator()(const request::Set& set) const;
+  Result<std::string> operator()(const request::Edit& edit) const;
+  Result<std::string> operator()(const request::ListObstacles& /*list*/) const {
+    return list_obstacles(engine.spec().world);
+  }
+  Result<std::string> operator()(const request::HandOver& hand_over) const;
+  Result<std::string> operator()(const request::ResetShadow& /*reset*/) const {
+    return fail(ErrorCode::kNotFound, "no robot of the run has a shadow");
+  }
+  Result<std::string> operator()(const request::Take& /*take*/) const { return no_leases(); }
+  Result<std::string> operator()(const request::Give& /*give*/) const { return no_leases(); }
+  Result<std::string> operator()(const request::Chat& /*chat*/) const {
+    return fail(ErrorCode::kState, "this process keeps no chat");
+  }
+  template <request::IsOrder One>
+  Result<std::string> operator()(const One& /*order*/) const {
+    return order();
+  }
+
+ private:
+  [[nodiscard]] static Result<std::string> no_leases() {
+    return fail(ErrorCode::kState, "this process keeps no leases");
+  }
+  [[nodiscard]] Result<std::string> order() const;
+};
+
+Result<std::string> Serve::operator()(const request::Stop& /*stop*/) const {
+  engine.stop(robot, author);
+  return "stopped " + names_of(engine, robot, [](RobotId) { return true; });
+}
+
+Result<std::string> Serve::operator()(const request::Release& /*release*/) const {
+  const std::string names = names_of(engine, robot, [&](RobotId r) { return engine.stopped(r); });
+  engine.release(robot, author);
+  return names.empty() ? std::string("nothing to release: no robot is stopped")
+                       : "released " + names;
+}
+
+Result<std::string> Serve::operator()(const request::Set& set) const {
+  RAVE_TRY_ASSIGN(const auto change, requested_parameter(engine.spec(), robot, set));
   const std::string before = engine.parameter(robot, change.part, change.index, change.name);
-  RAVE_TRY(engine.set_parameters(robot, std::span(&change, 1), {true, request.by}));
-  return fmt::format("{}: {}: {} -> {}", request.robot, request.key, before,
+  RAVE_TRY(engine.set_parameters(robot, std::span(&change, 1), author));
+  return fmt::format("{}: {}: {} -> {}", request.robot, set.key, before,
                      engine.parameter(robot, change.part, change.index, change.name));
 }
 
-Result<std::string> edit(sim::Engine& engine, const RunRequest& request) {
-  RAVE_TRY_ASSIGN(const sim::ObstacleChange change, requested_change(request));
-  RAVE_TRY_ASSIGN(const sim::ChangedObstacle made,
-                  engine.change_obstacle(change, {true, request.by}));
+Result<std::string> Serve::operator()(const request::Edit& edit) const {
+  RAVE_TRY_ASSIGN(const sim::ObstacleChange change, requested_change(edit.edit, request.by));
+  RAVE_TRY_ASSIGN(const sim::ChangedObstacle made, engine.change_obstacle(change, author));
   const double from_s = static_cast<double>(made.step) * engine.spec().step.seconds();
   return fmt::format("{} {}; counts from step {} on, at {:.3f} s", word_of(change.kind), made.text,
                      made.step, from_s);
@@ -77,22 +126,22 @@ Status check_pose(const sim::Engine& engine, const sim::WorldInput& input) {
               engine.spec().robots[input.robot.value()].name);
 }
 
-Result<std::string> order(sim::Engine& engine, const RunRequest& request) {
-  RAVE_TRY_ASSIGN(const sim::WorldInput input, order_input(engine.spec(), request));
+Result<std::string> Serve::order() const {
+  RAVE_TRY_ASSIGN(const sim::WorldInput input, input_for(engine.spec(), request));
   RAVE_TRY(check_pose(engine, input));
   RAVE_TRY(engine.order(input));
   return order_answer(request);
 }
 
-Result<std::string> hand_over(sim::Engine& engine, RobotId robot, const RunRequest& request) {
+Result<std::string> Serve::operator()(const request::HandOver& hand_over) const {
   if (!robot.valid()) return fail(ErrorCode::kInvalidArgument, "expected the robot to hand over");
-  RAVE_TRY_ASSIGN(const config::HandOverTo to, hand_over_word(request.value));
+  RAVE_TRY_ASSIGN(const config::HandOverTo to, hand_over_word(hand_over.to));
   const auto state = engine.hand_over_state(robot);
   const sim::DriverSet active = state ? state->active : sim::DriverSet::kFirst;
   RAVE_TRY_ASSIGN(const sim::DriverSet set, driver_set(engine.spec(), robot, active, to));
-  RAVE_TRY(engine.hand_over(robot, set, {true, request.by}));
+  RAVE_TRY(engine.hand_over(robot, set, author));
   return fmt::format("robot `{}` is being handed over to its {} drivers", request.robot,
-                     request.value);
+                     hand_over.to);
 }
 
 }  // namespace
@@ -108,49 +157,12 @@ Status check_order_now(const sim::Engine& engine, const sim::WorldInput& input) 
   return check_pose(engine, input);
 }
 
-Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request) {
+Result<std::string> serve_request(sim::Engine& engine, const request::Request& request) {
   RobotId robot;
   if (!request.robot.empty()) {
     RAVE_TRY_ASSIGN(robot, find_robot_here(engine, request.robot));
   }
-  const sim::Author author{true, request.by};
-  switch (request.kind) {
-    case RunRequest::Kind::kStop:
-      engine.stop(robot, author);
-      return "stopped " + names_of(engine, robot, [](RobotId) { return true; });
-    case RunRequest::Kind::kRelease: {
-      const std::string names =
-          names_of(engine, robot, [&](RobotId r) { return engine.stopped(r); });
-      engine.release(robot, author);
-      return names.empty() ? std::string("nothing to release: no robot is stopped")
-                           : "released " + names;
-    }
-    case RunRequest::Kind::kArm:
-      return arm(engine, robot, author);
-    case RunRequest::Kind::kSet:
-      return set(engine, robot, request);
-    case RunRequest::Kind::kEdit:
-      return edit(engine, request);
-    case RunRequest::Kind::kHandOver:
-      return hand_over(engine, robot, request);
-    case RunRequest::Kind::kResetShadow:
-      return fail(ErrorCode::kNotFound, "no robot of the run has a shadow");
-    case RunRequest::Kind::kList:
-      return list_obstacles(engine.spec().world);
-    case RunRequest::Kind::kDrive:
-    case RunRequest::Kind::kGoal:
-    case RunRequest::Kind::kPath:
-    case RunRequest::Kind::kCancel:
-    case RunRequest::Kind::kText:
-    case RunRequest::Kind::kPlace:
-      return order(engine, request);
-    case RunRequest::Kind::kTake:
-    case RunRequest::Kind::kGive:
-      return fail(ErrorCode::kState, "this process keeps no leases");
-    case RunRequest::Kind::kChat:
-      return fail(ErrorCode::kState, "this process keeps no chat");
-  }
-  return fail(ErrorCode::kInvalidArgument, "unknown request");
+  return std::visit(Serve{engine, request, robot, {true, request.by}}, request.action);
 }
 
 void refresh_status(const sim::Engine& engine, RunStatus& status) {

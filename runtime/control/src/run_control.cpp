@@ -3,45 +3,12 @@
 
 #include <utility>
 
-#include "rave/base/word_table.hpp"
-
 namespace rave::runtime {
 namespace {
 
-using Kind = RunRequest::Kind;
-
 constexpr std::string_view kEnded = "the run has ended";
 
-constexpr auto kWords = word_table<Kind>({
-    {"stop", Kind::kStop},
-    {"release", Kind::kRelease},
-    {"arm", Kind::kArm},
-    {"set", Kind::kSet},
-    {"edit", Kind::kEdit},
-    {"list", Kind::kList},
-    {"hand_over", Kind::kHandOver},
-    {"reset_shadow", Kind::kResetShadow},
-    {"drive", Kind::kDrive},
-    {"goal", Kind::kGoal},
-    {"path", Kind::kPath},
-    {"cancel", Kind::kCancel},
-    {"text", Kind::kText},
-    {"place", Kind::kPlace},
-    {"take", Kind::kTake},
-    {"give", Kind::kGive},
-    {"chat", Kind::kChat},
-});
-
 }  // namespace
-
-std::string_view to_string(RunRequest::Kind kind) noexcept {
-  const std::string_view word = kWords.of(kind);
-  return word.empty() ? "unknown" : word;
-}
-
-std::optional<RunRequest::Kind> request_kind(std::string_view word) noexcept {
-  return kWords.find(word);
-}
 
 void RunControl::pause() {
   const std::lock_guard lock(mutex_);
@@ -95,7 +62,7 @@ Status RunControl::check_start(std::string_view live_reason) const {
               live_reason);
 }
 
-Result<std::future<Result<std::string>>> RunControl::post(RunRequest request) {
+Result<std::future<Result<std::string>>> RunControl::post(request::Request request) {
   std::future<Result<std::string>> answer;
   std::stop_source wake(std::nostopstate);
   {
@@ -114,7 +81,7 @@ Result<std::future<Result<std::string>>> RunControl::post(RunRequest request) {
   return answer;
 }
 
-Result<std::string> RunControl::ask(RunRequest request, std::chrono::milliseconds patience) {
+Result<std::string> RunControl::ask(request::Request request, std::chrono::milliseconds patience) {
   RAVE_TRY_ASSIGN(auto answer, post(std::move(request)));
   if (answer.wait_for(patience) == std::future_status::ready) return answer.get();
   return fail(ErrorCode::kTimeout,
@@ -123,13 +90,13 @@ Result<std::string> RunControl::ask(RunRequest request, std::chrono::millisecond
               patience.count());
 }
 
-void RunControl::keep_said(RunRequest chat) {
+void RunControl::keep_said(request::Request chat) {
   const std::lock_guard lock(mutex_);
   said_.push_back(std::move(chat));
   said_something_.store(true);
 }
 
-std::vector<RunRequest> RunControl::take_said() {
+std::vector<request::Request> RunControl::take_said() {
   if (!said_something_.load()) return {};
   const std::lock_guard lock(mutex_);
   said_something_.store(false);

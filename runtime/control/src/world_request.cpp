@@ -28,91 +28,73 @@ bool is_scheduled(const sim::EngineSpec& spec, std::uint64_t step, RobotId robot
 }  // namespace
 
 Result<sim::ParameterChange> requested_parameter(const sim::EngineSpec& spec, RobotId robot,
-                                                 const RunRequest& request) {
+                                                 const request::Set& set) {
   if (!robot.valid())
     return fail(ErrorCode::kInvalidArgument, "expected the robot whose parameter changes");
   codec::Diagnostics diagnostics;
-  const auto value = config::parse_yaml(request.value, "value", diagnostics);
+  const auto value = config::parse_yaml(set.value, "value", diagnostics);
   if (!value || !diagnostics.ok() || (!value->is_scalar() && !value->is_sequence())) {
-    return fail(ErrorCode::kInvalidArgument, "`{}` is not a value of a parameter", request.value);
+    return fail(ErrorCode::kInvalidArgument, "`{}` is not a value of a parameter", set.value);
   }
-  auto change = parse_change(spec.types[spec.robots[robot.value()].type], request.key, *value);
+  auto change = parse_change(spec.types[spec.robots[robot.value()].type], set.key, *value);
   // The place of an error within a word of the command line does not help the user, so it is
   // omitted.
   if (!change) return fail(change.error().code, "{}", change.error().message);
   return change;
 }
 
-Result<sim::WorldInput> input_of(const sim::EngineSpec& spec, const RunRequest& request) {
+Result<sim::WorldInput> input_of(const sim::EngineSpec& spec, const request::Request& request) {
+  if (request::is_order(request.action) || request::is_hold(request.action)) {
+    return input_for(spec, request);
+  }
   sim::WorldInput input;
   input.author.name = request.by;
   if (!request.robot.empty()) {
     RAVE_TRY_ASSIGN(input.robot, find_robot(spec, request.robot));
   }
-  switch (request.kind) {
-    case RunRequest::Kind::kStop:
-    case RunRequest::Kind::kRelease:
-    case RunRequest::Kind::kArm: {
-      RAVE_TRY_ASSIGN(input.action, input_action(request));
-      return input;
+  if (const auto* const set = request.as<request::Set>()) {
+    if (input.robot.valid() && set->key != kBodyKey) {
+      return fail(ErrorCode::kState,
+                  "the parameters of `{}` are set at its host: send the request to that process, "
+                  "which `rave ps` lists; here only `{}` can be set",
+                  request.robot, kBodyKey);
     }
-    case RunRequest::Kind::kSet: {
-      if (input.robot.valid() && request.key != kBodyKey) {
-        return fail(ErrorCode::kState,
-                    "the parameters of `{}` are set at its host: send the request to that process, "
-                    "which `rave ps` lists; here only `{}` can be set",
-                    request.robot, kBodyKey);
-      }
-      RAVE_TRY_ASSIGN(auto change, requested_parameter(spec, input.robot, request));
-      input.action = sim::Change{{std::move(change)}};
-      return input;
-    }
-    case RunRequest::Kind::kEdit: {
-      RAVE_TRY_ASSIGN(input.action, requested_change(request));
-      return input;
-    }
-    case RunRequest::Kind::kHandOver:
-    case RunRequest::Kind::kResetShadow:
-      return fail(ErrorCode::kInvalidArgument,
-                  "hosts in lock-step cannot hand a robot over; run it in one process or in real "
-                  "time");
-    case RunRequest::Kind::kDrive:
-    case RunRequest::Kind::kGoal:
-    case RunRequest::Kind::kPath:
-    case RunRequest::Kind::kCancel:
-    case RunRequest::Kind::kText:
-    case RunRequest::Kind::kPlace:
-      return order_input(spec, request);
-    case RunRequest::Kind::kTake:
-    case RunRequest::Kind::kGive:
-      return fail(ErrorCode::kState, "the lease of a robot is kept by its host");
-    case RunRequest::Kind::kList:
-    case RunRequest::Kind::kChat:
-      break;
+    RAVE_TRY_ASSIGN(auto change, requested_parameter(spec, input.robot, *set));
+    input.action = sim::Change{{std::move(change)}};
+    return input;
+  }
+  if (const auto* const edit = request.as<request::Edit>()) {
+    RAVE_TRY_ASSIGN(input.action, requested_change(edit->edit, request.by));
+    return input;
+  }
+  if (request.is<request::HandOver, request::ResetShadow>()) {
+    return fail(ErrorCode::kInvalidArgument,
+                "hosts in lock-step cannot hand a robot over; run it in one process or in real "
+                "time");
+  }
+  if (request::is_of_lease(request.action)) {
+    return fail(ErrorCode::kState, "the lease of a robot is kept by its host");
   }
   return fail(ErrorCode::kInvalidArgument, "a request that changes nothing");
 }
 
-std::vector<RunRequest> requests_in(const sim::EngineSpec& spec, const sim::WorldStep& world) {
+std::vector<request::Request> requests_in(const sim::EngineSpec& spec,
+                                          const sim::WorldStep& world) {
   const auto name_of = [&spec](RobotId robot) {
     return robot.valid() ? spec.robots[robot.value()].name : std::string();
   };
-  std::vector<RunRequest> requests;
+  std::vector<request::Request> requests;
   for (const sim::ObstacleChange& change : world.obstacles) {
     if (change.asked.empty()) continue;
     auto edit = config::read_edit(change.asked, "edit");
     // What cannot be read did not get through the bus: lock_step::read_obstacle() refuses it.
     if (!edit) continue;
-    RunRequest request;
-    request.kind = RunRequest::Kind::kEdit;
-    request.edit = *std::move(edit);
-    request.by = change.by;
-    requests.push_back(std::move(request));
+    requests.push_back({request::Edit{*std::move(edit)}, {}, change.by});
   }
   for (const sim::ResizedRobot& resized : world.resized) {
     if (is_scheduled(spec, world.step, resized.robot)) continue;
-    requests.push_back({RunRequest::Kind::kSet, name_of(resized.robot), std::string(kBodyKey),
-                        fmt::format("{}", resized.scale), resized.by});
+    requests.push_back({request::Set{std::string(kBodyKey), fmt::format("{}", resized.scale)},
+                        name_of(resized.robot), resized.by});
   }
   for (const sim::WorldInput& input : world.inputs) {
     if (!input.author.by_hand || input.is<sim::Change>()) continue;

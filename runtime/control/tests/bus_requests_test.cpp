@@ -18,7 +18,7 @@ class BusRequestsTest : public ::testing::Test {
   }
   void serve() {
     control_.serve(
-        [](const runtime::RunRequest& request) -> Result<std::string> {
+        [](const request::Request& request) -> Result<std::string> {
           if (request.robot == "nobody") return fail(ErrorCode::kNotFound, "there is \x1b nobody");
           return "did it to " + request.robot;
         },
@@ -40,23 +40,23 @@ class BusRequestsTest : public ::testing::Test {
 
 TEST_F(BusRequestsTest, WhatTheRunDoesIsAnsweredWhenItIsDone) {
   begin(false);
-  const bus::BegunRequest begun = requests_(R"({"rave":1,"do":"stop","robot":"anna"})");
-  EXPECT_EQ(begun.told, R"({"rave":1,"do":"stop","robot":"anna"})");
+  const bus::BegunRequest begun = requests_(R"({"rave":2,"do":"stop","robot":"anna"})");
+  EXPECT_EQ(begun.told, R"({"rave": 2, "do": "stop", "robot": "anna"})");
   EXPECT_FALSE(begun.answer());
   serve();
   const Answer answer = answer_of(begun);
   EXPECT_TRUE(answer.good);
   EXPECT_EQ(answer.text, "did it to anna");
-  const bus::BegunRequest other = requests_(R"({"rave":1,"do":"stop","robot":"nobody"})");
+  const bus::BegunRequest other = requests_(R"({"rave":2,"do":"stop","robot":"nobody"})");
   serve();
   EXPECT_FALSE(answer_of(other).good);
 }
 
 TEST_F(BusRequestsTest, ARunThatEndsAnswersWhatIsOpen) {
-  const bus::BegunRequest early = requests_(R"({"rave":1,"do":"stop"})");
+  const bus::BegunRequest early = requests_(R"({"rave":2,"do":"stop"})");
   EXPECT_FALSE(answer_of(early).good);
   begin(false);
-  const bus::BegunRequest begun = requests_(R"({"rave":1,"do":"stop"})");
+  const bus::BegunRequest begun = requests_(R"({"rave":2,"do":"stop"})");
   EXPECT_FALSE(begun.answer());
   control_.end();
   const Answer answer = answer_of(begun);
@@ -66,10 +66,10 @@ TEST_F(BusRequestsTest, ARunThatEndsAnswersWhatIsOpen) {
 
 TEST_F(BusRequestsTest, StatusAndPausesAreAnsweredAtOnce) {
   begin(false);
-  const bus::BegunRequest status = requests_(R"({"rave":1,"do":"status"})");
+  const bus::BegunRequest status = requests_(R"({"rave":2,"do":"status"})");
   EXPECT_TRUE(status.told.empty());
   EXPECT_EQ(answer_of(status).status.scenario, "tests");
-  const bus::BegunRequest pause = requests_(R"({"rave":1,"do":"pause"})");
+  const bus::BegunRequest pause = requests_(R"({"rave":2,"do":"pause"})");
   EXPECT_FALSE(pause.told.empty());
   EXPECT_TRUE(answer_of(pause).good);
   EXPECT_TRUE(control_.paused());
@@ -78,8 +78,8 @@ TEST_F(BusRequestsTest, StatusAndPausesAreAnsweredAtOnce) {
 TEST_F(BusRequestsTest, NonsenseIsRefusedWithASentenceAndLogged) {
   begin(true);
   for (const char* const line :
-       {"", "x", "[]", R"({"rave":2,"do":"stop"})", R"({"rave":1,"do":"explode"})",
-        R"({"rave":1,"do":"stop","robot":7})", R"({"rave":1,"do":"pause"})"}) {
+       {"", "x", "[]", R"({"rave":9,"do":"stop"})", R"({"rave":2,"do":"explode"})",
+        R"({"rave":2,"do":"stop","robot":7})", R"({"rave":2,"do":"pause"})"}) {
     const bus::BegunRequest begun = requests_(line);
     const Answer answer = answer_of(begun);
     EXPECT_FALSE(answer.good) << line;

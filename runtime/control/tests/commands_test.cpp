@@ -12,16 +12,7 @@
 namespace rave::control {
 namespace {
 
-using runtime::RunRequest;
-using Kind = RunRequest::Kind;
-
-RunRequest order(Kind kind) {
-  RunRequest request;
-  request.kind = kind;
-  request.by = "lisa";
-  request.page = 7;
-  return request;
-}
+request::Request order(request::Action action) { return {std::move(action), {}, "lisa", false, 7}; }
 
 /// A run of three robots, each with a host of its own.
 class CommandsTest : public ::testing::Test {
@@ -36,7 +27,7 @@ class CommandsTest : public ::testing::Test {
   ~CommandsTest() override { control_.end(); }
 
  protected:
-  bus::BegunCommand begin(const RunRequest& request, std::uint32_t robot,
+  bus::BegunCommand begin(const request::Request& request, std::uint32_t robot,
                           std::string_view host = "") {
     auto commands = commands_of(control_, scenario_, host);
     EXPECT_TRUE(commands) << commands.error().text();
@@ -48,10 +39,10 @@ class CommandsTest : public ::testing::Test {
     return (*commands)(command);
   }
   /// What the run is asked now, each of which it answers with `answer`.
-  std::vector<RunRequest> asked(const Result<std::string>& answer = "done") {
-    std::vector<RunRequest> asked;
+  std::vector<request::Request> asked(const Result<std::string>& answer = "done") {
+    std::vector<request::Request> asked;
     control_.serve(
-        [&](const RunRequest& request) {
+        [&](const request::Request& request) {
           asked.push_back(request);
           return answer;
         },
@@ -64,26 +55,19 @@ class CommandsTest : public ::testing::Test {
 };
 
 TEST_F(CommandsTest, EveryKindComesBackAsItWasSent) {
-  std::vector<RunRequest> sent;
-  sent.push_back(order(Kind::kDrive));
-  sent.back().v_mps = 0.25;
-  sent.back().w_radps = -0.5;
-  sent.push_back(order(Kind::kGoal));
-  sent.back().points = {{1.5, -2.25}};
-  sent.back().yaw_rad = 0.1;
-  sent.back().speed_mps = 0.3;
-  sent.push_back(order(Kind::kPath));
-  sent.back().points = {{1, 2}, {3, 4}, {5, 6}};
-  sent.push_back(order(Kind::kCancel));
-  sent.push_back(order(Kind::kText));
-  sent.back().value = "look out";
-  sent.push_back(order(Kind::kPlace));
-  sent.back().points = {{0, 0}};
-  for (const Kind hold : {Kind::kStop, Kind::kRelease, Kind::kArm}) {
+  std::vector<request::Request> sent;
+  sent.push_back(order(request::Drive{0.25, -0.5}));
+  sent.push_back(order(request::Goal{{1.5, -2.25}, 0.1, 0.3}));
+  sent.push_back(order(request::Path{{{1, 2}, {3, 4}, {5, 6}}, 0}));
+  sent.push_back(order(request::Cancel()));
+  sent.push_back(order(request::Text{"look out"}));
+  sent.push_back(order(request::Place{{1, 0}, {}}));
+  const request::Action holds[] = {request::Stop(), request::Release(), request::Arm()};
+  for (const request::Action& hold : holds) {
     sent.push_back(order(hold));
     sent.back().overrides = true;
   }
-  for (RunRequest& request : sent) {
+  for (request::Request& request : sent) {
     static_cast<void>(begin(request, 1));
     request.robot = "bert";
   }
@@ -91,14 +75,14 @@ TEST_F(CommandsTest, EveryKindComesBackAsItWasSent) {
 }
 
 TEST_F(CommandsTest, AnOrderDoesNotOverrideALease) {
-  RunRequest goal = order(Kind::kCancel);
+  request::Request goal = order(request::Cancel());
   goal.overrides = true;
   static_cast<void>(begin(goal, 1));
   EXPECT_FALSE(asked().at(0).overrides);
 }
 
 TEST_F(CommandsTest, AnOrderIsAnsweredWithWhatTheRunSays) {
-  const bus::BegunCommand goal = begin(order(Kind::kCancel), 0);
+  const bus::BegunCommand goal = begin(order(request::Cancel()), 0);
   ASSERT_TRUE(goal);
   EXPECT_FALSE(goal()) << "the run has not answered yet";
   static_cast<void>(asked(fail(ErrorCode::kState, "`anna` drives\nbert")));
@@ -109,7 +93,7 @@ TEST_F(CommandsTest, AnOrderIsAnsweredWithWhatTheRunSays) {
 }
 
 TEST_F(CommandsTest, ALongAnswerEndsWithAWholeCharacter) {
-  const bus::BegunCommand cancel = begin(order(Kind::kCancel), 0);
+  const bus::BegunCommand cancel = begin(order(request::Cancel()), 0);
   ASSERT_TRUE(cancel);
   std::string text = "x";
   while (text.size() <= rave_wire_kMaxCommandAnswerBytes) text += "ü";
@@ -120,38 +104,36 @@ TEST_F(CommandsTest, ALongAnswerEndsWithAWholeCharacter) {
 }
 
 TEST_F(CommandsTest, ADriveHasNoAnswer) {
-  EXPECT_FALSE(begin(order(Kind::kDrive), 0));
+  EXPECT_FALSE(begin(order(request::Drive()), 0));
   EXPECT_EQ(asked().size(), 1U);
 }
 
 TEST_F(CommandsTest, RobotsOfOtherHostsAreLeftToThem) {
   const auto hosts = config::plan_hosts(scenario_);
   ASSERT_TRUE(hosts);
-  EXPECT_FALSE(begin(order(Kind::kCancel), 2, hosts->front().name));
-  EXPECT_FALSE(begin(order(Kind::kCancel), 3)) << "there is no such robot";
-  EXPECT_TRUE(begin(order(Kind::kCancel), 2, hosts->back().name));
+  EXPECT_FALSE(begin(order(request::Cancel()), 2, hosts->front().name));
+  EXPECT_FALSE(begin(order(request::Cancel()), 3)) << "there is no such robot";
+  EXPECT_TRUE(begin(order(request::Cancel()), 2, hosts->back().name));
   EXPECT_EQ(asked().size(), 1U);
 }
 
 TEST_F(CommandsTest, WhatIsNoOrderIsRefused) {
   bus::Command command;
   std::vector<rave_wire_OrderPoint> points;
-  EXPECT_FALSE(to_command(order(Kind::kTake), command, points));
-  RunRequest path = order(Kind::kPath);
-  path.points.resize(10'000);
+  EXPECT_FALSE(to_command(order(request::Take()), command, points));
+  const auto path = order(request::Path{std::vector<Vec2>(10'000), 0});
   const Status made = to_command(path, command, points);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().message, "a path has 10000 points; expected 2 to 1000");
-  RunRequest nobody = order(Kind::kCancel);
+  request::Request nobody = order(request::Cancel());
   nobody.by.clear();
   EXPECT_FALSE(to_command(nobody, command, points));
-  RunRequest novel = order(Kind::kText);
-  novel.value.assign(1001, 'x');
+  const auto novel = order(request::Text{std::string(1001, 'x')});
   EXPECT_FALSE(to_command(novel, command, points));
 }
 
 TEST_F(CommandsTest, NobodyOnTheBusIsTheTerminalAndAPathHasTwoPoints) {
-  RunRequest request = order(Kind::kCancel);
+  request::Request request = order(request::Cancel());
   request.by = runtime::HostLeases::kTerminal;
   const bus::BegunCommand terminal = begin(request, 0);
   ASSERT_TRUE(terminal && terminal());
@@ -161,7 +143,7 @@ TEST_F(CommandsTest, NobodyOnTheBusIsTheTerminalAndAPathHasTwoPoints) {
   bus::put_text(command.author, "lisa");
   std::vector<rave_wire_OrderPoint> points(1);
   bus::borrow(command.points, points);
-  const auto path = order_of(command, "anna");
+  const auto path = request_of(command, "anna");
   ASSERT_FALSE(path);
   EXPECT_EQ(path.error().message, "a path has 1 point; expected 2 to 1000");
   EXPECT_TRUE(asked().empty());

@@ -12,19 +12,14 @@
 namespace rave::control {
 namespace {
 
-using What = Request::What;
-using Kind = runtime::RunRequest::Kind;
-
 TEST(Protocol, RequestsComeBackAsTheyWere) {
   for (const Request& request :
-       {Request{}, request_of({Kind::kStop, "", "", ""}),
-        request_of({Kind::kStop, "a \"robot\"\n", "", ""}), request_of({Kind::kArm, "b", "", ""}),
-        request_of({Kind::kRelease, "b", "", ""}),
-        request_of({Kind::kSet, "prey", "body.scale", "1.5"}), Request{What::kPause},
-        Request{What::kStep, 12}, request_of({Kind::kList, "", "", ""}),
-        request_of({Kind::kHandOver, "create", "", "real"}),
-        request_of({Kind::kResetShadow, "create", "", ""}),
-        request_of({Kind::kResetShadow, "", "", ""})}) {
+       {Request{}, request_of({request::Stop()}), request_of({request::Stop(), "a \"robot\"\n"}),
+        request_of({request::Arm(), "b"}), request_of({request::Release(), "b"}),
+        request_of({request::Set{"body.scale", "1.5"}, "prey"}), Request{Pause()},
+        Request{Resume()}, Request{Step{12}}, Request{End()},
+        request_of({request::ListObstacles()}), request_of({request::HandOver{"real"}, "create"}),
+        request_of({request::ResetShadow(), "create"}), request_of({request::ResetShadow()})}) {
     std::string line = write_request(request);
     ASSERT_EQ(line.back(), '\n');
     line.pop_back();
@@ -36,11 +31,9 @@ TEST(Protocol, RequestsComeBackAsTheyWere) {
 }
 
 Request edit_of(const std::string& text) {
-  Request request = request_of({Kind::kEdit, "", "", "", "anna"});
   auto edit = config::read_edit(text, "test");
   EXPECT_TRUE(edit) << edit.error().text();
-  request.run.edit = *std::move(edit);
-  return request;
+  return request_of({request::Edit{*std::move(edit)}, {}, "anna"});
 }
 
 TEST(Protocol, EditsComeBackAsTheyWere) {
@@ -61,11 +54,11 @@ TEST(Protocol, EditsComeBackAsTheyWere) {
 
 TEST(Protocol, SaysWhatIsWrongWithAnEdit) {
   const auto why = [](const std::string& edit) {
-    const auto request = parse_request(R"({"rave":1,"do":"edit")" + edit + "}");
+    const auto request = parse_request(R"({"rave":2,"do":"edit")" + edit + "}");
     return request ? "nothing" : request.error().message;
   };
   EXPECT_EQ(why(""),
-            "`edit` is missing: expected an object with one of `add_obstacle`, `move_obstacle` and "
+            "expected `edit`, an object with one of `add_obstacle`, `move_obstacle` and "
             "`remove_obstacle`");
   EXPECT_NE(why(R"(,"edit":{})").find("an edit has 0 of `add_obstacle`"), std::string::npos);
   EXPECT_NE(why(R"(,"edit":{"add_obstacle":{"name":"a","disc_radius_m":1},"remove_obstacle":"b"})")
@@ -78,8 +71,9 @@ TEST(Protocol, SaysWhatIsWrongWithAnEdit) {
   EXPECT_NE(why(R"(,"edit":{"move_obstacle":{"name":"a","x_m":"1"}})").find("`x_m`"),
             std::string::npos);
   // YAML in a text, as requests had it before.
-  EXPECT_NE(why(R"(,"edit":"{remove_obstacle: a}")").find("a mapping"), std::string::npos);
-  const auto before = parse_request(R"({"rave":1,"do":"add","value":"{name: a}"})");
+  EXPECT_NE(why(R"(,"edit":"{remove_obstacle: a}")").find("an object with one of"),
+            std::string::npos);
+  const auto before = parse_request(R"({"rave":2,"do":"add","value":"{name: a}"})");
   ASSERT_FALSE(before);
   EXPECT_NE(before.error().message.find("`do` to be one of"), std::string::npos);
   EXPECT_NE(before.error().message.find("edit"), std::string::npos);
@@ -91,13 +85,16 @@ TEST(RecordedEdits, OlderRecordingsAreRead) {
     return !read ? "none" : *read ? config::write_edit(**read) : (*read).error().message;
   };
   const config::ObstacleEdit crate =
-      *edit_of("{add_obstacle: {name: crate, box_m: [0.5, 0.3], x_m: 1}}").run.edit;
+      edit_of("{add_obstacle: {name: crate, box_m: [0.5, 0.3], x_m: 1}}")
+          .run.as<request::Edit>()
+          ->edit;
   const std::string text = config::write_edit(crate);
   EXPECT_EQ(edit("edit", "", text.c_str()), text);
   EXPECT_EQ(edit("add", "", "{name: \"crate\", box_m: [0.5, 0.3], x_m: 1}"), text);
   EXPECT_EQ(edit("add", "", "name: crate\nbox_m: [0.5, 0.3]\nx_m: 1\n"), text);
   EXPECT_EQ(edit("move", "", "{name: crate, x_m: 2}"),
-            config::write_edit(*edit_of("{move_obstacle: {name: crate, x_m: 2}}").run.edit));
+            config::write_edit(
+                edit_of("{move_obstacle: {name: crate, x_m: 2}}").run.as<request::Edit>()->edit));
   EXPECT_EQ(edit("remove", "crate", ""), R"({"remove_obstacle": "crate"})");
   EXPECT_EQ(edit("set", "program.speed", "1"), "none");
   EXPECT_NE(edit("add", "", "[").find("YAML"), std::string::npos) << edit("add", "", "[");
@@ -106,7 +103,7 @@ TEST(RecordedEdits, OlderRecordingsAreRead) {
 
 TEST(Protocol, SaysWhyAPathIsNone) {
   const auto why = [](std::size_t points) {
-    std::string line = R"({"rave":1,"do":"path","robot":"r1","points":[[0,0])";
+    std::string line = R"({"rave":2,"do":"path","robot":"r1","points":[[0,0])";
     for (std::size_t i = 1; i < points; ++i) line += ",[0,1]";
     return parse_request(line + "]}").error().message;
   };
@@ -117,11 +114,10 @@ TEST(Protocol, SaysWhyAPathIsNone) {
 }
 
 TEST(Protocol, AnyPathThatIsTakenFitsIntoALine) {
-  Request path =
-      request_of({Kind::kPath, std::string(64, 'r'), "", "", std::string(64, 'a'), true, ~0ULL});
-  for (int i = 0; i < 1000; ++i)
-    path.run.points.push_back({-1.2345678901234567e-100, -1.2345678901234567e-100});
-  path.run.speed_mps = 0.1234567890123456;
+  const Vec2 long_numbers{-1.2345678901234567e-100, -1.2345678901234567e-100};
+  const Request path =
+      request_of({request::Path{std::vector<Vec2>(1000, long_numbers), 0.1234567890123456},
+                  std::string(64, 'r'), std::string(64, 'a'), true, (std::uint64_t{1} << 53U) - 1});
   const std::string line = write_request(path);
   EXPECT_LE(line.size(), kMaxLineBytes);
   EXPECT_LE(line.size(), std::size_t{rave_wire_kMaxRequestBytes});
@@ -130,52 +126,45 @@ TEST(Protocol, AnyPathThatIsTakenFitsIntoALine) {
 
 TEST(Protocol, RefusesWhatIsNoLineOfAChat) {
   for (const char* const rest :
-       {R"("key":"0 commander all","value":"a","by":"anna")",
-        R"("key":"1 boss all","value":"a","by":"anna")",
-        R"("key":"1 commander nobody","value":"a","by":"anna")",
-        R"("key":"1 commander user","value":"a","by":"anna")",
-        R"("key":"1 commander all ben","value":"a","by":"anna")",
-        R"("key":"1 commander all","value":"","by":"anna")",
-        R"("key":"1 commander all","value":"a")",
-        R"("key":"-1 commander all","value":"a","by":"b")",
-        R"("key":"1 commander all","value":"a","by":"anna","robot":"r1")",
-        R"("key":"","value":"a","by":"anna")", R"("value":"a","by":"anna")"}) {
-    EXPECT_FALSE(parse_request(R"({"rave":1,"do":"chat",)" + std::string(rest) + "}")) << rest;
+       {R"("number":0,"role":"commander","to":"all","text":"a","by":"anna")",
+        R"("number":1,"role":"boss","to":"all","text":"a","by":"anna")",
+        R"("number":1,"role":"commander","to":"nobody","text":"a","by":"anna")",
+        R"("number":1,"role":"commander","to":"user","text":"a","by":"anna")",
+        R"("number":1,"role":"commander","to":"all","name":"ben","text":"a","by":"anna")",
+        R"("number":1,"role":"commander","to":"all","text":"","by":"anna")",
+        R"("number":1,"role":"commander","to":"all","text":"a")",
+        R"("number":-1,"role":"commander","to":"all","text":"a","by":"b")",
+        R"("number":1,"role":"commander","to":"all","text":"a","by":"anna","robot":"r1")",
+        R"("text":"a","by":"anna")"}) {
+    EXPECT_FALSE(parse_request(R"({"rave":2,"do":"chat",)" + std::string(rest) + "}")) << rest;
   }
   for (const char* const page : {"0", "-1", "1.5", "\"1\""}) {
-    EXPECT_FALSE(parse_request(R"({"rave":1,"do":"take","robot":"r1","by":"a","page":)" +
+    EXPECT_FALSE(parse_request(R"({"rave":2,"do":"take","robot":"r1","by":"a","page":)" +
                                std::string(page) + "}"))
         << page;
   }
 }
 
 std::vector<Request> orders() {
-  Request drive = request_of({Kind::kDrive, "r1", "", "", "anna"});
-  drive.run.v_mps = 0.1;
-  drive.run.w_radps = -1.0 / 3;
-  Request goal = request_of({Kind::kGoal, "r1", "", "", "anna", true});
-  goal.run.points = {{1.5, -2}};
-  goal.run.yaw_rad = 0.25;
-  goal.run.speed_mps = 0.3;
-  Request path = request_of({Kind::kPath, "r1", "", ""});
-  path.run.points = {{0, 0}, {1e-9, 7}, {3, 4}};
-  Request place = request_of({Kind::kPlace, "r1", "", ""});
-  place.run.points = {{1, 2}};
-  Request stop = request_of({Kind::kStop, "r1", "", "", "anna"});
-  return {drive,
-          goal,
-          path,
-          place,
-          stop,
-          request_of({Kind::kCancel, "", "", ""}),
-          request_of({Kind::kCancel, "r1", "", "", "bert"}),
-          request_of({Kind::kText, "r1", "", "h\u00e4llo"}),
-          request_of({Kind::kTake, "r1", "", "force", "anna"}),
-          request_of({Kind::kTake, "r1", "", "", "anna"}),
-          request_of({Kind::kGive, "r1", "", "bert", "anna"}),
-          request_of({Kind::kTake, "r1", "", "", "anna", false, 0xffffffffffffffffULL}),
-          request_of({Kind::kChat, "", "3 commander user ben a", "psst", "anna"}),
-          request_of({Kind::kChat, "", "1 observer all", "two\nlines", "the operator"})};
+  return {
+      request_of({request::Drive{0.1, -1.0 / 3}, "r1", "anna"}),
+      request_of({request::Goal{{1.5, -2}, 0.25, 0.3}, "r1", "anna", true}),
+      request_of({request::Path{{{0, 0}, {1e-9, 7}, {3, 4}}, 0}, "r1"}),
+      request_of({request::Place{{1, 2}, {}}, "r1"}),
+      request_of({request::Stop(), "r1", "anna"}),
+      request_of({request::Cancel()}),
+      request_of({request::Cancel(), "r1", "bert"}),
+      request_of({request::Text{"h\u00e4llo"}, "r1"}),
+      request_of({request::Take{.force = true}, "r1", "anna"}),
+      request_of({request::Take{.drives = true}, "r1", "anna", false, 7}),
+      request_of({request::Take(), "r1", "anna"}),
+      request_of({request::Give{"bert"}, "r1", "anna"}),
+      request_of({request::Take(), "r1", "anna", false, 0xffffffffffffffffULL}),
+      request_of(
+          {request::Chat{3, "commander", request::Addressee::kUser, "ben a", "psst"}, {}, "anna"}),
+      request_of({request::Chat{1, "observer", request::Addressee::kAll, {}, "two\nlines"},
+                  {},
+                  "the operator"})};
 }
 
 TEST(Protocol, OrdersComeBackAsTheyWere) {
@@ -193,28 +182,28 @@ TEST(Protocol, RefusesOrdersThatAreNone) {
   std::string points = "[[0,0]";
   for (int i = 0; i < 1000; ++i) points += ",[0,0]";
   for (const std::string& line :
-       {std::string(R"({"rave":1,"do":"drive","robot":"a","v":1})"),
-        std::string(R"({"rave":1,"do":"drive","v":1,"w":0})"),
-        std::string(R"({"rave":1,"do":"drive","robot":"a","v":"1","w":0})"),
-        std::string(R"({"rave":1,"do":"drive","robot":"a","v":1e999,"w":0})"),
-        std::string(R"({"rave":1,"do":"drive","robot":"a","v":NaN,"w":0})"),
-        std::string(R"({"rave":1,"do":"goal","robot":"a"})"),
-        std::string(R"({"rave":1,"do":"goal","robot":"a","points":[]})"),
-        std::string(R"({"rave":1,"do":"goal","robot":"a","points":[[1]]})"),
-        std::string(R"({"rave":1,"do":"goal","robot":"a","points":[[1,2],[3,4]]})"),
-        std::string(R"({"rave":1,"do":"goal","robot":"a","points":[["1",2]]})"),
-        std::string(R"({"rave":1,"do":"goal","robot":"a","points":[[1,2]],"yaw":"x"})"),
-        std::string(R"({"rave":1,"do":"path","robot":"a","points":[[1,2]]})"),
-        R"({"rave":1,"do":"path","robot":"a","points":)" + points + "]}",
-        std::string(R"({"rave":1,"do":"place","robot":"a","points":[[1,2]],"speed":1})"),
-        std::string(R"({"rave":1,"do":"text","robot":"a"})"),
-        R"({"rave":1,"do":"text","robot":"a","value":")" + many + "\"}",
-        std::string(R"({"rave":1,"do":"text","value":"a"})"),
-        std::string(R"({"rave":1,"do":"take"})"),
-        std::string(R"({"rave":1,"do":"stop","by":7})"),
-        std::string(R"({"rave":1,"do":"stop","overrides":"yes"})"),
-        std::string(R"({"rave":1,"do":"status","by":"anna"})"),
-        R"({"rave":1,"do":"stop","by":")" + std::string(65, 'a') + "\"}"}) {
+       {std::string(R"({"rave":2,"do":"drive","robot":"a","v":1})"),
+        std::string(R"({"rave":2,"do":"drive","v":1,"w":0})"),
+        std::string(R"({"rave":2,"do":"drive","robot":"a","v":"1","w":0})"),
+        std::string(R"({"rave":2,"do":"drive","robot":"a","v":1e999,"w":0})"),
+        std::string(R"({"rave":2,"do":"drive","robot":"a","v":NaN,"w":0})"),
+        std::string(R"({"rave":2,"do":"goal","robot":"a"})"),
+        std::string(R"({"rave":2,"do":"goal","robot":"a","point":[]})"),
+        std::string(R"({"rave":2,"do":"goal","robot":"a","point":[1]})"),
+        std::string(R"({"rave":2,"do":"goal","robot":"a","point":[1,2,3]})"),
+        std::string(R"({"rave":2,"do":"goal","robot":"a","point":["1",2]})"),
+        std::string(R"({"rave":2,"do":"goal","robot":"a","point":[1,2],"yaw":"x"})"),
+        std::string(R"({"rave":2,"do":"path","robot":"a","points":[[1,2]]})"),
+        R"({"rave":2,"do":"path","robot":"a","points":)" + points + "]}",
+        std::string(R"({"rave":2,"do":"place","robot":"a","point":[1,2],"speed":1})"),
+        std::string(R"({"rave":2,"do":"text","robot":"a"})"),
+        R"({"rave":2,"do":"text","robot":"a","text":")" + many + "\"}",
+        std::string(R"({"rave":2,"do":"text","text":"a"})"),
+        std::string(R"({"rave":2,"do":"take"})"),
+        std::string(R"({"rave":2,"do":"stop","by":7})"),
+        std::string(R"({"rave":2,"do":"stop","overrides":"yes"})"),
+        std::string(R"({"rave":2,"do":"status","by":"anna"})"),
+        R"({"rave":2,"do":"stop","by":")" + std::string(65, 'a') + "\"}"}) {
     EXPECT_FALSE(parse_request(line)) << line;
   }
 }
@@ -259,31 +248,31 @@ TEST(Protocol, RefusesWhatIsNotExactlyARequest) {
         "null",
         "{}",
         R"({"do":"stop"})",
-        R"({"rave":2,"do":"stop"})",
-        R"({"rave":1,"do":"fly"})",
-        R"({"rave":1,"do":7})",
-        R"({"rave":1})",
-        R"({"rave":1,"do":"stop","robot":7})",
-        R"({"rave":1,"do":"stop","robot":"a","robot":"b"})",
-        R"({"rave":1,"do":"stop","rabot":"a"})",
-        R"({"rave":1,"do":"pause","robot":"a"})",
-        R"({"rave":1,"do":"set","robot":"a","key":"b"})",
-        R"({"rave":1,"do":"set","robot":"a","key":"b","value":1})",
-        R"({"rave":1,"do":"step","count":0})",
-        R"({"rave":1,"do":"step","count":-1})",
-        R"({"rave":1,"do":"step","count":1.5})",
-        R"({"rave":1,"do":"stop"} x)",
-        R"({"rave":1,"do":"edit"})",
-        R"({"rave":1,"do":"edit","edit":null})",
-        R"({"rave":1,"do":"edit","edit":{"remove_obstacle":7}})",
-        R"({"rave":1,"do":"edit","edit":{"remove_obstacle":"a"},"key":"a"})",
-        R"({"rave":1,"do":"stop","edit":{"remove_obstacle":"a"}})",
-        R"({"rave":1,"do":"list","robot":"a"})",
-        R"({"rave":1,"do":"hand_over","value":"real"})",
-        R"({"rave":1,"do":"hand_over","robot":"a"})",
-        R"({"rave":1,"do":"hand_over","robot":"a","value":1})",
-        R"({"rave":1,"do":"reset_shadow","robot":7})",
-        R"({"rave":1,"do":"stop","robot":"a\u0000b"})"}) {
+        R"({"rave":9,"do":"stop"})",
+        R"({"rave":2,"do":"fly"})",
+        R"({"rave":2,"do":7})",
+        R"({"rave":2})",
+        R"({"rave":2,"do":"stop","robot":7})",
+        R"({"rave":2,"do":"stop","robot":"a","robot":"b"})",
+        R"({"rave":2,"do":"stop","rabot":"a"})",
+        R"({"rave":2,"do":"pause","robot":"a"})",
+        R"({"rave":2,"do":"set","robot":"a","key":"b"})",
+        R"({"rave":2,"do":"set","robot":"a","key":"b","value":1})",
+        R"({"rave":2,"do":"step","count":0})",
+        R"({"rave":2,"do":"step","count":-1})",
+        R"({"rave":2,"do":"step","count":1.5})",
+        R"({"rave":2,"do":"stop"} x)",
+        R"({"rave":2,"do":"edit"})",
+        R"({"rave":2,"do":"edit","edit":null})",
+        R"({"rave":2,"do":"edit","edit":{"remove_obstacle":7}})",
+        R"({"rave":2,"do":"edit","edit":{"remove_obstacle":"a"},"key":"a"})",
+        R"({"rave":2,"do":"stop","edit":{"remove_obstacle":"a"}})",
+        R"({"rave":2,"do":"list","robot":"a"})",
+        R"({"rave":2,"do":"hand_over","to":"real"})",
+        R"({"rave":2,"do":"hand_over","robot":"a"})",
+        R"({"rave":2,"do":"hand_over","robot":"a","to":1})",
+        R"({"rave":2,"do":"reset_shadow","robot":7})",
+        R"({"rave":2,"do":"stop","robot":"a\u0000b"})"}) {
     const auto read = parse_request(line);
     EXPECT_FALSE(read) << line;
     if (!read) {

@@ -42,7 +42,7 @@ class ServerTest : public ::testing::Test {
   }
   void serve(runtime::RunControl& control) {
     control.serve(
-        [this](const runtime::RunRequest& request) -> Result<std::string> {
+        [this](const request::Request& request) -> Result<std::string> {
           ++served_;
           if (request.robot == "nobody") return fail(ErrorCode::kNotFound, "there is nobody");
           return "did it to " + request.robot;
@@ -50,9 +50,7 @@ class ServerTest : public ::testing::Test {
         [](runtime::RunStatus& status) { status.robots[0].stopped = true; });
   }
 
-  static Request stop(const std::string& robot) {
-    return request_of({runtime::RunRequest::Kind::kStop, robot});
-  }
+  static Request stop(const std::string& robot) { return request_of({request::Stop(), robot}); }
 
   fs::path folder_;
   std::atomic<int> served_{0};
@@ -201,11 +199,11 @@ TEST_F(ServerTest, AStopReachesAPausedRun) {
   std::thread runner([&] { run(control); });
   while (!begun_) std::this_thread::yield();
   Request pause;
-  pause.what = Request::What::kPause;
+  pause.own = Pause();
   EXPECT_TRUE(ask("tests-2", pause).value().good);
   EXPECT_TRUE(ask("tests-2", stop("anna")).value().good);
   Request resume;
-  resume.what = Request::What::kResume;
+  resume.own = Resume();
   EXPECT_TRUE(ask("tests-2", resume).value().good);
   done_ = true;
   runner.join();

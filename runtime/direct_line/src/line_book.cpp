@@ -12,13 +12,11 @@
 #include "rave/base/json_text.hpp"
 #include "rave/base/names.hpp"
 #include "rave/base/wall_clock.hpp"
-#include "rave/control/order_words.hpp"
 #include "signed_text.hpp"
 
 namespace rave::direct_line {
 namespace {
 
-using Kind = runtime::RunRequest::Kind;
 using LineJson = nlohmann::ordered_json;
 
 /// A page that has not shown a ticket within this time is disconnected.
@@ -35,9 +33,9 @@ constexpr double kRefusalsPerSecond = 0.2;
 std::string dumped(const LineJson& json) { return json_text(json); }
 
 /// The robots for which a ticket permits a kind of order.
-const RobotSet& reach_of(const Ticket& ticket, Kind kind) {
-  if (kind == Kind::kStop) return ticket.stops;
-  if (kind == Kind::kRelease) return ticket.releases;
+const RobotSet& reach_of(const Ticket& ticket, const request::Request& request) {
+  if (request.is<request::Stop>()) return ticket.stops;
+  if (request.is<request::Release>()) return ticket.releases;
   return ticket.orders;
 }
 
@@ -137,9 +135,9 @@ void LineBook::leave_leases(const Line& line) {
     const bool has = robot.lease == line.ticket->user && robot.lease_page == page;
     if (!has && !line.ordered.contains(robot.name)) continue;
     Request leave;
-    leave.kind = Kind::kGive;
+    leave.action = request::Give{line.ticket->user};
     leave.robot = robot.name;
-    leave.value = leave.by = line.ticket->user;
+    leave.by = line.ticket->user;
     leave.page = page;
     // The page is gone, so the answer is not needed.
     static_cast<void>(control_.post(std::move(leave)));
@@ -230,14 +228,14 @@ void LineBook::take(std::uint64_t /*id*/, Line& line, const PingMessage& ping) {
   line.send(dumped({{"type", "pong"}, {"id", ping.id}}));
 }
 
-Result<std::vector<runtime::RunRequest>> LineBook::covered(const Ticket& ticket,
-                                                           const Request& request) {
-  const RobotSet& reach = reach_of(ticket, request.kind);
-  const std::string_view word = runtime::to_string(request.kind);
+Result<std::vector<request::Request>> LineBook::covered(const Ticket& ticket,
+                                                        const Request& request) {
+  const RobotSet& reach = reach_of(ticket, request);
+  const std::string_view word = request::name_of(request.action);
   if (!request.robot.empty() && !reach.has(request.robot)) {
     return fail(ErrorCode::kState, "your rights do not include `{}` of `{}`", word, request.robot);
   }
-  if (request.kind == Kind::kPlace && ticket.role != "super_user") {
+  if (request.is<request::Place>() && ticket.role != "super_user") {
     return fail(ErrorCode::kState, "only a super-user can place a robot");
   }
   if (reach.empty()) return fail(ErrorCode::kState, "your rights do not include `{}`", word);
@@ -258,8 +256,9 @@ Result<std::vector<runtime::RunRequest>> LineBook::covered(const Ticket& ticket,
 }
 
 Status LineBook::may_give(const Ticket& giver, const Request& give) const {
-  const std::string& to = give.value;
-  if (give.kind != Kind::kGive || to.empty() || to == giver.user) return {};
+  const auto* const gift = give.as<request::Give>();
+  if (gift == nullptr || gift->to.empty() || gift->to == giver.user) return {};
+  const std::string& to = gift->to;
   std::set<std::string_view> able;
   for (const auto& [id, line] : lines_) {
     if (line.closing || !line.ticket || !line.ticket->orders.has(give.robot)) continue;
@@ -279,11 +278,11 @@ void LineBook::take(std::uint64_t id, Line& line, const OrderMessage& order) {
     requests = tl::unexpected(may.error());
   }
   if (!requests) {
-    note_refusal(line, runtime::to_string(order.request.kind), requests.error().message);
+    note_refusal(line, request::name_of(order.request.action), requests.error().message);
     return answer(id, order.id, false, requests.error().message);
   }
   const bool takes_lease =
-      runtime::is_order(order.request.kind) || order.request.kind == Kind::kTake;
+      request::is_order(order.request.action) || order.request.is<request::Take>();
   // Only an attacker who wants to fill the memory names more robots than a page commands at once.
   if (takes_lease && line.ordered.size() < kMostRemembered) {
     line.ordered.insert(order.request.robot);
@@ -291,7 +290,7 @@ void LineBook::take(std::uint64_t id, Line& line, const OrderMessage& order) {
   auto told = [this, id, order_id = order.id](bool good, const std::string& text) {
     answer(id, order_id, good, text);
   };
-  if (order.request.kind == Kind::kDrive) {
+  if (order.request.is<request::Drive>()) {
     return post_.drive(id, std::move(requests->front()), order.echo, std::move(told));
   }
   post_.give(id, *std::move(requests), std::move(told));

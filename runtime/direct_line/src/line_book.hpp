@@ -46,7 +46,7 @@ class LineBook {
   void end();
 
  private:
-  using Request = runtime::RunRequest;
+  using Request = request::Request;
 
   void take(std::uint64_t id, Line& line, const HelloMessage& hello);
   void take(std::uint64_t id, Line& line, const RenewMessage& renew);

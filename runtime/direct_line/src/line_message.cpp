@@ -10,52 +10,47 @@
 namespace rave::direct_line {
 namespace {
 
-using runtime::RunRequest;
-using Kind = RunRequest::Kind;
-
 constexpr std::size_t kLongestName = 256;
 constexpr std::size_t kLongestProof = 128;
 
-constexpr WordTable<Kind, 10> kOrders = {{{"drive", Kind::kDrive},
-                                          {"goal", Kind::kGoal},
-                                          {"path", Kind::kPath},
-                                          {"cancel", Kind::kCancel},
-                                          {"text", Kind::kText},
-                                          {"place", Kind::kPlace},
-                                          {"take", Kind::kTake},
-                                          {"give", Kind::kGive},
-                                          {"stop", Kind::kStop},
-                                          {"release", Kind::kRelease}}};
-
-/// Reads what an order about the lease of a robot has.
-Status read_lease(JsonMembers& members, RunRequest& request) {
-  if (request.kind == Kind::kTake && members.has("force")) {
-    RAVE_TRY_ASSIGN(const bool force, members.flag("force"));
-    request.value = force ? "force" : "";
+Result<request::Action> action_of(JsonMembers& members) {
+  using namespace request;
+  RAVE_TRY_ASSIGN(const std::string_view word,
+                  members.choice("kind", {Drive::kName, Goal::kName, Path::kName, Cancel::kName,
+                                          Text::kName, Place::kName, Take::kName, Give::kName,
+                                          Stop::kName, Release::kName}));
+  if (const auto kind = order_named(word)) {
+    RAVE_TRY_ASSIGN(ReadOrder read, read_order(members, *kind, 1));
+    return request::action_of(std::move(read.order));
   }
-  if (request.kind == Kind::kGive && members.has("to")) {
-    RAVE_TRY_ASSIGN(request.value, members.text("to", kLongestName));
+  if (word == Take::kName) {
+    Take take;
+    if (members.has("force")) {
+      RAVE_TRY_ASSIGN(take.force, members.flag("force"));
+    }
+    return take;
   }
-  return {};
-}
-
-/// Whether an order of this kind may address all robots.
-bool takes_all(Kind kind) {
-  return kind == Kind::kStop || kind == Kind::kRelease || kind == Kind::kCancel;
+  if (word == Give::kName) {
+    Give give;
+    if (members.has("to")) {
+      RAVE_TRY_ASSIGN(give.to, members.text("to", kLongestName));
+    }
+    return give;
+  }
+  if (word == Stop::kName) return Stop();
+  return Release();
 }
 
 Result<LineMessage> order_of(JsonMembers& members) {
   OrderMessage order;
   RAVE_TRY_ASSIGN(order.id, members.whole("id"));
-  RAVE_TRY_ASSIGN(order.request.kind, members.choice("kind", kOrders));
+  RAVE_TRY_ASSIGN(order.request.action, action_of(members));
   if (members.has("robot")) {
     RAVE_TRY_ASSIGN(order.request.robot, members.text("robot", kLongestName));
   }
-  if (order.request.robot.empty() && !takes_all(order.request.kind)) {
+  if (order.request.robot.empty() && request::needs_robot(order.request.action)) {
     return fail(ErrorCode::kParse, "`robot`: expected a name");
   }
-  RAVE_TRY(read_order(members, 1, order.request));
-  RAVE_TRY(read_lease(members, order.request));
   if (members.has("echo")) {
     RAVE_TRY_ASSIGN(order.echo, members.flag("echo"));
   }

@@ -27,7 +27,7 @@ struct PingMessage {
 /// `request` without its author.
 struct OrderMessage {
   std::uint64_t id = 0;
-  runtime::RunRequest request;
+  request::Request request;
   bool echo = false;  ///< Whether accepted drive commands are answered, too.
 };
 using LineMessage = std::variant<HelloMessage, RenewMessage, PingMessage, OrderMessage>;

@@ -3,32 +3,26 @@
 
 #include <cmath>
 #include <numbers>
-
-#include "rave/control/order_words.hpp"
+#include <utility>
 
 namespace rave::direct_line {
 namespace {
 
-using Kind = runtime::RunRequest::Kind;
-
 /// No robot is as fast, in m/s and in rad/s.
 constexpr double kFastest = 100;
 
-Status read_points(JsonMembers& members, std::size_t robots, runtime::RunRequest& request) {
+Result<std::vector<Vec2>> read_points(JsonMembers& members, OrderKind kind, std::size_t robots) {
   // A path too long for any run gets the error message that a run would give.
   constexpr std::size_t kMostRead = 100'000;
-  RAVE_TRY_ASSIGN(request.points, members.list("points", kMostRead, point_of));
-  if (request.kind == Kind::kPath) return runtime::check_path_size(request.points.size());
+  RAVE_TRY_ASSIGN(auto points, members.list("points", kMostRead, point_of));
+  if (kind == OrderKind::kPath) {
+    RAVE_TRY(request::check_path_size(points.size()));
+    return points;
+  }
   // Several robots may drive to one goal, but cannot be placed at one point.
-  const bool one = request.points.size() == 1 && request.kind == Kind::kGoal;
-  if (!one && request.points.size() != robots) {
-    return fail(ErrorCode::kParse, "`points`: expected one for each robot, {}", robots);
-  }
-  if (members.has("yaw")) {
-    constexpr double kTurn_rad = 2 * std::numbers::pi;
-    RAVE_TRY_ASSIGN(request.yaw_rad, members.number_in("yaw", -kTurn_rad, kTurn_rad));
-  }
-  return {};
+  const bool one = points.size() == 1 && kind == OrderKind::kGoal;
+  if (one || points.size() == robots) return points;
+  return fail(ErrorCode::kParse, "`points`: expected one for each robot, {}", robots);
 }
 
 }  // namespace
@@ -44,21 +38,36 @@ Result<Vec2> point_of(const Json& pair, const char* name) {
               kFarthest_m);
 }
 
-Status read_order(JsonMembers& members, std::size_t robots, runtime::RunRequest& request) {
-  if (request.kind == Kind::kDrive) {
-    RAVE_TRY_ASSIGN(request.v_mps, members.number_in("v", -kFastest, kFastest));
-    RAVE_TRY_ASSIGN(request.w_radps, members.number_in("w", -kFastest, kFastest));
-  } else if (request.kind == Kind::kText) {
-    RAVE_TRY_ASSIGN(request.value, members.text("text", kLongestText, true));
-    if (request.value.empty()) return fail(ErrorCode::kParse, "`text`: expected text");
+Result<ReadOrder> read_order(JsonMembers& members, OrderKind kind, std::size_t robots) {
+  request::OrderParts parts;
+  std::vector<Vec2> points;
+  std::string text;
+  if (kind == OrderKind::kDrive) {
+    RAVE_TRY_ASSIGN(parts.v_mps, members.number_in("v", -kFastest, kFastest));
+    RAVE_TRY_ASSIGN(parts.w_radps, members.number_in("w", -kFastest, kFastest));
+  } else if (kind == OrderKind::kText) {
+    RAVE_TRY_ASSIGN(text, members.text("text", kLongestText, true));
+    if (text.empty()) return fail(ErrorCode::kParse, "`text`: expected text");
+    parts.text = text;
   }
-  const bool drives = request.kind == Kind::kGoal || request.kind == Kind::kPath;
-  if (drives || request.kind == Kind::kPlace) RAVE_TRY(read_points(members, robots, request));
+  const bool drives = kind == OrderKind::kGoal || kind == OrderKind::kPath;
+  if (drives || kind == OrderKind::kPlace) {
+    RAVE_TRY_ASSIGN(points, read_points(members, kind, robots));
+    parts.points_W = points;
+    if (kind != OrderKind::kPath && members.has("yaw")) {
+      constexpr double kTurn_rad = 2 * std::numbers::pi;
+      RAVE_TRY_ASSIGN(parts.yaw_rad, members.number_in("yaw", -kTurn_rad, kTurn_rad));
+    }
+  }
   // 0 means "not given". A path is driven forwards, so a negative speed has no meaning.
   if (drives && members.has("speed")) {
-    RAVE_TRY_ASSIGN(request.speed_mps, members.number_in("speed", 0, kFastest));
+    RAVE_TRY_ASSIGN(parts.speed_mps, members.number_in("speed", 0, kFastest));
   }
-  return {};
+  const bool several = kind != OrderKind::kPath && points.size() > 1;
+  if (several) parts.points_W = parts.points_W.first(1);
+  RAVE_TRY_ASSIGN(auto order, request::make_order(kind, parts));
+  if (!several) points.clear();
+  return ReadOrder{std::move(order), std::move(points)};
 }
 
 }  // namespace rave::direct_line

@@ -16,6 +16,11 @@ bool is_ready(const std::future<Result<std::string>>& answer) {
   return answer.wait_for(kNow) == std::future_status::ready;
 }
 
+bool moves(const request::Request& request) {
+  const auto* const drive = request.as<request::Drive>();
+  return drive != nullptr && !drive->stands();
+}
+
 void append(std::string& list, const std::string& text) {
   if (!list.empty()) list += "; ";
   list += text;
@@ -23,15 +28,15 @@ void append(std::string& list, const std::string& text) {
 
 }  // namespace
 
-void OrderPost::give(Line line, std::vector<runtime::RunRequest> requests, Answer answer) {
-  const bool stop = !requests.empty() && requests.front().kind == runtime::RunRequest::Kind::kStop;
+void OrderPost::give(Line line, std::vector<request::Request> requests, Answer answer) {
+  const bool stop = !requests.empty() && requests.front().is<request::Stop>();
   const auto own = std::ranges::count(waiting_, line, &Waiting::line);
   // A stop is never refused for lack of room.
   if (!stop && static_cast<std::size_t>(own) >= kMostWaiting) {
     return answer(false, "too many orders are waiting");
   }
   Waiting waiting{line, {}, std::move(answer)};
-  for (runtime::RunRequest& request : requests) {
+  for (request::Request& request : requests) {
     auto posted = control_.post(std::move(request));
     if (posted) {
       waiting.futures.push_back(*std::move(posted));
@@ -42,14 +47,14 @@ void OrderPost::give(Line line, std::vector<runtime::RunRequest> requests, Answe
   waiting_.push_back(std::move(waiting));
 }
 
-void OrderPost::drive(Line line, runtime::RunRequest request, bool echo, Answer answer) {
+void OrderPost::drive(Line line, request::Request request, bool echo, Answer answer) {
   Drive& drive = drives_[{line, request.robot}];
   // The sender of a replaced drive command still gets its answer, though the run never receives the
   // command.
   if (auto replaced = std::exchange(drive.next, std::nullopt); replaced && replaced->first) {
     replaced->second(true, "replaced by a newer drive");
   }
-  drive.moves = request.v_mps != 0 || request.w_radps != 0;
+  drive.moves = moves(request);
   drive.newest = std::move(request);
   drive.since = std::chrono::steady_clock::now();
   // One at a time: the run takes one velocity per robot and step, so older ones would only make the
@@ -84,7 +89,7 @@ void OrderPost::poll(Drive& drive) {
   }
   if (!drive.next) return;
   auto [echo, next] = *std::exchange(drive.next, std::nullopt);
-  drive.moves = drive.newest.v_mps != 0 || drive.newest.w_radps != 0;
+  drive.moves = moves(drive.newest);
   begin(drive, echo, std::move(next));
 }
 
@@ -96,8 +101,8 @@ void OrderPost::forget(Line line) {
       continue;
     }
     if (drive->second.moves && now - drive->second.since < kStandsAnyway) {
-      runtime::RunRequest stand = std::move(drive->second.newest);
-      stand.v_mps = stand.w_radps = 0;
+      request::Request stand = std::move(drive->second.newest);
+      stand.action = request::Drive();
       // The line is gone, so the answer is not needed.
       static_cast<void>(control_.post(std::move(stand)));
     }

@@ -30,10 +30,10 @@ class OrderPost {
   explicit OrderPost(runtime::RunControl& control) : control_(control) {}
 
   /// Passes on one order to one or several robots, with one common answer.
-  void give(Line line, std::vector<runtime::RunRequest> requests, Answer answer);
+  void give(Line line, std::vector<request::Request> requests, Answer answer);
   /// Passes on the newest drive command of a robot. Refusals are answered; with `echo` each command
   /// is, and one that a newer command replaced before the run took it counts as accepted.
-  void drive(Line line, runtime::RunRequest request, bool echo, Answer answer);
+  void drive(Line line, request::Request request, bool echo, Answer answer);
   /// Called when a line has closed: stops the robots that it drives and drops its answers.
   void forget(Line line);
   /// Passes on the answers that have arrived.
@@ -54,7 +54,7 @@ class OrderPost {
     Answer answer{};    ///< The answer function of that command.
     bool moves = false;
     std::chrono::steady_clock::time_point since{};  ///< Of `newest`.
-    runtime::RunRequest newest{};
+    request::Request newest{};
     std::optional<std::pair<bool, Answer>> next{};  ///< Of `newest`, until that is passed on.
   };
   void begin(Drive& drive, bool echo, Answer answer);

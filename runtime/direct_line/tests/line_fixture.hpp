@@ -45,12 +45,12 @@ class FakeRun {
     control_.end();
   }
   [[nodiscard]] runtime::RunControl& control() { return control_; }
-  [[nodiscard]] std::vector<runtime::RunRequest> asked() const {
+  [[nodiscard]] std::vector<request::Request> asked() const {
     const std::lock_guard lock(mutex_);
     return asked_;
   }
   /// Waits until so many were asked.
-  [[nodiscard]] std::vector<runtime::RunRequest> wait_for(std::size_t count) const {
+  [[nodiscard]] std::vector<request::Request> wait_for(std::size_t count) const {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
     while (asked().size() < count && std::chrono::steady_clock::now() < end) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -64,11 +64,13 @@ class FakeRun {
     while (!stop.stop_requested()) {
       if (!stuck) {
         control_.serve(
-            [this](const runtime::RunRequest& request) -> Result<std::string> {
+            [this](const request::Request& request) -> Result<std::string> {
               const std::lock_guard lock(mutex_);
               asked_.push_back(request);
-              if (request.value == "refuse") return fail(ErrorCode::kState, "`ben` drives it");
-              return "did " + std::string(to_string(request.kind)) + " " + request.robot;
+              if (request.action == request::Action(request::Text{"refuse"})) {
+                return fail(ErrorCode::kState, "`ben` drives it");
+              }
+              return fmt::format("did {} {}", request::name_of(request.action), request.robot);
             },
             [](runtime::RunStatus& status) { status.robots[0].lease = "anna"; });
       }
@@ -77,7 +79,7 @@ class FakeRun {
   }
   runtime::RunControl control_;
   mutable std::mutex mutex_;
-  std::vector<runtime::RunRequest> asked_;
+  std::vector<request::Request> asked_;
   std::jthread thread_;
 };
 

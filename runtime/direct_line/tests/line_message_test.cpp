@@ -8,8 +8,6 @@
 namespace rave::direct_line {
 namespace {
 
-using Kind = runtime::RunRequest::Kind;
-
 OrderMessage order_of(std::string_view text) {
   const auto message = parse_line_message(text);
   EXPECT_TRUE(message) << message.error().message;
@@ -25,29 +23,24 @@ TEST(LineMessage, SaysEveryKindOfOrder) {
   const auto drive = order_of(
       R"({"type":"order","id":3,"kind":"drive","robot":"r1","v":0.25,"w":-1,"echo":true})");
   EXPECT_EQ(drive.id, 3U);
-  EXPECT_EQ(drive.request.kind, Kind::kDrive);
+  EXPECT_EQ(drive.request.action, request::Action(request::Drive{0.25, -1}));
   EXPECT_EQ(drive.request.robot, "r1");
-  EXPECT_EQ(drive.request.v_mps, 0.25);
-  EXPECT_EQ(drive.request.w_radps, -1);
   EXPECT_TRUE(drive.echo);
   const auto goal = order_of(
       R"({"type":"order","id":4,"kind":"goal","robot":"r1","points":[[1,2]],"yaw":3,"speed":1})");
-  ASSERT_EQ(goal.request.points.size(), 1U);
-  EXPECT_EQ(goal.request.points[0].y, 2);
-  EXPECT_EQ(goal.request.yaw_rad, 3);
-  EXPECT_EQ(goal.request.speed_mps, 1);
+  EXPECT_EQ(goal.request.action, request::Action(request::Goal{{1, 2}, 3, 1}));
   EXPECT_EQ(order_of(R"({"type":"order","id":5,"kind":"path","robot":"r1","points":[[1,2],[3,4]]})")
-                .request.points.size(),
-            2U);
+                .request.action,
+            request::Action(request::Path{{{1, 2}, {3, 4}}, 0}));
   EXPECT_EQ(order_of(R"({"type":"order","id":6,"kind":"text","robot":"r1","text":"go home"})")
-                .request.value,
-            "go home");
+                .request.action,
+            request::Action(request::Text{"go home"}));
   EXPECT_EQ(
-      order_of(R"({"type":"order","id":7,"kind":"take","robot":"r1","force":true})").request.value,
-      "force");
+      order_of(R"({"type":"order","id":7,"kind":"take","robot":"r1","force":true})").request.action,
+      request::Action(request::Take{.force = true}));
   EXPECT_EQ(
-      order_of(R"({"type":"order","id":7,"kind":"give","robot":"r1","to":"ben"})").request.value,
-      "ben");
+      order_of(R"({"type":"order","id":7,"kind":"give","robot":"r1","to":"ben"})").request.action,
+      request::Action(request::Give{"ben"}));
   for (const char* const word : {"stop", "release", "cancel"}) {
     const auto all = order_of(std::string(R"({"type":"order","id":8,"kind":")") + word + R"("})");
     EXPECT_EQ(all.request.robot, "");

@@ -12,7 +12,6 @@ namespace {
 
 using namespace testing;
 using web::testing::RawSocket;
-using Kind = runtime::RunRequest::Kind;
 
 TEST_F(DirectLine, OrdersOfATicketReachTheRunWithItsName) {
   RawSocket anna = line();
@@ -28,8 +27,8 @@ TEST_F(DirectLine, OrdersOfATicketReachTheRunWithItsName) {
   EXPECT_NE(anna.text_with("\"state\"").find(R"("leases":{"green-1":"anna"})"), std::string::npos);
   const auto asked = run_.asked();
   ASSERT_EQ(asked.size(), 3U);
-  EXPECT_EQ(asked[0].kind, Kind::kDrive);
-  EXPECT_EQ(asked[0].w_radps, -1);
+  ASSERT_TRUE(asked[0].is<request::Drive>());
+  EXPECT_EQ(asked[0].as<request::Drive>()->w_radps, -1);
   for (const auto& request : asked) {
     EXPECT_EQ(request.by, "anna");
     EXPECT_FALSE(request.overrides);
@@ -151,8 +150,7 @@ TEST_F(DirectLine, AWithdrawalEndsLinesAndTheirTickets) {
   // What was driven stands.
   const auto asked = run_.wait_for(2);
   ASSERT_EQ(asked.size(), 2U);
-  EXPECT_EQ(asked[1].kind, Kind::kDrive);
-  EXPECT_EQ(asked[1].v_mps, 0);
+  EXPECT_EQ(asked[1].action, request::Action(request::Drive()));
   expect_refused(signed_ticket(), page_, "the ticket of `anna` was withdrawn");
   Ticket next = ticket();
   next.epoch = 9;
@@ -190,9 +188,8 @@ TEST_F(DirectLine, TheRobotStandsWhenThePageIsGone) {
   }
   const auto asked = run_.wait_for(3);
   ASSERT_GE(asked.size(), 3U);
-  EXPECT_EQ(asked[2].kind, Kind::kDrive);
+  EXPECT_EQ(asked[2].action, request::Action(request::Drive()));
   EXPECT_EQ(asked[2].robot, "green-1");
-  EXPECT_EQ(asked[2].v_mps, 0);
   EXPECT_EQ(asked[2].by, "anna");
 }
 
@@ -206,9 +203,8 @@ TEST_F(DirectLine, APageThatIsGoneLeavesTheLeasesOfWhatItHasOrdered) {
   }
   const auto asked = run_.wait_for(3);
   ASSERT_EQ(asked.size(), 3U);
-  EXPECT_EQ(asked[2].kind, Kind::kGive);
+  EXPECT_EQ(asked[2].action, request::Action(request::Give{"anna"}));
   EXPECT_EQ(asked[2].robot, "green-2");
-  EXPECT_EQ(asked[2].value, "anna");
   EXPECT_EQ(asked[2].by, "anna");
   EXPECT_EQ(asked[2].page, asked[0].page);
 }
@@ -242,7 +238,7 @@ TEST_F(DirectLine, TheRobotStandsWhenTheHostEnds) {
   EXPECT_EQ(run_.wait_for(1).size(), 1U);
   server_.reset();
   ASSERT_EQ(run_.wait_for(2).size(), 2U);
-  EXPECT_EQ(run_.asked()[1].v_mps, 0);
+  EXPECT_EQ(run_.asked()[1].action, request::Action(request::Drive()));
   EXPECT_EQ(anna.close_code(), 1001);
 }
 
@@ -268,8 +264,8 @@ TEST_F(DirectLine, OfManyDrivesTheNewestCountsAndAStopIsNotHeldUp) {
   ASSERT_GE(asked.size(), 3U);
   EXPECT_LE(asked.size(), 4U);
   // The first one was under way already; what came in between is old.
-  EXPECT_EQ(asked[1].kind, Kind::kStop);
-  EXPECT_EQ(asked.back().v_mps, 0.001 * 399);
+  EXPECT_TRUE(asked[1].is<request::Stop>());
+  EXPECT_EQ(asked.back().action, request::Action(request::Drive{0.001 * 399, 0}));
 }
 
 TEST_F(DirectLine, FloodsEndTheLineAndHarmNobodyElse) {

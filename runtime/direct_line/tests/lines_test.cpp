@@ -193,7 +193,7 @@ TEST_F(LinesOnBus, AHostInLockStepHasALineAsAnyOther) {
   std::string asked;
   ASSERT_TRUE(comes_true([&] {
     control_.serve(
-        [&asked](const runtime::RunRequest& request) -> Result<std::string> {
+        [&asked](const request::Request& request) -> Result<std::string> {
           asked = request.robot;
           return std::string("done here");
         },

@@ -18,18 +18,17 @@ class OrderPostTest : public ::testing::Test {
 
  protected:
   void drive(int id, double v_mps, bool echo) {
-    runtime::RunRequest request;
-    request.kind = runtime::RunRequest::Kind::kDrive;
+    request::Request request;
+    request.action = request::Drive{v_mps, 0};
     request.robot = "anna";
-    request.v_mps = v_mps;
     post_.drive(1, std::move(request), echo, [this, id](bool good, const std::string& text) {
       answers_[id] = {good, text};
     });
   }
   void serve() {
     control_.serve(
-        [this](const runtime::RunRequest& request) -> Result<std::string> {
-          driven_mps_.push_back(request.v_mps);
+        [this](const request::Request& request) -> Result<std::string> {
+          driven_mps_.push_back(request.as<request::Drive>()->v_mps);
           return "drives";
         },
         [](runtime::RunStatus&) {});

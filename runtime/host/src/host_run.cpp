@@ -150,7 +150,7 @@ Result<bool> SteppedExchange::await_turn() {
   came_to_end_ = world_.last;
   if (came_to_end_) return false;
   // What was asked of the world by hand counts from this step on.
-  for (const RunRequest& request : requests_in(run_.engine.spec(), world_)) {
+  for (const request::Request& request : requests_in(run_.engine.spec(), world_)) {
     run_.observers.keep(request, world_.step);
   }
   run_.step = world_.step;

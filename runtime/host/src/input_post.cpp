@@ -20,8 +20,6 @@
 namespace rave::runtime {
 namespace {
 
-using Kind = RunRequest::Kind;
-
 /// After this time the caller gets the answer that it will take a while.
 constexpr std::chrono::seconds kAskedPatience{1};
 
@@ -53,7 +51,7 @@ std::string InputPost::names_of(const std::vector<RobotId>& robots) const {
   return join_names(std::vector<std::string_view>(names.begin(), names.end()));
 }
 
-Result<std::vector<RobotId>> InputPost::meant(const RunRequest& request) const {
+Result<std::vector<RobotId>> InputPost::meant(const request::Request& request) const {
   if (!request.robot.empty()) {
     RAVE_TRY_ASSIGN(const RobotId robot, find_robot_here(engine_, request.robot));
     return std::vector{robot};
@@ -103,22 +101,22 @@ Status InputPost::check_room(const std::vector<sim::WorldInput>& inputs) const {
   return fail(ErrorCode::kState, "too many requests wait for the next step; try again later");
 }
 
-Result<std::string> InputPost::give(const RunRequest& request) {
-  return is_order(request.kind) ? give_order(request) : give_hold(request);
+Result<std::string> InputPost::give(const request::Request& request) {
+  return request::is_order(request.action) ? give_order(request) : give_hold(request);
 }
 
 /// A stop, a release or an arming, for each robot by itself: requests for other hosts do not come
 /// here.
-Result<std::string> InputPost::give_hold(const RunRequest& request) {
+Result<std::string> InputPost::give_hold(const request::Request& request) {
   RAVE_TRY_ASSIGN(const std::vector<RobotId> robots, meant(request));
   std::vector<RobotId> stopped;
   std::vector<RobotId> free;
   for (const RobotId robot : robots) (will_be_stopped(robot) ? stopped : free).push_back(robot);
-  std::vector<RobotId> its = request.kind == Kind::kStop ? free : stopped;
+  std::vector<RobotId> its = request.is<request::Stop>() ? free : stopped;
   std::string text = "stopped " + names_of(robots);
-  if (request.kind == Kind::kRelease) {
+  if (request.is<request::Release>()) {
     text = its.empty() ? "nothing to release: no robot is stopped" : "released " + names_of(its);
-  } else if (request.kind == Kind::kArm) {
+  } else if (request.is<request::Arm>()) {
     if (!stopped.empty()) {
       return fail(ErrorCode::kState, "stopped: {}; a stop holds until it is released (`--release`)",
                   names_of(stopped));
@@ -127,21 +125,17 @@ Result<std::string> InputPost::give_hold(const RunRequest& request) {
     std::erase_if(its, [this](RobotId robot) { return engine_.armed(robot); });
     text = its.empty() ? "nothing to arm: no robot waits to be armed" : "armed " + names_of(its);
   }
+  RAVE_TRY_ASSIGN(const sim::WorldInput hold, input_for(engine_.spec(), request));
   std::vector<sim::WorldInput> inputs;
-  for (const RobotId robot : its) {
-    sim::WorldInput& input = inputs.emplace_back();
-    RAVE_TRY_ASSIGN(input.action, input_action(request));
-    input.author = {true, request.by};
-    input.robot = robot;
-  }
+  for (const RobotId robot : its) inputs.emplace_back(hold).robot = robot;
   RAVE_TRY(check_author(request.by));
-  if (request.kind != Kind::kStop) RAVE_TRY(check_room(inputs));
+  if (!request.is<request::Stop>()) RAVE_TRY(check_room(inputs));
   return queue(std::move(inputs), std::move(text));
 }
 
-Result<std::string> InputPost::give_order(const RunRequest& request) {
+Result<std::string> InputPost::give_order(const request::Request& request) {
   RAVE_TRY_ASSIGN(const std::vector<RobotId> robots, meant(request));
-  RAVE_TRY_ASSIGN(const sim::WorldInput order, order_input(engine_.spec(), request));
+  RAVE_TRY_ASSIGN(const sim::WorldInput order, input_for(engine_.spec(), request));
   // With a robot there is one; only a cancellation may be without.
   std::vector<sim::WorldInput> inputs;
   for (const RobotId robot : robots) inputs.emplace_back(order).robot = robot;

@@ -36,7 +36,7 @@ class InputPost final : public InputForwarder {
       : engine_(engine), host_(host), number_(first), log_(log) {}
 
   // InputForwarder.
-  Result<std::string> give(const RunRequest& request) override;
+  Result<std::string> give(const request::Request& request) override;
   [[nodiscard]] std::optional<std::uint64_t> take_given() override {
     return std::exchange(given_, std::nullopt);
   }
@@ -74,12 +74,12 @@ class InputPost final : public InputForwarder {
     std::uint64_t sequence = 0;
     std::uint64_t given = 0;
   };
-  [[nodiscard]] Result<std::vector<RobotId>> meant(const RunRequest& request) const;
+  [[nodiscard]] Result<std::vector<RobotId>> meant(const request::Request& request) const;
   [[nodiscard]] bool will_be_stopped(RobotId robot) const;
   [[nodiscard]] bool is_held_anew(RobotId robot) const;
   [[nodiscard]] Status check_room(const std::vector<sim::WorldInput>& inputs) const;
-  Result<std::string> give_hold(const RunRequest& request);
-  Result<std::string> give_order(const RunRequest& request);
+  Result<std::string> give_hold(const request::Request& request);
+  Result<std::string> give_order(const request::Request& request);
   std::string queue(std::vector<sim::WorldInput> inputs, std::string text);
   void end(std::uint64_t given, std::string_view refused);
   [[nodiscard]] std::string name_of(RobotId robot) const;

@@ -83,44 +83,46 @@ void ObserverList::tell_found(const sim::Engine& engine, LogSink* log,
   for (const RunObserver* const observer : all_) tell_events(engine, observer->events(), log, all);
 }
 
-Result<std::string> ObserverList::place(const sim::Engine& engine, const RunRequest& request) {
-  RAVE_TRY_ASSIGN(const sim::WorldInput input, order_input(engine.spec(), request));
+Result<std::string> ObserverList::place(const sim::Engine& engine,
+                                        const request::Request& request) {
+  RAVE_TRY_ASSIGN(const sim::WorldInput input, input_for(engine.spec(), request));
   RAVE_TRY(place_(input));
   return order_answer(request);
 }
 
-Result<std::string> ObserverList::make_input(sim::Engine& engine, const RunRequest& request,
+Result<std::string> ObserverList::make_input(sim::Engine& engine, const request::Request& request,
                                              bool awaited) {
   // It is an input when the authority says so, and is noted then.
-  if (forwarder_ != nullptr && InputForwarder::is_for(request.kind)) {
+  if (forwarder_ != nullptr && InputForwarder::is_for(request.action)) {
     auto answer = forwarder_->give(request);
     const auto given = forwarder_->take_given();
     if (awaited) given_ = given;
     return answer;
   }
-  const bool places = request.kind == RunRequest::Kind::kPlace && place_;
+  const bool places = request.is<request::Place>() && place_;
   auto answer = places ? place(engine, request) : serve_request(engine, request);
   // A refused request has changed nothing, so a repeated run does not need it.
-  if (answer && !request.only_reads()) keep(request, engine.steps_done());
+  if (answer && !request::only_reads(request.action)) keep(request, engine.steps_done());
   return answer;
 }
 
-Result<std::string> ObserverList::serve(sim::Engine& engine, const RunRequest& request) {
-  if (request.kind == RunRequest::Kind::kResetShadow && shadows_) {
+Result<std::string> ObserverList::serve(sim::Engine& engine, const request::Request& request) {
+  if (request.is<request::ResetShadow>() && shadows_) {
     return shadows_->reset(request.robot);
   }
   // Chat does not change the run, so it is no input.
-  if (request.kind == RunRequest::Kind::kChat) {
+  if (request.is<request::Chat>()) {
     if (record_) record_->say(request, engine.steps_done());
     return std::string(record_ ? "added to the recording" : "there is no recording");
   }
   given_.reset();
-  return OrderDesk::is_for(request.kind) ? serve_order(engine, request)
-                                         : make_input(engine, request, true);
+  return OrderDesk::is_for(request.action) ? serve_order(engine, request)
+                                           : make_input(engine, request, true);
 }
 
-Result<std::string> ObserverList::serve_order(sim::Engine& engine, const RunRequest& request) {
-  if (forwarder_ != nullptr && request.kind == RunRequest::Kind::kHandOver) {
+Result<std::string> ObserverList::serve_order(sim::Engine& engine,
+                                              const request::Request& request) {
+  if (forwarder_ != nullptr && request.is<request::HandOver>()) {
     return fail(ErrorCode::kState,
                 "hosts in lock-step cannot hand a robot over; run it in one process or in real "
                 "time");
@@ -130,7 +132,7 @@ Result<std::string> ObserverList::serve_order(sim::Engine& engine, const RunRequ
   auto answer = desk_.serve(
       request,
       // The desk also ends orders of others, which this request did not ask for.
-      [&](const RunRequest& asked) { return make_input(engine, asked, &asked == &request); },
+      [&](const request::Request& asked) { return make_input(engine, asked, &asked == &request); },
       [&](const std::string& robot) {
         return forwarder_ != nullptr ? forwarder_->is_driven(robot) : is_driven(engine, robot);
       },
@@ -141,7 +143,7 @@ Result<std::string> ObserverList::serve_order(sim::Engine& engine, const RunRequ
 
 void ObserverList::tick(sim::Engine& engine) {
   if (!desk_.waits()) return;
-  desk_.tick([&](const RunRequest& asked) { return make_input(engine, asked, false); },
+  desk_.tick([&](const request::Request& asked) { return make_input(engine, asked, false); },
              OrderDesk::Time::clock::now());
   note_leases(engine);
 }
@@ -164,7 +166,7 @@ void ObserverList::refresh(RunStatus& status) const {
   }
 }
 
-void ObserverList::keep(const RunRequest& request, std::uint64_t step) {
+void ObserverList::keep(const request::Request& request, std::uint64_t step) {
   if (record_) record_->keep(request, step);
 }
 

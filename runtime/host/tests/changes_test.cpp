@@ -184,47 +184,42 @@ TEST(Requests, AreServedBetweenStepsAlsoWhilePaused) {
   auto outcome =
       std::async(std::launch::async, [&] { return run(*scenario, host.catalogue(), options); });
   while (control.status().scenario.empty()) std::this_thread::yield();
-  const auto ask = [&](RunRequest::Kind kind, const std::string& robot, const std::string& key = {},
-                       const std::string& value = {}) {
-    return control.ask({kind, robot, key, value}, std::chrono::minutes(1));
+  const auto ask = [&](request::Action action, const std::string& robot) {
+    return control.ask({std::move(action), robot}, std::chrono::minutes(1));
   };
-  EXPECT_EQ(ask(RunRequest::Kind::kStop, "").value(), "stopped anna");
+  EXPECT_EQ(ask(request::Stop(), "").value(), "stopped anna");
   EXPECT_TRUE(control.status().robots.at(0).stopped);
-  EXPECT_EQ(ask(RunRequest::Kind::kArm, "anna").error().code, ErrorCode::kState);
-  EXPECT_EQ(ask(RunRequest::Kind::kStop, "ann").error().message,
+  EXPECT_EQ(ask(request::Arm(), "anna").error().code, ErrorCode::kState);
+  EXPECT_EQ(ask(request::Stop(), "ann").error().message,
             "there is no robot `ann`; did you mean `anna`?");
-  EXPECT_EQ(ask(RunRequest::Kind::kSet, "anna", "program.cruise_mps", "0.1").value(),
+  EXPECT_EQ(ask(request::Set{"program.cruise_mps", "0.1"}, "anna").value(),
             "anna: program.cruise_mps: 0.2 -> 0.1");
-  EXPECT_EQ(ask(RunRequest::Kind::kSet, "anna", "program.cruise_mps", "[").error().code,
+  EXPECT_EQ(ask(request::Set{"program.cruise_mps", "["}, "anna").error().code,
             ErrorCode::kInvalidArgument);
-  EXPECT_EQ(ask(RunRequest::Kind::kSet, "anna", "program.cruise_mps", "99").error().code,
-            ErrorCode::kParse);
-  EXPECT_EQ(ask(RunRequest::Kind::kSet, "", "body.scale", "1").error().code,
-            ErrorCode::kInvalidArgument);
-  using Kind = RunRequest::Kind;
+  EXPECT_EQ(ask(request::Set{"program.cruise_mps", "99"}, "anna").error().code, ErrorCode::kParse);
+  EXPECT_EQ(ask(request::Set{"body.scale", "1"}, "").error().code, ErrorCode::kInvalidArgument);
   const auto edit = [&](const std::string& text) {
-    RunRequest request{Kind::kEdit, ""};
     // One that says nothing is what read_edit() refuses; code may put it together.
-    request.edit = text.empty() ? config::ObstacleEdit() : config::read_edit(text, "test").value();
-    return control.ask(request, std::chrono::minutes(1));
+    return ask(request::Edit{text.empty() ? config::ObstacleEdit()
+                                          : config::read_edit(text, "test").value()},
+               "");
   };
   EXPECT_EQ(edit("{add_obstacle: {name: crate, box_m: [1, 2], x_m: 5, y_m: 0.5}}").value(),
             "added `crate` at (5, 0.5), yaw 0 rad (by hand); counts from step 0 on, at 0.000 s");
   EXPECT_EQ(edit("{move_obstacle: {name: crate, x_m: 6}}").value(),
             "moved `crate` at (6, 0), yaw 0 rad (by hand); counts from step 0 on, at 0.000 s");
   EXPECT_EQ(edit("").error().code, ErrorCode::kParse);
-  EXPECT_EQ(ask(Kind::kEdit, "").error().message, "expected the edit of an obstacle");
   EXPECT_EQ(edit("{move_obstacle: {name: crte, x_m: 6}}").error().message,
             "there is no obstacle `crte`; did you mean `crate`?");
   EXPECT_EQ(edit("{add_obstacle: {name: lid, disc_radius_m: 1}}").error().code,
             ErrorCode::kInvalidArgument);
-  const std::string listed = ask(Kind::kList, "").value();
+  const std::string listed = ask(request::ListObstacles(), "").value();
   EXPECT_TRUE(listed.starts_with("1 obstacle\n     1  crate ")) << listed;
   control.resume();
   const auto ended = outcome.get();
   ASSERT_TRUE(ended) << ended.error().text();
   EXPECT_NE(ended->summary.find("changed by people"), std::string::npos) << ended->summary;
-  EXPECT_EQ(ask(RunRequest::Kind::kStop, "").error().code, ErrorCode::kState);
+  EXPECT_EQ(ask(request::Stop(), "").error().code, ErrorCode::kState);
   std::filesystem::remove_all(options.output);
 }
 

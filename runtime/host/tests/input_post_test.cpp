@@ -15,7 +15,6 @@ namespace {
 
 using namespace sim::testing;
 using namespace std::chrono_literals;
-using Kind = RunRequest::Kind;
 
 constexpr std::uint64_t kFirst = 5000;
 
@@ -29,18 +28,8 @@ sim::EngineSpec three() {
   return spec;
 }
 
-RunRequest request_of(Kind kind, const std::string& robot = {}) {
-  RunRequest request;
-  request.kind = kind;
-  request.robot = robot;
-  request.by = "anna";
-  return request;
-}
-
-RunRequest point_of(Kind kind, const std::string& robot, Vec2 p_W) {
-  RunRequest request = request_of(kind, robot);
-  request.points = {p_W};
-  return request;
+request::Request request_of(request::Action action, const std::string& robot = {}) {
+  return {std::move(action), robot, "anna"};
 }
 
 class InputPostTest : public ::testing::Test {
@@ -57,7 +46,7 @@ class InputPostTest : public ::testing::Test {
     post_.emplace(*engines_[0], 0, kFirst, nullptr);
   }
   /// Asks as somebody who waits for the answer. What is refused at once is the error.
-  Result<std::string> ask(const RunRequest& request) {
+  Result<std::string> ask(const request::Request& request) {
     RAVE_TRY_ASSIGN(std::string text, post_->give(request));
     const auto given = post_->take_given();
     if (!given) return text;
@@ -107,8 +96,7 @@ class InputPostTest : public ::testing::Test {
 
 TEST_F(InputPostTest, AnOrderCountsFromTheNextWorldAndIsAnsweredWhenItsStepIsDone) {
   step();
-  RunRequest drive = request_of(Kind::kDrive, "r0");
-  drive.v_mps = 0.5;
+  const auto drive = request_of(request::Drive{0.5, 0}, "r0");
   EXPECT_EQ(why(ask(drive)), "accepted");
   EXPECT_TRUE(post_->is_driven("r0")) << "though the run does not know it yet";
   EXPECT_EQ(engines_[0]->order_of(RobotId(0)), "");
@@ -127,8 +115,8 @@ TEST_F(InputPostTest, AnOrderCountsFromTheNextWorldAndIsAnsweredWhenItsStepIsDon
 
 TEST_F(InputPostTest, WhatAWorldDoesNotAnswerIsInTheNextReport) {
   make_world();
-  EXPECT_EQ(why(ask(point_of(Kind::kGoal, "r1", {1, 2}))), "accepted");
-  EXPECT_EQ(why(ask(request_of(Kind::kStop, "r0"))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Goal{{1, 2}, {}}, "r1"))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Stop(), "r0"))), "accepted");
   do_step();
   EXPECT_EQ(answer(0), "") << "the world was made without it";
   step();
@@ -138,25 +126,26 @@ TEST_F(InputPostTest, WhatAWorldDoesNotAnswerIsInTheNextReport) {
 }
 
 TEST_F(InputPostTest, WhatThisHostKnowsIsRefusedAtOnce) {
-  EXPECT_EQ(why(ask(point_of(Kind::kGoal, "r0", {1, 0}))),
+  EXPECT_EQ(why(ask(request_of(request::Goal{{1, 0}, {}}, "r0"))),
             "robot `r0`, goal: neither its program nor one of its controllers takes goals");
-  EXPECT_NE(why(ask(point_of(Kind::kGoal, "r1", {4, 0}))).find("is inside the obstacle `wall`"),
-            std::string::npos);
-  EXPECT_EQ(why(ask(point_of(Kind::kGoal, "r2", {1, 0}))),
+  EXPECT_NE(
+      why(ask(request_of(request::Goal{{4, 0}, {}}, "r1"))).find("is inside the obstacle `wall`"),
+      std::string::npos);
+  EXPECT_EQ(why(ask(request_of(request::Goal{{1, 0}, {}}, "r2"))),
             "robot `r2` runs in another process of this run");
-  EXPECT_NE(why(ask(request_of(Kind::kStop, "r9"))).find("r9"), std::string::npos);
-  RunRequest nobody = request_of(Kind::kStop, "r0");
+  EXPECT_NE(why(ask(request_of(request::Stop(), "r9"))).find("r9"), std::string::npos);
+  request::Request nobody = request_of(request::Stop(), "r0");
   nobody.by = "two\nlines";
   EXPECT_NE(why(ask(nobody)).find("control characters"), std::string::npos);
-  EXPECT_EQ(why(ask(request_of(Kind::kRelease))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Release()))), "accepted");
   make_world();
   EXPECT_TRUE(world_.answers.empty()) << "there was nothing to release";
   EXPECT_TRUE(answers_.empty());
 }
 
 TEST_F(InputPostTest, WhatTheAuthorityKnowsIsRefusedWithItsWorld) {
-  EXPECT_EQ(why(ask(point_of(Kind::kPlace, "r0", {4, 0}))), "accepted");
-  EXPECT_EQ(why(ask(point_of(Kind::kPlace, "r0", {1, 1}))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Place{{4, 0}, {}}, "r0"))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Place{{1, 1}, {}}, "r0"))), "accepted");
   step();
   const std::string refused = answer(0);
   EXPECT_TRUE(refused.starts_with("refused: ")) << refused;
@@ -165,40 +154,41 @@ TEST_F(InputPostTest, WhatTheAuthorityKnowsIsRefusedWithItsWorld) {
 }
 
 TEST_F(InputPostTest, WhatChangesBeforeTheStepIsRefusedByTheStep) {
-  EXPECT_EQ(why(ask(request_of(Kind::kStop, "r1"))), "accepted");
-  EXPECT_EQ(why(ask(point_of(Kind::kGoal, "r1", {1, 2}))), "accepted") << "it is not stopped yet";
-  EXPECT_NE(why(ask(point_of(Kind::kGoal, "r1", {1e9, 2}))).find("is outside the world"),
+  EXPECT_EQ(why(ask(request_of(request::Stop(), "r1"))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Goal{{1, 2}, {}}, "r1"))), "accepted")
+      << "it is not stopped yet";
+  EXPECT_NE(why(ask(request_of(request::Goal{{1e9, 2}, {}}, "r1"))).find("is outside the world"),
             std::string::npos)
       << "that does not depend on it";
-  EXPECT_EQ(why(ask(request_of(Kind::kArm, "r1"))),
+  EXPECT_EQ(why(ask(request_of(request::Arm(), "r1"))),
             "stopped: r1; a stop holds until it is released (`--release`)");
   step();
   EXPECT_EQ(answer(0), "stopped r1; counts from step 0 on, at 0.000 s");
   EXPECT_EQ(answer(1),
             "refused: robot `r1`, goal: it is stopped; a stop holds until it is released");
-  EXPECT_EQ(why(ask(request_of(Kind::kRelease))), "accepted");
-  EXPECT_EQ(why(ask(point_of(Kind::kGoal, "r1", {1, 2}))), "accepted") << "by then it is free";
+  EXPECT_EQ(why(ask(request_of(request::Release()))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Goal{{1, 2}, {}}, "r1"))), "accepted")
+      << "by then it is free";
   step();
   EXPECT_EQ(answer(2), "released r1; counts from step 1 on, at 0.010 s");
   EXPECT_EQ(answer(3), "r1 is sent to 1.00, 2.00; counts from step 1 on, at 0.010 s");
 }
 
 TEST_F(InputPostTest, AStopOfAllIsOfThoseThatRunHere) {
-  EXPECT_EQ(ask(request_of(Kind::kStop)).value(), "stopped r0 and r1");
+  EXPECT_EQ(ask(request_of(request::Stop())).value(), "stopped r0 and r1");
   make_world();
   ASSERT_EQ(world_.inputs.size(), 2U);
   do_step();
   EXPECT_TRUE(engines_[0]->stopped(RobotId(0)) && engines_[0]->stopped(RobotId(1)));
   EXPECT_FALSE(engines_[1]->stopped(RobotId(2)));
   EXPECT_EQ(answer(0), "stopped r0 and r1; counts from step 0 on, at 0.000 s") << "once, for both";
-  EXPECT_EQ(ask(request_of(Kind::kStop)).value(), "stopped r0 and r1");
+  EXPECT_EQ(ask(request_of(request::Stop())).value(), "stopped r0 and r1");
   make_world();
   EXPECT_TRUE(world_.inputs.empty()) << "they are";
 }
 
 TEST_F(InputPostTest, WhileTheRunStandsWhoWaitsIsToldWhatWillBe) {
-  RunRequest path = request_of(Kind::kPath, "r1");
-  path.points = {{1, 2}, {2, 2}};
+  const auto path = request_of(request::Path{{{1, 2}, {2, 2}}, 0}, "r1");
   EXPECT_EQ(why(ask(path)), "accepted");
   EXPECT_FALSE(post_->put_off("paused", 7, asked_at_ + 900ms));
   EXPECT_TRUE(post_->put_off("paused", 7, asked_at_ + 1s));
@@ -211,7 +201,7 @@ TEST_F(InputPostTest, WhileTheRunStandsWhoWaitsIsToldWhatWillBe) {
 }
 
 TEST_F(InputPostTest, AfterAGapNothingOldIsDone) {
-  EXPECT_EQ(why(ask(point_of(Kind::kGoal, "r1", {1, 2}))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Goal{{1, 2}, {}}, "r1"))), "accepted");
   post_->drop("the run continued without the host of the robot");
   EXPECT_EQ(answer(0), "refused: the run continued without the host of the robot");
   make_world();
@@ -219,7 +209,7 @@ TEST_F(InputPostTest, AfterAGapNothingOldIsDone) {
 }
 
 TEST_F(InputPostTest, AnswersToAnEarlierProcessOfTheHostAreNotTaken) {
-  EXPECT_EQ(why(ask(point_of(Kind::kGoal, "r1", {1, 2}))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Goal{{1, 2}, {}}, "r1"))), "accepted");
   make_world();
   world_.answers[0].asked = kFirst;
   post_->take(world_);
@@ -230,7 +220,7 @@ TEST_F(InputPostTest, AnswersToAnEarlierProcessOfTheHostAreNotTaken) {
 }
 
 TEST_F(InputPostTest, AnswersToAnotherHostAreNotTaken) {
-  EXPECT_EQ(why(ask(point_of(Kind::kGoal, "r1", {1, 2}))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Goal{{1, 2}, {}}, "r1"))), "accepted");
   make_world();
   ASSERT_EQ(world_.answers.size(), 1U);
   world_.answers[0].host = 1;
@@ -240,7 +230,7 @@ TEST_F(InputPostTest, AnswersToAnotherHostAreNotTaken) {
 }
 
 TEST_F(InputPostTest, OfSeveralRobotsOneRefusalIsTheAnswer) {
-  EXPECT_EQ(ask(request_of(Kind::kStop)).value(), "stopped r0 and r1");
+  EXPECT_EQ(ask(request_of(request::Stop())).value(), "stopped r0 and r1");
   make_world();
   ASSERT_EQ(world_.answers.size(), 2U);
   post_->take(world_);
@@ -249,38 +239,37 @@ TEST_F(InputPostTest, OfSeveralRobotsOneRefusalIsTheAnswer) {
 }
 
 TEST_F(InputPostTest, AReportHasWhatWaitsOnce) {
-  EXPECT_EQ(why(ask(request_of(Kind::kStop, "r0"))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Stop(), "r0"))), "accepted");
   post_->put(reports_[0]);
   post_->put(reports_[0]);
   EXPECT_EQ(reports_[0].inputs.size(), 1U) << "it is put each time that the host is asked";
-  EXPECT_EQ(why(ask(request_of(Kind::kStop, "r1"))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Stop(), "r1"))), "accepted");
   post_->put(reports_[0]);
   EXPECT_EQ(reports_[0].inputs.size(), 2U);
 }
 
 TEST_F(InputPostTest, ATextToADrivenRobotLeavesItDriven) {
-  RunRequest drive = request_of(Kind::kDrive, "r1");
-  drive.v_mps = 0.2;
+  const auto drive = request_of(request::Drive{0.2, 0}, "r1");
   EXPECT_EQ(why(ask(drive)), "accepted");
-  RunRequest text = request_of(Kind::kText, "r1");
-  text.value = "hello";
+  const auto text = request_of(request::Text{"hello"}, "r1");
   EXPECT_EQ(why(ask(text)), "accepted");
   EXPECT_TRUE(post_->is_driven("r1"));
   EXPECT_FALSE(post_->is_driven("r0"));
-  EXPECT_EQ(why(ask(request_of(Kind::kCancel, "r1"))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Cancel(), "r1"))), "accepted");
   EXPECT_FALSE(post_->is_driven("r1"));
 }
 
 TEST_F(InputPostTest, AReleaseOfAnotherRobotPromisesNothing) {
-  EXPECT_EQ(why(ask(request_of(Kind::kStop))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Stop()))), "accepted");
   step();
-  EXPECT_EQ(why(ask(request_of(Kind::kRelease, "r0"))), "accepted");
-  EXPECT_NE(why(ask(point_of(Kind::kGoal, "r1", {1, 2}))).find("it is stopped"), std::string::npos)
+  EXPECT_EQ(why(ask(request_of(request::Release(), "r0"))), "accepted");
+  EXPECT_NE(why(ask(request_of(request::Goal{{1, 2}, {}}, "r1"))).find("it is stopped"),
+            std::string::npos)
       << "the next step can only refuse it";
 }
 
 TEST_F(InputPostTest, WhatAnOldReportAskedForIsNotSaidToBeDoneAfterAGap) {
-  EXPECT_EQ(why(ask(point_of(Kind::kGoal, "r1", {1, 2}))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Goal{{1, 2}, {}}, "r1"))), "accepted");
   make_world();
   post_->drop("the run continued without the host of the robot");
   EXPECT_EQ(answer(0), "refused: the run continued without the host of the robot");
@@ -290,7 +279,7 @@ TEST_F(InputPostTest, WhatAnOldReportAskedForIsNotSaidToBeDoneAfterAGap) {
 }
 
 TEST_F(InputPostTest, MoreThanAReportHasRoomForAreRefusedButAStopNever) {
-  const RunRequest goal = point_of(Kind::kGoal, "r1", {1, 2});
+  const request::Request goal = request_of(request::Goal{{1, 2}, {}}, "r1");
   std::size_t taken = 0;
   std::string refused;
   while (refused.empty() && taken < 2 * InputPost::kMostWaiting) {
@@ -300,12 +289,13 @@ TEST_F(InputPostTest, MoreThanAReportHasRoomForAreRefusedButAStopNever) {
   }
   EXPECT_EQ(taken, InputPost::kMostWaiting);
   EXPECT_EQ(refused, "too many requests wait for the next step; try again later");
-  EXPECT_EQ(why(ask(request_of(Kind::kStop, "r1"))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Stop(), "r1"))), "accepted");
 }
 
 TEST_F(InputPostTest, TooMuchForOneStepIsRefusedButAStopNever) {
-  RunRequest path = request_of(Kind::kPath, "r1");
-  for (int i = 0; i < 1000; ++i) path.points.push_back({0.001 * i, 2});
+  request::Path line;
+  for (int i = 0; i < 1000; ++i) line.points_W.push_back({0.001 * i, 2});
+  const auto path = request_of(line, "r1");
   std::string refused;
   int taken = 0;
   while (refused.empty() && taken < 1000) {
@@ -315,12 +305,12 @@ TEST_F(InputPostTest, TooMuchForOneStepIsRefusedButAStopNever) {
   }
   EXPECT_EQ(taken, 100);
   EXPECT_EQ(refused, "too many requests wait for the next step; try again later");
-  EXPECT_EQ(why(ask(request_of(Kind::kStop, "r1"))), "accepted");
+  EXPECT_EQ(why(ask(request_of(request::Stop(), "r1"))), "accepted");
 }
 
 TEST_F(InputPostTest, AThousandOrdersInOneStepAreAllAnswered) {
   for (int i = 0; i < 1000; ++i) {
-    ASSERT_EQ(why(ask(point_of(Kind::kGoal, "r1", {0.001 * i, 2}))), "accepted") << i;
+    ASSERT_EQ(why(ask(request_of(request::Goal{{0.001 * i, 2}, {}}, "r1"))), "accepted") << i;
   }
   step();
   EXPECT_EQ(world_.inputs.size(), 1000U);

@@ -12,13 +12,11 @@
 namespace rave::runtime::testing {
 namespace {
 
-using Kind = RunRequest::Kind;
-
 /// Asks for something behind certain steps, and keeps the answers.
 class Commander final : public RunObserver {
  public:
   explicit Commander(RunControl& control) : control_(control) {}
-  void at(std::uint64_t step, RunRequest request) { asks_.emplace(step, std::move(request)); }
+  void at(std::uint64_t step, request::Request request) { asks_.emplace(step, std::move(request)); }
   void after_step(const StepView& step) override {
     const auto [begin, end] = asks_.equal_range(step.engine.steps_done());
     for (auto ask = begin; ask != end; ++ask) {
@@ -41,18 +39,12 @@ class Commander final : public RunObserver {
 
  private:
   RunControl& control_;
-  std::multimap<std::uint64_t, RunRequest> asks_;
+  std::multimap<std::uint64_t, request::Request> asks_;
   std::vector<std::future<Result<std::string>>> answers_;
 };
 
-RunRequest order(Kind kind, const std::string& robot, const std::string& by,
-                 std::vector<Vec2> points = {}) {
-  RunRequest request;
-  request.kind = kind;
-  request.robot = robot;
-  request.by = by;
-  request.points = std::move(points);
-  return request;
+request::Request order(request::Action action, const std::string& robot, const std::string& by) {
+  return {std::move(action), robot, by};
 }
 
 std::string scenario() {
@@ -69,24 +61,18 @@ std::string scenario() {
 }
 
 void ask_for_all_kinds(Commander& commander) {
-  RunRequest drive = order(Kind::kDrive, "anna", "lisa");
-  drive.v_mps = 0.2;
-  drive.w_radps = 1.0 / 3;
-  RunRequest words = order(Kind::kText, "carl", "mona");
-  words.value = "hello";
-  RunRequest place = order(Kind::kPlace, "anna", "", {{2, 1}});
-  place.yaw_rad = 0.5;
-  RunRequest stop = order(Kind::kStop, "bert", "mona");
-  commander.at(50, place);
-  commander.at(60, drive);
-  commander.at(60, order(Kind::kGoal, "bert", "lisa", {{0.5, 3}}));
-  commander.at(60, order(Kind::kPath, "carl", "mona", {{0.2, -3}, {0.4, -2.9}}));
-  commander.at(60, words);
-  commander.at(70, order(Kind::kGoal, "anna", "mona", {{1, 1}}));          // lisa has it
-  commander.at(70, order(Kind::kPath, "bert", "lisa", {{1, 1}, {2, 2}}));  // no program
-  commander.at(160, order(Kind::kCancel, "anna", "lisa"));
-  commander.at(170, order(Kind::kGoal, "anna", "lisa", {{2.5, 1.5}}));
-  commander.at(700, stop);
+  using request::Goal;
+  using request::Path;
+  commander.at(50, order(request::Place{{2, 1}, 0.5}, "anna", ""));
+  commander.at(60, order(request::Drive{0.2, 1.0 / 3}, "anna", "lisa"));
+  commander.at(60, order(Goal{{0.5, 3}, {}}, "bert", "lisa"));
+  commander.at(60, order(Path{{{0.2, -3}, {0.4, -2.9}}, 0}, "carl", "mona"));
+  commander.at(60, order(request::Text{"hello"}, "carl", "mona"));
+  commander.at(70, order(Goal{{1, 1}, {}}, "anna", "mona"));           // lisa has it
+  commander.at(70, order(Path{{{1, 1}, {2, 2}}, 0}, "bert", "lisa"));  // no program
+  commander.at(160, order(request::Cancel(), "anna", "lisa"));
+  commander.at(170, order(Goal{{2.5, 1.5}, {}}, "anna", "lisa"));
+  commander.at(700, order(request::Stop(), "bert", "mona"));
 }
 
 TEST(OrderedRun, IsRecordedAndVerified) {

@@ -13,27 +13,17 @@ namespace rave::runtime::testing {
 namespace {
 
 using namespace std::chrono_literals;
-using Kind = RunRequest::Kind;
 
-RunRequest request(Kind kind, const std::string& by, const std::string& robot = "r1") {
-  RunRequest asked;
-  asked.kind = kind;
-  asked.robot = robot;
-  asked.by = by;
-  return asked;
+request::Request request(request::Action action, const std::string& by,
+                         const std::string& robot = "r1") {
+  return {std::move(action), robot, by};
 }
 
-RunRequest drive(const std::string& by, double v_mps) {
-  RunRequest asked = request(Kind::kDrive, by);
-  asked.v_mps = v_mps;
-  return asked;
+request::Request drive(const std::string& by, double v_mps) {
+  return request(request::Drive{v_mps, 0}, by);
 }
 
-RunRequest goal(const std::string& by) {
-  RunRequest asked = request(Kind::kGoal, by);
-  asked.points = {{1, 2}};
-  return asked;
-}
+request::Request goal(const std::string& by) { return request(request::Goal{{1, 2}, {}}, by); }
 
 /// A desk before a run that takes everything, and what has become inputs.
 struct Office {
@@ -45,16 +35,17 @@ struct Office {
   OrderDesk::Time now{1h};
 
   OrderDesk::Give give() {
-    return [this](const RunRequest& asked) -> Result<std::string> {
+    return [this](const request::Request& asked) -> Result<std::string> {
       if (refuses) return fail(error, "it is stopped");
-      driven = asked.kind == Kind::kDrive;
-      inputs.push_back(fmt::format(
-          "{} {} {}{}", to_string(asked.kind), asked.robot, asked.by,
-          asked.kind == Kind::kDrive ? fmt::format(" {}", asked.v_mps) : std::string()));
+      const auto* const drive = asked.as<request::Drive>();
+      driven = drive != nullptr;
+      inputs.push_back(
+          fmt::format("{} {} {}{}", request::name_of(asked.action), asked.robot, asked.by,
+                      drive != nullptr ? fmt::format(" {}", drive->v_mps) : std::string()));
       return std::string("done");
     };
   }
-  std::string serve(const RunRequest& asked) {
+  std::string serve(const request::Request& asked) {
     const auto answer = desk.serve(
         asked, give(), [this](const std::string&) { return driven; }, now);
     return answer ? *answer : answer.error().message;
@@ -101,9 +92,7 @@ TEST(OrderDesk, ASilentDriverLetsTheRobotStandAndLosesItLater) {
 TEST(OrderDesk, ATextDoesNotHideThatTheDriverIsSilent) {
   Office office;
   office.serve(drive("anna", 0.3));
-  RunRequest text = request(Kind::kText, "anna");
-  text.value = "hello";
-  EXPECT_EQ(office.serve(text), "done");
+  EXPECT_EQ(office.serve(request(request::Text{"hello"}, "anna")), "done");
   office.take();
   office.wait(200ms);
   EXPECT_EQ(office.take(), Lines{"drive r1 anna 0"});
@@ -164,13 +153,13 @@ TEST(OrderDesk, TwoCommandersDoNotFight) {
   Office office;
   EXPECT_EQ(office.serve(goal("anna")), "done");
   EXPECT_EQ(office.serve(goal("bert")), "`anna` drives r1");
-  EXPECT_EQ(office.serve(request(Kind::kCancel, "bert")), "`anna` drives r1");
-  EXPECT_EQ(office.serve(request(Kind::kRelease, "bert")), "`anna` drives r1");
-  RunRequest take = request(Kind::kTake, "bert");
+  EXPECT_EQ(office.serve(request(request::Cancel(), "bert")), "`anna` drives r1");
+  EXPECT_EQ(office.serve(request(request::Release(), "bert")), "`anna` drives r1");
+  request::Request take = request(request::Take(), "bert");
   EXPECT_EQ(office.serve(take), "`anna` drives r1");
   office.serve(drive("anna", 0.3));
   office.take();
-  take.value = "force";
+  take.action = request::Take{.force = true};
   EXPECT_EQ(office.serve(take), "r1 is yours; it was taken from `anna`");
   EXPECT_EQ(office.take(), Lines{"drive r1 anna 0"}) << "it stands until bert says something";
   EXPECT_EQ(office.serve(drive("anna", 0.3)), "`bert` drives r1");
@@ -182,31 +171,30 @@ TEST(OrderDesk, TwoCommandersDoNotFight) {
 
 TEST(OrderDesk, WhoDrivesARobotAloneHandsItOver) {
   Office office;
-  EXPECT_EQ(office.serve(request(Kind::kHandOver, "bert")), "done") << "nobody drives it";
+  EXPECT_EQ(office.serve(request(request::HandOver(), "bert")), "done") << "nobody drives it";
   EXPECT_EQ(office.serve(goal("anna")), "done");
-  EXPECT_EQ(office.serve(request(Kind::kHandOver, "bert")), "`anna` drives r1");
-  EXPECT_EQ(office.serve(request(Kind::kHandOver, "anna")), "done");
-  RunRequest root = request(Kind::kHandOver, "root");
+  EXPECT_EQ(office.serve(request(request::HandOver(), "bert")), "`anna` drives r1");
+  EXPECT_EQ(office.serve(request(request::HandOver(), "anna")), "done");
+  request::Request root = request(request::HandOver(), "root");
   root.overrides = true;
   EXPECT_EQ(office.serve(root), "done");
-  EXPECT_EQ(office.serve(request(Kind::kHandOver, "")), "done") << "the terminal";
+  EXPECT_EQ(office.serve(request(request::HandOver(), "")), "done") << "the terminal";
 }
 
 TEST(OrderDesk, ASecondPageOfTheSamePersonTakesItAndTheRobotStands) {
   Office office;
-  RunRequest first = drive("anna", 0.3);
+  request::Request first = drive("anna", 0.3);
   first.page = 1;
-  RunRequest second = drive("anna", 0.1);
+  request::Request second = drive("anna", 0.1);
   second.page = 2;
   EXPECT_EQ(office.serve(first), "done");
   EXPECT_NE(office.serve(second).find("you drive r1 on another page"), std::string::npos);
-  RunRequest release = request(Kind::kRelease, "anna");
+  request::Request release = request(request::Release(), "anna");
   release.page = 2;
   EXPECT_NE(office.serve(release).find("you drive r1 on another page"), std::string::npos);
   EXPECT_EQ(office.take(), Lines{"drive r1 anna 0.3"});
-  RunRequest take = request(Kind::kTake, "anna");
+  request::Request take = request(request::Take{.force = true}, "anna");
   take.page = 2;
-  take.value = "force";
   EXPECT_EQ(office.serve(take), "r1 is yours; it was taken from another page of yours");
   EXPECT_EQ(office.take(), Lines{"drive r1 anna 0"});
   EXPECT_EQ(office.desk.page("r1"), 2U);
@@ -215,7 +203,7 @@ TEST(OrderDesk, ASecondPageOfTheSamePersonTakesItAndTheRobotStands) {
   EXPECT_EQ(office.take(), Lines{"drive r1 anna 0.1"});
 }
 
-RunRequest on_page(RunRequest request, std::uint64_t page) {
+request::Request on_page(request::Request request, std::uint64_t page) {
   request.page = page;
   return request;
 }
@@ -223,15 +211,14 @@ RunRequest on_page(RunRequest request, std::uint64_t page) {
 TEST(OrderDesk, AStickThatIsHeldWhileTheRobotIsArmedMovesNothingUntilItIsNeutral) {
   Office office;
   office.refuses = true;
-  const RunRequest held = on_page(drive("anna", 0.3), 7);
+  const request::Request held = on_page(drive("anna", 0.3), 7);
   EXPECT_EQ(office.serve(held), "it is stopped");
   office.refuses = false;  // it is released and armed
   for (int i = 0; i < 100; ++i) {
     EXPECT_EQ(office.serve(held), "it is stopped; let the stick go before it drives r1");
     office.wait(33ms);
   }
-  RunRequest asks = on_page(request(Kind::kTake, "anna"), 7);
-  asks.value = "drive";
+  const auto asks = on_page(request(request::Take{.drives = true}, "anna"), 7);
   EXPECT_EQ(office.serve(asks), "it is stopped; let the stick go before it drives r1")
       << "over the bus a drive has no other answer";
   office.wait(10s);
@@ -245,9 +232,9 @@ TEST(OrderDesk, AStickThatIsHeldWhileTheRobotIsArmedMovesNothingUntilItIsNeutral
 TEST(OrderDesk, AStickThatWasRefusedForTheLeaseOfAnotherDoesNotDriveWhenThatEnds) {
   Office office;
   office.serve(on_page(drive("anna", 0.3), 1));
-  const RunRequest held = on_page(drive("bert", 0.1), 2);
+  const request::Request held = on_page(drive("bert", 0.1), 2);
   EXPECT_EQ(office.serve(held), "`anna` drives r1");
-  office.serve(on_page(request(Kind::kGive, "anna"), 1));
+  office.serve(on_page(request(request::Give(), "anna"), 1));
   EXPECT_EQ(office.serve(held), "`anna` drives r1; let the stick go before it drives r1");
   EXPECT_EQ(office.serve(on_page(drive("bert", 0), 2)), "the stick of r1 is neutral");
   EXPECT_EQ(office.serve(held), "done");
@@ -264,7 +251,7 @@ TEST(OrderDesk, AMistakeInADriveHoldsNoStick) {
 
 TEST(OrderDesk, ADriverWhoWasSuspendedDoesNotDriveOn) {
   Office office;
-  const RunRequest held = on_page(drive("", 0.3), 9);
+  const request::Request held = on_page(drive("", 0.3), 9);
   EXPECT_EQ(office.serve(held), "done");
   office.wait(200ms);
   office.wait(800ms);
@@ -283,15 +270,14 @@ TEST(OrderDesk, ADriverWhoWasSuspendedDoesNotDriveOn) {
 
 TEST(OrderDesk, TwoTerminalsDoNotShareALease) {
   Office office;
-  const RunRequest first = on_page(drive("", 0.3), 1);
-  const RunRequest second = on_page(drive("", -0.3), 2);
+  const request::Request first = on_page(drive("", 0.3), 1);
+  const request::Request second = on_page(drive("", -0.3), 2);
   const std::string refused = "another terminal drives r1; `--force` takes it from there";
   EXPECT_EQ(office.serve(first), "done");
   EXPECT_EQ(office.serve(second), refused);
-  EXPECT_EQ(office.serve(request(Kind::kGoal, "")), refused) << "a script";
+  EXPECT_EQ(office.serve(request(request::Goal(), "")), refused) << "a script";
   EXPECT_EQ(office.take(), Lines{"drive r1  0.3"});
-  RunRequest take = on_page(request(Kind::kTake, ""), 3);
-  take.value = "force";
+  const auto take = on_page(request(request::Take{.force = true}, ""), 3);
   EXPECT_EQ(office.serve(take), "r1 is yours; it was taken from another terminal of yours");
   EXPECT_EQ(office.serve(first), refused);
   EXPECT_EQ(office.serve(on_page(drive("", -0.3), 3)), "done");
@@ -300,7 +286,7 @@ TEST(OrderDesk, TwoTerminalsDoNotShareALease) {
 TEST(OrderDesk, ATerminalThatHasDrivenLeavesTheRobotToOthers) {
   Office office;
   EXPECT_EQ(office.serve(on_page(drive("", 0.3), 1)), "done");
-  EXPECT_EQ(office.serve(on_page(request(Kind::kCancel, ""), 1)), "done");
+  EXPECT_EQ(office.serve(on_page(request(request::Cancel(), ""), 1)), "done");
   EXPECT_EQ(office.desk.holder("r1"), "");
   EXPECT_EQ(office.take(), (Lines{"drive r1  0.3", "cancel r1 "}));
   EXPECT_EQ(office.serve(on_page(drive("", 0.3), 2)), "done");
@@ -310,23 +296,24 @@ TEST(OrderDesk, ALeaseThatIsGivenBackGivesTheRobotToItsProgram) {
   Office office;
   office.serve(goal("anna"));
   office.take();
-  EXPECT_EQ(office.serve(request(Kind::kGive, "anna")), "no person drives r1 now");
+  EXPECT_EQ(office.serve(request(request::Give(), "anna")), "no person drives r1 now");
   EXPECT_EQ(office.take(), Lines{"cancel r1 anna"});
 }
 
 TEST(OrderDesk, ReleaseNeedsTheLeaseOrRights) {
   Office office;
   office.serve(goal("anna"));
-  EXPECT_EQ(office.serve(request(Kind::kRelease, "anna")), "done");
-  RunRequest root = request(Kind::kRelease, "root");
+  EXPECT_EQ(office.serve(request(request::Release(), "anna")), "done");
+  request::Request root = request(request::Release(), "root");
   EXPECT_EQ(office.serve(root), "`anna` drives r1");
   root.overrides = true;
   EXPECT_EQ(office.serve(root), "done");
-  EXPECT_EQ(office.serve(request(Kind::kRelease, "")), "done") << "a terminal";
-  EXPECT_NE(office.serve(request(Kind::kRelease, "anna", "")).find("super-user"),
+  EXPECT_EQ(office.serve(request(request::Release(), "")), "done") << "a terminal";
+  EXPECT_NE(office.serve(request(request::Release(), "anna", "")).find("super-user"),
             std::string::npos);
-  EXPECT_NE(office.serve(request(Kind::kCancel, "anna", "")).find("super-user"), std::string::npos);
-  EXPECT_EQ(office.serve(request(Kind::kCancel, "", "")), "done");
+  EXPECT_NE(office.serve(request(request::Cancel(), "anna", "")).find("super-user"),
+            std::string::npos);
+  EXPECT_EQ(office.serve(request(request::Cancel(), "", "")), "done");
 }
 
 TEST(OrderDesk, AFloodIsRefused) {
@@ -341,46 +328,50 @@ TEST(OrderDesk, AFloodIsRefused) {
   EXPECT_EQ(office.serve(goal("anna")), "done");
 }
 
-TEST(OrderDesk, RefusesWordsThatAreNone) {
+TEST(OrderDesk, RefusesWhatIsForNobody) {
   Office office;
-  RunRequest take = request(Kind::kTake, "anna");
-  take.value = "please";
-  EXPECT_EQ(office.serve(take), "`please`: expected `force` or nothing");
-  EXPECT_EQ(office.serve(request(Kind::kGoal, "anna", "")), "`goal` needs a robot");
+  EXPECT_EQ(office.serve(request(request::Goal(), "anna", "")), "`goal` needs a robot");
   EXPECT_EQ(office.serve(goal("terminal")), "`terminal` is not a valid name of a person");
 }
 
-TEST(OrderWords, ComeBackBitByBit) {
-  RunRequest path = request(Kind::kPath, "anna");
-  path.points = {{0.1, std::nextafter(1.0, 2.0)}, {-1e-300, 1e6}};
-  path.speed_mps = 1.0 / 3;
-  RunRequest place = goal("bert");
-  place.kind = Kind::kPlace;
-  place.yaw_rad = -0.1;
-  RunRequest text = request(Kind::kText, "");
-  text.value = "points 1 2, please";
-  RunRequest turn = drive("anna", -0.1);
-  turn.w_radps = 2.0 / 3;
-  for (const RunRequest& asked : {path, place, text, turn, goal(""), request(Kind::kCancel, "")}) {
-    RunRequest read;
-    read.kind = asked.kind;
-    ASSERT_TRUE(read_order_words(order_words(asked), read)) << order_words(asked);
-    EXPECT_EQ(read.points, asked.points) << order_words(asked);
-    EXPECT_EQ(read.yaw_rad, asked.yaw_rad);
-    EXPECT_EQ(read.v_mps, asked.v_mps);
-    EXPECT_EQ(read.w_radps, asked.w_radps);
-    EXPECT_EQ(read.speed_mps, asked.speed_mps);
-    EXPECT_EQ(read.value, asked.value);
+TEST(RecordedWords, ComeBackBitByBit) {
+  const request::Action all[] = {
+      request::Path{{{0.1, std::nextafter(1.0, 2.0)}, {-1e-300, 1e6}}, 1.0 / 3},
+      request::Place{{1, 2}, -0.1},
+      request::Text{"points 1 2, please"},
+      request::Drive{-0.1, 2.0 / 3},
+      request::Goal{{1, 2}, {}, 0.5},
+      request::Cancel(),
+      request::Stop(),
+      request::Release(),
+      request::Arm(),
+      request::Set{"program.speed", "[1, 2]"},
+      request::HandOver{"twin"},
+      request::ResetShadow(),
+      request::Edit{config::read_edit("{remove_obstacle: a}", "test").value()}};
+  for (const request::Action& action : all) {
+    const RecordedWords words = recorded_words(action);
+    const auto read = recorded_action(words);
+    ASSERT_TRUE(read) << words.kind << " " << words.value << ": " << read.error().text();
+    EXPECT_EQ(*read, action) << words.kind << " " << words.value;
   }
 }
 
-TEST(OrderWords, RefusesWhatIsNone) {
-  for (const char* const words :
-       {"points", "points 1", "points a b", "yaw", "v 1 w", "fast", "points 1 2 yaw x", "v 1m"}) {
-    RunRequest read;
-    read.kind = Kind::kGoal;
-    EXPECT_FALSE(read_order_words(words, read)) << words;
+TEST(RecordedWords, AreThoseOfOlderRecordings) {
+  const RecordedWords goal = recorded_words(request::Goal{{1.5, 2}, 0.5, 0.2});
+  EXPECT_EQ(goal.kind, "goal");
+  EXPECT_EQ(goal.value, "points 1.5 2 yaw 0.5 speed 0.2");
+  EXPECT_EQ(recorded_words(request::Drive{0.3, -0.1}).value, "v 0.3 w -0.1");
+  EXPECT_EQ(recorded_words(request::Set{"body.scale", "2"}).key, "body.scale");
+  EXPECT_EQ(recorded_words(request::HandOver{"real"}).value, "real");
+}
+
+TEST(RecordedWords, RefusesWhatIsNone) {
+  for (const char* const words : {"", "points", "points 1", "points a b", "yaw", "v 1 w", "fast",
+                                  "points 1 2 yaw x", "v 1m", "points 1 2 3 4"}) {
+    EXPECT_FALSE(recorded_action({"goal", "", words})) << words;
   }
+  EXPECT_FALSE(recorded_action({"fly", "", ""}));
 }
 
 }  // namespace

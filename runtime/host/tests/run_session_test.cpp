@@ -196,7 +196,7 @@ TEST_F(RunSessionTest, ServesARequestAndRefreshesTheStatus) {
   exchange_->turns = 1;
   std::optional<Result<std::string>> answer;
   std::thread asker([this, &answer] {
-    answer = control_.ask({RunRequest::Kind::kStop, "anna"}, std::chrono::minutes(1));
+    answer = control_.ask({request::Stop(), "anna"}, std::chrono::minutes(1));
   });
   exchange_->meanwhile = [this] {
     const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(1);

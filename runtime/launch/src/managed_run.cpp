@@ -110,7 +110,7 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, runtime::BuiltScenario bu
   };
   // What people say is part of the recording of the world, which the manager writes.
   const auto keep_said = [&run, &end] {
-    for (const runtime::RunRequest& chat : run.control.take_said()) end.results->say(chat);
+    for (const request::Request& chat : run.control.take_said()) end.results->say(chat);
   };
   how.on_world = [&end, keep_said](const sim::WorldAuthority& authority) {
     keep_said();

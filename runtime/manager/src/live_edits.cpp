@@ -19,7 +19,6 @@ namespace rave::manager {
 namespace {
 
 using ObstacleKind = sim::ObstacleChange::Kind;
-using RequestKind = runtime::RunRequest::Kind;
 
 /// Hosts that have not confirmed an edit by then are named in its answer.
 constexpr Duration kConfirmation = from_seconds(2);
@@ -264,8 +263,9 @@ void LiveEdits::note(const sim::ObstacleChange& made) {
   }
 }
 
-Result<std::string> LiveEdits::edit(const runtime::RunRequest& request, SimTime now) {
-  if (request.kind != RequestKind::kEdit) {
+Result<std::string> LiveEdits::edit(const request::Request& request, SimTime now) {
+  const auto* const asked = request.as<request::Edit>();
+  if (asked == nullptr) {
     return fail(ErrorCode::kState,
                 "in real time each host controls its own robots: send the request to the host that "
                 "runs them (`rave ps` lists it; on the bus it is RUN@HOST); this process only "
@@ -274,13 +274,13 @@ Result<std::string> LiveEdits::edit(const runtime::RunRequest& request, SimTime 
   if (takes_over_) {
     return fail(ErrorCode::kState, "this manager is taking over from another one; try again");
   }
-  RAVE_TRY_ASSIGN(sim::ObstacleChange change, runtime::requested_change(request));
+  RAVE_TRY_ASSIGN(sim::ObstacleChange change, runtime::requested_change(asked->edit, request.by));
   RAVE_TRY(limits_.take(change, EditLimits::Clock::now()));
   return make(change, now);
 }
 
 void LiveEdits::serve(runtime::RunControl::Asked asked, SimTime now) {
-  if (asked.request().kind == RequestKind::kList) {
+  if (asked.request().is<request::ListObstacles>()) {
     asked.answer(runtime::list_obstacles(authority_->world()));
     return;
   }

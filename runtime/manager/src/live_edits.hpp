@@ -66,7 +66,7 @@ class LiveEdits {
   Status publish(const real_time::ObstacleSight& sight);
   void make_scheduled(SimTime now);
   void serve(runtime::RunControl::Asked asked, SimTime now);
-  Result<std::string> edit(const runtime::RunRequest& request, SimTime now);
+  Result<std::string> edit(const request::Request& request, SimTime now);
   Result<std::string> make(const sim::ObstacleChange& change, SimTime now);
   void note(const sim::ObstacleChange& made);
   void place_robots(SimTime now);

@@ -8,14 +8,11 @@
 #include "rave/assemble/obstacles.hpp"
 #include "rave/assemble/parameter_key.hpp"
 #include "rave/base/names.hpp"
-#include "rave/control/order_words.hpp"
 #include "rave/control/world_request.hpp"
 #include "rave/protocol/step_messages.hpp"
 
 namespace rave::manager {
 namespace {
-
-using runtime::RunRequest;
 
 /// After this time the caller gets the answer that it will take a while.
 constexpr std::chrono::seconds kRequestPatience{1};
@@ -25,18 +22,13 @@ std::string from_step(const sim::WorldAuthority& authority, std::uint64_t step) 
   return fmt::format("counts from step {} on, at {:.3f} s", step, at_s);
 }
 
-std::string done_text(const RunRequest& request) {
+std::string done_text(const request::Request& request) {
   const std::string whom = request.robot.empty() ? "all robots" : request.robot;
-  switch (request.kind) {
-    case RunRequest::Kind::kStop:
-      return "stopped " + whom;
-    case RunRequest::Kind::kRelease:
-      return "released " + whom;
-    case RunRequest::Kind::kArm:
-      return "armed " + whom;
-    default:
-      return fmt::format("{}: {}: {}", whom, request.key, request.value);
-  }
+  if (request.is<request::Stop>()) return "stopped " + whom;
+  if (request.is<request::Release>()) return "released " + whom;
+  if (request.is<request::Arm>()) return "armed " + whom;
+  const auto* const set = request.as<request::Set>();
+  return set != nullptr ? fmt::format("{}: {}: {}", whom, set->key, set->value) : whom;
 }
 
 /// What an obstacle's event says, with what else is worth telling.
@@ -83,7 +75,7 @@ Status WorldRequests::check_released(const sim::WorldAuthority& authority, Robot
               names.size() > kMany ? fmt::format("{} robots", names.size()) : join_names(names));
 }
 
-Result<std::uint64_t> WorldRequests::pass_on(const RunRequest& request,
+Result<std::uint64_t> WorldRequests::pass_on(const request::Request& request,
                                              sim::WorldAuthority& authority) {
   // The authority numbers the request and sends it with the next world. Each host checks it against
   // its own robots and refuses it in its next report, so the outcome of a change or an order is
@@ -117,11 +109,11 @@ void WorldRequests::listen(sim::WorldAuthority& authority) {
 }
 
 void WorldRequests::take(runtime::RunControl::Asked asked, sim::WorldAuthority& authority) {
-  if (asked.request().kind == RunRequest::Kind::kList) {
+  if (asked.request().is<request::ListObstacles>()) {
     // The list is answered at once: it changes nothing and needs no step.
     return asked.answer(runtime::list_obstacles(authority.world()));
   }
-  if (asked.request().kind == RunRequest::Kind::kChat) {
+  if (asked.request().is<request::Chat>()) {
     control_->keep_said(asked.request());
     return asked.answer(std::string("added to the recording"));
   }
@@ -130,28 +122,27 @@ void WorldRequests::take(runtime::RunControl::Asked asked, sim::WorldAuthority& 
   }
   const auto number = pass_on(asked.request(), authority);
   if (!number) return asked.answer(fail(number.error().code, "{}", number.error().message));
-  const bool obstacle = asked.request().kind == RunRequest::Kind::kEdit;
+  const bool obstacle = asked.request().is<request::Edit>();
   requests_.push_back({std::move(asked), *number, obstacle, std::chrono::steady_clock::now()});
 }
 
-Status WorldRequests::check_for_hosts(const RunRequest& request,
+Status WorldRequests::check_for_hosts(const request::Request& request,
                                       const sim::WorldAuthority& authority) const {
-  using Kind = RunRequest::Kind;
-  const bool of_lease = request.kind == Kind::kTake || request.kind == Kind::kGive;
+  const bool of_lease = request::is_of_lease(request.action);
+  const std::string_view name = request::name_of(request.action);
   // The terminal and super-users may release a robot that another person drives.
-  const bool releases = request.kind == Kind::kRelease && !request.by.empty() && !request.overrides;
-  if (!runtime::is_order(request.kind) && !of_lease && !releases) return {};
+  const bool releases = request.is<request::Release>() && !request.by.empty() && !request.overrides;
+  if (!request::is_order(request.action) && !of_lease && !releases) return {};
   if (request.robot.empty()) {
     return fail(ErrorCode::kState, "`{}` is for the hosts of the robots, which keep their leases",
-                runtime::to_string(request.kind));
+                name);
   }
   RAVE_TRY_ASSIGN(const RobotId robot, runtime::find_robot(authority.spec(), request.robot));
   const auto host = std::ranges::find_if(hosts_, [robot](const config::PlannedHost& one) {
     return std::ranges::find(one.robots, robot.value()) != one.robots.end();
   });
-  return fail(ErrorCode::kState, "`{}` is for host `{}` of robot `{}`, which keeps its lease",
-              runtime::to_string(request.kind), host != hosts_.end() ? host->name : "?",
-              request.robot);
+  return fail(ErrorCode::kState, "`{}` is for host `{}` of robot `{}`, which keeps its lease", name,
+              host != hosts_.end() ? host->name : "?", request.robot);
 }
 
 void WorldRequests::put_off(std::string_view why) {

@@ -48,11 +48,11 @@ class WorldRequests {
     bool obstacle = false;
     std::chrono::steady_clock::time_point since;
   };
-  Result<std::uint64_t> pass_on(const runtime::RunRequest& request, sim::WorldAuthority& authority);
+  Result<std::uint64_t> pass_on(const request::Request& request, sim::WorldAuthority& authority);
   [[nodiscard]] Status check_released(const sim::WorldAuthority& authority, RobotId robot) const;
   void take(runtime::RunControl::Asked asked, sim::WorldAuthority& authority);
   /// Why a request is for the host of its robot, which keeps the lease; nothing: it is not.
-  [[nodiscard]] Status check_for_hosts(const runtime::RunRequest& request,
+  [[nodiscard]] Status check_for_hosts(const request::Request& request,
                                        const sim::WorldAuthority& authority) const;
   void note_inputs(const sim::WorldStep& world);
   /// Keeps who is stopped, by robot. Returns whether the input stops or releases.

@@ -299,24 +299,19 @@ TEST_F(SteppedRunTest, OrdersAreForTheHostOfTheRobotAndStopsAreForAll) {
   runtime::RunControl control;
   options_.control = &control;
   std::vector<std::future<Result<std::string>>> answers;
-  using Kind = runtime::RunRequest::Kind;
-  const auto ask = [&](Kind kind, const std::string& robot, const std::string& by) {
-    runtime::RunRequest request;
-    request.kind = kind;
-    request.robot = robot;
-    request.by = by;
-    auto answer = control.post(request);
+  const auto ask = [&](request::Action action, const std::string& robot, const std::string& by) {
+    auto answer = control.post({std::move(action), robot, by});
     ASSERT_TRUE(answer);
     answers.push_back(*std::move(answer));
   };
   options_.on_world = [&](const sim::WorldAuthority& authority) {
     if (authority.next_step() != kMoment + 1) return false;
-    ask(Kind::kDrive, "r1", "anna");
-    ask(Kind::kTake, "r0", "anna");
-    ask(Kind::kCancel, "", "");
-    ask(Kind::kRelease, "r1", "anna");
-    ask(Kind::kStop, "r1", "bert");
-    ask(Kind::kRelease, "r1", "");
+    ask(request::Drive(), "r1", "anna");
+    ask(request::Take(), "r0", "anna");
+    ask(request::Cancel(), "", "");
+    ask(request::Release(), "r1", "anna");
+    ask(request::Stop(), "r1", "bert");
+    ask(request::Release(), "r1", "");
     return false;
   };
   run_.emplace(options_, authority_of_pair(), [&] {

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <ctime>
 
-#include "rave/control/chat_line.hpp"
 #include "rave/control/order_words.hpp"
 #include "rave/observe/event_words.hpp"
 
@@ -175,21 +174,21 @@ void RecordKeeper::keep_pose(const sim::Engine& engine, RobotId robot) {
   recorder_.pose(pose);
 }
 
-void RecordKeeper::keep(const RunRequest& request, std::uint64_t step) {
-  std::string value = is_order(request.kind) ? order_words(request) : request.value;
-  if (request.edit) value = config::write_edit(*request.edit);
-  static_cast<void>(recorder_.input({step, std::string(to_string(request.kind)), request.robot,
-                                     request.key, std::move(value), request.by}));
+void RecordKeeper::keep(const request::Request& request, std::uint64_t step) {
+  RecordedWords words = recorded_words(request.action);
+  static_cast<void>(recorder_.input({step, std::move(words.kind), request.robot,
+                                     std::move(words.key), std::move(words.value), request.by}));
 }
 
-void record_chat(const RunRequest& chat, std::uint64_t step, record::RunRecorder& recorder) {
-  const auto line = chat_line(chat);
-  if (!line) return;
-  static_cast<void>(recorder.chat(
-      {step, line->number, line->from, line->role, line->to, line->name, line->text}));
+void record_chat(const request::Request& request, std::uint64_t step,
+                 record::RunRecorder& recorder) {
+  const auto* const chat = request.as<request::Chat>();
+  if (chat == nullptr) return;
+  static_cast<void>(recorder.chat({step, chat->number, request.by, chat->role,
+                                   std::string(to_string(chat->to)), chat->name, chat->text}));
 }
 
-void RecordKeeper::say(const RunRequest& chat, std::uint64_t step) {
+void RecordKeeper::say(const request::Request& chat, std::uint64_t step) {
   record_chat(chat, step, recorder_);
 }
 

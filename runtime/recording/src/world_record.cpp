@@ -41,7 +41,7 @@ void WorldRecord::step(std::uint64_t step, const BodyKinds& kinds,
   static_cast<void>(recorder_.end_step());
 }
 
-void WorldRecord::say(const RunRequest& chat, std::uint64_t step) {
+void WorldRecord::say(const request::Request& chat, std::uint64_t step) {
   record_chat(chat, step, recorder_);
 }
 

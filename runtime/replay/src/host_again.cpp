@@ -56,7 +56,7 @@ Result<std::unique_ptr<HostAgain>> HostAgain::create(const config::ExpandedScena
   return again;
 }
 
-Result<std::string> HostAgain::ask(const RunRequest& request) {
+Result<std::string> HostAgain::ask(const request::Request& request) {
   auto input = input_of(authority_->spec(), request);
   // All other requests were made to the host itself.
   if (!input) return serve_request(*own_, request);

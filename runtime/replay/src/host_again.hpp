@@ -27,7 +27,7 @@ class HostAgain {
 
   /// Makes a request that counts from the next step on, as recorded by the host. Returns a
   /// description for people.
-  Result<std::string> ask(const RunRequest& request);
+  Result<std::string> ask(const request::Request& request);
   /// Errors: those of Engine::propose(), Engine::apply() and WorldAuthority::step().
   Status step();
   /// The events of the last step that are missing in the engine of the host.

@@ -84,47 +84,27 @@ Result<std::vector<record::RunInput>> read_inputs(const record::McapReader& read
 struct Again {
   sim::Engine& engine;
   std::function<Status()> step;
-  std::function<Result<std::string>(const RunRequest&)> ask;
+  std::function<Result<std::string>(const request::Request&)> ask;
   std::function<std::vector<sim::Event>()> beside;  ///< Events missing in the engine.
   bool looks = false;  ///< The run reports by itself when a step is done.
 };
 
 Again again_of(sim::Engine& engine) {
   return {engine, [&engine] { return engine.step(); },
-          [&engine](const RunRequest& request) { return serve_request(engine, request); },
+          [&engine](const request::Request& request) { return serve_request(engine, request); },
           [] { return std::vector<sim::Event>(); }};
 }
 
 Again again_of(HostAgain& host) {
   return {host.engine(), [&host] { return host.step(); },
-          [&host](const RunRequest& request) { return host.ask(request); },
+          [&host](const request::Request& request) { return host.ask(request); },
           [&host] { return host.beside(); }, true};
 }
 
 /// Converts a recorded request.
-Result<RunRequest> request_of(const record::RunInput& input) {
-  RunRequest request;
-  request.robot = input.robot;
-  request.by = input.by;
-  if (auto edit = recorded_edit(input.kind, input.key, input.value)) {
-    request.kind = RunRequest::Kind::kEdit;
-    RAVE_TRY_ASSIGN(request.edit, *std::move(edit));
-    return request;
-  }
-  const auto kind = request_kind(input.kind);
-  if (!kind) {
-    return fail(ErrorCode::kParse,
-                "the recording has an input `{}`, which this version of RAVE does not know",
-                input.kind);
-  }
-  request.kind = *kind;
-  request.key = input.key;
-  if (is_order(*kind)) {
-    RAVE_TRY(read_order_words(input.value, request));
-  } else {
-    request.value = input.value;
-  }
-  return request;
+Result<request::Request> request_of(const record::RunInput& input) {
+  RAVE_TRY_ASSIGN(auto action, recorded_action({input.kind, input.key, input.value}));
+  return request::Request{std::move(action), input.robot, input.by};
 }
 
 /// Repeats the recorded requests at the same steps.
@@ -140,7 +120,7 @@ class InputReplay {
     // step.
     for (; next_ < inputs_.size() && inputs_[next_].step <= step; ++next_) {
       const record::RunInput& input = inputs_[next_];
-      RAVE_TRY_ASSIGN(const RunRequest request, request_of(input));
+      RAVE_TRY_ASSIGN(const request::Request request, request_of(input));
       const auto answer = again.ask(request);
       if (answer) {
         // The second recording needs the inputs as well, or it would differ from the first.

@@ -236,7 +236,7 @@ bool SharedResults::after_step(const sim::WorldAuthority& authority) {
   return impl_->capture->ends_run();
 }
 
-void SharedResults::say(const RunRequest& chat) {
+void SharedResults::say(const request::Request& chat) {
   if (impl_->record) impl_->record->say(chat, impl_->noted);
 }
 

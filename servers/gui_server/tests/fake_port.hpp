@@ -18,7 +18,7 @@ class FakePort : public RunPort {
   [[nodiscard]] std::string why_not_held() const override { return ""; }
   [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override { return {}; }
   [[nodiscard]] Result<std::future<Result<std::string>>> post(
-      runtime::RunRequest /*request*/) override {
+      request::Request /*request*/) override {
     return fail(ErrorCode::kState, "no run");
   }
 };

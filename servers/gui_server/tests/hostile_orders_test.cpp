@@ -49,7 +49,7 @@ TEST_F(Hostile, ACommanderCommandsTheirOwnTeamAlone) {
   auto asked = run_->commands();
   ASSERT_EQ(asked.size(), 1U);
   EXPECT_EQ(asked[0].first.slots, (std::vector<std::uint32_t>{0}));
-  EXPECT_EQ(asked[0].first.points[0], (Vec2{1, 2}));
+  EXPECT_EQ(asked[0].first.action, request::Action(request::Goal{{1, 2}, {}}));
   EXPECT_EQ(asked[0].second.name, "ben");
   EXPECT_FALSE(asked[0].second.overrides);
   EXPECT_NE(asked[0].second.page, 0U);
@@ -143,7 +143,7 @@ TEST_F(Hostile, TwoPagesOfOnePersonAreTwoForTheRun) {
   EXPECT_NE(asked[0].second.page, asked[1].second.page);
   EXPECT_EQ(asked[0].second.page, asked[2].second.page);
   // What it had by its old name it leaves, to have it by the new one.
-  EXPECT_EQ(asked[3].first.kind, CommandMessage::Kind::kGive);
+  EXPECT_TRUE(asked[3].first.is<request::Give>());
   EXPECT_EQ(asked[3].second.page, asked[1].second.page);
   EXPECT_EQ(asked[4].second.page, direct_line::page_number(point));
   EXPECT_NE(asked[4].second.page, asked[1].second.page);
@@ -158,8 +158,7 @@ TEST_F(Hostile, WhatAPageLeavesIsAnyPagesOfTheSamePerson) {
   }
   const auto asked = commands(2);
   ASSERT_EQ(asked.size(), 2U);
-  EXPECT_EQ(asked[1].first.kind, CommandMessage::Kind::kGive);
-  EXPECT_EQ(asked[1].first.value, "ben");
+  EXPECT_EQ(asked[1].first.action, request::Action(request::Give{"ben"}));
   EXPECT_EQ(asked[1].first.slots, (std::vector<std::uint32_t>{0}));
   EXPECT_EQ(asked[1].second.page, asked[0].second.page);
 }
@@ -196,7 +195,7 @@ TEST_F(Hostile, APageThatGoesRightAfterItsFirstOrderLeavesItAsWell) {
   }
   const auto asked = commands(2);
   ASSERT_EQ(asked.size(), 2U);
-  EXPECT_EQ(asked[1].first.kind, CommandMessage::Kind::kGive);
+  EXPECT_TRUE(asked[1].first.is<request::Give>());
   EXPECT_EQ(asked[1].first.slots, (std::vector<std::uint32_t>{0}));
 }
 
@@ -237,7 +236,7 @@ TEST_F(Hostile, WhatIsSaidReachesWhoMayHearItAlone) {
   // The robot was told, in the name of who said it.
   const auto asked = run_->commands();
   ASSERT_EQ(asked.size(), 1U);
-  EXPECT_EQ(asked[0].first.value, "to walker-1");
+  EXPECT_EQ(asked[0].first.action, request::Action(request::Text{"to walker-1"}));
   EXPECT_EQ(asked[0].second.name, "ben");
   // Who does not command it speaks to people alone; who is not there is told so.
   eve.send(R"({"type":"say","request":1,"to":"robot","slot":0,"text":"and me"})");
@@ -266,8 +265,9 @@ TEST_F(Hostile, WhatIsSaidToATeamIsForItsMembersAndRobotsAlone) {
     std::map<std::string, std::set<std::uint32_t>> robots;
     for (const auto& [command, author] : run_->commands()) {
       // A page that went before leaves its leases.
-      if (command.kind != CommandMessage::Kind::kText) continue;
-      robots[command.value].insert(command.slots.begin(), command.slots.end());
+      const auto* const text = command.as<request::Text>();
+      if (text == nullptr) continue;
+      robots[text->text].insert(command.slots.begin(), command.slots.end());
     }
     return robots;
   };

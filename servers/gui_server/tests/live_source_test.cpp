@@ -17,7 +17,7 @@ using Answer = Result<std::string>;
 class AskedPort final : public testing::FakePort {
  public:
   explicit AskedPort(std::vector<std::promise<Answer>>& asked) : asked_(asked) {}
-  [[nodiscard]] Result<std::future<Answer>> post(runtime::RunRequest /*request*/) override {
+  [[nodiscard]] Result<std::future<Answer>> post(request::Request /*request*/) override {
     return asked_.emplace_back().get_future();
   }
 
@@ -34,7 +34,7 @@ TEST(LiveSource, AnswersThatAreFollowedByNewRequestsAreAllGiven) {
   LiveSource source(std::move(start), std::make_shared<LiveBox>(),
                     std::make_unique<AskedPort>(asked));
   CommandMessage drive;
-  drive.kind = CommandMessage::Kind::kDrive;
+  drive.action = request::Drive();
   drive.slots = {0};
   int answered = 0;
   int later = 0;

@@ -12,9 +12,8 @@ class PageCommandsTest : public ::testing::Test {
  protected:
   static CommandMessage drive(std::vector<std::uint32_t> slots, double v) {
     CommandMessage command;
-    command.kind = CommandMessage::Kind::kDrive;
+    command.action = request::Drive{v, 0};
     command.slots = std::move(slots);
-    command.v_mps = v;
     return command;
   }
   std::shared_ptr<testing::FakeRun> run_ = std::make_shared<testing::FakeRun>();
@@ -27,7 +26,7 @@ TEST_F(PageCommandsTest, OneMessageHasOneAnswerThatNamesWhoRefused) {
                         [this](const CommandMessage&, const PageAnswer&) { ++told_; });
   commands.begin(run_, {"ada", false});
   CommandMessage goal;
-  goal.kind = CommandMessage::Kind::kGoal;
+  goal.action = request::Goal();
   goal.request = 9;
   goal.slots = {0, 2};
   commands.take(goal);
@@ -61,29 +60,27 @@ TEST_F(PageCommandsTest, WhoGoesLeavesTheLeasesOfWhatItHasOrdered) {
   PageCommands commands([](const PageAnswer&) {}, [](const auto&, const auto&) {});
   commands.begin(run_, {"ada", false, 7});
   CommandMessage goal;
-  goal.kind = CommandMessage::Kind::kGoal;
+  goal.action = request::Goal();
   // The last is refused, though the page may have its lease from before; there is no fifth.
   goal.slots = {3, 2, 4};
   commands.take(goal);
   CommandMessage set;
-  set.kind = CommandMessage::Kind::kSet;
+  set.action = request::Set();
   set.slots = {0};
   commands.take(set);
   CommandMessage take;
-  take.kind = CommandMessage::Kind::kTake;
+  take.action = request::Take();
   take.slots = {1};
   commands.take(take);
   CommandMessage give;
-  give.kind = CommandMessage::Kind::kGive;
-  give.value = "ben";
+  give.action = request::Give{"ben"};
   give.slots = {3};
   commands.take(give);
   commands.let_go();
   commands.let_go();
   auto asked = run_->commands();
   ASSERT_EQ(asked.size(), 5U);
-  EXPECT_EQ(asked[4].first.kind, CommandMessage::Kind::kGive);
-  EXPECT_EQ(asked[4].first.value, "ada");
+  EXPECT_EQ(asked[4].first.action, request::Action(request::Give{"ada"}));
   EXPECT_EQ(asked[4].first.slots, (std::vector<std::uint32_t>{1, 2}));
   EXPECT_EQ(asked[4].second, (Author{"ada", false, 7}));
   // For the run it is another page when it has shown its key.
@@ -93,7 +90,7 @@ TEST_F(PageCommandsTest, WhoGoesLeavesTheLeasesOfWhatItHasOrdered) {
   commands.set_author({"ada", true, 8});
   asked = run_->commands();
   ASSERT_EQ(asked.size(), 7U);
-  EXPECT_EQ(asked[6].first.value, "ada");
+  EXPECT_EQ(asked[6].first.action, request::Action(request::Give{"ada"}));
   EXPECT_EQ(asked[6].second.page, 7U);
 }
 
@@ -127,7 +124,7 @@ TEST_F(PageCommandsTest, ARunThatAnswersLateGetsTheNewestVelocityAlone) {
   EXPECT_EQ(slow->asked.size(), std::size_t{PageCommands::kMostWaiting});
   slow->replies[0](0, true, "");
   ASSERT_EQ(slow->asked.size(), std::size_t{PageCommands::kMostWaiting} + 1);
-  EXPECT_DOUBLE_EQ(slow->asked.back().v_mps, 0.5);
+  EXPECT_EQ(slow->asked.back().action, request::Action(request::Drive{0.01 * 50, 0}));
   // A stop does not wait, and nothing comes after it.
   commands.take(drive({0}, 0.2));
   commands.take(drive({0}, 0));

@@ -93,35 +93,32 @@ TEST(PageMessage, RequestsAboutPeopleAreRead) {
 TEST(PageMessage, OrdersAreRead) {
   const CommandMessage drive =
       command_in(R"({"type":"order","request":7,"kind":"drive","slots":[3],"v":0.2,"w":-1})");
-  EXPECT_EQ(drive.kind, CommandMessage::Kind::kDrive);
+  EXPECT_EQ(drive.action, request::Action(request::Drive{0.2, -1}));
   EXPECT_EQ(drive.request, 7U);
   EXPECT_EQ(drive.slots, (std::vector<std::uint32_t>{3}));
-  EXPECT_EQ(drive.w_radps, -1);
   EXPECT_FALSE(drive.stands());
   const CommandMessage goals = command_in(
       R"({"type":"order","request":1,"kind":"goal","slots":[1,2],"points":[[1,2],[3,4]],"yaw":1,"speed":0.5})");
   EXPECT_EQ(goals.points[1], (Vec2{3, 4}));
-  EXPECT_EQ(goals.yaw_rad, 1);
-  EXPECT_EQ(goals.speed_mps, 0.5);
+  EXPECT_EQ(goals.action_for(0), request::Action(request::Goal{{1, 2}, 1, 0.5}));
+  EXPECT_EQ(goals.action_for(1), request::Action(request::Goal{{3, 4}, 1, 0.5}));
   EXPECT_EQ(command_in(R"({"type":"order","request":1,"kind":"text","slots":[1],"text":"go\nnow"})")
-                .value,
-            "go\nnow");
+                .action,
+            request::Action(request::Text{"go\nnow"}));
 }
 
 TEST(PageMessage, LeasesParametersAndObstaclesAreRead) {
   const CommandMessage take =
       command_in(R"({"type":"lease","request":1,"do":"force","slots":[0]})");
-  EXPECT_EQ(take.kind, CommandMessage::Kind::kTake);
-  EXPECT_EQ(take.value, "force");
-  EXPECT_EQ(command_in(R"({"type":"lease","request":1,"do":"give","slots":[0],"to":"ben"})").value,
-            "ben");
+  EXPECT_EQ(take.action, request::Action(request::Take{.force = true}));
+  EXPECT_EQ(command_in(R"({"type":"lease","request":1,"do":"give","slots":[0],"to":"ben"})").action,
+            request::Action(request::Give{"ben"}));
   const CommandMessage set = command_in(
       R"({"type":"set","request":1,"slots":[0],"key":"program.cruise_mps","value":0.25})");
-  EXPECT_EQ(set.key, "program.cruise_mps");
-  EXPECT_EQ(set.value, "0.25");
+  EXPECT_EQ(set.action, request::Action(request::Set{"program.cruise_mps", "0.25"}));
   const auto edit_in = [](const std::string& rest) {
     const std::string text = R"({"type":"edit","request":1,"name":"pond",)" + rest + "}";
-    return *command_in(text.c_str()).edit;
+    return command_in(text.c_str()).as<request::Edit>()->edit;
   };
   config::ObstacleEdit pond;
   pond.add_obstacle.emplace().name = std::string("pond");
@@ -139,10 +136,9 @@ TEST(PageMessage, LeasesParametersAndObstaclesAreRead) {
   EXPECT_EQ(edit_in(R"("do":"remove")").remove_obstacle->value, "pond");
   const CommandMessage swap =
       command_in(R"({"type":"twin","request":1,"do":"hand_over","slots":[3],"to":"real"})");
-  EXPECT_EQ(swap.kind, CommandMessage::Kind::kHandOver);
-  EXPECT_EQ(swap.value, "real");
-  EXPECT_EQ(command_in(R"({"type":"twin","request":1,"do":"reset_shadow","slots":[3]})").kind,
-            CommandMessage::Kind::kResetShadow);
+  EXPECT_EQ(swap.action, request::Action(request::HandOver{"real"}));
+  EXPECT_TRUE(command_in(R"({"type":"twin","request":1,"do":"reset_shadow","slots":[3]})")
+                  .is<request::ResetShadow>());
 }
 
 TEST(PageMessage, ProbesAreReadWithTheirValuesAsAFileHasThem) {

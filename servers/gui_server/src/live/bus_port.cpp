@@ -8,7 +8,6 @@
 
 #include "rave/base/thread.hpp"
 #include "rave/control/order_desk.hpp"
-#include "rave/control/order_words.hpp"
 
 namespace rave::gui_server {
 
@@ -21,12 +20,6 @@ constexpr auto kAskDriver = std::chrono::seconds(1);
 constexpr Duration kHostPatience = from_seconds(2);
 /// A host that does not answer must not delay the next stop for longer.
 constexpr Duration kHoldPatience = from_seconds(1);
-
-/// Whether it holds robots, or lets them go.
-bool is_hold(runtime::RunRequest::Kind kind) {
-  using Kind = runtime::RunRequest::Kind;
-  return kind == Kind::kStop || kind == Kind::kRelease || kind == Kind::kArm;
-}
 
 bool is_host(const control::BusPeer& peer, const std::string& /*scenario*/) {
   return !peer.manager;
@@ -78,7 +71,7 @@ Result<std::unique_ptr<BusPort>> BusPort::open(const bus::BusConfig& bus, bool l
   RAVE_TRY_ASSIGN(port->commands_,
                   control::CommandSender::open(bus, robots, [self] { self->stir(); }));
   const auto lane = [self,
-                     &bus](Answer (BusPort::*does)(control::BusRun&, const runtime::RunRequest&)) {
+                     &bus](Answer (BusPort::*does)(control::BusRun&, const request::Request&)) {
     return RequestLane::open(bus, [self, does](control::BusRun& end, const auto& request) {
       Answer answer = (self->*does)(end, request);
       self->stir();
@@ -125,35 +118,30 @@ void BusPort::watch(const std::stop_token& stop) {
   }
 }
 
-Result<std::future<Result<std::string>>> BusPort::post(runtime::RunRequest request) {
-  if (request.kind == runtime::RunRequest::Kind::kDrive) return drive(request);
-  const bool hold = is_hold(request.kind);
+Result<std::future<Result<std::string>>> BusPort::post(request::Request request) {
+  if (request.is<request::Drive>()) return drive(request);
+  const bool hold = request::is_hold(request.action);
   if (request.robot.empty() && hold) return holds_->queue(std::move(request));
   // A cancel of all names no robot: it is a request to each host.
-  const bool command = (hold || runtime::is_order(request.kind)) && !request.robot.empty();
+  const bool command = (hold || request::is_order(request.action)) && !request.robot.empty();
   return command ? commands_->post(std::move(request)) : requests_->queue(std::move(request));
 }
 
-Result<std::future<Result<std::string>>> BusPort::drive(const runtime::RunRequest& request) {
+Result<std::future<Result<std::string>>> BusPort::drive(const request::Request& request) {
   RAVE_TRY_ASSIGN(auto sent, commands_->post(request));
   const auto now = std::chrono::steady_clock::now();
   auto& asked = asked_[request.robot];
   if (now - asked < kAskDriver) return sent;
   asked = now;
-  runtime::RunRequest take;
-  take.kind = runtime::RunRequest::Kind::kTake;
-  take.robot = request.robot;
-  take.value = "drive";
-  take.by = request.by;
-  take.page = request.page;
-  return requests_->queue(std::move(take));
+  return requests_->queue({request::Take{.force = false, .drives = true}, request.robot, request.by,
+                           false, request.page});
 }
 
-BusPort::Answer BusPort::ask(control::BusRun& bus, const runtime::RunRequest& request) {
-  using Kind = runtime::RunRequest::Kind;
-  const bool of_body = request.kind == Kind::kSet && request.key.starts_with("body.");
-  const bool of_world = request.kind == Kind::kEdit || request.kind == Kind::kList ||
-                        (lock_step_ && (of_body || request.kind == Kind::kChat));
+BusPort::Answer BusPort::ask(control::BusRun& bus, const request::Request& request) {
+  const auto* const set = request.as<request::Set>();
+  const bool of_body = set != nullptr && set->key.starts_with("body.");
+  const bool of_world = request.is<request::Edit, request::ListObstacles>() ||
+                        (lock_step_ && (of_body || request.is<request::Chat>()));
   if (of_world) return ask_manager(bus, request);
   const auto host = host_of_.find(request.robot);
   if (host != host_of_.end()) return ask_host(bus, host->second, control::request_of(request));
@@ -162,7 +150,7 @@ BusPort::Answer BusPort::ask(control::BusRun& bus, const runtime::RunRequest& re
   return replies.result(!request.robot.empty());
 }
 
-BusPort::Answer BusPort::hold_all(control::BusRun& bus, const runtime::RunRequest& request) {
+BusPort::Answer BusPort::hold_all(control::BusRun& bus, const request::Request& request) {
   Replies replies;
   replies.add(bus.ask_each(control::request_of(request), is_host, kHoldPatience));
   // In lock-step the manager also knows the robots of hosts that are lost and may come back.
@@ -173,7 +161,7 @@ BusPort::Answer BusPort::hold_all(control::BusRun& bus, const runtime::RunReques
   return replies.result(false);
 }
 
-BusPort::Answer BusPort::ask_manager(control::BusRun& bus, const runtime::RunRequest& request) {
+BusPort::Answer BusPort::ask_manager(control::BusRun& bus, const request::Request& request) {
   control::Request relayed = control::request_of(request);
   relayed.relay = true;
   const auto host = host_of_.find(request.robot);
@@ -199,8 +187,8 @@ std::vector<runtime::RunStatus::Robot> ManagedPort::robots() const {
   return robots;
 }
 
-Result<std::future<Result<std::string>>> ManagedPort::post(runtime::RunRequest request) {
-  const bool of_hosts = runtime::OrderDesk::is_for(request.kind);
+Result<std::future<Result<std::string>>> ManagedPort::post(request::Request request) {
+  const bool of_hosts = runtime::OrderDesk::is_for(request.action);
   return of_hosts ? hosts_->post(std::move(request)) : manager_.post(std::move(request));
 }
 

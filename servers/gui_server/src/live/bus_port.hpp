@@ -35,7 +35,7 @@ class BusPort final : public RunPort {
     return "Only the process that manages the run can pause it: `rave run --gui` does.";
   }
   [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override;
-  [[nodiscard]] Result<std::future<Result<std::string>>> post(runtime::RunRequest request) override;
+  [[nodiscard]] Result<std::future<Result<std::string>>> post(request::Request request) override;
 
  private:
   using Answer = Result<std::string>;
@@ -45,13 +45,13 @@ class BusPort final : public RunPort {
       : status_(std::move(status)), lock_step_(lock_step), host_of_(std::move(host_of)) {}
 
   void watch(const std::stop_token& stop);
-  [[nodiscard]] Answer ask(control::BusRun& bus, const runtime::RunRequest& request);
+  [[nodiscard]] Answer ask(control::BusRun& bus, const request::Request& request);
   /// Stops, releases or arms all robots.
-  [[nodiscard]] Answer hold_all(control::BusRun& bus, const runtime::RunRequest& request);
+  [[nodiscard]] Answer hold_all(control::BusRun& bus, const request::Request& request);
   /// What only the manager does, by way of a host: that of the robot, or any.
-  [[nodiscard]] Answer ask_manager(control::BusRun& bus, const runtime::RunRequest& request);
+  [[nodiscard]] Answer ask_manager(control::BusRun& bus, const request::Request& request);
   /// A drive gets no answer; now and then its robot is asked whether it listens to this driver.
-  [[nodiscard]] Result<std::future<Answer>> drive(const runtime::RunRequest& request);
+  [[nodiscard]] Result<std::future<Answer>> drive(const request::Request& request);
   /// Lets watch() ask for the robots soon.
   void stir();
 
@@ -82,7 +82,7 @@ class ManagedPort final : public RunPort {
   [[nodiscard]] runtime::RunControl* control() override { return &manager_; }
   [[nodiscard]] std::string why_not_held() const override { return ""; }
   [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override;
-  [[nodiscard]] Result<std::future<Result<std::string>>> post(runtime::RunRequest request) override;
+  [[nodiscard]] Result<std::future<Result<std::string>>> post(request::Request request) override;
 
  private:
   runtime::RunControl& manager_;

@@ -4,20 +4,15 @@
 #include <utility>
 
 #include "live/live_source.hpp"
-#include "rave/control/chat_line.hpp"
 
 namespace rave::gui_server {
 namespace {
 
-using runtime::RunRequest;
 constexpr auto kStatusInterval = std::chrono::milliseconds(200);
 
 /// What the run is asked by a person.
-RunRequest request_of(RunRequest request, const Author& author) {
-  request.by = author.name;
-  request.overrides = author.overrides;
-  request.page = author.page;
-  return request;
+request::Request request_of(request::Action action, std::string robot, const Author& author) {
+  return {std::move(action), std::move(robot), author.name, author.overrides, author.page};
 }
 
 /// As it is shown, so that what stands is not told again.
@@ -55,10 +50,9 @@ void LiveSource::halt(const HaltMessage& halt, const Author& author, Reply reply
   if (halt.slots.empty()) robots.emplace_back();
   if (robots.empty()) return reply(false, "There is no such robot.");
   for (std::string& robot : robots) {
-    RunRequest request;
-    request.kind = halt.stop ? RunRequest::Kind::kStop : RunRequest::Kind::kRelease;
-    request.robot = std::move(robot);
-    auto answer = port_->post(request_of(std::move(request), author));
+    request::Action action = request::Stop();
+    if (!halt.stop) action = request::Release();
+    auto answer = port_->post(request_of(std::move(action), std::move(robot), author));
     if (!answer) return reply(false, answer.error().message);
     asked_.push_back({*std::move(answer), reply});
   }
@@ -66,45 +60,38 @@ void LiveSource::halt(const HaltMessage& halt, const Author& author, Reply reply
 
 void LiveSource::keep_chat(const ChatText& said) {
   // The answer does not depend on the recording; its writer reports its own errors.
+  const auto to = request::addressee(said.to).value_or(request::Addressee::kAll);
   static_cast<void>(port_->post(
-      runtime::chat_request({said.number, said.from, said.role, said.to, said.name, said.text})));
+      {request::Chat{said.number, said.role, to, said.name, said.text}, {}, said.from}));
 }
 
 void LiveSource::command(const CommandMessage& command, const Author& author,
                          const SlotReply& reply) {
-  const auto post = [&](RunRequest request, std::uint32_t slot) {
+  const auto post = [&](request::Request request, std::uint32_t slot) {
     auto answer = port_->post(std::move(request));
     if (!answer) return reply(slot, false, answer.error().message);
     asked_.push_back({*std::move(answer), [reply, slot](bool good, std::string text) {
                         reply(slot, good, std::move(text));
                       }});
   };
-  const RunRequest& order = command;
-  if (command.of_obstacle()) return post(request_of(order, author), kNoSlot);
+  if (command.of_obstacle()) return post(request_of(command.action, {}, author), kNoSlot);
   // Robots that are driven by way of a server would stop with it.
-  using Kind = CommandMessage::Kind;
   // Placing takes a lease, which a page that goes leaves by the same way.
-  const bool leaves = command.kind == Kind::kGive && command.value == author.name;
-  const bool passes = command.kind == Kind::kSet || command.kind == Kind::kPlace ||
-                      command.kind == Kind::kHandOver || command.kind == Kind::kResetShadow ||
-                      leaves;
+  const auto* const gift = command.as<request::Give>();
+  const bool leaves = gift != nullptr && gift->to == author.name;
+  const bool passes =
+      leaves || command.is<request::Set, request::Place, request::HandOver, request::ResetShadow>();
   if (!start_.about.relay && !passes) {
     for (const std::uint32_t slot : command.slots) reply(slot, false, kNoRelay);
     return;
   }
-  RunRequest all = request_of(order, author);
-  const bool shared = command.kind == Kind::kPath || command.points.size() <= 1;
-  if (!shared) all.points.clear();
   for (std::size_t i = 0; i < command.slots.size(); ++i) {
     const std::uint32_t slot = command.slots[i];
     if (slot >= start_.robots.size()) {
       reply(slot, false, "There is no such robot.");
       continue;
     }
-    RunRequest request = all;
-    request.robot = start_.robots[slot];
-    if (!shared) request.points = {command.points[i]};
-    post(std::move(request), slot);
+    post(request_of(command.action_for(i), start_.robots[slot], author), slot);
   }
 }
 

@@ -27,7 +27,7 @@ RequestLane::~RequestLane() {
   if (thread_.joinable()) thread_.join();
 }
 
-std::future<RequestLane::Answer> RequestLane::queue(runtime::RunRequest request) {
+std::future<RequestLane::Answer> RequestLane::queue(request::Request request) {
   const std::lock_guard lock(mutex_);
   auto& [asked, promise] = waiting_.emplace_back(std::move(request), std::promise<Answer>());
   auto answer = promise.get_future();

@@ -23,7 +23,7 @@ class RequestLane {
  public:
   using Answer = Result<std::string>;
   /// Carries out a request, in the thread of the lane.
-  using Ask = std::function<Answer(control::BusRun& bus, const runtime::RunRequest& request)>;
+  using Ask = std::function<Answer(control::BusRun& bus, const request::Request& request)>;
 
   /// `config`: of the bus of the run. Errors: those of control::BusRun::open(), kIo (no thread).
   [[nodiscard]] static Result<std::unique_ptr<RequestLane>> open(const bus::BusConfig& config,
@@ -34,7 +34,7 @@ class RequestLane {
   ~RequestLane();
 
   /// Any thread; does not wait.
-  [[nodiscard]] std::future<Answer> queue(runtime::RunRequest request);
+  [[nodiscard]] std::future<Answer> queue(request::Request request);
 
  private:
   RequestLane(std::unique_ptr<control::BusRun> bus, Ask ask)
@@ -46,7 +46,7 @@ class RequestLane {
   Ask ask_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::deque<std::pair<runtime::RunRequest, std::promise<Answer>>> waiting_;
+  std::deque<std::pair<request::Request, std::promise<Answer>>> waiting_;
   std::jthread thread_;
 };
 

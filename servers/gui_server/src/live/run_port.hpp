@@ -23,8 +23,7 @@ class RunPort {
   /// Of a run of this process, which is not on the bus; empty: the run is elsewhere.
   [[nodiscard]] virtual std::optional<runtime::RunStatus> own_status() const { return {}; }
   /// kStop and kRelease. The answer comes later. Error: kState (no run is in progress).
-  [[nodiscard]] virtual Result<std::future<Result<std::string>>> post(
-      runtime::RunRequest request) = 0;
+  [[nodiscard]] virtual Result<std::future<Result<std::string>>> post(request::Request request) = 0;
 };
 
 /// A run of this process, or the manager of one.
@@ -42,8 +41,7 @@ class LocalPort final : public RunPort {
   [[nodiscard]] std::optional<runtime::RunStatus> own_status() const override {
     return control_.status();
   }
-  [[nodiscard]] Result<std::future<Result<std::string>>> post(
-      runtime::RunRequest request) override {
+  [[nodiscard]] Result<std::future<Result<std::string>>> post(request::Request request) override {
     return control_.post(std::move(request));
   }
 

@@ -10,7 +10,6 @@
 namespace rave::gui_server {
 namespace {
 
-using Command = CommandMessage::Kind;
 using direct_line::kFarthest_m;
 using direct_line::point_of;
 
@@ -32,25 +31,29 @@ Status take_slots(Members& members, CommandMessage& command) {
 }
 
 Status take_order(Members& members, CommandMessage& command) {
-  static constexpr WordTable<Command, 6> kOrders = {{{"drive", Command::kDrive},
-                                                     {"goal", Command::kGoal},
-                                                     {"path", Command::kPath},
-                                                     {"cancel", Command::kCancel},
-                                                     {"text", Command::kText},
-                                                     {"place", Command::kPlace}}};
-  RAVE_TRY_ASSIGN(command.kind, members.choice("kind", kOrders));
+  using namespace request;
+  RAVE_TRY_ASSIGN(const std::string_view word,
+                  members.choice("kind", {Drive::kName, Goal::kName, Path::kName, Cancel::kName,
+                                          Text::kName, Place::kName}));
   RAVE_TRY(take_slots(members, command));
-  return direct_line::read_order(members, command.slots.size(), command);
+  RAVE_TRY_ASSIGN(auto read,
+                  direct_line::read_order(members, *order_named(word), command.slots.size()));
+  command.action = action_of(std::move(read.order));
+  command.points = std::move(read.points);
+  return {};
 }
 
 Status take_lease(Members& members, CommandMessage& command) {
   RAVE_TRY(take_slots(members, command));
   RAVE_TRY_ASSIGN(const std::string_view word, members.choice("do", {"take", "force", "give"}));
-  // `force` is a word for the run, whose host decides who may force; for the server it is a take.
-  command.kind = word == "give" ? Command::kGive : Command::kTake;
-  if (word == "force") command.value = "force";
-  if (word == "give" && members.has("to")) {
-    RAVE_TRY_ASSIGN(command.value, members.text("to", kLongestHolder));
+  if (word != "give") {
+    // The host of the robot decides who may force; for the server it is a take.
+    command.action = request::Take{word == "force"};
+    return {};
+  }
+  auto& give = command.action.emplace<request::Give>();
+  if (members.has("to")) {
+    RAVE_TRY_ASSIGN(give.to, members.text("to", kLongestHolder));
   }
   return {};
 }
@@ -69,10 +72,10 @@ Result<std::string> parameter_value_of(Members& members) {
 }
 
 Status take_set(Members& members, CommandMessage& command) {
-  command.kind = Command::kSet;
   RAVE_TRY(take_slots(members, command));
-  RAVE_TRY_ASSIGN(command.key, members.text("key", kLongestKey));
-  RAVE_TRY_ASSIGN(command.value, parameter_value_of(members));
+  auto& set = command.action.emplace<request::Set>();
+  RAVE_TRY_ASSIGN(set.key, members.text("key", kLongestKey));
+  RAVE_TRY_ASSIGN(set.value, parameter_value_of(members));
   return {};
 }
 
@@ -101,8 +104,7 @@ Status take_outline(Members& members, config::Outline& outline) {
 }
 
 Status take_edit(Members& members, CommandMessage& command) {
-  command.kind = Command::kEdit;
-  config::ObstacleEdit& edit = command.edit.emplace();
+  config::ObstacleEdit& edit = command.action.emplace<request::Edit>().edit;
   RAVE_TRY_ASSIGN(const std::string_view word, members.choice("do", {"add", "move", "remove"}));
   RAVE_TRY_ASSIGN(const std::string name, members.plain_name("name", "-_."));
   if (word == "remove") {
@@ -119,13 +121,18 @@ Status take_edit(Members& members, CommandMessage& command) {
 }
 
 Status take_twin(Members& members, CommandMessage& command) {
-  static constexpr WordTable<Command, 2> kTwinWords = {
-      {{"hand_over", Command::kHandOver}, {"reset_shadow", Command::kResetShadow}}};
+  using request::HandOver;
+  using request::ResetShadow;
   RAVE_TRY(take_slots(members, command));
-  RAVE_TRY_ASSIGN(command.kind, members.choice("do", kTwinWords));
-  if (command.kind == Command::kHandOver) {
-    RAVE_TRY_ASSIGN(command.value, members.choice("to", {"real", "simulated", "first", "twin"}));
+  RAVE_TRY_ASSIGN(const std::string_view word,
+                  members.choice("do", {HandOver::kName, ResetShadow::kName}));
+  if (word == ResetShadow::kName) {
+    command.action = ResetShadow();
+    return {};
   }
+  RAVE_TRY_ASSIGN(const std::string_view to,
+                  members.choice("to", {"real", "simulated", "first", "twin"}));
+  command.action = HandOver{std::string(to)};
   return {};
 }
 

@@ -5,8 +5,6 @@
 
 #include <utility>
 
-#include "rave/control/order_words.hpp"
-
 namespace rave::gui_server {
 namespace {
 
@@ -15,8 +13,8 @@ namespace {
 constexpr std::chrono::seconds kStandsAnyway{1};
 
 /// The person who orders it has the lease then.
-bool takes_lease(CommandMessage::Kind kind) {
-  return runtime::is_order(kind) || kind == CommandMessage::Kind::kTake;
+bool takes_lease(const CommandMessage& command) {
+  return request::is_order(command.action) || command.is<request::Take>();
 }
 
 }  // namespace
@@ -44,7 +42,7 @@ void PageCommands::begin(std::shared_ptr<Source> source, Author author) {
 void PageCommands::let_go() {
   newest_.reset();
   CommandMessage stand;
-  stand.kind = CommandMessage::Kind::kDrive;
+  stand.action = request::Drive();
   const auto now = web::RateLimit::Clock::now();
   for (const auto& [slot, since] : driven_) {
     if (now - since < kStandsAnyway) stand.slots.push_back(slot);
@@ -65,8 +63,7 @@ void PageCommands::leave() {
   }
   if (!ordered_.empty()) {
     CommandMessage leave;
-    leave.kind = CommandMessage::Kind::kGive;
-    leave.value = author_.name;
+    leave.action = request::Give{author_.name};
     leave.slots.assign(ordered_.begin(), ordered_.end());
     // Refused where it has the lease no more.
     source_->command(leave, author_, [](std::uint32_t, bool, const std::string&) {});
@@ -84,7 +81,7 @@ bool PageCommands::too_many(const CommandMessage& command) {
 }
 
 void PageCommands::take(const CommandMessage& command) {
-  const std::string to(to_string(command.kind));
+  const std::string to(command.name());
   if (!source_) return say_({to, false, "No run is in progress.", command.request});
   // To stand is never too much.
   if (!command.stands() && too_many(command)) {
@@ -95,14 +92,15 @@ void PageCommands::take(const CommandMessage& command) {
     told_(command, answer);
     return;
   }
-  const bool gives = command.kind == CommandMessage::Kind::kGive && !command.value.empty();
+  const auto* const gift = command.as<request::Give>();
+  const bool gives = gift != nullptr && !gift->to.empty();
   if (const Status may = gives && may_give_ ? may_give_(command) : Status(); !may) {
     const PageAnswer answer{to, false, may.error().message, command.request};
     say_(answer);
     told_(command, answer);
     return;
   }
-  if (command.kind == CommandMessage::Kind::kDrive) {
+  if (command.is<request::Drive>()) {
     for (const std::uint32_t slot : command.slots) {
       if (command.stands()) {
         driven_.erase(slot);
@@ -129,8 +127,8 @@ void PageCommands::set_author(Author author) {
 void PageCommands::remember(const CommandMessage& command) {
   for (const std::uint32_t slot : command.slots) {
     // Who sends wrong slots must not fill the memory.
-    if (takes_lease(command.kind) && slot < source_->robot_count()) ordered_.insert(slot);
-    if (command.kind == CommandMessage::Kind::kGive) ordered_.erase(slot);
+    if (takes_lease(command) && slot < source_->robot_count()) ordered_.insert(slot);
+    if (command.is<request::Give>()) ordered_.erase(slot);
   }
 }
 
@@ -139,8 +137,8 @@ void PageCommands::post(const CommandMessage& command) {
   auto open = std::make_shared<Open>();
   open->command = command;
   open->missing = std::max<std::size_t>(1, command.slots.size());
-  open->answer = {std::string(to_string(command.kind)), true, "", command.request};
-  if (command.kind == CommandMessage::Kind::kDrive) ++waiting_;
+  open->answer = {std::string(command.name()), true, "", command.request};
+  if (command.is<request::Drive>()) ++waiting_;
   source_->command(
       command, author_,
       [this, open, alive = std::weak_ptr(alive_)](std::uint32_t slot, bool good,
@@ -159,7 +157,7 @@ void PageCommands::post(const CommandMessage& command) {
 }
 
 void PageCommands::finish(const Open& open) {
-  const bool drive = open.command.kind == CommandMessage::Kind::kDrive;
+  const bool drive = open.command.is<request::Drive>();
   if (drive) {
     --waiting_;
     for (const auto& [slot, text] : open.answer.refused) driven_.erase(slot);

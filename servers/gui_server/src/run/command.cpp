@@ -5,6 +5,14 @@
 
 namespace rave::gui_server {
 
+request::Action CommandMessage::action_for(std::size_t i) const {
+  request::Action one = action;
+  if (points.empty()) return one;
+  if (auto* const goal = std::get_if<request::Goal>(&one)) goal->p_W = points[i];
+  if (auto* const place = std::get_if<request::Place>(&one)) place->p_W = points[i];
+  return one;
+}
+
 void Source::command(const CommandMessage& command, const Author& /*author*/,
                      const SlotReply& reply) {
   const char* const why_not = "This is a recording: it takes no orders.";

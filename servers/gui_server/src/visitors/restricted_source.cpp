@@ -286,9 +286,8 @@ bool may_edit(const View& view) {
 CommandMessage part_of(const CommandMessage& command, std::size_t i, std::uint32_t robot) {
   CommandMessage part = command;
   part.slots = {robot};
-  if (command.kind != CommandMessage::Kind::kPath && command.points.size() > 1) {
-    part.points = {command.points[i]};
-  }
+  part.action = command.action_for(i);
+  part.points.clear();
   return part;
 }
 
@@ -303,8 +302,7 @@ void RestrictedSource::command(const CommandMessage& command, const Author& auth
                            reply(slot, good, told_to(*view, good, std::move(text)));
                          });
   }
-  const InfoClass what =
-      command.kind == CommandMessage::Kind::kPlace ? InfoClass::kEdit : InfoClass::kCommand;
+  const InfoClass what = command.is<request::Place>() ? InfoClass::kEdit : InfoClass::kCommand;
   for (std::size_t i = 0; i < command.slots.size(); ++i) {
     const std::uint32_t slot = command.slots[i];
     const auto robot = view_->robot_of(slot);

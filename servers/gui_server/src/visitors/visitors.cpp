@@ -37,10 +37,10 @@ Person known_as(const Person& person) {
 }
 
 std::string command_text(const CommandMessage& command, const PageAnswer& answer) {
-  std::string text =
-      command.of_obstacle()
-          ? fmt::format("{} {}", runtime::word_of(*command.edit), *command.edit->name())
-          : fmt::format("{}, {} robots", to_string(command.kind), command.slots.size());
+  const auto* const edit = command.as<request::Edit>();
+  std::string text = edit != nullptr
+                         ? fmt::format("{} {}", runtime::word_of(edit->edit), *edit->edit.name())
+                         : fmt::format("{}, {} robots", command.name(), command.slots.size());
   return answer.good ? text : fmt::format("{}: {}", text, answer.text);
 }
 

@@ -29,8 +29,7 @@ Result<std::string> Visitors::chat(std::uint64_t id, const ChatMessage& chat) {
   line.t_s = source_->open_playhead()->look(Session::Clock::now()).now_s;
   const Cast& cast = desk_.cast();
   CommandMessage told;
-  told.kind = CommandMessage::Kind::kText;
-  told.value = chat.text;
+  told.action = request::Text{chat.text};
   for (std::uint32_t slot = 0; slot < visitor.view->robots(); ++slot) {
     const std::uint32_t robot = *visitor.view->robot_of(slot);
     const bool meant = (chat.to == To::kRobot && slot == chat.slot) ||
@@ -60,7 +59,8 @@ Result<std::string> Visitors::chat(std::uint64_t id, const ChatMessage& chat) {
 Status Visitors::may_give(std::uint64_t id, const CommandMessage& give) const {
   const Visitor& giver = visitors_.at(id);
   const std::string own = known(giver.person).name;
-  if (give.value == own || !giver.view) return {};
+  const auto* const gift = give.as<request::Give>();
+  if (gift == nullptr || gift->to == own || !giver.view) return {};
   std::set<std::string> able;
   for (const auto& [other, visitor] : visitors_) {
     // Who looks with the eyes of another commands nothing meanwhile.
@@ -71,12 +71,12 @@ Status Visitors::may_give(std::uint64_t id, const CommandMessage& give) const {
     });
     if (commands) able.insert(known(visitor.person).name);
   }
-  if (able.contains(give.value)) return {};
+  if (able.contains(gift->to)) return {};
   able.erase(own);
   const char* const robots = give.slots.size() == 1 ? "this robot" : "these robots";
   return fail(
-      ErrorCode::kNotFound, "`{}` {}; {}", give.value,
-      is_there(give.value) ? fmt::format("may not command {}", robots) : "is not here",
+      ErrorCode::kNotFound, "`{}` {}; {}", gift->to,
+      is_there(gift->to) ? fmt::format("may not command {}", robots) : "is not here",
       able.empty()
           ? fmt::format("no other person who may command {} is here", robots)
           : fmt::format("{} can be given to {}", robots,

@@ -16,8 +16,8 @@ struct JsonLimits {
 };
 
 /// Parses one JSON value, strictly (RFC 8259). Errors kParse: no JSON, a key twice in one object, a
-/// number that overflows, a text that is not UTF-8, too deep, too many values. The nodes have no
-/// places: messages about them name the key.
+/// number that overflows, a text that is not UTF-8 or has a character 0, too deep, too many values.
+/// The nodes have no places: messages about them name the key.
 [[nodiscard]] Result<RawNode> parse_json(std::string_view text, const JsonLimits& limits = {});
 
 }  // namespace rave::codec

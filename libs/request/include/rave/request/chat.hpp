@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,6 +20,10 @@ constexpr auto enum_names(codec::EnumTag<Addressee>) {
                     EnumName{Addressee::kUser, "user"}, EnumName{Addressee::kTeam, "team"},
                     EnumName{Addressee::kRobot, "robot"}};
 }
+
+/// `all`, `role`, …; and the inverse, empty for any other word.
+[[nodiscard]] std::string_view to_string(Addressee to) noexcept;
+[[nodiscard]] std::optional<Addressee> addressee(std::string_view word) noexcept;
 
 inline constexpr std::size_t kMostChatName = 256;
 

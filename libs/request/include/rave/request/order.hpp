@@ -76,6 +76,9 @@ static_assert(order_kind(Drive{}) == OrderKind::kDrive && order_kind(Goal{}) == 
               order_kind(Cancel{}) == OrderKind::kCancel &&
               order_kind(Place{}) == OrderKind::kPlace);
 
+/// The kind of this name; empty: no order has it.
+[[nodiscard]] std::optional<OrderKind> order_named(std::string_view name) noexcept;
+
 template <class One>
 concept IsOrder = !std::same_as<One, Order> && std::constructible_from<Order, One>;
 

@@ -29,6 +29,17 @@ struct Request {
   /// The person is a super-user, who needs no lease for a release and may take over a lease.
   bool overrides = false;
   std::uint64_t page = 0;  ///< Id of the person's page; 0: none, such as a script.
+
+  /// The action if it is this one; nullptr for any other.
+  template <class One>
+  [[nodiscard]] const One* as() const noexcept {
+    return std::get_if<One>(&action);
+  }
+  /// Whether the action is one of these.
+  template <class... One>
+  [[nodiscard]] bool is() const noexcept {
+    return (std::holds_alternative<One>(action) || ...);
+  }
   friend bool operator==(const Request&, const Request&) = default;
 };
 
@@ -41,14 +52,17 @@ struct Request {
 
 /// An order: it needs a robot and its lease, and is an input of the run.
 [[nodiscard]] bool is_order(const Action& action) noexcept;
-/// The order that it is; nullptr for anything else.
-[[nodiscard]] const Drive* drive_of(const Action& action) noexcept;
+/// A stop, a release or an arming: what holds a robot.
+[[nodiscard]] bool is_hold(const Action& action) noexcept;
 /// About the lease of a robot, which its host owns.
 [[nodiscard]] bool is_of_lease(const Action& action) noexcept;
 /// Changes nothing in the run: answered at once, and not recorded as an input.
 [[nodiscard]] bool only_reads(const Action& action) noexcept;
 /// Concerns one robot; the others concern all robots if none is named, or no robot.
 [[nodiscard]] bool needs_robot(const Action& action) noexcept;
+
+/// May not name a robot: of the world, or of people.
+[[nodiscard]] bool is_of_no_robot(const Action& action) noexcept;
 
 /// An order as an action, and back.
 [[nodiscard]] Action action_of(Order order);
@@ -62,5 +76,9 @@ struct Request {
 /// The same from and to a tree, for requests that are parts of other messages.
 [[nodiscard]] codec::RawNode to_node(const Request& request);
 [[nodiscard]] Result<Request> from_node(const codec::RawNode& node);
+/// Who asks, for requests with other actions that have the same keys for it: appends them, and
+/// moves them out of a tree. Error kParse.
+void append_sender(const Request& sender, codec::RawNode& node);
+[[nodiscard]] Result<Request> take_sender(codec::RawNode& node);
 
 }  // namespace rave::request

@@ -50,6 +50,8 @@ struct ResetShadow {
 struct Take {
   static constexpr std::string_view kName = "take";
   bool force = false;  ///< Takes it over from another person.
+  /// Refused also while the stick of this page is held: for ways on which a drive has no answer.
+  bool drives = false;
   friend bool operator==(const Take&, const Take&) = default;
 };
 

@@ -30,7 +30,7 @@ class CommandSender {
   /// Sends an order. The future is set when its host has answered; for a drive, which gets no
   /// answer, when it is on its way. Its errors: kState (refused), kTimeout (no answer for 5 s).
   /// Errors: kNotFound (no such robot), kInvalidArgument (those of to_command()).
-  [[nodiscard]] Result<std::future<Result<std::string>>> post(runtime::RunRequest order);
+  [[nodiscard]] Result<std::future<Result<std::string>>> post(request::Request order);
 
  private:
   struct Impl;

@@ -23,11 +23,11 @@ namespace rave::control {
 /// Converts an order, a stop, a release or an arming. Run and writer are set by its Writer; robot
 /// and number by the caller. The command refers to `points`, which must outlive it. Errors:
 /// kInvalidArgument (another kind, no author, too many points, or a text that is too long).
-[[nodiscard]] Status to_command(const runtime::RunRequest& order, bus::Command& command,
+[[nodiscard]] Status to_command(const request::Request& request, bus::Command& command,
                                 std::vector<rave_wire_OrderPoint>& points);
 
 /// The inverse of to_command(), for a command that bus::validate() accepts. Errors:
 /// kInvalidArgument (number of points, or an author that is reserved).
-[[nodiscard]] Result<runtime::RunRequest> order_of(const bus::Command& command, std::string robot);
+[[nodiscard]] Result<request::Request> request_of(const bus::Command& command, std::string robot);
 
 }  // namespace rave::control

@@ -13,9 +13,10 @@
 // its text are config::ObstacleEdit and config::write_edit().
 namespace rave::runtime {
 
-/// The change of the world that a request of kind kEdit asks for, with its author. Errors: kParse
-/// and kInvalidArgument, without a place in a file.
-[[nodiscard]] Result<sim::ObstacleChange> requested_change(const RunRequest& request);
+/// The change of the world that an edit asks for, with its author. Errors: kParse and
+/// kInvalidArgument, without a place in a file.
+[[nodiscard]] Result<sim::ObstacleChange> requested_change(const config::ObstacleEdit& edit,
+                                                           const std::string& by);
 
 /// What an edit does, as an imperative: `add`, `move` or `remove`.
 [[nodiscard]] std::string_view word_of(const config::ObstacleEdit& edit) noexcept;

@@ -25,16 +25,16 @@ class OrderDesk {
   static constexpr double kMostInSecond = 100;
 
   /// Makes an input of the run from a request.
-  using Give = std::function<Result<std::string>(const RunRequest&)>;
+  using Give = std::function<Result<std::string>(const request::Request&)>;
   /// Whether a user drives the robot according to the run; a stop ends that.
   using IsDriven = std::function<bool(const std::string& robot)>;
 
   /// Whether a request must pass the desk: orders, leases, and releases and hand-overs, which need
   /// the lease.
-  [[nodiscard]] static bool is_for(RunRequest::Kind kind) noexcept;
+  [[nodiscard]] static bool is_for(const request::Action& action) noexcept;
   /// Executes or refuses such a request. The robot that it names must exist.
-  Result<std::string> serve(const RunRequest& request, const Give& give, const IsDriven& is_driven,
-                            Time now);
+  Result<std::string> serve(const request::Request& request, const Give& give,
+                            const IsDriven& is_driven, Time now);
   /// Ends orders that were not renewed, by inputs through `give`. No cost while no person drives.
   void tick(const Give& give, Time now);
   /// Whether anything may expire.
@@ -56,19 +56,19 @@ class OrderDesk {
     Time since;
   };
   Status check_rate(const std::string& robot, Time now);
-  Status check_release(const RunRequest& request, Time now);
+  Status check_release(const request::Request& request, Time now);
   /// Takes or gives the lease, or calls order().
-  Result<std::string> carry_out(const RunRequest& request, const Give& give,
+  Result<std::string> carry_out(const request::Request& request, const Give& give,
                                 const IsDriven& is_driven, Time now);
-  Result<std::string> order(const RunRequest& request, const Give& give, const IsDriven& is_driven,
-                            Time now);
-  Result<std::string> drive(const RunRequest& request, const Give& give, const IsDriven& is_driven,
-                            Time now);
+  Result<std::string> order(const request::Request& request, const Give& give,
+                            const IsDriven& is_driven, Time now);
+  Result<std::string> drive(const request::Request& request, const request::Drive& velocity,
+                            const Give& give, const IsDriven& is_driven, Time now);
   /// Whether the velocity of a drive counts. Error kState: its stick is held.
-  Result<HeldSticks::Use> look_at_stick(const RunRequest& drive, const IsDriven& is_driven,
+  Result<HeldSticks::Use> look_at_stick(const request::Request& drive, const IsDriven& is_driven,
                                         Time now);
   /// The answer to a refused request. The stick of a drive is held then.
-  tl::unexpected<Error> refused(const RunRequest& request, Error why, Time now);
+  tl::unexpected<Error> refused(const request::Request& request, Error why, Time now);
   /// Applies changes of leases: the previous holder stops driving.
   void follow_leases(const Give& give);
 

@@ -11,39 +11,34 @@
 #include "rave/sim/engine_spec.hpp"
 #include "rave/sim/world_input.hpp"
 
-/// Orders in their three forms: as a request, as an input of a run, and as the text of a recording.
+/// Requests in their three forms: as a value, as an input of a run, and as the text of a recording.
 namespace rave::runtime {
 
-/// Checks the number of points of a path: 2 to kMostOrderPoints. Error: kInvalidArgument.
-[[nodiscard]] Status check_path_size(std::size_t points);
-
-/// Whether a request is an order: kDrive to kPlace.
-[[nodiscard]] constexpr bool is_order(RunRequest::Kind kind) noexcept {
-  return kind >= RunRequest::Kind::kDrive && kind <= RunRequest::Kind::kPlace;
-}
-
-/// What a stop, a release, an arming or an order is as an input. Error kInvalidArgument: a goal or
-/// a place without its point.
-[[nodiscard]] Result<sim::WorldInput::Action> input_action(const RunRequest& request);
-
-/// Converts a request to an input of the run, with its author. Errors: kNotFound (no such robot),
-/// kInvalidArgument (it names none).
-[[nodiscard]] Result<sim::WorldInput> order_input(const sim::EngineSpec& spec,
-                                                  const RunRequest& request);
-/// The inverse, also for a stop, a release and an arming.
-[[nodiscard]] RunRequest input_request(const sim::EngineSpec& spec, const sim::WorldInput& input);
+/// Converts a stop, a release, an arming or an order to an input of the run, with its author.
+/// Errors: kNotFound (no such robot), kInvalidArgument (it names none, or is another request).
+[[nodiscard]] Result<sim::WorldInput> input_for(const sim::EngineSpec& spec,
+                                                const request::Request& request);
+/// The inverse of input_for().
+[[nodiscard]] request::Request input_request(const sim::EngineSpec& spec,
+                                             const sim::WorldInput& input);
 
 /// Writes the names of the orders that a robot takes, such as `goal`; rewrites them only if they
 /// changed.
 void write_takes(OrderSet set, std::vector<std::string>& words);
 
 /// The answer to an accepted order.
-[[nodiscard]] std::string order_answer(const RunRequest& request);
+[[nodiscard]] std::string order_answer(const request::Request& request);
 
-/// The details of an order in one line, as in a recording: `points 1.5 2 yaw 0.5 speed 0.2`, `v 0.3
-/// w -0.1`, or the text of kText. Numbers are restored bit by bit.
-[[nodiscard]] std::string order_words(const RunRequest& request);
-/// Parses order_words() into a request of a known kind. Error: kParse.
-Status read_order_words(std::string_view words, RunRequest& request);
+/// A request in the words of a recording.
+struct RecordedWords {
+  std::string kind;   ///< The name of the action.
+  std::string key;    ///< Of a parameter.
+  std::string value;  ///< What else the action has, see recorded_words().
+};
+/// Of an order the details in one line: `points 1.5 2 yaw 0.5 speed 0.2`, `v 0.3 w -0.1`, or its
+/// text. Of an edit its JSON. Numbers are restored bit by bit.
+[[nodiscard]] RecordedWords recorded_words(const request::Action& action);
+/// The inverse, also of what older versions recorded. Error: kParse.
+[[nodiscard]] Result<request::Action> recorded_action(const RecordedWords& words);
 
 }  // namespace rave::runtime

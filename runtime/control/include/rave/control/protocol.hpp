@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "rave/base/result.hpp"
 #include "rave/control/run_control.hpp"
@@ -16,27 +18,55 @@ namespace rave::control {
 inline constexpr std::size_t kMaxLineBytes = 65'536;
 inline constexpr std::size_t kMaxAnswerBytes = 16U << 20U;
 
+// What a process answers at once, by itself; everything else is asked of the run.
+
+struct AskStatus {
+  static constexpr std::string_view kName = "status";
+  friend bool operator==(const AskStatus&, const AskStatus&) = default;
+};
+struct Pause {
+  static constexpr std::string_view kName = "pause";
+  friend bool operator==(const Pause&, const Pause&) = default;
+};
+struct Resume {
+  static constexpr std::string_view kName = "resume";
+  friend bool operator==(const Resume&, const Resume&) = default;
+};
+/// Computes steps of a paused run.
+struct Step {
+  static constexpr std::string_view kName = "step";
+  std::uint64_t count = 1;  ///< 1 to 1e9.
+  friend bool operator==(const Step&, const Step&) = default;
+};
+struct End {
+  static constexpr std::string_view kName = "end";
+  friend bool operator==(const End&, const End&) = default;
+};
+using ProcessAction = std::variant<AskStatus, Pause, Resume, Step, End>;
+
 /// One request to a process of a run.
 struct Request {
-  /// All but kRun are answered at once, by the process alone.
-  enum class What : std::uint8_t { kStatus, kPause, kResume, kStep, kEnd, kRun };
-  What what = What::kStatus;
-  std::uint64_t count = 1;  ///< kStep: 1 to 1e9.
-  /// kRun: the request to the run, with finite numbers. Otherwise only its sender is set.
-  runtime::RunRequest run = {};
-  /// kRun, over the bus: a host forwards it to the Environment Manager and returns its answer.
+  /// Empty: `run` is a request to the run; otherwise only its sender is set.
+  std::optional<ProcessAction> own = AskStatus{};
+  request::Request run{};
+  /// To the run, over the bus: a host forwards it to the Environment Manager and returns its
+  /// answer.
   bool relay = false;
 
+  template <class One>
+  [[nodiscard]] const One* as() const noexcept {
+    return own ? std::get_if<One>(&*own) : nullptr;
+  }
   /// Whether it changes nothing: it has no author and is not logged.
   [[nodiscard]] bool only_reads() const noexcept {
-    return what == What::kStatus || (what == What::kRun && run.only_reads());
+    return own ? std::holds_alternative<AskStatus>(*own) : request::only_reads(run.action);
   }
   friend bool operator==(const Request&, const Request&) = default;
 };
 
 /// A request to the run itself.
-[[nodiscard]] inline Request request_of(runtime::RunRequest run) {
-  return {Request::What::kRun, 1, std::move(run), false};
+[[nodiscard]] inline Request request_of(request::Request run) {
+  return {std::nullopt, std::move(run), false};
 }
 
 /// The error for a line of more than kMaxLineBytes.
@@ -52,7 +82,7 @@ struct Request {
 struct Answer {
   bool good = false;
   std::string text;           ///< The result, or the error.
-  runtime::RunStatus status;  ///< With a scenario if the request was kStatus.
+  runtime::RunStatus status;  ///< With a scenario if it was asked for.
 };
 
 /// Parses a line. Its texts have no control characters but line ends. Error: kParse.

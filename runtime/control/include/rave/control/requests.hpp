@@ -10,7 +10,8 @@ namespace rave::runtime {
 [[nodiscard]] Result<RobotId> find_robot_here(const sim::Engine& engine, std::string_view name);
 
 /// Executes a request between two steps. Returns a description of what was done.
-[[nodiscard]] Result<std::string> serve_request(sim::Engine& engine, const RunRequest& request);
+[[nodiscard]] Result<std::string> serve_request(sim::Engine& engine,
+                                                const request::Request& request);
 
 /// Checks that an order could be carried out now; errors are those of the request.
 [[nodiscard]] Status check_order_now(const sim::Engine& engine, const sim::WorldInput& input);

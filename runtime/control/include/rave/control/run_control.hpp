@@ -16,68 +16,10 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
-#include "rave/config/world_file.hpp"
 #include "rave/math/pose.hpp"
+#include "rave/request/request.hpp"
 
 namespace rave::runtime {
-
-/// A request that takes effect between two steps of a run.
-struct RunRequest {
-  enum class Kind : std::uint8_t {
-    kStop,
-    kRelease,
-    kArm,
-    kSet,
-    kEdit,  ///< Adds, moves or removes an obstacle.
-    kList,  ///< Lists the obstacles; changes nothing.
-    kHandOver,
-    kResetShadow,  ///< For one robot or for all.
-    // Orders. Each needs a robot, and a user needs its lease.
-    kDrive,   ///< A velocity, instead of the program's commands to velocity controllers.
-    kGoal,    ///< A goal.
-    kPath,    ///< A path to follow.
-    kCancel,  ///< Ends the current order. Without a robot: of all robots.
-    kText,    ///< A text for the program.
-    kPlace,   ///< Places a simulated robot elsewhere.
-    // Leases. Each needs a robot.
-    kTake,
-    kGive,
-    /// Adds a chat message to the recording: `chat_line()`. Not an input of the run.
-    kChat,
-  };
-  Kind kind = Kind::kStop;
-  std::string robot;     ///< Empty: all robots, except for orders and leases.
-  std::string key = {};  ///< kSet: the parameter, such as `program.max_speed_mps`.
-  /// kHandOver: `real`, `simulated`, `first` or `twin`. kSet: the value as in a file. kText: the
-  /// text, at most 1000 bytes of UTF-8. kGive: the new holder; empty: none. kTake: empty (refused
-  /// with the name of the holder if another user has the lease), `drive` (refused also while the
-  /// stick of this page is held; for ways on which a drive has no answer) or `force` (takes it over
-  /// and notifies the previous holder).
-  std::string value = {};
-  /// Name of the user who sent it. Empty: the local terminal, a super-user.
-  std::string by = {};
-  /// The sender is a super-user, who needs no lease for a release and may take over a lease.
-  bool overrides = false;
-  /// Id of the sender's page; 0: none, such as a script. For leases only.
-  std::uint64_t page = 0;
-  std::vector<Vec2> points = {};  ///< kGoal, kPlace: one. kPath: 2 to 1000. World frame, m.
-  std::optional<double> yaw_rad = std::nullopt;  ///< kGoal, kPlace: heading; empty: any.
-  double v_mps = 0;                              ///< kDrive: forward speed.
-  double w_radps = 0;                            ///< kDrive: turning rate, counter-clockwise.
-  double speed_mps = 0;  ///< kGoal, kPath: speed limit; 0: the robot decides.
-  std::optional<config::ObstacleEdit> edit = std::nullopt;  ///< kEdit.
-
-  /// Whether it changes nothing in the run: it is answered at once, and is not recorded as an
-  /// input.
-  [[nodiscard]] bool only_reads() const noexcept { return kind == Kind::kList; }
-  friend bool operator==(const RunRequest&, const RunRequest&) = default;
-};
-
-/// The name of a kind: `stop`, `release`, `arm`, `set`, `edit`, `list`, `hand_over`,
-/// `reset_shadow`, `drive`, `goal`, `path`, `cancel`, `text`, `place`, `take` or `give`; and the
-/// inverse, empty for any other word.
-[[nodiscard]] std::string_view to_string(RunRequest::Kind kind) noexcept;
-[[nodiscard]] std::optional<RunRequest::Kind> request_kind(std::string_view word) noexcept;
 
 /// The state of a run for observers.
 struct RunStatus {
@@ -196,11 +138,11 @@ class RunControl {
   /// while it is paused. Returns a description of what was done. Errors: kNotFound and
   /// kInvalidArgument (those of the run), kState (no run in progress), kTimeout (not executed
   /// within `patience`; it will be later).
-  Result<std::string> ask(RunRequest request,
+  Result<std::string> ask(request::Request request,
                           std::chrono::milliseconds patience = std::chrono::seconds(10));
   /// Like ask(), without waiting: the future is set when the run has executed the request. Error
   /// kState.
-  Result<std::future<Result<std::string>>> post(RunRequest request);
+  Result<std::future<Result<std::string>>> post(request::Request request);
   /// The present state; without a scenario before the run has begun and after it has ended.
   [[nodiscard]] RunStatus status() const;
   /// Why requests are refused: the run has not begun yet, or has ended. Empty while it serves them.
@@ -211,19 +153,19 @@ class RunControl {
   /// the run has ended.
   class Asked {
    public:
-    Asked(RunRequest request, std::promise<Result<std::string>> promise,
+    Asked(request::Request request, std::promise<Result<std::string>> promise,
           std::chrono::steady_clock::time_point since)
         : request_(std::move(request)), promise_(std::move(promise)), since_(since) {}
     Asked(Asked&& other) noexcept;
     Asked& operator=(Asked&& other) noexcept;
     ~Asked();
-    [[nodiscard]] const RunRequest& request() const noexcept { return request_; }
+    [[nodiscard]] const request::Request& request() const noexcept { return request_; }
     /// Time of the request.
     [[nodiscard]] std::chrono::steady_clock::time_point since() const noexcept { return since_; }
     void answer(Result<std::string> text);
 
    private:
-    RunRequest request_;
+    request::Request request_;
     std::promise<Result<std::string>> promise_;
     std::chrono::steady_clock::time_point since_;
     bool open_ = true;
@@ -236,7 +178,7 @@ class RunControl {
   [[nodiscard]] std::stop_token asked() const;
   /// Whether a step may be computed now; counts the single steps of a paused run.
   [[nodiscard]] bool may_step();
-  using Serve = std::function<Result<std::string>(const RunRequest&)>;
+  using Serve = std::function<Result<std::string>(const request::Request&)>;
   /// Requests are accepted from now on.
   void begin(RunStatus status);
   /// Executes the pending requests in order; if there were any, `refresh` updates the status.
@@ -246,8 +188,8 @@ class RunControl {
   using ServeOrKeep = std::function<std::optional<Result<std::string>>(Asked&)>;
   void serve_or_keep(const ServeOrKeep& serve, const std::function<void(RunStatus&)>& refresh);
   /// Keeps a chat message for the process that writes the recording, if that is not the run itself.
-  void keep_said(RunRequest chat);
-  [[nodiscard]] std::vector<RunRequest> take_said();
+  void keep_said(request::Request chat);
+  [[nodiscard]] std::vector<request::Request> take_said();
   /// Updates the status without a request.
   void refresh(const std::function<void(RunStatus&)>& refresh);
   /// Sets the hosts that the run waits for, in its status.
@@ -262,7 +204,7 @@ class RunControl {
 
  private:
   struct Pending {
-    RunRequest request;
+    request::Request request;
     std::promise<Result<std::string>> answer;
     std::chrono::steady_clock::time_point since;
   };
@@ -279,7 +221,7 @@ class RunControl {
   std::string_view idle_ = "the run has not begun yet";  ///< Why nothing is served; empty: it is.
   std::uint64_t steps_ = 0;                              ///< Number of single steps to execute.
   std::deque<Pending> pending_;
-  std::vector<RunRequest> said_;
+  std::vector<request::Request> said_;
   std::stop_source wake_;  ///< The source of asked().
   RunStatus status_;
 };

@@ -18,13 +18,12 @@ class InputForwarder {
   virtual ~InputForwarder() = default;
 
   /// What it passes on: stops, releases, arming and orders.
-  [[nodiscard]] static constexpr bool is_for(RunRequest::Kind kind) noexcept {
-    using Kind = RunRequest::Kind;
-    return kind == Kind::kStop || kind == Kind::kRelease || kind == Kind::kArm || is_order(kind);
+  [[nodiscard]] static bool is_for(const request::Action& action) noexcept {
+    return request::is_hold(action) || request::is_order(action);
   }
   /// Checks a request as far as this process knows, and passes it on. Returns a description of what
   /// will be done. Errors: those of the run.
-  virtual Result<std::string> give(const RunRequest& request) = 0;
+  virtual Result<std::string> give(const request::Request& request) = 0;
   /// The last request that was passed on since the last call; none if there was nothing to do.
   [[nodiscard]] virtual std::optional<std::uint64_t> take_given() = 0;
   /// Whether a user drives the robot; counts requests that are not done yet.

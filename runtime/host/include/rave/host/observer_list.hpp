@@ -80,7 +80,7 @@ class ObserverList {
   /// Does what a request asks of the run between two steps, or of a shadow, and notes it in the
   /// recording: orders of people if they have the lease of the robot. Returns what was done, for
   /// people.
-  Result<std::string> serve(sim::Engine& engine, const RunRequest& request);
+  Result<std::string> serve(sim::Engine& engine, const request::Request& request);
   /// Ends what people do not renew: drives and leases. Between two steps.
   void tick(sim::Engine& engine);
   /// In real time over several hosts: puts a simulated robot of this host elsewhere, in the world
@@ -104,16 +104,17 @@ class ObserverList {
   /// Writes the driver of each robot into the status.
   void refresh(RunStatus& status) const;
   /// Notes in the recording what was asked of the run and counts from this step on.
-  void keep(const RunRequest& request, std::uint64_t step);
+  void keep(const request::Request& request, std::uint64_t step);
   /// Ends the recording. `hash`: none for a live run. Returns why it is incomplete; empty if it is
   /// complete, or if there is no recording.
   [[nodiscard]] std::string end_record(std::optional<std::uint64_t> hash);
 
  private:
-  Result<std::string> place(const sim::Engine& engine, const RunRequest& request);
+  Result<std::string> place(const sim::Engine& engine, const request::Request& request);
   /// `awaited`: a caller waits for the result.
-  Result<std::string> make_input(sim::Engine& engine, const RunRequest& request, bool awaited);
-  Result<std::string> serve_order(sim::Engine& engine, const RunRequest& request);
+  Result<std::string> make_input(sim::Engine& engine, const request::Request& request,
+                                 bool awaited);
+  Result<std::string> serve_order(sim::Engine& engine, const request::Request& request);
   void note_leases(const sim::Engine& engine);
   explicit ObserverList(const Parts& parts);
   Status open_all(const Parts& parts);

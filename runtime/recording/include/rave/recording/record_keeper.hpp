@@ -46,10 +46,10 @@ class RecordKeeper final : public RunObserver {
   void keep(std::span<const sim::Event> events);
 
   /// Records a request that takes effect at this step.
-  void keep(const RunRequest& request, std::uint64_t step);
+  void keep(const request::Request& request, std::uint64_t step);
 
   /// Records a chat message (kChat) before this step.
-  void say(const RunRequest& chat, std::uint64_t step);
+  void say(const request::Request& chat, std::uint64_t step);
 
   [[nodiscard]] record::RunRecorder& recorder() noexcept { return recorder_; }
 
@@ -77,7 +77,7 @@ class RecordKeeper final : public RunObserver {
 };
 
 /// Records a chat message (kChat) before this step.
-void record_chat(const RunRequest& chat, std::uint64_t step, record::RunRecorder& recorder);
+void record_chat(const request::Request& chat, std::uint64_t step, record::RunRecorder& recorder);
 
 /// The RunInfo of an engine: seed, step, all robots, and the sensors of the robots that run here.
 [[nodiscard]] record::RunInfo info_of(const sim::Engine& engine, const BodyKinds& kinds);

@@ -28,7 +28,7 @@ class WorldRecord {
   void step(std::uint64_t step, const BodyKinds& kinds, std::span<const sim::Event> events,
             std::uint64_t hash);
   /// Records a chat message (kChat) before this step.
-  void say(const RunRequest& chat, std::uint64_t step);
+  void say(const request::Request& chat, std::uint64_t step);
   Status end(std::uint64_t hash) { return recorder_.end(hash); }
 
  private:

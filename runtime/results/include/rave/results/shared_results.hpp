@@ -17,9 +17,11 @@
 #include "rave/results/run_outcome.hpp"
 #include "rave/sim/world_authority.hpp"
 
-namespace rave::runtime {
+namespace rave::request {
+struct Request;
+}  // namespace rave::request
 
-struct RunRequest;
+namespace rave::runtime {
 
 /// A host at the end of a run with several; all but the name in real time only.
 struct HostState {
@@ -87,7 +89,7 @@ class SharedResults {
   /// run.
   bool after_step(const sim::WorldAuthority& authority);
   /// Records a chat message (kChat) since the last step.
-  void say(const RunRequest& chat);
+  void say(const request::Request& chat);
   /// In lock-step: call it after the last world.
   void at_end(const sim::WorldAuthority& authority);
 

@@ -25,17 +25,32 @@ struct Author {
   friend bool operator==(const Author&, const Author&) = default;
 };
 
-/// One request of a user to the run, for several robots at once: an order, a lease, kSet, kEdit,
-/// kHandOver or kResetShadow. `robot`, `by`, `overrides` and `page` are left to the server. kPlace
-/// has one point for each robot, kGoal too or one for all.
-struct CommandMessage : runtime::RunRequest {
+/// One request of a user to the run, for several robots at once: an order, or one about leases,
+/// parameters, obstacles, hand-overs or shadows.
+struct CommandMessage {
+  request::Action action;
+  /// Of a goal or a place, if each robot has its own: the points, in the order of `slots`.
+  std::vector<Vec2> points = {};
   std::uint32_t request = 0;  ///< Number chosen by the page; repeated in the answer.
   std::vector<std::uint32_t>
       slots;  ///< Robots: 1 to kMostCommanded, without duplicates; empty for obstacles.
 
-  [[nodiscard]] bool of_obstacle() const noexcept { return kind == Kind::kEdit; }
+  /// The action if it is this one; nullptr for any other.
+  template <class One>
+  [[nodiscard]] const One* as() const noexcept {
+    return std::get_if<One>(&action);
+  }
+  template <class... One>
+  [[nodiscard]] bool is() const noexcept {
+    return (std::holds_alternative<One>(action) || ...);
+  }
+  /// What is asked of the robot at place `i` of `slots`.
+  [[nodiscard]] request::Action action_for(std::size_t i) const;
+  [[nodiscard]] std::string_view name() const noexcept { return request::name_of(action); }
+  [[nodiscard]] bool of_obstacle() const noexcept { return is<request::Edit>(); }
   [[nodiscard]] bool stands() const noexcept {
-    return kind == Kind::kDrive && v_mps == 0 && w_radps == 0;
+    const auto* const drive = as<request::Drive>();
+    return drive != nullptr && drive->stands();
   }
   friend bool operator==(const CommandMessage&, const CommandMessage&) = default;
 };

@@ -88,7 +88,7 @@ TEST_F(Stops, AStopIsDoneWhileItIsStillLookedForOthersThatAreMeant) {
   const auto times_asked = [this] {
     const std::string log = console("one");
     std::size_t times = 0;
-    for (std::size_t at = 0; (at = log.find(R"("do":"stop")", at)) != std::string::npos; ++at) {
+    for (std::size_t at = 0; (at = log.find(R"("do": "stop")", at)) != std::string::npos; ++at) {
       ++times;
     }
     return times;

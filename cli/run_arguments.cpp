@@ -48,6 +48,7 @@ void add_run(CLI::App& root, Command& chosen) {
       "`pause`.\n\n"
       "Examples:\n"
       "  rave run mixed-reality --pace 10x\n"
+      "  rave run predator-prey --set robots.prey.pose.x_m=4\n"
       "  rave run my/scenario.yaml --seed 7 --duration 30 --output results");
 }
 

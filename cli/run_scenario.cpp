@@ -48,7 +48,7 @@ Error why_no_scenario(const std::filesystem::path& path, Error error) {
 
 Result<config::ExpandedScenario> read_scenario(const RunCommand& options) {
   RAVE_TRY_ASSIGN(const auto path, find_scenario(options.scenario));
-  auto expanded = config::expand_scenario(path);
+  auto expanded = config::expand_scenario(path, options.set);
   if (!expanded) return tl::unexpected(why_no_scenario(path, std::move(expanded).error()));
   config::ExpandedScenario scenario = *std::move(expanded);
   RAVE_TRY(override_settings(options, scenario.scenario));

@@ -119,7 +119,7 @@ class Checker {
     const std::string file = file_of(word);
     const auto kind = config::recognise(file);
     if (!kind) return bad(file, "", kind.error());
-    auto input = config::read_any_file(file);
+    auto input = config::read_any_file(file, options_.set);
     if (!input) return bad(file, to_string(*kind), input.error());
     runtime::BuildOptions build_options;
     build_options.program_runner = program_runner();

@@ -125,6 +125,8 @@ std::optional<std::string> RawNode::as_text() const {
 SourceLocation RawNode::where() const { return {file_ ? *file_ : std::string{}, line_, column_}; }
 
 SourceLocation RawNode::key_where(std::size_t i) const {
+  // An entry that was added later may be from another file.
+  if (keys_[i].line == 0 && children_[i].file_) return children_[i].where();
   return {file_ ? *file_ : std::string{}, keys_[i].line, keys_[i].column};
 }
 

@@ -86,13 +86,17 @@ Result<FileKind> recognise(const std::filesystem::path& path) {
           : root.found_text());
 }
 
-Result<AnyFile> read_any_file(const std::filesystem::path& path) {
+Result<AnyFile> read_any_file(const std::filesystem::path& path, Settings settings) {
   RAVE_TRY_ASSIGN(const FileKind kind, recognise(path));
+  if (kind != FileKind::kScenario && !settings.empty()) {
+    return fail(ErrorCode::kInvalidArgument, "--set: expected a scenario, but `{}` is a {} file",
+                path.string(), to_string(kind));
+  }
   AnyFile input;
   input.kind = kind;
   input.path = path;
   if (kind == FileKind::kScenario) {
-    RAVE_TRY_ASSIGN(input.scenario, expand_scenario(path));
+    RAVE_TRY_ASSIGN(input.scenario, expand_scenario(path, settings));
     return input;
   }
   const std::string file = quoted(path.filename().string());

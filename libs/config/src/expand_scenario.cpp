@@ -241,9 +241,14 @@ Result<GuiOfScenario> read_gui_of(const std::filesystem::path& scenario) {
   return Expansion(std::move(file), scenario).run_gui(scenario);
 }
 
-Result<ExpandedScenario> expand_scenario(const std::filesystem::path& path) {
+Result<ExpandedScenario> expand_scenario(const std::filesystem::path& path, Settings settings) {
   RAVE_TRY_ASSIGN(const std::string text, rave::read_file(path, kMaxFileBytes));
-  return expand_scenario_text(text, path);
+  const auto prepare = [&](RawNode& tree, Diagnostics& diagnostics) {
+    apply_settings(tree, settings, path.parent_path(), diagnostics);
+    if (diagnostics.ok()) substitute_inline_robots(tree, diagnostics);
+  };
+  RAVE_TRY_ASSIGN(ScenarioFile scenario, read_text<ScenarioFile>(text, path.string(), prepare));
+  return Expansion(std::move(scenario), path).run();
 }
 
 }  // namespace rave::config

@@ -18,6 +18,7 @@ std::string host_command(const RunSettings& settings, const std::string& host,
   add("--seed", settings.seed);
   add("--duration", settings.duration_s);
   add("--processes", settings.processes);
+  for (const std::string& setting : settings.set) words.insert(words.end(), {"--set", setting});
   for (const std::string& folder : settings.plugins) {
     words.insert(words.end(), {"--plugins", folder});
   }

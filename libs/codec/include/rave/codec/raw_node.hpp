@@ -64,7 +64,8 @@ class RawNode {
   [[nodiscard]] std::span<const RawNode> children() const noexcept { return children_; }
   [[nodiscard]] const RawNode& child(std::size_t i) const { return children_[i]; }
   [[nodiscard]] RawNode& child(std::size_t i) { return children_[i]; }
-  /// The name, place and comment of entry `i` of a mapping.
+  /// The name, place and comment of entry `i` of a mapping. A key that code has added has the place
+  /// of its value.
   [[nodiscard]] const std::string& key(std::size_t i) const { return keys_[i].name; }
   [[nodiscard]] SourceLocation key_where(std::size_t i) const;
   [[nodiscard]] const std::string& comment(std::size_t i) const { return keys_[i].comment; }

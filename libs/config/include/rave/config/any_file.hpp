@@ -27,7 +27,10 @@ struct AnyFile {
 };
 
 /// Reads a file of any kind and what it refers to. Places in errors are those of the file.
-[[nodiscard]] Result<AnyFile> read_any_file(const std::filesystem::path& path);
+/// `settings` are for scenarios; see apply_settings(). Errors: kInvalidArgument (settings for another
+/// kind).
+[[nodiscard]] Result<AnyFile> read_any_file(const std::filesystem::path& path,
+                                            Settings settings = {});
 
 /// The file with all defaults, as YAML.
 [[nodiscard]] std::string write_any_file(const AnyFile& input);

@@ -11,6 +11,7 @@
 #include "rave/base/result.hpp"
 #include "rave/config/input_files.hpp"
 #include "rave/config/scenario_file.hpp"
+#include "rave/config/settings.hpp"
 
 namespace rave::config {
 
@@ -92,7 +93,9 @@ struct PlannedHost {
 /// Reads a scenario and the files it names (a robot file once per entry) and checks them together:
 /// names, periods that must be multiples of the step, sensors that checks and picture name, missing
 /// files (error at the line that names them). Errors: kNotFound, kIo, kParse.
-[[nodiscard]] Result<ExpandedScenario> expand_scenario(const std::filesystem::path& path);
+/// `settings` take the place of what the file says; see apply_settings().
+[[nodiscard]] Result<ExpandedScenario> expand_scenario(const std::filesystem::path& path,
+                                                       Settings settings = {});
 /// Like expand_scenario(), for a text instead of the content of file `path`. Maps that `files` has
 /// are not looked for on the disk.
 [[nodiscard]] Result<ExpandedScenario> expand_scenario_text(std::string_view text,

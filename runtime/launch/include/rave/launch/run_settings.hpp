@@ -21,6 +21,7 @@ struct RunSettings {
   std::optional<std::uint64_t> seed{};
   std::optional<double> duration_s{};
   std::optional<int> processes{};  ///< Divide the robots among this number of processes.
+  std::vector<std::string> set{};  ///< KEY=VALUE; see config::Settings.
   std::vector<std::string> plugins{};
   bool no_picture = false;
   bool no_record = false;

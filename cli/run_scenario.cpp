@@ -27,7 +27,7 @@ Status override_settings(const RunCommand& options, config::ScenarioFile& scenar
   if (!options.duration_s) return {};
   scenario.duration_s = *options.duration_s;
   // An instant that a shorter run never reaches: the middle instead.
-  if (scenario.picture && scenario.picture->instant_s.value_or(0) > scenario.duration_s) {
+  if (scenario.picture && scenario.picture->instant_s.value_or(0) > *options.duration_s) {
     scenario.picture->instant_s.reset();
   }
   return {};

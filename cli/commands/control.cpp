@@ -138,6 +138,11 @@ void add_row(Table& table, std::vector<TableCell> row, const std::string& machin
   table.rows.push_back(std::move(row));
 }
 
+std::string time_text(const runtime::RunStatus& status) {
+  if (status.duration_s <= 0) return fmt::format("{:.2f} s", status.sim_s);
+  return fmt::format("{:.2f} of {} s", status.sim_s, status.duration_s);
+}
+
 /// What `rave ps` says of one run.
 void add_run(Table& table, const std::string& run, const Result<runtime::RunStatus>& answer,
              const std::string& machine, bool robots) {
@@ -147,8 +152,8 @@ void add_run(Table& table, const std::string& run, const Result<runtime::RunStat
     return add_row(table, {run, "", "", "", "", "starting or ending"}, machine);
   }
   add_row(table,
-          {run, status.scenario, fmt::format("{:.2f} of {} s", status.sim_s, status.duration_s),
-           pace_text(status), fmt::format("{}", status.robots.size()), state_text(status)},
+          {run, status.scenario, time_text(status), pace_text(status),
+           fmt::format("{}", status.robots.size()), state_text(status)},
           machine);
   if (!robots) return;
   for (const auto& robot : status.robots) {

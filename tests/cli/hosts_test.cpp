@@ -26,6 +26,21 @@ TEST_F(Hosts, TwoHostsGiveTheHashOfOneProcess) {
   }
 }
 
+TEST_F(Hosts, ARunWithAnOpenEndIsCompleteWhenItIsEnded) {
+  start("run", "run", "crowd.yaml", {"--set", "duration_s=none"});
+  wait_for_more("run/hosts/one");
+  signal("run", SIGINT);
+  EXPECT_EQ(end_of("run"), 0) << console("run");
+  EXPECT_EQ(console("run").find("problem:"), std::string::npos) << console("run");
+  const auto result = this->result("run");
+  EXPECT_EQ(result["whole"], true);
+  EXPECT_EQ(result["hash"].get<std::string>().size(), 16U) << result;
+  EXPECT_TRUE(result["ended_by_hand_s"].is_number());
+  for (const char* const host : {"one", "two"}) {
+    EXPECT_EQ(this->result(std::string("run/hosts/") + host)["whole"], true) << host;
+  }
+}
+
 TEST_F(Hosts, AnySplitAndAnyOrderOfStartGiveTheSame) {
   const Words span = {"--duration", "4"};
   const std::string alone = hash_alone("flock", span);

@@ -42,9 +42,12 @@ def without_null(schema):
     """The schema of a key that may be unset, and whether it may be."""
     choices = schema.get("anyOf", [])
     real = [choice for choice in choices if choice.get("type") != "null"]
+    # A word beside a number, such as `none`, is told of in the text.
+    real = [choice for choice in real if "const" not in choice]
     if len(real) == len(choices):
         return schema, False
-    return {key: value for key, value in schema.items() if key != "anyOf"} | real[0], True
+    can_be_unset = any(choice.get("type") == "null" for choice in choices)
+    return {key: value for key, value in schema.items() if key != "anyOf"} | real[0], can_be_unset
 
 
 def kind_of(schema):

@@ -96,7 +96,7 @@ std::string scenario_text(const Workload& workload, double duration_s, const Are
   std::string text = fmt::format(
       "{}name: {}\ndescription: {}\nworld: world.yaml\nduration_s: {}\nstep_s: {}\nseed: {}\n"
       "threads: {}\npace: max\nrobots:\n  - name: robot\n    file: robot.yaml\n    poses:\n",
-      kLicence, file.name.value, file.description, file.duration_s, file.step_s.value, file.seed,
+      kLicence, file.name.value, file.description, duration_s, file.step_s.value, file.seed,
       file.threads);
   for (const config::PoseFile& pose : arena.robots) {
     fmt::format_to(std::back_inserter(text), "      - [{}, {}, {}]\n", pose.x_m, pose.y_m,

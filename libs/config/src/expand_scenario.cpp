@@ -2,6 +2,7 @@
 // From a scenario with its files to one complete description. Whatever reads an expanded scenario
 // needs no other file except components of the page and what drivers play.
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "rave/config/gui_of_scenario.hpp"
 #include "rave/config/map_image.hpp"
 #include "scenario_fields.hpp"
+#include "start_poses.hpp"
 
 namespace rave::config {
 namespace {
@@ -147,6 +149,7 @@ class Expansion {
     const std::size_t group = expanded_.groups.size();
     RobotGroup& common = expanded_.groups.emplace_back();
     common.name = entry.name;
+    common.part_of = std::move(entry.part_of);
     common.team = std::move(entry.team);
     common.kind = std::move(entry.kind);
     common.scatter = entry.scatter;
@@ -181,9 +184,7 @@ class Expansion {
   }
 
   void add_robots(const RobotEntry& entry, std::size_t group) {
-    std::size_t count = 1;
-    if (entry.scatter) count = static_cast<std::size_t>(entry.scatter->count);
-    if (entry.poses) count = entry.poses->size();
+    const std::size_t count = robots_of(entry);
     if (expanded_.robots.size() + count > static_cast<std::size_t>(kMaxRobots)) {
       return report(entry.name.where, fmt::format("more than {} robots", kMaxRobots));
     }
@@ -192,10 +193,12 @@ class Expansion {
       robot.group = group;
       // One robot has the name of its entry; of several each has a number, from 1.
       robot.name = count == 1 ? *entry.name : fmt::format("{}-{}", *entry.name, i + 1);
-      robot.pose = entry.pose;
-      if (entry.poses) {
-        const auto& [x_m, y_m, yaw_deg] = (*entry.poses)[i];
-        robot.pose = PoseFile{x_m, y_m, yaw_deg};
+      robot.pose = pose_of(entry, i);
+      if (robot.pose &&
+          std::max(std::abs(robot.pose->x_m), std::abs(robot.pose->y_m)) > kFarthest_m) {
+        return report(entry.name.where,
+                      fmt::format("robot `{}` is farther than {} m from the origin", robot.name,
+                                  kFarthest_m));
       }
       expanded_.robots.push_back(std::move(robot));
     }
@@ -212,14 +215,18 @@ std::vector<std::size_t> robots_named(const ExpandedScenario& scenario, std::str
   std::vector<std::size_t> found;
   for (std::size_t r = 0; r < scenario.robots.size(); ++r) {
     if (scenario.robots[r].name == name) return {r};
-    if (scenario.group_of(scenario.robots[r]).name.value == name) found.push_back(r);
+    const RobotGroup& group = scenario.group_of(scenario.robots[r]);
+    if (group.name.value == name || group.part_of == name) found.push_back(r);
   }
   return found;
 }
 
 std::string robot_suggestion(const ExpandedScenario& scenario, std::string_view name) {
   std::set<std::string_view> names;
-  for (const RobotGroup& group : scenario.groups) names.insert(*group.name);
+  for (const RobotGroup& group : scenario.groups) {
+    names.insert(*group.name);
+    if (!group.part_of.empty()) names.insert(group.part_of);
+  }
   for (const ExpandedRobot& robot : scenario.robots) names.insert(robot.name);
   return suggestion(name, std::vector(names.begin(), names.end()));
 }
@@ -245,7 +252,7 @@ Result<ExpandedScenario> expand_scenario(const std::filesystem::path& path, Sett
   RAVE_TRY_ASSIGN(const std::string text, rave::read_file(path, kMaxFileBytes));
   const auto prepare = [&](RawNode& tree, Diagnostics& diagnostics) {
     apply_settings(tree, settings, path.parent_path(), diagnostics);
-    if (diagnostics.ok()) substitute_inline_robots(tree, diagnostics);
+    if (diagnostics.ok()) prepare_robots(tree, diagnostics);
   };
   RAVE_TRY_ASSIGN(ScenarioFile scenario, read_text<ScenarioFile>(text, path.string(), prepare));
   return Expansion(std::move(scenario), path).run();

@@ -6,6 +6,7 @@
 namespace rave::codec {
 
 using config::Pace;
+using config::RunLength;
 
 void Codec<Pace>::read(const ReadContext& context, const RawNode& node, Pace& value) {
   const auto text = node.as_text();
@@ -26,6 +27,37 @@ std::string Codec<Pace>::expectation(const FieldOptions& /*options*/) {
   return "`max`, `realtime` or a positive number followed by `x`, such as `10x`";
 }
 
+namespace {
+
+constexpr std::string_view kNoEnd = "none";
+
+}  // namespace
+
+void Codec<RunLength>::read(const ReadContext& context, const RawNode& node, RunLength& value) {
+  if (node.is_text() && node.scalar() == kNoEnd) {
+    value = kOpenEnd_s;
+  } else if (node.as_double()) {
+    Codec<double>::read(context, node, value.seconds);
+  } else {
+    context.wrong(node, expectation(context.options));
+  }
+}
+
+RawNode Codec<RunLength>::write(const RunLength& value) {
+  return value.is_open() ? RawNode::text(std::string(kNoEnd)) : RawNode::number(value);
+}
+
+RawNode Codec<RunLength>::schema(const FieldOptions& options) {
+  RawNode choices = RawNode::sequence();
+  choices.push_back(Codec<double>::schema(options));
+  choices.push_back(RawNode::mapping({{"const", RawNode::text(std::string(kNoEnd))}}));
+  return RawNode::mapping({{"anyOf", std::move(choices)}});
+}
+
+std::string Codec<RunLength>::expectation(const FieldOptions& options) {
+  return Codec<double>::expectation(options) + ", or `none`";
+}
+
 }  // namespace rave::codec
 
 namespace rave::config {
@@ -40,18 +72,21 @@ void validate(const ScatterFile& c, CheckContext& check) {
 
 void validate(const RobotEntry& c, CheckContext& check) {
   check_name("name", *c.name, check);
+  if (!c.part_of.empty()) check_name("part_of", c.part_of, check);
   if (c.kind) check_name("kind", *c.kind, check);
   if (!c.file && !c.robot) {
     check.error("", "the robot `{}` has neither `file` nor `robot`", *c.name);
   }
-  const int starts =
-      int{c.pose.has_value()} + int{c.poses.has_value()} + int{c.scatter.has_value()};
+  const int starts = int{c.pose.has_value()} + int{c.poses.has_value()} + int{c.grid.has_value()} +
+                     int{c.ring.has_value()} + int{c.scatter.has_value()};
   if (starts > 1) {
-    check.error("", "the robot `{}` has more than one of `pose`, `poses` and `scatter`", *c.name);
+    check.error("",
+                "the robot `{}` has more than one of `pose`, `poses`, `grid`, `ring` and `scatter`",
+                *c.name);
   }
   const bool has_twin = c.twin || c.twin_robot;
   // Each twin may be a device of its own, so one file cannot stand for several.
-  if (has_twin && (c.poses || c.scatter)) {
+  if (has_twin && starts > 0 && !c.pose) {
     check.error("twin", "`twin` needs a single robot, but `{}` stands for several", *c.name);
   }
   if (c.shadow && !has_twin) {
@@ -123,13 +158,14 @@ void validate(const ScenarioFile& c, CheckContext& check) {
   check_unique("obstacle", c.obstacles, check);
   if (c.picture && c.picture->instant_s && *c.picture->instant_s > c.duration_s) {
     check.error("picture", "`instant_s`: found {}, expected at most `duration_s` ({})",
-                *c.picture->instant_s, c.duration_s);
+                *c.picture->instant_s, c.duration_s.seconds);
   }
 }
 
 // Robots written into a scenario have variables like those in files. They are replaced before the
 // scenario is read, because `$(v)` is no number.
-void substitute_inline_robots(RawNode& scenario, Diagnostics& diagnostics) {
+void prepare_robots(RawNode& scenario, Diagnostics& diagnostics) {
+  split_entries(scenario, diagnostics);
   RawNode* robots = scenario.find("robots");
   if (!robots || !robots->is_sequence()) return;
   for (std::size_t i = 0; i < robots->size(); ++i) {

@@ -22,6 +22,15 @@ struct rave::codec::Codec<rave::config::Pace> {
   static std::string expectation(const FieldOptions& options);
 };
 
+template <>
+struct rave::codec::Codec<rave::config::RunLength> {
+  using RunLength = config::RunLength;
+  static void read(const ReadContext& context, const RawNode& node, RunLength& value);
+  static RawNode write(const RunLength& value);
+  static RawNode schema(const FieldOptions& options);
+  static std::string expectation(const FieldOptions& options);
+};
+
 namespace rave::config {
 
 /// A time of a run.
@@ -39,6 +48,36 @@ void describe(V& v, ScatterFile& c) {
 
 void validate(const ScatterFile& c, CheckContext& check);
 
+constexpr auto enum_names(EnumTag<RingFacing> /*tag*/) {
+  return std::array{EnumName{RingFacing::kOut, "out"}, EnumName{RingFacing::kIn, "in"},
+                    EnumName{RingFacing::kAlong, "along"}};
+}
+
+template <class V>
+void describe(V& v, GridFile& c) {
+  v.required("count", c.count, {.doc = "Number of robots.", .min = 1, .max = kMaxRobots});
+  v.field("columns", c.columns,
+          {.doc = "Robots of a row; null: about as many as there are rows.",
+           .min = 1,
+           .max = kMaxRobots});
+  v.field("x_m", c.x_m,
+          length_m("Place of the first robot; the others of its row follow along x."));
+  v.field("y_m", c.y_m, length_m("Place of the first robot; further rows follow along y."));
+  v.required("step_m", c.step_m, distance_m("Distance of neighbours, from centre to centre."));
+  v.field("yaw_deg", c.yaw_deg, angle_deg("Direction of all robots."));
+}
+
+template <class V>
+void describe(V& v, RingFile& c) {
+  v.required("count", c.count, {.doc = "Number of robots.", .min = 1, .max = kMaxRobots});
+  v.field("x_m", c.x_m, length_m("Centre."));
+  v.field("y_m", c.y_m, length_m("Centre."));
+  v.required("radius_m", c.radius_m, distance_m("Distance of the robots from the centre."));
+  v.field("facing", c.facing,
+          {.doc = "Direction of each robot: away from the centre, towards it, or along the ring "
+                  "(counter-clockwise)."});
+}
+
 constexpr auto enum_names(EnumTag<HandOverTo> /*tag*/) {
   return std::array{EnumName{HandOverTo::kReal, "real"},
                     EnumName{HandOverTo::kSimulated, "simulated"},
@@ -53,14 +92,19 @@ void describe(V& v, HandOverFile& c) {
 
 template <class V>
 void describe(V& v, RobotEntry& c) {
-  v.required("name", c.name,
-             {.doc = "Name of the robot; -1, -2, ... is added for `poses` and `scatter`."});
+  v.required(
+      "name", c.name,
+      {.doc = "Name of the robot; -1, -2, ... is added where several start places are given."});
   v.field(
       "file", c.file,
       {.doc =
            "Robot file, relative to this file; together with `robot`, the file it was read from.",
        .min_items = 1});
   v.field("robot", c.robot, {.doc = "Content of a robot file, in place of `file`."});
+  v.field(
+      "part_of", c.part_of,
+      {.doc = "A name for several entries: checks, changes and hosts that name it mean the robots "
+              "of all of them."});
   v.field("team", c.team, {.doc = "Team of the robot; messages can be addressed to a team."});
   v.field("variables", c.variables, {.doc = "Values for the variables of the robot file."});
   v.field("pose", c.pose, {.doc = "Start pose."});
@@ -70,6 +114,11 @@ void describe(V& v, RobotEntry& c) {
            .max = kFarthest_m,
            .min_items = 1,
            .max_items = static_cast<std::size_t>(kMaxRobots)});
+  v.field("grid", c.grid, {.doc = "Start poses of several robots in rows."});
+  v.field(
+      "ring", c.ring,
+      {.doc = "Start poses of several robots on a circle, the first where it meets the direction "
+              "of x, the others counter-clockwise."});
   v.field("scatter", c.scatter, {.doc = "Random start poses, determined by the seed."});
   v.field("kind", c.kind,
           {.doc = "Kind of robot as shown in pictures; null: according to its drivers."});
@@ -268,7 +317,11 @@ template <class V>
 void describe_run(V& v, ScenarioFile& c) {
   v.field("seed", c.seed, {.doc = "Random seed of the run."});
   v.field("duration_s", c.duration_s,
-          {.doc = "Simulated time.", .min = 0, .exclusive_min = true, .max = 1e9, .unit = "s"});
+          {.doc = "Simulated time; `none`: until the run is ended by hand.",
+           .min = 0,
+           .exclusive_min = true,
+           .max = kOpenEnd_s,
+           .unit = "s"});
   v.field("step_s", c.step_s, between(1e-4, 10, "s", "Length of a step."));
   v.field("threads", c.threads,
           {.doc = "Number of threads; the result does not depend on it.", .min = 1, .max = 1024});
@@ -306,7 +359,10 @@ void describe(V& v, ScenarioFile& c) {
 
 void validate(const ScenarioFile& c, CheckContext& check);
 
-/// Substitutes the variables of robots that are defined inline in the scenario.
-void substitute_inline_robots(RawNode& scenario, Diagnostics& diagnostics);
+/// Makes of an entry whose variables are lists one entry per robot, each with its own values.
+void split_entries(RawNode& scenario, Diagnostics& diagnostics);
+/// What comes before a scenario is read: split_entries(), and the variables of robots that are
+/// defined inline.
+void prepare_robots(RawNode& scenario, Diagnostics& diagnostics);
 
 }  // namespace rave::config

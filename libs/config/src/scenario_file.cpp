@@ -8,7 +8,7 @@
 namespace rave::config {
 
 Result<ScenarioFile> read_scenario_text(std::string_view text, std::string_view file_name) {
-  return read_text<ScenarioFile>(text, file_name, substitute_inline_robots);
+  return read_text<ScenarioFile>(text, file_name, prepare_robots);
 }
 
 Result<GuiFile> read_gui_text(std::string_view text, std::string_view file_name) {

@@ -68,12 +68,16 @@ class Setting {
   }
 
  private:
-  void report(std::string message) { diagnostics_.add({*option_, 0, 0}, std::move(message)); }
+  void report(std::string message) {
+    diagnostics_.add(SourceLocation{*option_, 0, 0}, std::move(message));
+  }
 
   std::optional<RawNode> parse(std::string_view text) {
     Diagnostics errors;
-    auto value = parse_yaml(text, *option_, errors);
-    if (errors.ok()) return value;
+    // As the value of a key, so that it may be null.
+    auto tree = parse_yaml(fmt::format("value: {}", text), *option_, errors);
+    if (errors.ok() && tree->size() == 1) return tree->child(0);
+    if (errors.ok()) errors.add({}, "expected one line");
     report(fmt::format("the value: {}", errors.errors()[0].message));
     return std::nullopt;
   }
@@ -137,9 +141,9 @@ class Setting {
     const RawNode* const robot = entry.find(name);
     if (file == nullptr || !file->is_text() || (robot != nullptr && !robot->is_null())) return true;
     const auto path = named_path(folder_, file->scalar()).lexically_normal();
-    const auto text = read_file(path, kMaxFileBytes);
+    const auto text = rave::read_file(path, kMaxFileBytes);
     if (!text) {
-      diagnostics_.add({text.error().code, text.error().message, file->where()});
+      diagnostics_.add(Error{text.error().code, text.error().message, file->where()});
       return false;
     }
     auto tree = parse_yaml(*text, path.string(), diagnostics_);

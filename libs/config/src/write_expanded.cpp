@@ -12,6 +12,7 @@ namespace {
 RobotEntry entry_of(const RobotGroup& group) {
   RobotEntry entry;
   entry.name = group.name;
+  entry.part_of = group.part_of;
   entry.team = group.team;
   entry.kind = group.kind;
   entry.robot = group.robot;

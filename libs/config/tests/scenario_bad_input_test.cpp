@@ -179,7 +179,8 @@ const FileCase kScenarios[] = {
     {"NoFile", "name: a\nrobots:\n  - {name: r}\n",
      "s.yaml:3:5: the robot `r` has neither `file` nor `robot`"},
     {"TwoStarts", "name: a\nrobots:\n  - {name: r, file: r.yaml, pose: {}, poses: [[0, 0, 0]]}\n",
-     "s.yaml:3:5: the robot `r` has more than one of `pose`, `poses` and `scatter`"},
+     "s.yaml:3:5: the robot `r` has more than one of `pose`, `poses`, `grid`, `ring` and "
+     "`scatter`"},
     {"Scatter",
      "name: a\nrobots:\n  - {name: r, file: r.yaml, scatter: {x_m: [1, 0], y_m: [0, 1]}}\n",
      "s.yaml:3:44: `x_m`: found 1 to 0, expected the first not to be greater"},

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "rave/config/expanded_scenario.hpp"
+
 namespace rave::config {
 namespace {
 
@@ -99,6 +101,28 @@ TEST(Variables, EscapingIsUndoneBySubstitution) {
     EXPECT_TRUE(diagnostics.ok()) << text;
     EXPECT_EQ(tree, before) << text;
   }
+}
+
+TEST(ScenarioFile, AnOpenEndIsTheWordNone) {
+  const auto read = [](const std::string& duration) {
+    return read_scenario_text(
+        "name: a\nduration_s: " + duration + "\nrobots: [{name: r, file: r}]\n", "s.yaml");
+  };
+  EXPECT_TRUE(read("none").value().duration_s.is_open());
+  EXPECT_FALSE(read("3e8").value().duration_s.is_open());
+  const auto expanded = expand_scenario_text(
+      "name: a\nduration_s: none\nrobots: [{name: r, file: robots/walker.yaml}]\n",
+      kFiles / "s.yaml");
+  ASSERT_TRUE(expanded.has_value()) << expanded.error().text();
+  EXPECT_NE(write_expanded(*expanded).find("\nduration_s: none"), std::string::npos);
+  EXPECT_EQ(
+      read("never").error().text(),
+      "s.yaml:2:13: `duration_s`: found the text \"never\", expected a number (greater than 0 "
+      "and at most 1000000000, in seconds), or `none`");
+  EXPECT_EQ(
+      read("0").error().text(),
+      "s.yaml:2:13: `duration_s`: found the number 0, expected a number (greater than 0 and at "
+      "most 1000000000, in seconds)");
 }
 
 }  // namespace

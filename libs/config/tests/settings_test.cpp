@@ -9,29 +9,19 @@
 namespace rave::config {
 namespace {
 
-const std::filesystem::path kData = RAVE_SOURCE_DIR "/libs/config/tests/data";
+const std::filesystem::path kSettingsData = RAVE_SOURCE_DIR "/libs/config/tests/data";
 
-Result<ExpandedScenario> with(const std::vector<std::string>& settings) {
-  return expand_scenario(kData / "scenarios/mixed.yaml", settings);
+Result<ExpandedScenario> mixed_with(const std::vector<std::string>& settings) {
+  return expand_scenario(kSettingsData / "scenarios/mixed.yaml", settings);
 }
 
-std::string error_of(const std::vector<std::string>& settings) {
-  const auto expanded = with(settings);
+std::string setting_error(const std::vector<std::string>& settings) {
+  const auto expanded = mixed_with(settings);
   return expanded ? "none" : expanded.error().text();
 }
 
 TEST(Settings, ReachKeysOfAllKindsOfTheScenario) {
-  const auto expanded =
-      with({"duration_s=30", "robots.loner.pose.x_m=1.5", "robots.1.variables.barcode=17",
-            "robots.prey.scatter={count: 2, x_m: [0, 1], y_m: [0, 1]}",
-            "robots.walker.poses.1.2=45", "picture.instant_s=null", "geo_origin.latitude_deg=48",
-            "geo_origin.longitude_deg=9", "description=a: text"});
-  // A text with a colon is a mapping in YAML.
-  ASSERT_FALSE(expanded.has_value());
-  EXPECT_EQ(expanded.error().text(),
-            "--set description=a: text: `description`: found a mapping, expected text");
-
-  const auto good = with(
+  const auto good = mixed_with(
       {"duration_s=30", "robots.loner.pose.x_m=1.5", "robots.1.variables.barcode=17",
        "robots.prey.scatter={count: 2, x_m: [0, 1], y_m: [0, 1]}", "robots.walker.poses.1.2=45",
        "picture.instant_s=null", "geo_origin.latitude_deg=48", "geo_origin.longitude_deg=9"});
@@ -46,10 +36,10 @@ TEST(Settings, ReachKeysOfAllKindsOfTheScenario) {
 }
 
 TEST(Settings, ReachKeysOfTheRobotFileOfAnEntry) {
-  const auto plain = with({});
-  const auto changed =
-      with({"robots.loner.robot.body.mass_kg=4", "robots.loner.robot.sensors.laser.params.rays=90",
-            "robots.loner.variables.range=3"});
+  const auto plain = mixed_with({});
+  const auto changed = mixed_with({"robots.loner.robot.body.mass_kg=4",
+                                   "robots.loner.robot.sensors.laser.params.rays=90",
+                                   "robots.loner.variables.range=3"});
   ASSERT_TRUE(plain.has_value());
   ASSERT_TRUE(changed.has_value()) << changed.error().text();
   EXPECT_EQ(changed->groups[3].robot.body->mass_kg, 4);
@@ -63,7 +53,7 @@ TEST(Settings, ReachKeysOfTheRobotFileOfAnEntry) {
 
 TEST(Settings, OfAKeyWithDotsIsThatKey) {
   const std::string change = "changes=[{at_s: 1, robot: loner, set: {program.speed_mps: 0.1}}]";
-  const auto expanded = with({change, "changes.0.set.program.speed_mps=0.2"});
+  const auto expanded = mixed_with({change, "changes.0.set.program.speed_mps=0.2"});
   ASSERT_TRUE(expanded.has_value()) << expanded.error().text();
   const RawNode& set = *expanded->scenario.changes[0].set;
   EXPECT_EQ(set.size(), 1U);
@@ -71,9 +61,10 @@ TEST(Settings, OfAKeyWithDotsIsThatKey) {
 }
 
 TEST(Settings, AreInTheExpandedScenario) {
-  const auto changed = with({"robots.loner.robot.body.mass_kg=4", "seed=99"});
+  const auto changed = mixed_with({"robots.loner.robot.body.mass_kg=4", "seed=99"});
   ASSERT_TRUE(changed.has_value()) << changed.error().text();
-  const auto again = expand_scenario_text(write_expanded(*changed), kData / "elsewhere.yaml");
+  const auto again =
+      expand_scenario_text(write_expanded(*changed), kSettingsData / "elsewhere.yaml");
   ASSERT_TRUE(again.has_value()) << again.error().text();
   EXPECT_EQ(again->scenario.seed, 99U);
   EXPECT_EQ(again->groups[3].robot.body->mass_kg, 4);
@@ -82,13 +73,14 @@ TEST(Settings, AreInTheExpandedScenario) {
 TEST(Settings, ErrorsNameTheOptionWhatWasExpectedAndTheNearestKey) {
   const std::pair<const char*, const char*> cases[] = {
       {"duration_s=long",
-       "--set duration_s=long: `duration_s`: found the text \"long\", expected a number greater "
-       "than 0 and at most 1e+09"},
+       "--set duration_s=long: `duration_s`: found the text \"long\", expected a number (greater "
+       "than 0 and at most 1000000000, in seconds), or `none`"},
       {"duraton_s=3", "--set duraton_s=3: unknown key `duraton_s`; did you mean `duration_s`?"},
       {"robots.loner.poze.x_m=3",
        "--set robots.loner.poze.x_m=3: unknown key `poze`; did you mean `pose`?"},
-      {"robots.lone.pose.x_m=3",
-       "--set robots.lone.pose.x_m=3: there is no item `lone`; expected a name or 0 to 4; did you "
+      {"robots.lonerr.pose.x_m=3",
+       "--set robots.lonerr.pose.x_m=3: there is no item `lonerr`; expected a name or 0 to 4; did "
+       "you "
        "mean `loner`?"},
       {"robots.walker.poses.2.0=3",
        "--set robots.walker.poses.2.0=3: there is no item `2`; expected a name or 0 to 1"},
@@ -105,11 +97,15 @@ TEST(Settings, ErrorsNameTheOptionWhatWasExpectedAndTheNearestKey) {
       {"seed.=3", "--set seed.=3: nothing follows the last dot of `seed.`"},
   };
   for (const auto& [setting, error] : cases) {
-    EXPECT_EQ(error_of({setting}), error);
+    EXPECT_EQ(setting_error({setting}), error);
   }
-  EXPECT_TRUE(error_of({"seed=[3"}).starts_with("--set seed=[3: the value: "));
+  EXPECT_TRUE(
+      setting_error({"description=a: b"}).starts_with("--set description=a: b: the value: "));
+  EXPECT_EQ(setting_error({"description=a\nseed: 3"}),
+            "--set description=a\nseed: 3: the value: expected one line");
+  EXPECT_TRUE(setting_error({"seed=[3"}).starts_with("--set seed=[3: the value: "));
   const std::vector<std::string> one = {"seed=3"};
-  const auto robot = read_any_file(kData / "robots/walker.yaml", one);
+  const auto robot = read_any_file(kSettingsData / "robots/walker.yaml", one);
   ASSERT_FALSE(robot.has_value());
   EXPECT_NE(robot.error().message.find("--set: expected a scenario, but"), std::string::npos);
 }

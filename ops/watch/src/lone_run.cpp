@@ -19,7 +19,7 @@ RunView view_of(const std::string& name, const runtime::RunStatus& status, bool 
                : status.paused         ? Phase::kPaused
                                        : Phase::kRunning;
   view.time_s = status.sim_s;
-  view.duration_s = status.duration_s;
+  if (status.duration_s > 0) view.duration_s = status.duration_s;
   for (std::size_t i = 0; with_robots && i < status.robots.size(); ++i) {
     const auto& robot = status.robots[i];
     RobotView& seen = view.robots.emplace_back();

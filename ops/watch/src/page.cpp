@@ -149,6 +149,8 @@ std::string title_of(const RunView& view, const PageOptions& options) {
   parts.emplace_back(std::string(to_string(view.phase)), tone_of(view.phase));
   if (view.time_s && view.duration_s) {
     parts.emplace_back(fmt::format("{:.2f} of {:.2f} s", *view.time_s, *view.duration_s));
+  } else if (view.time_s) {
+    parts.emplace_back(fmt::format("{:.2f} s", *view.time_s));
   }
   if (view.speed) parts.emplace_back(fmt::format("{}x", number_text(*view.speed)));
   parts.emplace_back(timing_text(view.timing));

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "moments.hpp"
+#include "rave/base/open_end.hpp"
 #include "rave/watch/run_model.hpp"
 
 namespace rave::watch {
@@ -16,6 +17,13 @@ namespace {
 constexpr std::int64_t kPatience_ns = 2'500'000'000;
 /// A host without a new step for this long is late, and not only between two messages.
 constexpr std::int64_t kStands_ns = 2'000'000'000;
+
+void tell_length(std::uint64_t steps, double step_s, RunView& view) {
+  const double duration_s = static_cast<double>(steps) * step_s;
+  if (is_open_end(duration_s)) return;
+  view.steps = steps;
+  view.duration_s = duration_s;
+}
 
 }  // namespace
 
@@ -292,9 +300,8 @@ void RunModel::tell_run(RunView& view, std::int64_t now_ns) const {
   view.phase = kPhases[static_cast<std::size_t>(state_->phase)];
   view.text = state_->text;
   view.step = state_->step;
-  view.steps = state_->steps;
   view.time_s = static_cast<double>(state_->step) * state_->step_s;
-  view.duration_s = static_cast<double>(state_->steps) * state_->step_s;
+  tell_length(state_->steps, state_->step_s, view);
   view.speed = state_->speed;
   if (view.timing == Timing::kRealTime && manager_here()) {
     if (const auto now = run_ns(now_ns)) view.time_s = std::max(0.0, seconds_of(*now));
@@ -344,8 +351,7 @@ void RunModel::tell_words(RunView& view) const {
   const State& farthest = *words.farthest;
   view.scenario = farthest.scenario;
   view.step = farthest.step;
-  view.steps = farthest.steps;
-  view.duration_s = static_cast<double>(farthest.steps) * farthest.step_s;
+  tell_length(farthest.steps, farthest.step_s, view);
   view.time_s = words.newest_ns ? seconds_of(*words.newest_ns)
                                 : static_cast<double>(farthest.step) * farthest.step_s;
   view.speed = words.here ? farthest.speed : 0;

@@ -68,7 +68,8 @@ void note_losses(RunSession& run) {
 
 void tell_progress(const RunSession& run) {
   const double sim_s = static_cast<double>(run.engine.steps_done()) * run.file.step_s.value;
-  run.options.on_progress({sim_s / run.file.duration_s, sim_s, run.file.duration_s,
+  const config::RunLength length = run.file.duration_s;
+  run.options.on_progress({sim_s / length, sim_s, length.known_end_s(),
                            run.wall_s > 0 ? sim_s / run.wall_s : 0, run.engine.spec().robots.size(),
                            run.observers.results().encounters.headline()});
 }
@@ -126,7 +127,7 @@ RunSession::RunSession(sim::Engine& of, ObserverList& all, WallPace& clock,
   RunStatus status;
   status.scenario = run.name.value;
   status.run = how.run_id;
-  status.duration_s = run.duration_s;
+  status.duration_s = run.duration_s.known_s();
   status.pace = live ? 1 : run.pace.factor;
   status.live = live;
   // Several hosts in lock-step go as their manager says.

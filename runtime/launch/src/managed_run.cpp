@@ -104,7 +104,7 @@ Result<ManagedEnd> manage_steps(const ManagedRun& run, runtime::BuiltScenario bu
     const double sim_s = static_cast<double>(progress.step) * file.step_s.value;
     if (run.on_progress)
       run.on_progress(
-          {sim_s / file.duration_s, sim_s, file.duration_s, progress.speed,
+          {sim_s / file.duration_s, sim_s, file.duration_s.known_end_s(), progress.speed,
            run.scenario.robots.size(),
            progress.waiting.empty() ? std::string() : "waiting for " + progress.waiting});
   };
@@ -231,8 +231,8 @@ Result<ManagedEnd> manage_time(const ManagedRun& run, runtime::BuiltScenario bui
   how.ends_hosts = static_cast<bool>(run.hosts_ended);
   how.on_progress = [&run, &file](SimTime now, double speed, const std::string& waiting) {
     if (run.on_progress)
-      run.on_progress({now.seconds() / file.duration_s, now.seconds(), file.duration_s, speed,
-                       run.scenario.robots.size(),
+      run.on_progress({now.seconds() / file.duration_s, now.seconds(),
+                       file.duration_s.known_end_s(), speed, run.scenario.robots.size(),
                        waiting.empty() ? std::string() : "without " + waiting});
   };
   RAVE_TRY_ASSIGN(auto end, begin_live(run, built));

@@ -6,6 +6,7 @@
 #include "manager_habits.hpp"
 #include "rave/assemble/obstacles.hpp"
 #include "rave/base/names.hpp"
+#include "rave/base/open_end.hpp"
 #include "rave/control/obstacle_edits.hpp"
 #include "rave/control/world_request.hpp"
 #include "rave/math/transform.hpp"
@@ -70,7 +71,8 @@ void LiveEdits::begin(bool takes_over) {
   runtime::RunStatus status;
   status.scenario = options_.scenario;
   status.run = options_.bus.run.text();
-  status.duration_s = options_.duration.seconds();
+  const double duration_s = options_.duration.seconds();
+  status.duration_s = is_open_end(duration_s) ? 0 : duration_s;
   status.live = true;
   for (const auto& robot : options_.robots) {
     status.robots.push_back({robot.name, robot.simulated, true, false, true});

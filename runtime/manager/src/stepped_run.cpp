@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rave/base/names.hpp"
+#include "rave/base/open_end.hpp"
 
 namespace rave::manager {
 namespace {
@@ -208,7 +209,8 @@ runtime::RunStatus SteppedRun::first_status() const {
   runtime::RunStatus status;
   status.scenario = options_.scenario;
   status.run = options_.bus.run.text();
-  status.duration_s = static_cast<double>(options_.steps) * authority_->spec().step.seconds();
+  const double duration_s = static_cast<double>(options_.steps) * authority_->spec().step.seconds();
+  status.duration_s = is_open_end(duration_s) ? 0 : duration_s;
   status.pace = options_.pace;
   return status;
 }

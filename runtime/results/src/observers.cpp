@@ -50,6 +50,12 @@ void add_instruments(const sim::Engine& engine, RobotId robot, RunFacts& facts) 
   }
 }
 
+/// The duration for which tracks have their finest points; the end of an open run is not known.
+double track_length_s(config::RunLength length) {
+  constexpr double kHour_s = 3600;
+  return length.is_open() ? kHour_s : length.seconds;
+}
+
 }  // namespace
 
 void keep_history_for_observers(config::ScenarioFile& scenario) {
@@ -66,7 +72,8 @@ Observers::Observers(const config::ExpandedScenario& scenario,
                      bool with_tracks)
     : kinds(spec, robot_kinds),
       tracks(kinds, spec,
-             {scenario.scenario.duration_s, odometry_sensor(scenario.scenario), with_tracks}),
+             {track_length_s(scenario.scenario.duration_s), odometry_sensor(scenario.scenario),
+              with_tracks}),
       encounters(kinds, spec),
       hits(kinds),
       goals(scenario, spec) {
@@ -74,7 +81,9 @@ Observers::Observers(const config::ExpandedScenario& scenario,
   if (file.checks.sightings) sightings.emplace(*file.checks.sightings, spec);
   // Over several hosts the manager watches captures, because it has the poses of all robots.
   if (file.checks.capture && !spec.local) capture.emplace(*file.checks.capture, scenario);
-  if (file.picture) instant.emplace(kinds, file.picture->instant_s.value_or(file.duration_s / 2));
+  if (file.picture && (file.picture->instant_s || !file.duration_s.is_open())) {
+    instant.emplace(kinds, file.picture->instant_s.value_or(file.duration_s / 2));
+  }
 }
 
 void Observers::after_step(const StepView& step) {

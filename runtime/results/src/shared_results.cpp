@@ -173,10 +173,12 @@ void SharedResults::Impl::note_early(const SharedHost& host, std::uint64_t steps
   // Of a run that is late, the last steps may be missing; its deadlines say so.
   constexpr double kNear_s = 1;
   const double end_s = static_cast<double>(steps) * spec.step.seconds();
-  const double planned_s = scenario.scenario.duration_s;
+  const config::RunLength planned_s = scenario.scenario.duration_s;
   if (live_reason.empty() || results.ended_by_hand || end_s > planned_s - kNear_s) return;
-  facts.problems.push_back(
-      fmt::format("host `{}` ended at {:.2f} s of {:.2f} s", host.name, end_s, planned_s));
+  facts.problems.push_back(planned_s.is_open()
+                               ? fmt::format("host `{}` ended at {:.2f} s", host.name, end_s)
+                               : fmt::format("host `{}` ended at {:.2f} s of {:.2f} s", host.name,
+                                             end_s, planned_s.seconds));
 }
 
 /// If a host saw the whole run, the time before this manager is known as well. `steps` is the

@@ -104,7 +104,7 @@ Result<LiveSource::Start> LiveSource::Start::of(const config::ExpandedScenario& 
   start.about.name = scenario.scenario.name.value;
   start.about.step_s = run.step_s;
   start.about.seed = run.seed;
-  start.about.duration_s = scenario.scenario.duration_s;
+  start.about.duration_s = scenario.scenario.duration_s.known_s();
   start.about.rights = rights_of(scenario.scenario.gui);
   RAVE_TRY_ASSIGN(start.about.components, components_of(scenario.scenario.gui));
   start.robots_json = with_parameters(robots_of(scenario, run, hybrids), spec);

@@ -6,7 +6,8 @@ namespace rave::gui_server {
 Rights rights_of(const config::GuiFile& gui) {
   Rights rights;
   for (const config::GuiRightFile& rule : gui.rights) {
-    const Reach reach{rule.reach, {rule.teams.begin(), rule.teams.end()}};
+    Reach reach{rule.reach, {}};
+    for (const auto& team : rule.teams) reach.teams.insert(team.value);
     for (const InfoClass what : rule.classes) {
       if (rule.user) {
         rights.set_user(rule.user->value, what, reach);

@@ -27,8 +27,8 @@ struct AnyFile {
 };
 
 /// Reads a file of any kind and what it refers to. Places in errors are those of the file.
-/// `settings` are for scenarios; see apply_settings(). Errors: kInvalidArgument (settings for another
-/// kind).
+/// `settings` are for scenarios; see apply_settings(). Errors: kInvalidArgument (settings for
+/// another kind).
 [[nodiscard]] Result<AnyFile> read_any_file(const std::filesystem::path& path,
                                             Settings settings = {});
 

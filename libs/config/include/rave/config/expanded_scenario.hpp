@@ -25,6 +25,7 @@ struct TwinGroup {
 /// Properties shared by all robots of one entry of the scenario.
 struct RobotGroup {
   Located<std::string> name;  ///< As written, with the place of the entry for later errors.
+  std::string part_of;        ///< As RobotEntry::part_of.
   std::string team;
   std::optional<std::string> kind;
   /// Absolute path of the robot file, the base of relative paths among its parameters; empty if the
@@ -66,7 +67,8 @@ struct ExpandedScenario {
   bool operator==(const ExpandedScenario&) const = default;
 };
 
-/// The indices of the robots with this name: one robot, or all robots of an entry. Empty: none.
+/// The indices of the robots with this name: one robot, or all robots of an entry or of the entries
+/// that are part of it. Empty: none.
 [[nodiscard]] std::vector<std::size_t> robots_named(const ExpandedScenario& scenario,
                                                     std::string_view name);
 

@@ -52,7 +52,7 @@ struct GuiRightFile {
   std::optional<Located<std::string>> user;
   std::vector<GuiClass> classes;
   GuiReach reach = GuiReach::kNone;
-  std::vector<std::string> teams;  ///< Used with kTeams only.
+  std::vector<Located<std::string>> teams;  ///< Used with kTeams only.
   bool operator==(const GuiRightFile&) const = default;
 };
 

@@ -14,6 +14,7 @@
 #include "rave/config/gui_file.hpp"
 #include "rave/config/pace.hpp"
 #include "rave/config/robot_file.hpp"
+#include "rave/config/run_length.hpp"
 #include "rave/config/world_file.hpp"
 
 namespace rave::config {
@@ -25,6 +26,31 @@ struct ScatterFile {
   std::array<double, 2> y_m{};
   double clearance_m = 0.1;  ///< Free space around each body, at least 0.
   bool operator==(const ScatterFile&) const = default;
+};
+
+/// Robots in rows: the first at (x_m, y_m), the next ones along x, each further row along y.
+struct GridFile {
+  int count = 1;               ///< 1 to 100000.
+  std::optional<int> columns;  ///< Robots of a row; unset: as many as there are rows.
+  double x_m = 0;
+  double y_m = 0;
+  double step_m = 1;  ///< Between neighbours.
+  double yaw_deg = 0;
+  bool operator==(const GridFile&) const = default;
+};
+
+/// The direction of a robot on a ring.
+enum class RingFacing : std::uint8_t { kOut, kIn, kAlong };
+
+/// Robots on a circle, the first where it meets the direction of x, the next ones
+/// counter-clockwise.
+struct RingFile {
+  int count = 1;  ///< 1 to 100000.
+  double x_m = 0;
+  double y_m = 0;
+  double radius_m = 1;
+  RingFacing facing = RingFacing::kOut;
+  bool operator==(const RingFile&) const = default;
 };
 
 /// The largest difference between the poses of both sets of drivers at which a hand-over is
@@ -50,10 +76,14 @@ struct RobotEntry {
   /// The robot file. If `robot` is also set, the file is not opened and only records its origin.
   std::optional<Located<std::string>> file;
   std::optional<RobotFile> robot;  ///< Written inline; its variables are already substituted.
+  /// The name of an entry of several robots that this one belongs to; empty: none.
+  std::string part_of;
   std::string team;
   Variables variables;
-  std::optional<PoseFile> pose;  ///< At most one of pose, poses and scatter is set.
+  std::optional<PoseFile> pose;  ///< At most one of pose, poses, grid, ring and scatter is set.
   std::optional<std::vector<std::array<double, 3>>> poses;  ///< Each x [m], y [m], yaw [deg].
+  std::optional<GridFile> grid;
+  std::optional<RingFile> ring;
   std::optional<ScatterFile> scatter;
   std::optional<std::string> kind;  ///< A label for pictures.
   /// Another robot file for the same robot, with the second set of drivers; like `file` and
@@ -196,7 +226,7 @@ struct ScenarioFile {
   std::vector<ObstacleFile> obstacles;        ///< Added to those of the world.
   std::vector<MapFile> maps;                  ///< Added to those of the world.
   std::uint64_t seed = 1;
-  double duration_s = 60;
+  RunLength duration_s;
   Located<double> step_s = 0.01;
   int threads = 1;
   Pace pace;

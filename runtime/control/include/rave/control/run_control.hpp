@@ -80,8 +80,8 @@ struct RunStatus {
   /// Of a run of several processes: its id, the same in all of them; else empty.
   std::string run = {};
   double sim_s = 0;
-  double duration_s = 0;
-  double pace = 1;  ///< Simulated seconds per second; 0: no limit.
+  double duration_s = 0;  ///< 0: an open end.
+  double pace = 1;        ///< Simulated seconds per second; 0: no limit.
   bool live = false;
   bool paused = false;
   /// A host that follows its Environment Manager; only the latter can pause it.

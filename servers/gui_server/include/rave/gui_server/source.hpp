@@ -151,7 +151,7 @@ struct PlayState {
   double now_s = 0;
   double begin_s = 0;     ///< Earliest time that can be shown.
   double end_s = 0;       ///< Latest known time.
-  double duration_s = 0;  ///< Planned duration.
+  double duration_s = 0;  ///< Planned duration; 0: an open end.
   double pace = 1;        ///< Requested pace; 0: no limit.
   double speed = 0;       ///< Seconds of the run per second of wall time.
   std::string reason{};   ///< Reason for kWaiting and kEnded.

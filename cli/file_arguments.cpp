@@ -17,7 +17,7 @@ void add_check(CLI::App& root, Command& chosen) {
   add_value(app, "--draw", c.draw,
             "Draw a robot with its sensors, or a world with the start poses of robots",
             "OUT.svg|OUT.png");
-  add_set(app, c.set);
+  add_settings(app, c.set);
   add_plugins(app, c.plugins);
   app.footer(
       "Exit code: 0 if all files are correct, 2 if not.\n\n"

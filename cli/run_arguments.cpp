@@ -24,6 +24,9 @@ void add_run(CLI::App& root, Command& chosen) {
   add_scenario(app, c.scenario);
   add_run_options(app, c);
   add_paused(app, c.paused);
+  app.add_flag("--dry-run", c.dry_run,
+               "Print the plan of the run and start nothing: processes with their robots, people, "
+               "what happens when");
   add_processes(app, c.processes, "Divide the robots evenly among N processes", 1);
   auto* const gui = app.add_flag(
       "--gui", c.gui,

@@ -67,7 +67,7 @@ void add_plugins(CLI::App& app, std::vector<std::string>& folders) {
              "DIR");
 }
 
-void add_set(CLI::App& app, std::vector<std::string>& settings) {
+void add_settings(CLI::App& app, std::vector<std::string>& settings) {
   add_values(app, "--set", settings,
              "Value for a key of the scenario, such as robots.prey.pose.x_m=1; items of lists by "
              "name or from 0; repeatable",
@@ -126,7 +126,7 @@ void add_record(CLI::App& app, std::string& file) {
 void add_run_options(CLI::App& app, RunCommand& c) {
   add_value(app, "--output", c.output, "Folder for the results [runs/<time>-<scenario>]", "DIR");
   app.add_flag("--replace", c.replace, "Remove the results of an earlier run from that folder");
-  add_set(app, c.set);
+  add_settings(app, c.set);
   add_whole_number(app, "--seed", c.seed, "Random seed (overrides the scenario)");
   add_threads(app, c.threads);
   add_value(app, "--duration", c.duration_s, "Simulated time, in seconds (overrides the scenario)",

@@ -77,7 +77,7 @@ void add_threads(CLI::App& app, T& threads,
 void add_processes(CLI::App& app, std::optional<int>& processes, const char* what, int least);
 
 /// `--set`; see config::Settings.
-void add_set(CLI::App& app, std::vector<std::string>& settings);
+void add_settings(CLI::App& app, std::vector<std::string>& settings);
 /// Folders of plug-ins beside those that are found anyway.
 void add_plugins(CLI::App& app, std::vector<std::string>& folders);
 

@@ -12,6 +12,7 @@
 #include "error_text.hpp"
 #include "places.hpp"
 #include "rave/assemble/build.hpp"
+#include "rave/assemble/warnings.hpp"
 #include "rave/config/any_file.hpp"
 #include "rave/drawing/drawing.hpp"
 #include "rave/sim/engine.hpp"
@@ -55,10 +56,11 @@ std::string summary_of(const config::AnyFile& input, const runtime::BuiltScenari
     if (type.program) drivers.insert(type.program->driver);
   }
   const std::size_t robots = built.spec.robots.size();
-  return fmt::format("scenario with {} ({} simulated, {} real), {}, {}, {:g} s",
+  const config::RunLength length = input.scenario.scenario.duration_s;
+  return fmt::format("scenario with {} ({} simulated, {} real), {}, {}, {}",
                      counted(robots, "robot"), simulated, robots - simulated,
                      counted(obstacles, "obstacle"), counted(drivers.size(), "driver"),
-                     input.scenario.scenario.duration_s);
+                     length.is_open() ? "open end" : fmt::format("{:g} s", length.seconds));
 }
 
 /// Whether a reading describes what is around the robot; values may.
@@ -153,6 +155,7 @@ class Checker {
     const Terminal terminal = terminal_of(stream);
     put(stream, fmt::format("{}: {}: {}\n", terminal.bold(file), terminal.green("ok"),
                             summary_of(input, built)));
+    tell_warnings(stream, input, built);
     for (const std::string& note : built.notes) {
       put(stream, fmt::format("{}: {} {}\n", terminal.bold(file), terminal.yellow("note:"), note));
     }
@@ -164,6 +167,17 @@ class Checker {
     if (!built.live_reason.empty()) {
       put(stream, fmt::format("{}: {} runs are live and cannot be repeated: {}\n",
                               terminal.bold(file), terminal.yellow("note:"), built.live_reason));
+    }
+  }
+
+  /// What is allowed but hardly meant, at its place in a file.
+  static void tell_warnings(std::FILE* stream, const config::AnyFile& input,
+                            const runtime::BuiltScenario& built) {
+    if (input.kind != config::FileKind::kScenario) return;
+    const Terminal terminal = terminal_of(stream);
+    for (const Error& warning : runtime::warnings_of(input.scenario, built)) {
+      put(stream, fmt::format("{}: {} {}\n", terminal.bold(warning.where.text()),
+                              terminal.yellow("warning:"), warning.message));
     }
   }
 

@@ -12,7 +12,7 @@ namespace rave::cli {
 struct CheckCommand {
   std::vector<std::string> files;
   bool expand = false;
-  std::string draw;  ///< File for the drawing; empty: none.
+  std::string draw;              ///< File for the drawing; empty: none.
   std::vector<std::string> set;  ///< KEY=VALUE, for scenarios; see config::Settings.
   std::vector<std::string> plugins;
 };

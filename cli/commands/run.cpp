@@ -7,6 +7,7 @@
 #include "rave/gui_server/live_run.hpp"
 #include "rave/gui_server/run_lines.hpp"
 #include "rave/host/run.hpp"
+#include "run_plan.hpp"
 #include "run_report.hpp"
 #include "run_scenario.hpp"
 #include "run_start.hpp"
@@ -70,12 +71,24 @@ Result<int> run_alone(const RunCommand& options, const config::ExpandedScenario&
   return tl::unexpected(outcome.error());
 }
 
+/// Builds the world without opening a device, as drivers can refuse their parameters.
+Result<int> show_plan(const RunCommand& options, const config::ExpandedScenario& scenario,
+                      const std::vector<config::PlannedHost>& hosts) {
+  RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.plugins));
+  runtime::BuildOptions how;
+  how.program_runner = program_runner();
+  RAVE_TRY_ASSIGN(const auto built, runtime::build(scenario, *catalogue, how));
+  put(stdout, run_plan(options, scenario, hosts, built));
+  return kGood;
+}
+
 }  // namespace
 
 Result<int> run(const RunCommand& options) {
   RAVE_TRY_ASSIGN(auto scenario, read_scenario(options));
   if (options.gui && !options.pace) scenario.scenario.pace = config::Pace{1};
   RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
+  if (options.dry_run) return show_plan(options, scenario, hosts);
   return hosts.empty() ? run_alone(options, scenario) : run_shared(options, scenario, hosts);
 }
 

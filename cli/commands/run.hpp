@@ -19,7 +19,8 @@ struct RunCommand : launch::RunSettings {
   bool replace = false;  ///< Remove the results of an earlier run there.
   std::optional<int> threads;
   std::optional<std::string> pace;
-  bool paused = false;  ///< Wait before the first step until a person resumes it.
+  bool dry_run = false;  ///< Print what would happen; start nothing.
+  bool paused = false;   ///< Wait before the first step until a person resumes it.
   bool quiet = false;
   bool gui = false;  ///< Show it in the browser, then its recording.
   PageOptions page;

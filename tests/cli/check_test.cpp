@@ -67,6 +67,27 @@ TEST(Check, GoodFilesOfEachKind) {
       "drivers, 2 s\n");
 }
 
+TEST(Check, WhatIsHardlyMeantIsAWarningAtItsPlace) {
+  const TemporaryFolder folder;
+  const std::string scenario = folder.path() / "scenario.yaml";
+  std::ofstream(scenario) << "name: a\nduration_s: 5\n"
+                             "obstacles: [{name: box, box_m: [1, 1], x_m: 3, z_m: [0, 1]}]\n"
+                             "changes: [{at_s: 6, remove_obstacle: box}]\n"
+                             "checks: {arrivals: [{robot: r, x_m: 3, y_m: 0}]}\n"
+                             "robots: [{name: r, pose: {}, robot: {body: {shapes: "
+                             "[{disc_radius_m: 0.2, z_m: [0, 0.3]}]}}}]\n";
+  const Ended ended = run_rave({"check", scenario});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find(scenario + ":5:29: warning: the target (3, 0) of `r` is inside the "
+                                      "obstacle `box`\n"),
+            std::string::npos)
+      << ended.out;
+  EXPECT_NE(ended.out.find(scenario + ":4:18: warning: the change at 6 s never happens: the run "
+                                      "ends at 5 s\n"),
+            std::string::npos)
+      << ended.out;
+}
+
 TEST(Check, ARobotThatSensesNothingAroundItIsNoted) {
   const TemporaryFolder folder;
   const std::string scenario = folder.path() / "scenario.yaml";

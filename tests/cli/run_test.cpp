@@ -54,6 +54,60 @@ TEST(Run, OverridesComeBeforeTheFile) {
   EXPECT_NE(used.find("\npace: \"500x\""), std::string::npos);
 }
 
+TEST(Run, AnyKeyIsSetAndWhatRunsIsWritten) {
+  const TemporaryFolder folder;
+  const std::string output = folder.path() / "results";
+  const Ended ended = run_rave({"run", "good_scenario.yaml", "--output", output, "--no-record",
+                                "--no-picture", "--set", "duration_s=0.2", "--set",
+                                "robots.herd.robot.sensors.front_laser.params.rays=17", "--set",
+                                "robots.0.pose.x_m=0.5"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  const std::string used = content_of(output + "/scenario.yaml");
+  EXPECT_NE(used.find("\nduration_s: 0.2"), std::string::npos);
+  EXPECT_NE(used.find("rays: 91"), std::string::npos);
+  EXPECT_NE(used.find("rays: 17"), std::string::npos);
+  EXPECT_NE(used.find("x_m: 0.5"), std::string::npos);
+  const Ended wrong = run_rave({"run", "good_scenario.yaml", "--set", "robots.hert.pose=null"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("--set robots.hert.pose=null: there is no item `hert`; expected a name "
+                           "or 0 to 1; did you mean `herd`?"),
+            std::string::npos)
+      << wrong.err;
+  const Ended checked = run_rave({"check", "good_scenario.yaml", "--set", "duration_s=7"});
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  EXPECT_NE(checked.out.find(", 7 s\n"), std::string::npos) << checked.out;
+}
+
+TEST(Run, ADryRunPrintsThePlanAndStartsNothing) {
+  const TemporaryFolder folder;
+  const std::string output = folder.path() / "results";
+  const std::string change = "changes=[{at_s: 1, robot: anna, set: {body.scale: 1.2}}]";
+  const Ended ended = run_rave({"run", "good_scenario.yaml", "--output", output, "--dry-run",
+                                "--processes", "2", "--set", change});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(ended.out,
+            "scenario `small`: 2 s, step 0.01 s, seed 1, pace max\n"
+            "processes:\n"
+            "  this process: Environment Manager\n"
+            "  host `host-1`, which this process starts: 1 robot: `anna`\n"
+            "  host `host-2`, which this process starts: 2 robots: `herd-1` to `herd-2`\n"
+            "people:\n"
+            "  the rights of their roles\n"
+            "what happens:\n"
+            "  at 1 s: `anna`: body.scale = 1.2\n"
+            "  at 2 s: the run ends\n");
+  EXPECT_FALSE(fs::exists(output));
+  const Ended alone = run_rave(
+      {"run", "good_scenario.yaml", "--output", output, "--dry-run", "--set", "duration_s=none"});
+  EXPECT_NE(alone.out.find("  this process: 3 robots: `anna`, `herd-1` to `herd-2`\n"),
+            std::string::npos)
+      << alone.out;
+  EXPECT_NE(alone.out.find("  at Ctrl-C or `rave end`: the run ends\n"), std::string::npos)
+      << alone.out;
+  EXPECT_FALSE(fs::exists(output));
+  EXPECT_EQ(run_rave({"run", "unusable_driver.yaml", "--dry-run"}).exit_code, 2);
+}
+
 TEST(Run, ARobotFileIsNoScenario) {
   for (const auto& [file, kind] :
        {std::pair{"good_robot.yaml", "robot"}, std::pair{"good_world.yaml", "world"}}) {

@@ -33,10 +33,10 @@ TEST(Usage, UnknownSubcommandNamesTheNearest) {
 }
 
 TEST(Usage, UnknownOptionNamesTheNearest) {
-  const Ended ended = run_rave({"run", "small", "--sed=3"});
+  const Ended ended = run_rave({"run", "small", "--sead=3"});
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_EQ(ended.err,
-            "rave: there is no option `--sed`; did you mean `--seed`?\n"
+            "rave: there is no option `--sead`; did you mean `--seed`?\n"
             "for usage: `rave run --help`\n");
 }
 

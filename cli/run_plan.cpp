@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "rave/codec/nodes.hpp"
+#include "rave/gui_server/rights.hpp"
+
+namespace rave::cli {
+namespace {
+
+std::string join(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : ", ") + word;
+  return line;
+}
+
+class Plan {
+ public:
+  Plan(const RunCommand& options, const config::ExpandedScenario& scenario,
+       const runtime::BuiltScenario& built)
+      : options_(options), scenario_(scenario), file_(scenario.scenario), built_(built) {}
+
+  std::string text(const std::vector<config::PlannedHost>& hosts) && {
+    const std::string length =
+        file_.duration_s.is_open() ? "open end" : fmt::format("{:g} s", file_.duration_s.seconds);
+    line("scenario `{}`: {}, step {:g} s, seed {}, {}", *file_.name, length, *file_.step_s,
+         file_.seed,
+         built_.live_reason.empty() ? "pace " + to_string(file_.pace)
+                                    : "in real time (" + built_.live_reason + ")");
+    line("processes:");
+    processes(hosts);
+    line("people:");
+    people();
+    line("what happens:");
+    events();
+    return std::move(text_);
+  }
+
+ private:
+  template <class... Args>
+  void line(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+    text_ += '\n';
+  }
+
+  void processes(const std::vector<config::PlannedHost>& hosts) {
+    const std::string page = options_.gui ? " and the page" : "";
+    if (hosts.empty()) {
+      std::vector<std::size_t> all(scenario_.robots.size());
+      std::iota(all.begin(), all.end(), 0);
+      return line("  this process{}: {}", page, robots_text(all));
+    }
+    line("  this process: Environment Manager{}", page);
+    for (const config::PlannedHost& host : hosts) {
+      line("  host `{}`, {}: {}", host.name,
+           host.elsewhere ? "which you start" : "which this process starts",
+           robots_text(host.robots));
+    }
+  }
+
+  /// The name of the entry that a robot was written in.
+  [[nodiscard]] const std::string& family(std::size_t robot) const {
+    const config::RobotGroup& group = scenario_.group_of(scenario_.robots[robot]);
+    return group.part_of.empty() ? group.name.value : group.part_of;
+  }
+
+  /// Robots of one entry that follow each other are one item.
+  [[nodiscard]] std::string robots_text(const std::vector<std::size_t>& robots) const {
+    std::vector<std::string> items;
+    for (std::size_t begin = 0; begin < robots.size();) {
+      const config::ExpandedRobot& first = scenario_.robots[robots[begin]];
+      std::size_t end = begin + 1;
+      while (end < robots.size() && family(robots[end]) == family(robots[begin])) ++end;
+      const bool simulated = built_.spec.types[built_.spec.robots[robots[begin]].type].simulated;
+      const config::ExpandedRobot& last = scenario_.robots[robots[end - 1]];
+      const std::string names = end - begin == 1
+                                    ? fmt::format("`{}`", first.name)
+                                    : fmt::format("`{}` to `{}`", first.name, last.name);
+      items.push_back(names + (simulated ? "" : " (real)"));
+      begin = end;
+    }
+    return fmt::format("{} robot{}: {}", robots.size(), robots.size() == 1 ? "" : "s", join(items));
+  }
+
+  void people() {
+    if (file_.gui.rights.empty()) line("  the rights of their roles");
+    for (const config::GuiRightFile& right : file_.gui.rights) {
+      std::vector<std::string> classes;
+      for (const auto what : right.classes) classes.emplace_back(gui_server::to_string(what));
+      line("  {}: {} of {}", who(right), join(classes), reach(right));
+    }
+  }
+
+  static std::string who(const config::GuiRightFile& right) {
+    if (right.user) return fmt::format("user `{}`", right.user->value);
+    return right.role == config::GuiRole::kCommander ? "commanders" : "observers";
+  }
+
+  static std::string reach(const config::GuiRightFile& right) {
+    if (right.reach != config::GuiReach::kTeams) {
+      return std::string(gui_server::kReaches.of(right.reach)) + " robots";
+    }
+    std::vector<std::string> teams;
+    for (const auto& team : right.teams) teams.push_back(*team);
+    return "teams " + join(teams);
+  }
+
+  void events() {
+    std::vector<const config::ChangeFile*> changes;
+    for (const config::ChangeFile& change : file_.changes) changes.push_back(&change);
+    // Of equal times the order of the file is the order of the changes.
+    std::ranges::stable_sort(changes, {}, [](const auto* change) { return *change->at_s; });
+    for (const config::ChangeFile* change : changes)
+      line("  at {:g} s: {}", *change->at_s, text_of(*change));
+    if (file_.checks.capture && file_.checks.capture->end_run) {
+      line("  when `{}` catches `{}`: the run ends", *file_.checks.capture->predator,
+           *file_.checks.capture->prey);
+    }
+    if (file_.duration_s.is_open()) return line("  at Ctrl-C or `rave end`: the run ends");
+    line("  at {:g} s: the run ends", file_.duration_s.seconds);
+  }
+
+  static std::string text_of(const config::ChangeFile& change) {
+    if (!change.obstacle.empty()) return config::write_edit(change.obstacle);
+    if (change.hand_over) return fmt::format("`{}` is handed over", **change.robot);
+    std::vector<std::string> values;
+    for (std::size_t i = 0; i < change.set->size(); ++i) {
+      values.push_back(
+          fmt::format("{} = {}", change.set->key(i), codec::to_json_line(change.set->child(i))));
+    }
+    return fmt::format("`{}`: {}", **change.robot, join(values));
+  }
+
+  const RunCommand& options_;
+  const config::ExpandedScenario& scenario_;
+  const config::ScenarioFile& file_;
+  const runtime::BuiltScenario& built_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string run_plan(const RunCommand& options, const config::ExpandedScenario& scenario,
+                     const std::vector<config::PlannedHost>& hosts,
+                     const runtime::BuiltScenario& built) {
+  return Plan(options, scenario, built).text(hosts);
+}
+
+}  // namespace rave::cli

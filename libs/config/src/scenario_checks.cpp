@@ -86,9 +86,10 @@ void validate(const RobotEntry& c, CheckContext& check) {
   }
   const bool has_twin = c.twin || c.twin_robot;
   // Each twin may be a device of its own, so one file cannot stand for several.
-  if (has_twin && starts > 0 && !c.pose) {
+  if (has_twin && starts > 0 && !c.pose && !c.real) {
     check.error("twin", "`twin` needs a single robot, but `{}` stands for several", *c.name);
   }
+  if (c.real && !has_twin) check.error("real", "`real` needs `twin`, the file of the real robot");
   if (c.shadow && !has_twin) {
     check.error("shadow", "`shadow` needs `twin`, the file of the simulated robot");
   }

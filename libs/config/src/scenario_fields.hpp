@@ -128,6 +128,12 @@ void describe(V& v, RobotEntry& c) {
            .min_items = 1});
   v.field("twin_robot", c.twin_robot,
           {.doc = "Content of a robot file, in place of the file of `twin`."});
+  v.field(
+      "real", c.real,
+      {.doc = "Number of robots, the first ones, that use the drivers of `twin`; the others are "
+              "only simulated; null: each has both sets of drivers.",
+       .min = 0,
+       .max = kMaxRobots});
   v.field("hand_over", c.hand_over,
           {.doc = "Limits of a hand-over; a hand-over beyond them is refused."});
   v.field("shadow", c.shadow,

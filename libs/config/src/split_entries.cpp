@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An entry of several robots whose variables are lists becomes one entry per robot before structs
-// are read, so that nothing behind knows of lists.
+// An entry of several robots whose variables are lists, or of which some are real, becomes one
+// entry per robot before structs are read, so that nothing behind knows of lists.
 #include <fmt/format.h>
 
 #include <memory>
@@ -26,10 +26,39 @@ std::optional<RobotEntry> starts_of(const RawNode& entry) {
   for (const std::string_view key : kStarts) {
     if (const RawNode* const start = entry.find(key)) part.append(std::string(key), *start);
   }
+  for (const std::string_view key : {"twin", "real"}) {
+    if (const RawNode* const value = entry.find(key)) part.append(std::string(key), *value);
+  }
+  // In the place of its content, which may have variables.
+  if (entry.find("twin_robot") && !part.find("twin")) part.append("twin", RawNode::text("unknown"));
   Diagnostics diagnostics;
   auto read = codec::read_node<RobotEntry>(part, diagnostics);
   if (!diagnostics.ok()) return std::nullopt;
   return read;
+}
+
+/// Whether the number of real robots is possible.
+bool real_fits(const RawNode& entry, const RobotEntry& starts, Diagnostics& diagnostics) {
+  if (!starts.real) return true;
+  const SourceLocation where = entry.find("real")->where();
+  const std::size_t count = robots_of(starts);
+  if (static_cast<std::size_t>(*starts.real) > count) {
+    diagnostics.add(where, fmt::format("`real`: found {}, expected at most {}, the robots of `{}`",
+                                       *starts.real, count, *starts.name));
+    return false;
+  }
+  if (*starts.real > 0 && starts.scatter) {
+    diagnostics.add(where,
+                    "`real`: a real robot stands where it stands; expected another key than "
+                    "`scatter`");
+    return false;
+  }
+  return true;
+}
+
+bool says_real(const RawNode& entry) {
+  const RawNode* const real = entry.find("real");
+  return real != nullptr && !real->is_null();
 }
 
 bool has_lists(const RawNode& entry) {
@@ -42,16 +71,16 @@ bool has_lists(const RawNode& entry) {
 }
 
 /// Whether each list has a value for each robot.
-bool lists_fit(const RawNode& variables, const RobotEntry& starts, Diagnostics& diagnostics) {
+bool lists_fit(const RawNode* variables, const RobotEntry& starts, Diagnostics& diagnostics) {
   const std::size_t count = robots_of(starts);
   bool fit = true;
-  for (std::size_t v = 0; v < variables.size(); ++v) {
-    const RawNode& list = variables.child(v);
+  for (std::size_t v = 0; variables != nullptr && v < variables->size(); ++v) {
+    const RawNode& list = variables->child(v);
     if (!list.is_sequence() || list.size() == count) continue;
     fit = false;
     diagnostics.add(list.where(), fmt::format("the variable `{}`: found a list of {}, expected {}, "
                                               "a value for each robot of `{}`",
-                                              variables.key(v), list.size(), count, *starts.name));
+                                              variables->key(v), list.size(), count, *starts.name));
   }
   return fit;
 }
@@ -63,14 +92,33 @@ RawNode placed(RawNode value, const RawNode& from) {
   return value;
 }
 
+/// Gives a real robot the drivers of the twin first, and leaves a simulated one without a twin.
+void choose_drivers(bool real, RawNode& one) {
+  for (const auto& [first, twin] : {std::pair("file", "twin"), std::pair("robot", "twin_robot")}) {
+    const RawNode* const of_twin = one.find(twin);
+    const std::optional<RawNode> other = of_twin ? std::optional(*of_twin) : std::nullopt;
+    const RawNode* const of_first = one.find(first);
+    const std::optional<RawNode> own = of_first ? std::optional(*of_first) : std::nullopt;
+    one.erase(twin);
+    if (!real) continue;
+    one.erase(first);
+    if (other) one.append(first, *other);
+    if (own) one.append(twin, *own);
+  }
+  if (!real) one.erase("shadow");
+}
+
 RawNode entry_of_one(const RawNode& entry, const RobotEntry& starts, std::size_t i) {
   RawNode one = entry;
-  RawNode& variables = *one.find("variables");
-  for (std::size_t v = 0; v < variables.size(); ++v) {
-    if (!variables.child(v).is_sequence()) continue;
-    RawNode value = variables.child(v).child(i);
-    variables.child(v) = std::move(value);
+  if (RawNode* const variables = one.find("variables")) {
+    for (std::size_t v = 0; v < variables->size(); ++v) {
+      if (!variables->child(v).is_sequence()) continue;
+      RawNode value = variables->child(v).child(i);
+      variables->child(v) = std::move(value);
+    }
   }
+  if (starts.real) choose_drivers(i < static_cast<std::size_t>(*starts.real), one);
+  one.erase("real");
   if (robots_of(starts) == 1) return one;
   const RawNode& name = *entry.find("name");
   one.set("name", placed(RawNode::text(fmt::format("{}-{}", *starts.name, i + 1)), name));
@@ -96,8 +144,10 @@ void split_entries(RawNode& scenario, Diagnostics& diagnostics) {
   bool any = false;
   for (std::size_t e = 0; e < robots->size(); ++e) {
     const RawNode& entry = robots->child(e);
-    const auto starts = has_lists(entry) ? starts_of(entry) : std::nullopt;
-    if (!starts || !lists_fit(*entry.find("variables"), *starts, diagnostics)) {
+    const bool splits = has_lists(entry) || says_real(entry);
+    const auto starts = splits ? starts_of(entry) : std::nullopt;
+    if (!starts || !real_fits(entry, *starts, diagnostics) ||
+        !lists_fit(entry.find("variables"), *starts, diagnostics)) {
       entries.push_back(entry);
       continue;
     }

@@ -86,5 +86,31 @@ TEST(VariablesAsLists, NeedAValueForEachRobot) {
       "text");
 }
 
+TEST(RealRobots, AreTheFirstOnesAndTheOthersHaveNoTwin) {
+  const std::string plain =
+      "  - {name: w, file: ../robots/walker.yaml, twin: ../robots/walker.yaml, shadow: true,\n"
+      "     grid: {count: 3, step_m: 1}, real: ";
+  const auto expanded = split(
+      "  - {name: w, file: ../robots/walker.yaml, twin: ../robots/recorded.yaml, shadow: true,\n"
+      "     grid: {count: 3, step_m: 1}, real: 1}\n");
+  ASSERT_TRUE(expanded.has_value()) << expanded.error().text();
+  ASSERT_EQ(expanded->groups.size(), 3U);
+  EXPECT_TRUE(expanded->groups[0].file.ends_with("robots/recorded.yaml"));
+  EXPECT_TRUE(expanded->groups[0].twin->file.ends_with("robots/walker.yaml"));
+  EXPECT_TRUE(expanded->groups[0].shadow);
+  EXPECT_TRUE(expanded->groups[2].file.ends_with("robots/walker.yaml"));
+  EXPECT_FALSE(expanded->groups[2].twin || expanded->groups[2].shadow);
+  EXPECT_EQ(robots_named(*expanded, "w").size(), 3U);
+  EXPECT_EQ(split(plain + "0}\n").value().groups[0].twin, std::nullopt);
+  EXPECT_EQ(split_error(plain + "4}\n"),
+            "s.yaml:4:41: `real`: found 4, expected at most 3, the robots of `w`");
+  EXPECT_EQ(split_error("  - {name: w, file: ../robots/walker.yaml, real: 1}\n"),
+            "s.yaml:3:50: `real` needs `twin`, the file of the real robot");
+  EXPECT_EQ(split_error("  - {name: w, file: ../robots/walker.yaml, twin: ../robots/walker.yaml,\n"
+                        "     real: 1, scatter: {count: 2, x_m: [0, 1], y_m: [0, 1]}}\n")
+                .substr(0, 62),
+            "s.yaml:4:12: `real`: a real robot stands where it stands; expe");
+}
+
 }  // namespace
 }  // namespace rave::config

@@ -193,13 +193,15 @@ class EndsAfter final : public RunObserver {
   RunControl& control_;
 };
 
-/// A run of a second that is ended at 0.3 s, with these checks of a robot that stands.
-RunOutcome ended_by_hand(const std::string& checks, Json& result) {
+/// A run that is ended at 0.3 s, with these checks of a robot that stands.
+RunOutcome ended_by_hand(const std::string& checks, Json& result,
+                         const std::string& duration_s = "1") {
   Host host;
   const auto scenario = host.expand(
-      fmt::format("name: ended\nduration_s: 1\nstep_s: 0.01\npace: max\nchecks: {{{}}}\nrobots:\n"
+      fmt::format("name: ended\nduration_s: {}\nstep_s: 0.01\npace: max\npicture: {{}}\nchecks: "
+                  "{{{}}}\nrobots:\n"
                   "  - {{name: anna, pose: {{x_m: 0, y_m: 0}}, robot: {{{}, {}}}}}\n",
-                  checks, kBody, kWheels));
+                  duration_s, checks, kBody, kWheels));
   EXPECT_TRUE(scenario) << scenario.error().text();
   RunControl control;
   EndsAfter ends(30, control);
@@ -239,6 +241,15 @@ TEST(Run, AnEndByHandIsAnEndAndChecksThatHadTimeLeftHaveNotFailed) {
         std::string::npos)
         << checks.dump();
   }
+}
+
+TEST(Run, AnOpenEndHasTheHashOfTheSameStepsAndIsComplete) {
+  Json open;
+  Json planned;
+  const RunOutcome outcome = ended_by_hand("", open, "none");
+  EXPECT_TRUE(outcome.good() && outcome.problems.empty()) << outcome.summary;
+  EXPECT_NEAR(outcome.ended_by_hand_s.value_or(0), 0.3, 1e-9);
+  EXPECT_EQ(outcome.hash, ended_by_hand("", planned).hash);
 }
 
 TEST(Run, AnEndByHandHidesNoCheckThatFails) {

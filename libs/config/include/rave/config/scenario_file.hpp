@@ -90,6 +90,9 @@ struct RobotEntry {
   /// `robot`. Only if the entry is one robot.
   std::optional<Located<std::string>> twin;
   std::optional<RobotFile> twin_robot;
+  /// This many robots, the first ones, use the drivers of the twin; the others have no twin. Unset
+  /// after reading a scenario, which makes one entry of each robot then.
+  std::optional<int> real;
   HandOverFile hand_over;
   bool shadow = false;  ///< While the robot is real, its simulated twin runs in parallel.
   bool operator==(const RobotEntry&) const = default;

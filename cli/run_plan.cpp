@@ -69,19 +69,26 @@ class Plan {
     return group.part_of.empty() ? group.name.value : group.part_of;
   }
 
+  [[nodiscard]] bool is_real(std::size_t robot) const {
+    return !built_.spec.types[built_.spec.robots[robot].type].simulated;
+  }
+
   /// Robots of one entry that follow each other are one item.
   [[nodiscard]] std::string robots_text(const std::vector<std::size_t>& robots) const {
     std::vector<std::string> items;
     for (std::size_t begin = 0; begin < robots.size();) {
       const config::ExpandedRobot& first = scenario_.robots[robots[begin]];
       std::size_t end = begin + 1;
-      while (end < robots.size() && family(robots[end]) == family(robots[begin])) ++end;
-      const bool simulated = built_.spec.types[built_.spec.robots[robots[begin]].type].simulated;
+      const bool real = is_real(robots[begin]);
+      while (end < robots.size() && family(robots[end]) == family(robots[begin]) &&
+             is_real(robots[end]) == real) {
+        ++end;
+      }
       const config::ExpandedRobot& last = scenario_.robots[robots[end - 1]];
       const std::string names = end - begin == 1
                                     ? fmt::format("`{}`", first.name)
                                     : fmt::format("`{}` to `{}`", first.name, last.name);
-      items.push_back(names + (simulated ? "" : " (real)"));
+      items.push_back(names + (real ? " (real)" : ""));
       begin = end;
     }
     return fmt::format("{} robot{}: {}", robots.size(), robots.size() == 1 ? "" : "s", join(items));

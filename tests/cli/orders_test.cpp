@@ -62,7 +62,8 @@ TEST_F(Orders, AreRefusedWithASentence) {
   refused({"place", "anna", "1", "1"}, "it would overlap `post`");
   refused({"goal", "bert", "0", "0", "1", "0"}, "its program takes no paths");
   refused({"say", "bert", "hello"}, "its program takes no texts");
-  refused({"drive", "anna", "1000", "0"}, "`v`: found the number 1000, expected a number (from -100 to 100)");
+  refused({"drive", "anna", "1000", "0"},
+          "`v`: found the number 1000, expected a number (from -100 to 100)");
   EXPECT_EQ(rave({"goal", "anna"}).exit_code, 2);
   EXPECT_EQ(rave({"goal", "anna", "1"}).exit_code, 2);
   EXPECT_EQ(rave({"drive", "anna", "1"}).exit_code, 2);

@@ -108,6 +108,18 @@ TEST(Run, ADryRunPrintsThePlanAndStartsNothing) {
   EXPECT_EQ(run_rave({"run", "unusable_driver.yaml", "--dry-run"}).exit_code, 2);
 }
 
+TEST(Run, SomeRobotsOfAnEntryAreReal) {
+  const Ended ended = run_rave({"run", RAVE_SOURCE_DIR "/scenarios/corridor/hand-over.yaml",
+                                "--dry-run", "--set", "robots.create.pose=null", "--set",
+                                "robots.create.poses=[[1, 0, 0], [2, 0, 0], [3, 0, 0]]", "--set",
+                                "robots.create.real=1"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("  this process: 3 robots: `create-1` (real), `create-2` to "
+                           "`create-3`\n"),
+            std::string::npos)
+      << ended.out;
+}
+
 TEST(Run, ARobotFileIsNoScenario) {
   for (const auto& [file, kind] :
        {std::pair{"good_robot.yaml", "robot"}, std::pair{"good_world.yaml", "world"}}) {

@@ -92,7 +92,7 @@ TEST(RightsOfAScenario, ChangeTheUsualOnes) {
                         {},
                         {config::GuiClass::kPose, config::GuiClass::kReadings},
                         config::GuiReach::kTeams,
-                        {"green"}});
+                        {std::string("green")}});
   gui.rights.push_back({{},
                         codec::Located<std::string>("eve"),
                         {config::GuiClass::kStop},

@@ -14,9 +14,9 @@ namespace {
 
 /// The files that a run leaves and that people look at, in that order.
 std::string files_of(const std::filesystem::path& folder) {
-  constexpr std::array<std::string_view, 10> kFiles = {
-      "summary.txt",   "result.json", "picture.svg", "picture.png", "events.log",
-      "scenario.yaml", "console.log", "run.mcap",    "world.mcap",  "hosts"};
+  constexpr std::array<std::string_view, 11> kFiles = {
+      "summary.txt", "result.json", "picture.svg", "picture.png", "events.log", "scenario.yaml",
+      "console.log", "run.mcap",    "world.mcap",  "hosts",       "companions"};
   std::string text;
   std::error_code error;
   for (const std::string_view file : kFiles) {

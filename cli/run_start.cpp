@@ -49,4 +49,21 @@ runtime::RunOptions RunStart::run_options(const RunCommand& options, std::string
   return run;
 }
 
+Result<std::unique_ptr<launch::Companions>> start_companions(const RunCommand& options,
+                                                             config::ExpandedScenario& scenario,
+                                                             RunStart& start) {
+  const auto folder = launch::Companions::folder_of_run(start.path());
+  if (!scenario.scenario.companions.empty()) config::set_work_folder(scenario, folder);
+  return launch::Companions::start(scenario.scenario.companions,
+                                   {options.program, folder, start.console(), start.control()});
+}
+
+void end_companions(launch::Companions& companions, Result<runtime::RunOutcome>& outcome) {
+  for (std::string& problem : companions.end()) {
+    if (!outcome) return;
+    outcome->whole = false;
+    outcome->problems.push_back(std::move(problem));
+  }
+}
+
 }  // namespace rave::cli

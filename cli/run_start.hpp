@@ -9,9 +9,11 @@
 #include "commands/run.hpp"
 #include "console.hpp"
 #include "rave/base/result.hpp"
+#include "rave/config/expanded_scenario.hpp"
 #include "rave/control/run_control.hpp"
 #include "rave/control/server.hpp"
 #include "rave/host/run.hpp"
+#include "rave/launch/companions.hpp"
 #include "rave/launch/run_folder.hpp"
 
 namespace rave::cli {
@@ -47,5 +49,12 @@ class RunStart {
   runtime::RunControl& control_;
   std::unique_ptr<control::Server> server_;
 };
+
+/// Starts the companions of a run and tells its robots their folder.
+[[nodiscard]] Result<std::unique_ptr<launch::Companions>> start_companions(
+    const RunCommand& options, config::ExpandedScenario& scenario, RunStart& start);
+
+/// Ends them after the run, which is not whole if it had to end with one of them.
+void end_companions(launch::Companions& companions, Result<runtime::RunOutcome>& outcome);
 
 }  // namespace rave::cli

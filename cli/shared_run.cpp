@@ -39,7 +39,7 @@ Status make_lines(RunCommand& options, const std::filesystem::path& folder) {
 
 }  // namespace
 
-Result<int> run_shared(const RunCommand& asked, const config::ExpandedScenario& scenario,
+Result<int> run_shared(const RunCommand& asked, config::ExpandedScenario& scenario,
                        const std::vector<config::PlannedHost>& hosts) {
   RunCommand options = asked;
   const bool lines = wants_lines(options, hosts.size());
@@ -48,6 +48,7 @@ Result<int> run_shared(const RunCommand& asked, const config::ExpandedScenario& 
   RunStart& start = *opened;
   Console& console = start.console();
   runtime::RunControl& control = start.control();
+  RAVE_TRY_ASSIGN(const auto companions, start_companions(options, scenario, start));
   RAVE_TRY(lines ? make_lines(options, start.path()) : Status());
   RAVE_TRY_ASSIGN(const auto run,
                   launch::SharedRun::start(
@@ -59,8 +60,9 @@ Result<int> run_shared(const RunCommand& asked, const config::ExpandedScenario& 
   if (options.gui) {
     RAVE_TRY_ASSIGN(page, show_run(options, scenario, bus, &control, console));
   }
-  const auto outcome = run->finish();
+  auto outcome = run->finish();
   console.clear();
+  end_companions(*companions, outcome);
   if (!outcome) return tl::unexpected(outcome.error());
   const int code = report_outcome(options, *outcome, start.path(), console);
   if (page) replay_on_page(*page, options.quiet, start.path(), control);

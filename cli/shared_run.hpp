@@ -12,8 +12,7 @@ namespace rave::cli {
 /// `rave run` of a scenario with hosts: this process is the environment manager, and starts a
 /// `rave robot` for each host that is not elsewhere. Their folders lie in `hosts` of the run's own.
 /// Under the policy `restart`, a host that dies is started again. Returns the exit code.
-[[nodiscard]] Result<int> run_shared(const RunCommand& options,
-                                     const config::ExpandedScenario& scenario,
+[[nodiscard]] Result<int> run_shared(const RunCommand& options, config::ExpandedScenario& scenario,
                                      const std::vector<config::PlannedHost>& hosts);
 
 }  // namespace rave::cli

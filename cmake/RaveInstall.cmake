@@ -83,7 +83,7 @@ if(RAVE_PLUGINS)
   install(TARGETS ${RAVE_PLUGINS} LIBRARY DESTINATION ${RAVE_PLUGIN_DIR} COMPONENT runtime)
 endif()
 set(RAVE_RUNTIME_TARGETS ${RAVE_PLUGINS})
-foreach(program rave rave-program-runner rave-carmen-map)
+foreach(program rave rave-keeper rave-program-runner rave-carmen-map)
   if(TARGET ${program})
     install(TARGETS ${program} RUNTIME DESTINATION bin COMPONENT runtime)
     list(APPEND RAVE_RUNTIME_TARGETS ${program})
@@ -91,7 +91,7 @@ foreach(program rave rave-program-runner rave-carmen-map)
 endforeach()
 foreach(folder scenarios robots worlds data schemas)
   if(EXISTS "${CMAKE_SOURCE_DIR}/${folder}")
-    # scenarios/demo needs the test peers, which are not installed.
+    # scenarios/demo needs the build tree.
     install(DIRECTORY "${CMAKE_SOURCE_DIR}/${folder}" DESTINATION share/rave COMPONENT runtime
       PATTERN demo EXCLUDE)
   endif()

@@ -15,6 +15,7 @@
 #include "rave/assemble/warnings.hpp"
 #include "rave/config/any_file.hpp"
 #include "rave/drawing/drawing.hpp"
+#include "rave/launch/companions.hpp"
 #include "rave/sim/engine.hpp"
 
 namespace rave::cli {
@@ -137,6 +138,10 @@ class Checker {
       return verdict(file, to_string(*kind));
     }
     if (auto found = config::find_components(input->scenario.scenario.gui); !found) {
+      return bad(file, to_string(*kind), found.error());
+    }
+    const auto& companions = input->scenario.scenario.companions;
+    if (auto found = launch::Companions::find(companions, executable_folder() / "rave"); !found) {
       return bad(file, to_string(*kind), found.error());
     }
     if (auto started = try_start(*input, build_options); !started) {

@@ -30,11 +30,12 @@ Result<std::unique_ptr<direct_line::LineServer>> open_line(const RunCommand& opt
 }
 
 /// A run whose robots all belong to this process.
-Result<int> run_alone(const RunCommand& options, const config::ExpandedScenario& scenario) {
+Result<int> run_alone(const RunCommand& options, config::ExpandedScenario& scenario) {
   RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.plugins));
   const std::string& name = scenario.scenario.name.value;
   RAVE_TRY_ASSIGN(const auto opened, RunStart::open(options, name));
   RunStart& start = *opened;
+  RAVE_TRY_ASSIGN(const auto companions, start_companions(options, scenario, start));
   Console& console = start.console();
   runtime::RunControl& control = start.control();
   runtime::RunOptions run_options = start.run_options(options, control::own_run_name(name));
@@ -58,8 +59,9 @@ Result<int> run_alone(const RunCommand& options, const config::ExpandedScenario&
     run_options.observers.push_back(&live.observer());
   }
   RAVE_TRY_ASSIGN(const auto line, open_line(options, scenario, page.get(), start));
-  const auto outcome = runtime::run(scenario, *catalogue, run_options);
+  auto outcome = runtime::run(scenario, *catalogue, run_options);
   console.clear();
+  end_companions(*companions, outcome);
   if (outcome) {
     const int code = report_outcome(options, *outcome, start.path(), console);
     live.end("The run has ended.");
@@ -88,6 +90,7 @@ Result<int> run(const RunCommand& options) {
   RAVE_TRY_ASSIGN(auto scenario, read_scenario(options));
   if (options.gui && !options.pace) scenario.scenario.pace = config::Pace{1};
   RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));
+  RAVE_TRY(launch::Companions::find(scenario.scenario.companions, options.program));
   if (options.dry_run) return show_plan(options, scenario, hosts);
   return hosts.empty() ? run_alone(options, scenario) : run_shared(options, scenario, hosts);
 }

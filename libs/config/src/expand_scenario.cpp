@@ -33,6 +33,10 @@ class Expansion {
   Result<ExpandedScenario> run() && {
     expand_world();
     expand_gui();
+    const fs::path folder = absolute(folder_);
+    for (CompanionFile& companion : expanded_.scenario.companions) {
+      expand_companion(companion, folder);
+    }
     expand_robots();
     if (diagnostics_.ok()) check_expansion(expanded_, diagnostics_);
     if (diagnostics_.ok()) return std::move(expanded_);

@@ -153,6 +153,7 @@ void validate(const HostFile& c, CheckContext& check) { check_name("name", *c.na
 void validate(const ScenarioFile& c, CheckContext& check) {
   check_name("name", *c.name, check);
   check_unique("host", c.hosts, check);
+  check_unique("companion", c.companions, check);
   if (c.processes && !c.hosts.empty()) {
     check.error("processes", "expected `processes` or `hosts`, not both");
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "companion_fields.hpp"
 #include "gui_fields.hpp"
 #include "rave/config/scenario_file.hpp"
 #include "robot_fields.hpp"
@@ -361,6 +362,9 @@ void describe(V& v, ScenarioFile& c) {
                   "null: unknown."});
   v.field("ros2", c.ros2, {.doc = "Network on which robots with `ros2: true` are published."});
   v.field("gui", c.gui, {.doc = "Rights of users on the page."});
+  v.field("companions", c.companions,
+          {.doc = "Other programs that `rave run` starts before the hosts and ends with the run.",
+           .max_items = 100});
 }
 
 void validate(const ScenarioFile& c, CheckContext& check);

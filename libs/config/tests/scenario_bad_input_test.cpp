@@ -240,6 +240,22 @@ const FileCase kScenarios[] = {
      "name: a\nduration_s: 10\nrobots: [{name: r, file: r.yaml}]\n"
      "picture: {instant_s: 11}\n",
      "s.yaml:4:10: `instant_s`: found 11, expected at most `duration_s` (10)"},
+    {"CompanionWithoutCommand",
+     "name: a\nrobots: [{name: r, file: r.yaml}]\ncompanions:\n  - {name: m, command: []}\n",
+     "s.yaml:4:24: `command`: found a list of 0 items, expected a list of 1 to 1000 items, each "
+     "text"},
+    {"CompanionTwice",
+     "name: a\nrobots: [{name: r, file: r.yaml}]\ncompanions:\n  - {name: m, command: [x]}\n  - "
+     "{name: m, command: [y]}\n",
+     "s.yaml:5:12: two companions are named `m`; the first is at s.yaml:4:12"},
+    {"CompanionEnvironment",
+     "name: a\nrobots: [{name: r, file: r.yaml}]\ncompanions:\n  - {name: m, command: [x], "
+     "environment: {A: [1]}}\n",
+     "s.yaml:4:46: the variable `A`: found a list, expected a text or number"},
+    {"CompanionEnd",
+     "name: a\nrobots: [{name: r, file: r.yaml}]\ncompanions:\n  - {name: m, command: [x], on_end: "
+     "stop}\n",
+     "s.yaml:4:37: `on_end`: found the text \"stop\", expected one of ignore and end_run"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Config, BadScenario, testing::ValuesIn(kScenarios), name_of);

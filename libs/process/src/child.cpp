@@ -18,14 +18,29 @@ namespace {
 
 std::string reason(int error) { return std::system_category().message(error); }
 
-std::vector<std::string> environment(const std::vector<std::string>& without) {
-  std::vector<std::string> kept;
-  for (char** entry = environ; *entry != nullptr; ++entry) {
-    const std::string_view text = *entry;
-    const std::string_view name = text.substr(0, text.find('='));
-    if (std::ranges::find(without, name) == without.end()) kept.emplace_back(text);
+std::string_view name_of(std::string_view variable) {
+  return variable.substr(0, variable.find('='));
+}
+
+std::vector<std::string> environment(const ChildOptions& options) {
+  std::vector<std::string> all;
+  // The later of two with one name is the one that counts.
+  for (const std::string& added : options.variables) {
+    std::erase_if(all, [&](const auto& other) { return name_of(other) == name_of(added); });
+    all.push_back(added);
   }
-  return kept;
+  const std::size_t added = all.size();
+  const auto& without = options.without_variables;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string_view name = name_of(*entry);
+    const auto end = all.begin() + static_cast<std::ptrdiff_t>(added);
+    if (std::ranges::find(without, name) != without.end()) continue;
+    if (std::find_if(all.begin(), end, [name](const auto& a) { return name_of(a) == name; }) ==
+        end) {
+      all.emplace_back(*entry);
+    }
+  }
+  return all;
 }
 
 std::vector<char*> pointers_to(std::vector<std::string>& texts) {
@@ -85,7 +100,7 @@ class SpawnPlan {
 
   int run(const ChildOptions& options, pid_t& id) const {
     std::vector<std::string> words = options.words;
-    std::vector<std::string> variables = environment(options.without_variables);
+    std::vector<std::string> variables = environment(options);
     const std::vector<char*> argv = pointers_to(words);
     return ::posix_spawn(&id, argv[0], &files_, &attributes_, argv.data(),
                          pointers_to(variables).data());

@@ -136,5 +136,15 @@ TEST(Descriptor, ClosesWhatItOwnsOnce) {
   ::close(ends[1]);
 }
 
+TEST(Child, GetsVariablesInPlaceOfInheritedOnes) {
+  ::setenv("RAVE_TEST_COLOUR", "red", 1);
+  ChildOptions options =
+      shell("test \"$RAVE_TEST_COLOUR $RAVE_TEST_SIZE\" = \"blue 3\" && test -n \"$PATH\"");
+  options.variables = {"RAVE_TEST_COLOUR=green", "RAVE_TEST_SIZE=3", "RAVE_TEST_COLOUR=blue"};
+  auto child = Child::start(options);
+  ASSERT_TRUE(child.has_value()) << child.error().text();
+  EXPECT_EQ(child->wait(kForEver)->exit_code, 0);
+}
+
 }  // namespace
 }  // namespace rave::process

@@ -37,6 +37,7 @@ std::optional<std::string> trace_of_run(const fs::path& folder) {
   for (const std::string_view file : kRunFiles) {
     if (fs::exists(folder / file, error)) return std::string(file);
   }
+  if (fs::exists(folder / "companions", error)) return "companions";
   if (!fs::exists(folder / "hosts", error)) return std::nullopt;
   // What keeps it there says more.
   for (const auto& entry : fs::recursive_directory_iterator(folder / "hosts", error)) {
@@ -67,6 +68,8 @@ void remove_run(const fs::path& folder, std::error_code& error) {
     fs::remove(host.path(), ended);  // stays if something else is in it
   }
   fs::remove(folder / "hosts", ended);
+  // All of it is theirs.
+  fs::remove_all(folder / "companions", ended);
 }
 
 /// The expanded scenario is written as `scenario.yaml`, which is also the usual name of what people

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rave/base/result.hpp"
+#include "rave/config/companion_file.hpp"
 #include "rave/config/described.hpp"
 #include "rave/config/gui_file.hpp"
 #include "rave/config/pace.hpp"
@@ -251,6 +252,7 @@ struct ScenarioFile {
   std::optional<GeoOriginFile> geo_origin;  ///< Unset: the position on the earth is unknown.
   Ros2File ros2;
   GuiFile gui;
+  std::vector<CompanionFile> companions;
   bool operator==(const ScenarioFile&) const = default;
 };
 

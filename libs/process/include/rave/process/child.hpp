@@ -29,6 +29,7 @@ struct ChildOptions {
   bool default_signals = false;  ///< All signals have their default action and none is blocked.
   /// A process group of its own: Ctrl-C in the terminal does not reach it.
   bool own_group = false;
+  std::vector<std::string> variables;  ///< As `NAME=value`: added, in place of inherited ones.
   std::vector<std::string> without_variables;  ///< Environment variables that are removed.
 };
 

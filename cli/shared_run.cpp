@@ -5,6 +5,7 @@
 #include "rave/direct_line/key_files.hpp"
 #include "rave/launch/run_bus.hpp"
 #include "run_page.hpp"
+#include "run_people.hpp"
 #include "run_report.hpp"
 #include "run_start.hpp"
 #include "shared_run.hpp"
@@ -56,9 +57,11 @@ Result<int> run_shared(const RunCommand& asked, config::ExpandedScenario& scenar
                       {options, bus, start.path(), console, control,
                        [&console](const report::Progress& progress) { console.show(progress); }}));
   start.serve(control::own_run_name(scenario.scenario.name.value), "run", "this run");
+  RAVE_TRY_ASSIGN(const auto people, RunPeople::of(scenario, options.page));
   std::unique_ptr<gui_server::GuiServer> page;
   if (options.gui) {
     RAVE_TRY_ASSIGN(page, show_run(options, scenario, bus, &control, console));
+    RAVE_TRY(people->invite(*page));
   }
   auto outcome = run->finish();
   console.clear();

@@ -7,6 +7,7 @@
 #include "rave/gui_server/live_run.hpp"
 #include "rave/gui_server/run_lines.hpp"
 #include "rave/host/run.hpp"
+#include "run_people.hpp"
 #include "run_plan.hpp"
 #include "run_report.hpp"
 #include "run_scenario.hpp"
@@ -45,6 +46,8 @@ Result<int> run_alone(const RunCommand& options, config::ExpandedScenario& scena
     console.show(progress);
   };
   start.serve(run_options.run_name, "run", "this run");
+  PageOptions page_options = options.page;
+  RAVE_TRY_ASSIGN(const auto people, RunPeople::of(scenario, page_options));
   std::unique_ptr<gui_server::GuiServer> page;
   std::unique_ptr<plugin::Catalogue> described;
   if (options.gui) {
@@ -55,7 +58,8 @@ Result<int> run_alone(const RunCommand& options, config::ExpandedScenario& scena
       [&page](auto source) { page->show(std::move(source)); },
       find_scenario(options.scenario).value_or(""));
   if (options.gui) {
-    RAVE_TRY_ASSIGN(page, serve_page(options.page));
+    RAVE_TRY_ASSIGN(page, serve_page(page_options));
+    RAVE_TRY(people->invite(*page));
     run_options.observers.push_back(&live.observer());
   }
   RAVE_TRY_ASSIGN(const auto line, open_line(options, scenario, page.get(), start));

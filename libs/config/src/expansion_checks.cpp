@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "file_checks.hpp"
+#include "people_fields.hpp"
 #include "rave/base/names.hpp"
 #include "rave/base/time.hpp"
 
@@ -202,6 +203,7 @@ class Checks {
 
 void check_expansion(const ExpandedScenario& expanded, Diagnostics& diagnostics) {
   Checks(expanded, diagnostics).run();
+  check_people(expanded, diagnostics);
 }
 
 }  // namespace rave::config

@@ -154,6 +154,8 @@ void validate(const ScenarioFile& c, CheckContext& check) {
   check_name("name", *c.name, check);
   check_unique("host", c.hosts, check);
   check_unique("companion", c.companions, check);
+  check_unique("user", c.users, check);
+  check_unique("team", c.teams, check);
   if (c.processes && !c.hosts.empty()) {
     check.error("processes", "expected `processes` or `hosts`, not both");
   }

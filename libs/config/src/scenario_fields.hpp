@@ -3,6 +3,7 @@
 
 #include "companion_fields.hpp"
 #include "gui_fields.hpp"
+#include "people_fields.hpp"
 #include "rave/config/scenario_file.hpp"
 #include "robot_fields.hpp"
 #include "world_fields.hpp"
@@ -365,6 +366,12 @@ void describe(V& v, ScenarioFile& c) {
   v.field("companions", c.companions,
           {.doc = "Other programs that `rave run` starts before the hosts and ends with the run.",
            .max_items = 100});
+  v.field(
+      "users", c.users,
+      {.doc = "People of the run, whom `rave run --gui` gives a link each.", .max_items = 1000});
+  v.field("teams", c.teams,
+          {.doc = "Teams of robots, with who commands them; empty: those that robots name.",
+           .max_items = 1000});
 }
 
 void validate(const ScenarioFile& c, CheckContext& check);

@@ -14,6 +14,7 @@
 #include "rave/config/described.hpp"
 #include "rave/config/gui_file.hpp"
 #include "rave/config/pace.hpp"
+#include "rave/config/people_file.hpp"
 #include "rave/config/robot_file.hpp"
 #include "rave/config/run_length.hpp"
 #include "rave/config/world_file.hpp"
@@ -253,6 +254,8 @@ struct ScenarioFile {
   Ros2File ros2;
   GuiFile gui;
   std::vector<CompanionFile> companions;
+  std::vector<UserFile> users;
+  std::vector<TeamFile> teams;
   bool operator==(const ScenarioFile&) const = default;
 };
 

@@ -86,6 +86,8 @@ export async function startServer(rave, words) {
   return {
     link,
     child,
+    /** What it has printed so far. */
+    said: () => text,
     end: () => {
       child.kill('SIGTERM');
       return exited;

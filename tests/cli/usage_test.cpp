@@ -73,7 +73,7 @@ TEST(Usage, HelpIsFoundWhereItIsLookedFor) {
   EXPECT_EQ(run_rave({"help", "run"}).out, run_rave({"run", "--help"}).out);
   EXPECT_EQ(run_rave({"help", "rnu"}).err,
             "rave: there is no subcommand `rnu`; did you mean `run`?\n");
-  EXPECT_NE(run_rave({"run", "--help"}).out.find("corridor, flock, hybrid-laser"),
+  EXPECT_NE(run_rave({"run", "--help"}).out.find("corridor, figure-3, flock, hybrid-laser"),
             std::string::npos);
   EXPECT_NE(run_rave({"scenarios"}).err.find("`rave run --help` lists the scenarios"),
             std::string::npos);

@@ -37,6 +37,7 @@ class Expansion {
     for (CompanionFile& companion : expanded_.scenario.companions) {
       expand_companion(companion, folder);
     }
+    expand_script();
     expand_robots();
     if (diagnostics_.ok()) check_expansion(expanded_, diagnostics_);
     if (diagnostics_.ok()) return std::move(expanded_);
@@ -125,6 +126,12 @@ class Expansion {
     for (GuiComponentFile& component : gui.components) {
       component.module.value = absolute(beside(folder, *component.module));
     }
+  }
+
+  void expand_script() {
+    const auto& script = expanded_.scenario.script;
+    auto& source = expanded_.scenario.script_source;
+    if (script && !source) source = read(beside(folder_, **script), script->where);
   }
 
   void resolve_maps(std::vector<MapFile>& maps, const fs::path& folder) {

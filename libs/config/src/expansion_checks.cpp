@@ -35,7 +35,11 @@ class Checks {
     for (const ChangeFile& change : scenario_.changes) {
       if (change.robot) robots_exist("robot", *change.robot);
       if (change.robot && change.hand_over) twins_exist(*change.robot);
-      multiple_of_step("at_s", change.at_s);
+      if (change.at_s) multiple_of_step("at_s", *change.at_s);
+      if (change.every_s) multiple_of_step("every_s", *change.every_s);
+      multiple_of_step("delay_s", change.delay_s);
+      if (change.after) entry_exists(*change.after);
+      conducted_in_lock_step(change);
     }
     if (auto hosts = plan_hosts(expanded_); !hosts) diagnostics_.add(std::move(hosts).error());
     if (scenario_.checks.capture) {
@@ -124,6 +128,24 @@ class Checks {
     if (ns % step_ns == 0 && (ns > 0 || *time_s == 0)) return;
     report(time_s.where, "`{}`: found {}, expected a multiple of the scenario's step ({} s)", key,
            *time_s, *scenario_.step_s);
+  }
+
+  void entry_exists(const Located<std::string>& name) {
+    std::vector<std::string_view> names;
+    for (const ChangeFile& change : scenario_.changes) names.emplace_back(change.name);
+    if (std::ranges::count(names, *name) == 1) return;
+    report(name.where, "`after`: expected the `name` of one entry of `changes`, found {} `{}`{}",
+           std::ranges::count(names, *name) == 0 ? "none that is" : "several that are", *name,
+           suggestion(*name, names));
+  }
+
+  /// The hosts of a run in real time have no common step at which something could be decided.
+  void conducted_in_lock_step(const ChangeFile& change) {
+    const bool many = scenario_.processes || !scenario_.hosts.empty();
+    if (change.is_scheduled() || scenario_.clock == RunClockMode::kLockStep || !many) return;
+    const Located<std::string>* const at = change.when ? &*change.when : nullptr;
+    report(at != nullptr ? at->where : scenario_.name.where,
+           "conditions need one process or `clock: lock_step`; here hosts run in real time");
   }
 
   /// Checks that a name is a robot or an entry.

@@ -125,13 +125,40 @@ void validate(const GuiFile& c, CheckContext& check) {
   }
 }
 
+namespace {
+
+void check_trigger(const ChangeFile& c, CheckContext& check) {
+  const int triggers = int{c.at_s.has_value()} + int{c.when.has_value()} +
+                       int{c.every_s.has_value()} + int{c.after.has_value()};
+  if (triggers != 1) {
+    check.error(triggers == 0 ? "" : "at_s",
+                "expected exactly one of `at_s`, `when`, `every_s` and `after`, found {}",
+                triggers);
+    return;
+  }
+  if (c.every_s && **c.every_s <= 0) check.error("every_s", "`every_s`: expected more than 0");
+  if (*c.delay_s > 0 && !c.when && !c.after) {
+    check.error("delay_s", "`delay_s` belongs to `when` or `after`");
+  }
+  if (c.repeat && !c.when) check.error("repeat", "`repeat` belongs to `when`");
+  if (c.hand_over && !c.at_s) {
+    check.error("hand_over", "`hand_over` needs `at_s`: conditions cannot hand robots over yet");
+  }
+}
+
+}  // namespace
+
 void validate(const ChangeFile& c, CheckContext& check) {
-  const int kinds = int{c.robot || c.set || c.hand_over} + parts_of(c.obstacle);
+  check_trigger(c, check);
+  const int kinds = int{c.robot || c.set || c.hand_over} + int{c.request.has_value()} +
+                    int{c.end.has_value()} + parts_of(c.obstacle) +
+                    int{c.mark.has_value() && !c.end};
   // One kind per entry, since the order of entries is the order of the changes.
   if (kinds != 1) {
     check.error("",
                 "expected exactly one change per entry, found {}: `robot` with `set` or "
-                "`hand_over`, `add_obstacle`, `move_obstacle` or `remove_obstacle`",
+                "`hand_over`, `add_obstacle`, `move_obstacle`, `remove_obstacle`, `request`, "
+                "`mark` or `end`",
                 kinds);
     return;
   }

@@ -7,6 +7,7 @@
 #include "order_checks.hpp"
 #include "rave/math/scalar.hpp"
 #include "spec_checks.hpp"
+#include "truth_look.hpp"
 #include "world_authority_impl.hpp"
 
 namespace rave::sim {
@@ -32,6 +33,25 @@ void WorldAuthority::Impl::make_changes(WorldStep& world) {
     const Status status = change_body(scheduled.robot, scheduled.changes, Author::kRun, world);
     if (status) continue;
     refuse(scheduled.robot, status.error());
+  }
+  conduct(world);
+}
+
+/// What conditions and scripts decide comes last, so that hosts can tell it from the rest.
+void WorldAuthority::Impl::conduct(WorldStep& world) {
+  if (!spec.conductor) return;
+  world.last = spec.conductor->ended();
+  if (world.last) return;
+  conducted.clear();
+  spec.conductor->decide(TruthLook(truth, step), conducted);
+  for (const std::string& text : conducted.notes) {
+    events.push_back(
+        noted_input(step, RobotId(), EventKind::kScenario, text, Author::kRun, hash));
+  }
+  for (WorldInput& input : conducted.inputs) {
+    Status status = input.is<request::Order>() ? check_order(spec, input) : Status();
+    if (status) status = do_input(input, world);
+    if (!status) refuse(input.robot, status.error());
   }
 }
 

@@ -21,6 +21,7 @@ AuthorityState WorldAuthority::state(bool with_obstacles) const {
   if (with_obstacles) state.obstacles = authority.history.changes();
   state.refused_count = authority.refused_count;
   state.refused = authority.refused;
+  if (authority.spec.conductor) state.conductor = authority.spec.conductor->state();
   // Hosts receive the contacts and pins of the last step and keep them, so that the results
   // outlive this process.
   std::ranges::copy_if(authority.done_events, std::back_inserter(state.done), [](const Event& e) {
@@ -34,6 +35,7 @@ Status WorldAuthority::resume(const WorldStep& world, const AuthorityState& stat
   RAVE_TRY(check_taken_over(authority.spec, world, state, true));
   // All that is checked above; from here on the old state is gone.
   authority.begin();
+  if (authority.spec.conductor) RAVE_TRY(authority.spec.conductor->resume(state.conductor));
   for (const ResizedRobot& resized : state.scales) {
     RAVE_TRY(authority.truth.put_scale(resized.robot, resized.scale));
   }

@@ -18,7 +18,7 @@ namespace {
 /// How old a real sample may be when it is fused.
 constexpr Duration kHybridHistory{1'000'000'000};
 
-constexpr WordTable<EventKind, 28> kEventWords = {{
+constexpr WordTable<EventKind, 29> kEventWords = {{
     {"contact", EventKind::kContact},
     {"pinned", EventKind::kPinned},
     {"pose stale", EventKind::kPoseStale},
@@ -47,6 +47,7 @@ constexpr WordTable<EventKind, 28> kEventWords = {{
     {"pose refused", EventKind::kPoseRefused},
     {"sensor restarted", EventKind::kSensorRestarted},
     {"disarmed", EventKind::kDisarmed},
+    {"scenario", EventKind::kScenario},
 }};
 
 Status check_pose_source(const RobotType& type, const std::string& robot) {
@@ -217,6 +218,7 @@ void Engine::Impl::set_initial_state() {
   events.clear();
   input_log.clear();
   inputs.begin();
+  if (spec.conductor && !host) spec.conductor->begin();
   hand_overs.begin();
   world_age = {};
   orders.clear();
@@ -251,6 +253,7 @@ Result<std::unique_ptr<Engine>> Engine::create(EngineSpec spec) {
 void Engine::Impl::begin_step() {
   now = step_time(step);
   inputs.make_scheduled(step);
+  conduct();
   if (!hand_overs.empty()) hand_overs.advance(step);
   input_log.begin_step(events);
   forget_past();

@@ -89,6 +89,9 @@ struct Engine::Impl final : private HandOvers::Site {
   Status step_alone();
   /// A step begins: its time, what is asked of it.
   void begin_step();
+  void conduct();
+  [[nodiscard]] Status make_input(const WorldInput& input);
+  void hold(const WorldInput& input);
   /// Samples of a step may change what the past looked like.
   void forget_past();
   /// What each host does for its robots in a step: sense, radio, decide, act.
@@ -293,6 +296,7 @@ struct Engine::Impl final : private HandOvers::Site {
   OrderBook orders{spec, roster, input_log};
   HandOvers hand_overs;
   RunInputs inputs;
+  Conducted conducted;                        ///< In the step that began last.
   std::unique_ptr<FusionWorld> fusion_world;  ///< Null without hybrid sensors.
 };
 

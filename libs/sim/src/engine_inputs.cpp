@@ -9,6 +9,7 @@
 #include "rave/base/check.hpp"
 #include "rave/math/scalar.hpp"
 #include "spec_checks.hpp"
+#include "truth_look.hpp"
 
 namespace rave::sim {
 
@@ -71,6 +72,45 @@ void Engine::Impl::drivers_restored(RobotId robot) {
   truth.set_reality(robot, type.simulated, spec.robots[robot.value()].X_WR);
   body_changed(robot);
   if (host) host->set_type(robot, type);
+}
+
+/// What conditions and scripts decide. With several hosts the authority asks them.
+void Engine::Impl::conduct() {
+  if (!spec.conductor || spec.conductor->ended()) return;
+  conducted.clear();
+  spec.conductor->decide(TruthLook(truth, step), conducted);
+  for (std::string& text : conducted.notes) {
+    input_log.note(step, RobotId(), EventKind::kScenario, std::move(text), Author::kRun);
+  }
+  for (const WorldInput& input : conducted.inputs) {
+    const Status status = make_input(input);
+    if (status) continue;
+    input_log.note(step, input.robot, EventKind::kChangeRefused, status.error().text(),
+                   Author::kRun);
+  }
+}
+
+/// Of an engine that is alone.
+Status Engine::Impl::make_input(const WorldInput& input) {
+  if (input.is_hold()) {
+    hold(input);
+    return {};
+  }
+  if (const auto* const obstacle = input.as<ObstacleChange>()) {
+    RAVE_TRY(inputs.change_obstacle(step, *obstacle, input.author));
+    return {};
+  }
+  if (const auto* const change = input.as<Change>()) {
+    return inputs.change(step, input.robot, change->changes, input.author);
+  }
+  RAVE_TRY(sim::check_order(spec, input));
+  return order(input);
+}
+
+void Engine::Impl::hold(const WorldInput& input) {
+  if (input.is<request::Stop>()) return inputs.stop(step, input.robot, input.author);
+  if (input.is<request::Release>()) return inputs.release(step, input.robot, input.author);
+  inputs.arm(step, input.robot, input.author);
 }
 
 Status Engine::Impl::order(const WorldInput& input) {

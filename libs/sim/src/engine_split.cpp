@@ -210,8 +210,13 @@ Status Engine::Impl::make_changes(const WorldStep& world) {
     RAVE_TRY(inputs.resize(resized));
   }
   put_obstacles(world.obstacles);
-  for (const WorldInput& input : world.inputs) do_input(input);
+  // As in one process: what people asked for, what the scenario has for this step, and then what
+  // its conditions have decided, which is last in the list.
+  const auto decided = std::ranges::find_if(
+      world.inputs, [](const WorldInput& input) { return !input.author.by_hand; });
+  std::for_each(world.inputs.begin(), decided, [this](const auto& input) { do_input(input); });
   inputs.make_scheduled_here(step);
+  std::for_each(decided, world.inputs.end(), [this](const auto& input) { do_input(input); });
   return {};
 }
 
@@ -223,9 +228,7 @@ void Engine::Impl::put_obstacles(std::span<const ObstacleChange> changes) {
 }
 
 void Engine::Impl::do_input(const WorldInput& input) {
-  if (input.is<request::Stop>()) return inputs.stop(step, input.robot, input.author);
-  if (input.is<request::Release>()) return inputs.release(step, input.robot, input.author);
-  if (input.is<request::Arm>()) return inputs.arm(step, input.robot, input.author);
+  if (input.is_hold()) return hold(input);
   // The authority has done these.
   if (input.is<ObstacleChange>() || input.is<request::Place>()) return;
   if (input.robot.valid() && !roster.is_local(input.robot)) return;
@@ -233,9 +236,14 @@ void Engine::Impl::do_input(const WorldInput& input) {
   const Status status = change != nullptr
                             ? inputs.change(step, input.robot, change->changes, input.author)
                             : order(input);
+  if (status) return;
+  if (!input.author.by_hand) {
+    return input_log.note(step, input.robot, EventKind::kChangeRefused, status.error().text(),
+                          Author::kRun);
+  }
   // The authority has accepted the request for all, and only this host knows that it cannot be
   // done. The refusal reaches the authority with the next report.
-  if (!status) host->refusals.push_back({input.sequence, status.error().text()});
+  host->refusals.push_back({input.sequence, status.error().text()});
 }
 
 void Engine::Impl::adopt(const WorldStep& world) {

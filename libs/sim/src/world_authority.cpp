@@ -66,6 +66,7 @@ void WorldAuthority::Impl::begin() {
   refusals.clear();
   refused_count = 0;
   refused.clear();
+  if (spec.conductor) spec.conductor->begin();
 }
 
 Status WorldAuthority::Impl::check(const HostReport& report) const {

@@ -29,6 +29,7 @@ struct WorldAuthority::Impl {
   Status change_obstacle(const ObstacleChange& change, const Author& author, WorldStep& world);
   Status place(const WorldInput& input, const request::Place& there);
   void make_obstacle_changes(WorldStep& world);
+  void conduct(WorldStep& world);
   void refuse(RobotId robot, const Error& why);
   void take_over_obstacles(WorldStep& world);
   void close_obstacles();
@@ -50,6 +51,7 @@ struct WorldAuthority::Impl {
   std::vector<Event> done_events;
   RunHash done_hash;
   std::vector<WorldInput> asked;  ///< For the next step.
+  Conducted conducted;            ///< In the step that was made last.
   std::uint64_t inputs = 0;
   std::size_t next_change = 0;
   std::size_t next_obstacle = 0;               ///< Of spec.obstacle_changes.

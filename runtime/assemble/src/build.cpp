@@ -7,6 +7,7 @@
 #include "check_sensors.hpp"
 #include "guards.hpp"
 #include "places.hpp"
+#include "scenario_conductor.hpp"
 #include "rave/assemble/devices.hpp"
 #include "rave/assemble/obstacles.hpp"
 #include "rave/assemble/twins.hpp"
@@ -225,6 +226,7 @@ Result<BuiltScenario> build(const config::ExpandedScenario& scenario, plugin::Ca
   RAVE_TRY(add_changes(scenario, spec));
   RAVE_TRY(add_hand_overs(scenario, spec));
   RAVE_TRY(add_obstacle_changes(scenario, spec));
+  RAVE_TRY(add_conductor(scenario, spec));
   spec.local = options.local;
   // The pointers are cleared last, because all checks above look at the function tables to tell
   // real from virtual drivers.

@@ -50,12 +50,12 @@ Result<std::optional<sim::GuardSpec>> guard_spec(const config::RobotGroup& group
 Status add_changes(const config::ExpandedScenario& scenario, sim::EngineSpec& spec) {
   const double step_s = scenario.scenario.step_s.value;
   for (const config::ChangeFile& file : scenario.scenario.changes) {
-    if (!file.robot || !file.set) continue;
+    if (!file.is_scheduled() || !file.robot || !file.set) continue;
     for (const std::size_t r : config::robots_named(scenario, file.robot->value)) {
       sim::ScheduledChange change;
       // `at_s` is a multiple of the step, as the expansion has checked; rounding removes the error
       // of the division.
-      change.step = static_cast<std::uint64_t>(std::llround(file.at_s.value / step_s));
+      change.step = static_cast<std::uint64_t>(std::llround(**file.at_s / step_s));
       change.robot = RobotId(static_cast<std::uint32_t>(r));
       for (std::size_t i = 0; i < file.set->size(); ++i) {
         // The values are read now, so a mistake is reported before the run begins and not when the

@@ -101,20 +101,21 @@ Status add_obstacle_changes(const config::ExpandedScenario& scenario, sim::Engin
     if (added) names.emplace_back(*added->name);
   }
   for (const config::ChangeFile& file : scenario.scenario.changes) {
-    if (file.robot) continue;
+    if (!file.changes_obstacle()) continue;
     const codec::Located<std::string>& name = file.obstacle.name();
     if (std::find(names.begin(), names.end(), *name) == names.end()) {
       return fail_at(name.where, ErrorCode::kNotFound, "there is no obstacle `{}`{}", *name,
                      suggestion(*name, names));
     }
     sim::ScheduledObstacle scheduled;
-    scheduled.step =
-        static_cast<std::uint64_t>(std::llround(file.at_s.value / scenario.scenario.step_s.value));
     RAVE_TRY_ASSIGN(scheduled.change, change_of(file.obstacle));
     // The same check as for requests of a run in progress, so a scenario cannot contain what a
     // request may not ask.
     const Status checked = sim::check_obstacle_change(scheduled.change);
     if (!checked) return fail_at(name.where, checked.error().code, "{}", checked.error().message);
+    if (!file.is_scheduled()) continue;
+    scheduled.step =
+        static_cast<std::uint64_t>(std::llround(**file.at_s / scenario.scenario.step_s.value));
     spec.obstacle_changes.push_back(std::move(scheduled));
   }
   std::stable_sort(spec.obstacle_changes.begin(), spec.obstacle_changes.end(),

@@ -214,7 +214,7 @@ Status add_hand_overs(const config::ExpandedScenario& scenario, sim::EngineSpec&
         return fail_at(file.robot->where, ErrorCode::kInvalidArgument, "`hand_over`: {}",
                        set.error().message);
       }
-      const auto step = static_cast<std::uint64_t>(std::llround(file.at_s.value / step_s));
+      const auto step = static_cast<std::uint64_t>(std::llround(**file.at_s / step_s));
       spec.hand_overs.push_back({step, robot, *set});
     }
   }

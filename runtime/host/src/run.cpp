@@ -19,7 +19,11 @@ class LoneExchange final : public WorldExchange {
   Result<bool> await_turn() override {
     const auto& capture = run_.observers.results().capture;
     run_.step = run_.engine.steps_done();
-    if (run_.step >= run_.steps || (capture && capture->ends_run())) return false;
+    const auto& conductor = run_.engine.spec().conductor;
+    if (run_.step >= run_.steps || (capture && capture->ends_run()) ||
+        (conductor && conductor->ended())) {
+      return false;
+    }
     run_.stopped = !wait();
     return !run_.stopped;
   }

@@ -214,6 +214,9 @@ RunFacts end_run(RunSession& run) {
     }
   }
   if (!record_problem.empty()) run.problems.push_back(record_problem);
+  if (const auto& conductor = run.engine.spec().conductor; conductor) {
+    if (auto failure = conductor->failure()) run.problems.push_back(*std::move(failure));
+  }
   RunFacts facts = gather(run.observers.results(), run.engine);
   facts.first_step = run.first;
   facts.events = run.events;

@@ -137,6 +137,14 @@ Status WorldMessage::fill_authority(const sim::AuthorityState& authority) {
     put_text(refused_[i].text, event.text);
   }
   borrow(message_.authority.refused, refused_);
+  if (authority.conductor.size() > rave_wire_kMaxConductorState) {
+    return fail(ErrorCode::kInvalidArgument,
+                "the conditions of the scenario keep {} bytes; at most {} can be told",
+                authority.conductor.size(), rave_wire_kMaxConductorState);
+  }
+  const auto* const first = reinterpret_cast<const std::uint8_t*>(authority.conductor.data());
+  conductor_.assign(first, first + authority.conductor.size());
+  borrow(message_.authority.conductor, conductor_);
   return {};
 }
 
@@ -168,7 +176,8 @@ namespace {
 
 /// Whether an event may concern no robot.
 bool concerns_world(sim::EventKind kind) noexcept {
-  return sim::is_of_obstacle(kind) || kind == sim::EventKind::kChangeRefused;
+  return sim::is_of_obstacle(kind) || kind == sim::EventKind::kChangeRefused ||
+         kind == sim::EventKind::kScenario;
 }
 
 template <class Sequence>
@@ -223,6 +232,8 @@ Status read_authority(const rave_wire_AuthorityState& message, std::uint64_t ste
     authority.refused.push_back({refused.step, RobotId(refused.robot),
                                  sim::EventKind::kChangeRefused, BodyId(), refused.text, 0});
   }
+  const auto conductor = std::as_bytes(elements(message.conductor));
+  authority.conductor.assign(conductor.begin(), conductor.end());
   return read_obstacles(message.obstacles, authority.obstacles);
 }
 

@@ -250,6 +250,9 @@ void SharedResults::learn(const world::WorldModel& world) {
 void SharedResults::at_end(const sim::WorldAuthority& authority) {
   impl_->spec.world = authority.world();
   impl_->facts.has_world = true;
+  if (const auto& conductor = authority.spec().conductor) {
+    if (auto failure = conductor->failure()) impl_->facts.problems.push_back(*std::move(failure));
+  }
   if (impl_->capture) {
     // The step that the last world began was not completed by any host.
     if (impl_->begun) impl_->capture->forget_last_look();

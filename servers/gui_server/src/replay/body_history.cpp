@@ -66,7 +66,7 @@ Comings comings_of(const record::McapReader& reader, const config::ExpandedScena
     const auto& added = change.obstacle.add_obstacle;
     if (!added) continue;
     comings[added->name.value].push_back(
-        {change.at_s.value, BodyJson::parse(body_json(0, *added))});
+        {change.at_s ? **change.at_s : 0, BodyJson::parse(body_json(0, *added))});
   }
   add_asked(reader, scenario.scenario.step_s.value, comings);
   for (auto& [name, looks] : comings) {

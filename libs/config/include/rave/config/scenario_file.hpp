@@ -152,17 +152,37 @@ struct ChecksFile {
   bool operator==(const ChecksFile&) const = default;
 };
 
-/// A change during the run. It is part of the run, as if the programs had known it. Set are either
-/// `robot` with `set` or `hand_over`, or exactly one of the others.
+/// How a run ends that its scenario ends.
+enum class RunVerdict : std::uint8_t { kSuccess, kFailure };
+
+/// Something that happens in a run. It is part of the run, as if the programs had known it. Exactly
+/// one of `at_s`, `when`, `every_s` and `after` is set. Of what happens, either `robot` with `set`
+/// or `hand_over` is set, or exactly one of the others.
 struct ChangeFile {
-  Located<double> at_s = 0.0;  ///< A multiple of the step.
+  std::string name;                     ///< For `after` and for people; empty: none.
+  std::optional<Located<double>> at_s;  ///< A multiple of the step.
+  /// An expression in Lua: the entry happens when it begins to hold.
+  std::optional<Located<std::string>> when;
+  std::optional<Located<double>> every_s;  ///< Again and again, first after this time.
+  std::optional<Located<std::string>> after;  ///< Name of another entry, after which it happens.
+  Located<double> delay_s = 0.0;  ///< With `when` and `after`: so much later. Whole steps.
+  bool repeat = false;            ///< With `when`: each time that it begins to hold.
+  std::optional<RawNode> request;  ///< Of a person, such as `{do: goal, robot: r1, point: [1, 2]}`.
+  std::optional<std::string> mark;  ///< A text in the events of the run.
+  std::optional<RunVerdict> end;    ///< Ends the run.
   /// A robot, or an entry of `robots:` with several.
   std::optional<Located<std::string>> robot;
   std::optional<RawNode> set;  ///< A mapping from keys such as `program.speed_mps` to values.
   std::optional<HandOverTo> hand_over;
   ObstacleEdit obstacle;  ///< Its keys are those of this entry.
   bool operator==(const ChangeFile&) const = default;
+
+  /// Whether the entry is made at a time by who has the robot or the obstacle; conditions are asked
+  /// for all others.
+  [[nodiscard]] bool is_scheduled() const { return at_s && !request && !mark && !end; }
+  [[nodiscard]] bool changes_obstacle() const { return obstacle != ObstacleEdit(); }
 };
+
 
 /// `picture:` of a scenario.
 struct PictureFile {
@@ -248,6 +268,9 @@ struct ScenarioFile {
   double max_missed_pct = 1;
   std::vector<RobotEntry> robots;
   std::vector<ChangeFile> changes;
+  /// A Lua file with on_start() and on_step(); in an expanded scenario its name, for messages.
+  std::optional<Located<std::string>> script;
+  std::optional<std::string> script_source;  ///< The text of that file, or written here.
   ChecksFile checks;
   std::optional<PictureFile> picture;
   std::optional<GeoOriginFile> geo_origin;  ///< Unset: the position on the earth is unknown.

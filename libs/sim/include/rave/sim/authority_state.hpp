@@ -31,6 +31,7 @@ struct AuthorityState {
   /// EventKind::kChangeRefused, in order.
   std::uint64_t refused_count = 0;
   std::vector<Event> refused;
+  std::vector<std::byte> conductor;  ///< Conductor::state() after that step; empty: there is none.
   /// Contacts and pins of the completed step before that of the world. Hosts use them if the
   /// authority is lost; another authority does not need them.
   std::vector<Event> done;

@@ -20,6 +20,7 @@
 #include "rave/robot/processing.hpp"
 #include "rave/robot/program.hpp"
 #include "rave/robot/sample_queue.hpp"
+#include "rave/sim/conductor.hpp"
 #include "rave/sim/driver_spec.hpp"
 #include "rave/sim/guard.hpp"
 #include "rave/sim/hand_over.hpp"
@@ -214,6 +215,8 @@ struct EngineSpec {
   std::vector<ScheduledObstacle> obstacle_changes;
   /// Hand-overs that are part of the run, by step.
   std::vector<ScheduledHandOver> hand_overs;
+  /// What happens on conditions; null: nothing. One of several hosts never asks it.
+  std::shared_ptr<Conductor> conductor;
   /// Not owned; outlives the engine.
   LogSink* log = nullptr;
   /// If set, phase_times() measures the phases. Never affects results.

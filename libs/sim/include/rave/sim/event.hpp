@@ -39,9 +39,10 @@ enum class EventKind : std::uint32_t {
   kPoseRefused = 38,      ///< A reported pose is not believed: the robot cannot be there.
   kSensorRestarted = 39,  ///< Samples of a sensor do not continue those before.
   kDisarmed = 40,         ///< The same of a real robot that drives by it: it has to be armed again.
+  kScenario = 41,         ///< Something that the scenario notes: a condition, a mark, an error.
 };
 /// All kinds are below this number; to_string() of one that does not exist is "unknown".
-inline constexpr std::uint32_t kEventKindEnd = static_cast<std::uint32_t>(EventKind::kDisarmed) + 1;
+inline constexpr std::uint32_t kEventKindEnd = static_cast<std::uint32_t>(EventKind::kScenario) + 1;
 [[nodiscard]] std::string_view to_string(EventKind kind) noexcept;
 
 /// Whether events of this kind concern an obstacle instead of a robot.

@@ -75,6 +75,7 @@ class WorldMessage {
   std::vector<rave_wire_ResizedRobot> scales_;
   std::vector<rave_wire_NotedEvent> events_;
   std::vector<rave_wire_RefusedChange> refused_;
+  std::vector<std::uint8_t> conductor_;
   std::vector<std::uint32_t> pinned_;
   std::vector<std::uint64_t> hosts_;
   InputParts inputs_;

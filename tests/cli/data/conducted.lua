@@ -1,0 +1,16 @@
+-- SPDX-License-Identifier: Apache-2.0
+memory.draws = 0
+
+function on_start()
+  mark("the script begins with " .. #robots() .. " robots")
+end
+
+function on_step(t)
+  memory.draws = memory.draws + random()
+  if happened("halfway") > 0 and not memory.told then
+    memory.told = true
+    set{robot = "crowd-2", key = "body.scale", value = 1.1}
+    text{robot = "leader", text = "go on"}
+    edit{move_obstacle = {name = "dock", x_m = 2.6, y_m = 2.5}}
+  end
+end

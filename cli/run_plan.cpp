@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -120,10 +121,14 @@ class Plan {
   void events() {
     std::vector<const config::ChangeFile*> changes;
     for (const config::ChangeFile& change : file_.changes) changes.push_back(&change);
-    // Of equal times the order of the file is the order of the changes.
-    std::ranges::stable_sort(changes, {}, [](const auto* change) { return *change->at_s; });
-    for (const config::ChangeFile* change : changes)
-      line("  at {:g} s: {}", *change->at_s, text_of(*change));
+    // Of equal times the order of the file is the order of the changes; conditions come last.
+    std::ranges::stable_sort(changes, {}, [](const auto* change) {
+      return change->at_s ? **change->at_s : HUGE_VAL;
+    });
+    for (const config::ChangeFile* change : changes) {
+      line("  {}: {}", trigger_of(*change), text_of(*change));
+    }
+    if (file_.script) line("  each step: `{}`", **file_.script);
     if (file_.checks.capture && file_.checks.capture->end_run) {
       line("  when `{}` catches `{}`: the run ends", *file_.checks.capture->predator,
            *file_.checks.capture->prey);
@@ -132,7 +137,22 @@ class Plan {
     line("  at {:g} s: the run ends", file_.duration_s.seconds);
   }
 
+  static std::string trigger_of(const config::ChangeFile& change) {
+    if (change.at_s) return fmt::format("at {:g} s", **change.at_s);
+    if (change.every_s) return fmt::format("every {:g} s", **change.every_s);
+    const std::string later =
+        *change.delay_s > 0 ? fmt::format(", {:g} s later", *change.delay_s) : "";
+    if (change.after) return fmt::format("after `{}`{}", **change.after, later);
+    return fmt::format("{} {}{}", change.repeat ? "each time that" : "when", **change.when, later);
+  }
+
   static std::string text_of(const config::ChangeFile& change) {
+    if (change.end) {
+      return fmt::format("the run ends as a {}",
+                         *change.end == config::RunVerdict::kSuccess ? "success" : "failure");
+    }
+    if (change.mark) return fmt::format("mark \"{}\"", *change.mark);
+    if (change.request) return codec::to_json_line(*change.request);
     if (!change.obstacle.empty()) return config::write_edit(change.obstacle);
     if (change.hand_over) return fmt::format("`{}` is handed over", **change.robot);
     std::vector<std::string> values;

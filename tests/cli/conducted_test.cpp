@@ -96,10 +96,10 @@ TEST_F(Conducted, AFailureIsTheEndOfTheRun) {
 TEST_F(Conducted, MistakesHaveTheirPlace) {
   const auto refused = [this](const char* found, const char* put, const char* why) {
     const Ended ended = run_rave({"check", changed(found, put)});
-    EXPECT_EQ(ended.exit_code, 1) << put << ended.out;
+    EXPECT_EQ(ended.exit_code, 2) << put << ended.out;
     EXPECT_NE((ended.out + ended.err).find(why), std::string::npos) << ended.out << ended.err;
   };
-  refused("when: x(\"leader\") > -1", "when: x(\"leader\" > -1", "scenario.yaml:26:");
+  refused("when: x(\"leader\") > -1", "when: x(\"leader\" > -1", "scenario.yaml:25:27");
   refused("after: arrived", "after: arived", "did you mean `arrived`");
   refused("robot: leader, point", "robot: lader, point", "did you mean `leader`");
   refused("body.scale: 0.9", "body.scal: 0.9", "body.scal");

@@ -72,9 +72,9 @@ class Warnings {
   void changes() {
     const double end_s = scenario_.scenario.duration_s;
     for (const config::ChangeFile& change : scenario_.scenario.changes) {
-      if (*change.at_s < end_s) continue;
-      warn(change.at_s.where, "the change at {:g} s never happens: the run ends at {:g} s",
-           *change.at_s, end_s);
+      if (!change.at_s || **change.at_s < end_s) continue;
+      warn(change.at_s->where, "the change at {:g} s never happens: the run ends at {:g} s",
+           **change.at_s, end_s);
     }
   }
 

@@ -129,6 +129,7 @@ Status SteppedRun::make_step() {
   }
   const auto begin = Clock::now();
   RAVE_TRY(authority_->step(reports, world_));
+  tell_of_the_scenario();
   const auto now = Clock::now();
   resolved_.ns[static_cast<std::size_t>(sim::Phase::kResolve)] +=
       std::chrono::duration_cast<std::chrono::nanoseconds>(now - begin).count();
@@ -145,6 +146,16 @@ Status SteppedRun::make_step() {
   for (HostSlot& slot : slots_) slot.reported = false;
   ++step_;
   return {};
+}
+
+/// What conditions and scripts note: no host knows of it.
+void SteppedRun::tell_of_the_scenario() {
+  if (!authority_->spec().conductor) return;
+  for (const sim::Event& event : authority_->events()) {
+    if (event.kind == sim::EventKind::kScenario && !event.text.empty()) {
+      log(LogLevel::kInfo, "{}", event.text);
+    }
+  }
 }
 
 Clock::time_point SteppedRun::due_of(std::uint64_t step) const {

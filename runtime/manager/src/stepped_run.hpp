@@ -51,6 +51,7 @@ class SteppedRun final : ManagerRun {
   Status leave_alone(const bus::HostReport& message);
   Status take_over();
   Status make_step();
+  void tell_of_the_scenario();
   [[nodiscard]] std::chrono::steady_clock::time_point due_of(std::uint64_t step) const;
   void wait_for_turn();
   void hold();

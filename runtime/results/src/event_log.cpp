@@ -29,6 +29,7 @@ LogLevel level_of(sim::EventKind kind) {
     case sim::EventKind::kSaid:
     case sim::EventKind::kPlaced:
     case sim::EventKind::kLease:
+    case sim::EventKind::kScenario:
       return LogLevel::kInfo;
     // Also a kind of event that is added later is a warning, so it is not overlooked.
     default:

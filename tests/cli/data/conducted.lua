@@ -10,7 +10,7 @@ function on_step(t)
   if happened("halfway") > 0 and not memory.told then
     memory.told = true
     set{robot = "crowd-2", key = "body.scale", value = 1.1}
-    text{robot = "leader", text = "go on"}
-    edit{move_obstacle = {name = "dock", x_m = 2.6, y_m = 2.5}}
+    cancel{robot = "crowd-3"}
+    edit{move_obstacle = {name = "dock", x_m = 5, y_m = 5}}
   end
 end

@@ -180,7 +180,7 @@ struct ChangeFile {
   /// Whether the entry is made at a time by who has the robot or the obstacle; conditions are asked
   /// for all others.
   [[nodiscard]] bool is_scheduled() const { return at_s && !request && !mark && !end; }
-  [[nodiscard]] bool changes_obstacle() const { return obstacle != ObstacleEdit(); }
+  [[nodiscard]] bool changes_obstacle() const { return !obstacle.empty(); }
 };
 
 

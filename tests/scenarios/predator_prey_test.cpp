@@ -44,7 +44,7 @@ TEST_F(PredatorPrey, TheSameEachTimeAndForAnyNumberOfThreads) {
     scenario.scenario.threads = threads;
     EXPECT_EQ(run(scenario).hash, one) << threads;
   }
-  scenario.scenario.changes[0].at_s.value += 0.01;
+  scenario.scenario.changes[0].at_s->value += 0.01;
   EXPECT_NE(run(scenario).hash, one);
 }
 

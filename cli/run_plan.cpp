@@ -122,9 +122,8 @@ class Plan {
     std::vector<const config::ChangeFile*> changes;
     for (const config::ChangeFile& change : file_.changes) changes.push_back(&change);
     // Of equal times the order of the file is the order of the changes; conditions come last.
-    std::ranges::stable_sort(changes, {}, [](const auto* change) {
-      return change->at_s ? **change->at_s : HUGE_VAL;
-    });
+    std::ranges::stable_sort(
+        changes, {}, [](const auto* change) { return change->at_s ? **change->at_s : HUGE_VAL; });
     for (const config::ChangeFile* change : changes) {
       line("  {}: {}", trigger_of(*change), text_of(*change));
     }

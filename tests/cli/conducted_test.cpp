@@ -26,8 +26,8 @@ class Conducted : public Hosts {
     return copy / "scenario.yaml";
   }
   [[nodiscard]] Ended alone(const std::string& scenario, const Words& more = {}) const {
-    Words words = {"run",   scenario,     "--output", folder("alone"), "--processes", "1", "--pace",
-                   "max",   "--no-picture"};
+    Words words = {"run", scenario, "--output", folder("alone"), "--processes",
+                   "1",   "--pace", "max",      "--no-picture"};
     words.insert(words.end(), more.begin(), more.end());
     return run_rave(words);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "change_fields.hpp"
 #include "companion_fields.hpp"
 #include "gui_fields.hpp"
 #include "people_fields.hpp"
@@ -34,11 +35,6 @@ struct rave::codec::Codec<rave::config::RunLength> {
 };
 
 namespace rave::config {
-
-/// A time of a run.
-constexpr FieldOptions instant_s(std::string_view doc) {
-  return {.doc = doc, .min = 0, .max = 1e9, .unit = "s"};
-}
 
 template <class V>
 void describe(V& v, ScatterFile& c) {
@@ -78,12 +74,6 @@ void describe(V& v, RingFile& c) {
   v.field("facing", c.facing,
           {.doc = "Direction of each robot: away from the centre, towards it, or along the ring "
                   "(counter-clockwise)."});
-}
-
-constexpr auto enum_names(EnumTag<HandOverTo> /*tag*/) {
-  return std::array{EnumName{HandOverTo::kReal, "real"},
-                    EnumName{HandOverTo::kSimulated, "simulated"},
-                    EnumName{HandOverTo::kFirst, "first"}, EnumName{HandOverTo::kTwin, "twin"}};
 }
 
 template <class V>
@@ -198,36 +188,6 @@ void describe(V& v, CaptureCheckFile& c) {
           instant_s("Time limit of the capture, after which the check fails; null: no limit."));
   v.field("end_run", c.end_run, {.doc = "Whether the run ends with the first capture."});
 }
-
-constexpr auto enum_names(EnumTag<RunVerdict> /*tag*/) {
-  return std::array{EnumName{RunVerdict::kSuccess, "success"},
-                    EnumName{RunVerdict::kFailure, "failure"}};
-}
-
-template <class V>
-void describe(V& v, ChangeFile& c) {
-  v.field("name", c.name, {.doc = "Name, for `after` and for people."});
-  v.field("at_s", c.at_s, instant_s("Time of the change, a multiple of the step."));
-  v.field("when", c.when, {.doc = "Lua expression: happens when it begins to hold."});
-  v.field("every_s", c.every_s, instant_s("Happens again and again, first after this time."));
-  v.field("after", c.after, {.doc = "Happens after the entry with this name."});
-  v.field("delay_s", c.delay_s, instant_s("With `when` and `after`: happens so much later."));
-  v.field("repeat", c.repeat, {.doc = "With `when`: each time that it begins to hold."});
-  v.field("robot", c.robot, {.doc = "Robot, or entry of robots, that changes."});
-  v.field("set", c.set,
-          {.doc = "New values by key: program.PARAM, controller.NAME.PARAM, "
-                  "actuator.NAME.PARAM, body.scale."});
-  v.field("hand_over", c.hand_over,
-          {.doc = "Hands the robot over to other drivers: real, simulated, first (those of `file`) "
-                  "or twin."});
-  describe_edit(v, c.obstacle);
-  v.field("request", c.request,
-          {.doc = "What a person could ask, such as {do: goal, robot: r1, point: [1, 2]}."});
-  v.field("mark", c.mark, {.doc = "Text for the events of the run."});
-  v.field("end", c.end, {.doc = "Ends the run: success or failure."});
-}
-
-void validate(const ChangeFile& c, CheckContext& check);
 
 template <class V>
 void describe(V& v, ChecksFile& c) {
@@ -367,8 +327,9 @@ void describe(V& v, ScenarioFile& c) {
              {.doc = "Robots, at least one entry.",
               .min_items = 1,
               .max_items = static_cast<std::size_t>(kMaxRobots)});
-  v.field("changes", c.changes,
-          {.doc = "What happens during the run, at a time or on a condition.", .max_items = 100'000});
+  v.field(
+      "changes", c.changes,
+      {.doc = "What happens during the run, at a time or on a condition.", .max_items = 100'000});
   v.field("script", c.script,
           {.doc = "Lua 5.4 file with on_start() and on_step(), which conducts the run."});
   v.field("script_source", c.script_source, {.doc = "Text of the script, instead of its file."});

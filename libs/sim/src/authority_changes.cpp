@@ -45,12 +45,10 @@ void WorldAuthority::Impl::conduct(WorldStep& world) {
   conducted.clear();
   spec.conductor->decide(TruthLook(truth, step), conducted);
   for (const std::string& text : conducted.notes) {
-    events.push_back(
-        noted_input(step, RobotId(), EventKind::kScenario, text, Author::kRun, hash));
+    events.push_back(noted_input(step, RobotId(), EventKind::kScenario, text, Author::kRun, hash));
   }
   for (WorldInput& input : conducted.inputs) {
-    Status status = input.is<request::Order>() ? check_order(spec, input) : Status();
-    if (status) status = do_input(input, world);
+    const Status status = check_and_do(input, world);
     if (!status) refuse(input.robot, status.error());
   }
 }
@@ -109,11 +107,15 @@ void WorldAuthority::Impl::take_inputs(WorldStep& world) {
       WorldInput input = given;
       input.sequence = ++inputs;
       world.answers.push_back({report->host, given.sequence, inputs});
-      Status status = input.is<request::Order>() ? check_order(spec, input) : Status();
-      if (status) status = do_input(input, world);
+      const Status status = check_and_do(input, world);
       if (!status) world.refusals.push_back({inputs, status.error().text()});
     }
   }
+}
+
+Status WorldAuthority::Impl::check_and_do(WorldInput& input, WorldStep& world) {
+  Status status = input.is<request::Order>() ? check_order(spec, input) : Status();
+  return status ? do_input(input, world) : status;
 }
 
 Status WorldAuthority::Impl::do_input(WorldInput& input, WorldStep& world) {

@@ -23,6 +23,7 @@ struct WorldAuthority::Impl {
   void put_refusal_texts(std::uint64_t in_step);
   void make_changes(WorldStep& world);
   void take_inputs(WorldStep& world);
+  Status check_and_do(WorldInput& input, WorldStep& world);
   Status do_input(WorldInput& input, WorldStep& world);
   Status change_body(RobotId robot, std::span<const ParameterChange> changes, const Author& author,
                      WorldStep& world);

@@ -7,7 +7,6 @@
 #include "check_sensors.hpp"
 #include "guards.hpp"
 #include "places.hpp"
-#include "scenario_conductor.hpp"
 #include "rave/assemble/devices.hpp"
 #include "rave/assemble/obstacles.hpp"
 #include "rave/assemble/twins.hpp"
@@ -16,6 +15,7 @@
 #include "rave/math/transform.hpp"
 #include "rave/plugin/keep_loaded.hpp"
 #include "rave/sim/virtual_sensor.hpp"
+#include "scenario_conductor.hpp"
 #include "sees_others.hpp"
 
 namespace rave::runtime {

@@ -28,7 +28,7 @@ struct Entry {
   std::optional<std::uint64_t> at_step;
   std::uint64_t every_steps = 0;
   std::uint64_t delay_steps = 0;
-  std::optional<std::size_t> after;  ///< Index of the entry.
+  std::optional<std::size_t> after;      ///< Index of the entry.
   std::optional<std::size_t> condition;  ///< Of the script.
   bool repeat = false;
   std::vector<sim::WorldInput> inputs;
@@ -38,11 +38,11 @@ struct Entry {
 
 /// What an entry remembers.
 struct Past {
-  std::int64_t times = 0;      ///< How often it has happened.
+  std::int64_t times = 0;       ///< How often it has happened.
   std::int64_t after_seen = 0;  ///< Of these times of the entry before, it knows.
-  std::int64_t due = -1;       ///< The step in which it will happen; -1: none.
-  bool holds = false;          ///< The condition held in the last step.
-  bool broken = false;         ///< The condition failed, and is not asked again.
+  std::int64_t due = -1;        ///< The step in which it will happen; -1: none.
+  bool holds = false;           ///< The condition held in the last step.
+  bool broken = false;          ///< The condition failed, and is not asked again.
 };
 
 /// The parts of a scenario that names of robots stand in.
@@ -113,17 +113,18 @@ class ScenarioConductor final : public sim::Conductor {
 
 Status ScenarioConductor::open(const config::ScenarioFile& file, const sim::EngineSpec& spec) {
   const std::string name = file.script ? **file.script : "script_source";
-  RAVE_TRY_ASSIGN(script_, script::Script::load(file.script_source.value_or(""), name, functions()));
+  RAVE_TRY_ASSIGN(script_,
+                  script::Script::load(file.script_source.value_or(""), name, functions()));
   first_memory_ = script_->memory();
   for (const ChangeFile& change : file.changes) {
     // Errors of the change itself are at its place, as far as that is known.
     const Status added = add(change, file.changes, spec);
     if (added) continue;
     Error error = added.error();
-    const SourceLocation at = change.request  ? change.request->where()
-                              : change.when   ? change.when->where
-                              : change.robot  ? change.robot->where
-                                              : SourceLocation();
+    const SourceLocation at = change.request ? change.request->where()
+                              : change.when  ? change.when->where
+                              : change.robot ? change.robot->where
+                                             : SourceLocation();
     if (error.where.file.empty()) error.where = at;
     return tl::unexpected(std::move(error));
   }
@@ -166,11 +167,10 @@ std::vector<script::Provided> ScenarioConductor::functions() {
   all.push_back({"happened", [this](Arguments arguments) { return happened(arguments); }});
   all.push_back({"mark", [this](Arguments arguments) { return mark(arguments); }});
   all.push_back({"finish", [this](Arguments arguments) { return finish(arguments); }});
-  for (const std::string_view action :
-       {"stop", "release", "arm", "set", "edit", "drive", "goal", "path", "cancel", "text", "place"}) {
-    all.push_back({std::string(action), [this, action](Arguments arguments) {
-                     return act(action, arguments);
-                   }});
+  for (const std::string_view action : {"stop", "release", "arm", "set", "edit", "drive", "goal",
+                                        "path", "cancel", "text", "place"}) {
+    all.push_back({std::string(action),
+                   [this, action](Arguments arguments) { return act(action, arguments); }});
   }
   return all;
 }
@@ -267,8 +267,8 @@ bool ScenarioConductor::begins_to_hold(const Entry& entry, Past& past) {
   if (!value) {
     past.broken = true;
     // Without its place: a recording, which has the scenario in another file, says the same.
-    note(fmt::format("{}: {}; the condition is not asked again", entry.name,
-                     value.error().message));
+    note(
+        fmt::format("{}: {}; the condition is not asked again", entry.name, value.error().message));
     return false;
   }
   const bool held = std::exchange(past.holds, value->holds());
@@ -365,9 +365,9 @@ Status ScenarioConductor::resume(std::span<const std::byte> state) {
 
 Status add_conductor(const config::ExpandedScenario& scenario, sim::EngineSpec& spec) {
   const config::ScenarioFile& file = scenario.scenario;
-  const bool conducts = file.script_source || std::ranges::any_of(file.changes, [](const auto& one) {
-                          return !one.is_scheduled();
-                        });
+  const bool conducts =
+      file.script_source ||
+      std::ranges::any_of(file.changes, [](const auto& one) { return !one.is_scheduled(); });
   if (!conducts) return {};
   auto conductor = std::make_shared<ScenarioConductor>(scenario);
   RAVE_TRY(conductor->open(file, spec));

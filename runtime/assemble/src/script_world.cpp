@@ -53,8 +53,7 @@ Result<RobotId> ScriptWorld::robot(Arguments arguments) const {
                 arguments.empty() ? "nothing" : script::kind_text(arguments.front()));
   }
   if (const auto found = ids_.find(*name); found != ids_.end()) return found->second;
-  return fail(ErrorCode::kNotFound, "there is no robot `{}`{}", *name,
-              nearest(*name));
+  return fail(ErrorCode::kNotFound, "there is no robot `{}`{}", *name, nearest(*name));
 }
 
 script::Provided ScriptWorld::of_pose(std::string name, double (*part)(const Pose2&)) {
@@ -97,15 +96,12 @@ std::vector<script::Provided> ScriptWorld::functions() {
       of_pose("x", [](const Pose2& pose) { return pose.x; }),
       of_pose("y", [](const Pose2& pose) { return pose.y; }),
       of_pose("yaw_deg", [](const Pose2& pose) { return rad_to_deg(pose.yaw); }),
-      of_robot("speed", [](const sim::WorldLook& world, RobotId id) {
-        return Value(world.speed_mps(id));
-      }),
-      of_robot("present", [](const sim::WorldLook& world, RobotId id) {
-        return Value(world.pose(id).has_value());
-      }),
-      of_robot("touches", [](const sim::WorldLook& world, RobotId id) {
-        return Value(world.touches(id));
-      })};
+      of_robot("speed",
+               [](const sim::WorldLook& world, RobotId id) { return Value(world.speed_mps(id)); }),
+      of_robot("present", [](const sim::WorldLook& world,
+                             RobotId id) { return Value(world.pose(id).has_value()); }),
+      of_robot("touches",
+               [](const sim::WorldLook& world, RobotId id) { return Value(world.touches(id)); })};
   all.push_back({"distance", [this](Arguments arguments) { return distance(arguments); }});
   all.push_back({"time", [this](Arguments) -> Result<Value> {
                    RAVE_TRY(check_world());

@@ -17,11 +17,11 @@
 
 namespace rave::runtime {
 
-/// The functions with which conditions and scripts look at the world: `time()`, `x(NAME)`, `y(NAME)`,
-/// `yaw_deg(NAME)`, `speed(NAME)`, `present(NAME)`, `touches(NAME)`, `distance(A, B)`, `robots()`,
-/// `random()`. A name is that of a robot or of an obstacle; a place is a name or `{x, y}`. Numbers
-/// are in metres, degrees, seconds and the world frame. Of a robot that is not in the world, and
-/// of an obstacle that is gone, they give nothing (nil), and no condition on it holds.
+/// The functions with which conditions and scripts look at the world: `time()`, `x(NAME)`,
+/// `y(NAME)`, `yaw_deg(NAME)`, `speed(NAME)`, `present(NAME)`, `touches(NAME)`, `distance(A, B)`,
+/// `robots()`, `random()`. A name is that of a robot or of an obstacle; a place is a name or `{x,
+/// y}`. Numbers are in metres, degrees, seconds and the world frame. Of a robot that is not in the
+/// world, and of an obstacle that is gone, they give nothing (nil), and no condition on it holds.
 class ScriptWorld {
  public:
   ScriptWorld(std::vector<std::string> robots, std::uint64_t seed);
@@ -42,8 +42,9 @@ class ScriptWorld {
   [[nodiscard]] Result<std::optional<Pose2>> place(const script::Value& value) const;
   [[nodiscard]] Result<RobotId> robot(Arguments arguments) const;
   [[nodiscard]] script::Provided of_pose(std::string name, double (*part)(const Pose2&));
-  [[nodiscard]] script::Provided of_robot(
-      std::string name, script::Value (*part)(const sim::WorldLook& world, RobotId robot));
+  [[nodiscard]] script::Provided of_robot(std::string name,
+                                          script::Value (*part)(const sim::WorldLook& world,
+                                                                RobotId robot));
   [[nodiscard]] Result<script::Value> distance(Arguments arguments) const;
   [[nodiscard]] script::Value random();
   [[nodiscard]] std::string nearest(std::string_view name) const;

@@ -163,10 +163,10 @@ struct ChangeFile {
   std::optional<Located<double>> at_s;  ///< A multiple of the step.
   /// An expression in Lua: the entry happens when it begins to hold.
   std::optional<Located<std::string>> when;
-  std::optional<Located<double>> every_s;  ///< Again and again, first after this time.
+  std::optional<Located<double>> every_s;     ///< Again and again, first after this time.
   std::optional<Located<std::string>> after;  ///< Name of another entry, after which it happens.
-  Located<double> delay_s = 0.0;  ///< With `when` and `after`: so much later. Whole steps.
-  bool repeat = false;            ///< With `when`: each time that it begins to hold.
+  Located<double> delay_s = 0.0;   ///< With `when` and `after`: so much later. Whole steps.
+  bool repeat = false;             ///< With `when`: each time that it begins to hold.
   std::optional<RawNode> request;  ///< Of a person, such as `{do: goal, robot: r1, point: [1, 2]}`.
   std::optional<std::string> mark;  ///< A text in the events of the run.
   std::optional<RunVerdict> end;    ///< Ends the run.
@@ -182,7 +182,6 @@ struct ChangeFile {
   [[nodiscard]] bool is_scheduled() const { return at_s && !request && !mark && !end; }
   [[nodiscard]] bool changes_obstacle() const { return !obstacle.empty(); }
 };
-
 
 /// `picture:` of a scenario.
 struct PictureFile {

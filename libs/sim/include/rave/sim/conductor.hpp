@@ -51,8 +51,8 @@ struct Conducted {
 };
 
 /// Decides, once a step, what happens in a run because of what has happened: the conditions and
-/// scripts of its scenario. Whoever has the whole world asks it: an engine that is alone, or the
-/// authority. The same world gives the same decisions, in any process.
+/// scripts of its scenario. An engine that is alone asks it, or the authority of several
+/// hosts. The same world gives the same decisions, in any process.
 class Conductor {
  public:
   virtual ~Conductor() = default;

@@ -123,6 +123,16 @@ TEST_F(CompanionsTest, EndAfterCtrlCInOneProcessAndInThree) {
     fs::remove_all(output_);
     const pid_t process = start(words(scenario(family()), more));
     for (const pid_t id : ids()) EXPECT_TRUE(runs(id)) << id;
+    // A run whose hosts have not come yet is not complete.
+    for (const char* const host : {"host-1", "host-2"}) {
+      const std::string here = fmt::format("host `{}` is here", host);
+      wait_until(
+          [&] {
+            return more.empty() || content_of(output_ + ".log").find(here) != std::string::npos ||
+                   content_of(output_ + "/console.log").find(here) != std::string::npos;
+          },
+          here);
+    }
     ::kill(process, SIGINT);
     EXPECT_EQ(wait_for(process), 0) << content_of(output_ + ".log");
     expect_all_gone();

@@ -101,6 +101,8 @@ TEST_F(Conducted, MistakesHaveTheirPlace) {
   };
   refused("when: x(\"leader\") > -1", "when: x(\"leader\" > -1", "scenario.yaml:25:27");
   refused("after: arrived", "after: arived", "did you mean `arrived`");
+  refused("name: halfway, when: x(\"leader\") > -1 and t > 1", "name: halfway, after: slow",
+          "`slow` waits for itself");
   refused("robot: leader, point", "robot: lader, point", "did you mean `leader`");
   refused("body.scale: 0.9", "body.scal: 0.9", "body.scal");
   refused("every_s: 1", "every_s: 1, at_s: 1", "exactly one of `at_s`");

@@ -39,6 +39,7 @@ class Checks {
       if (change.every_s) multiple_of_step("every_s", *change.every_s);
       multiple_of_step("delay_s", change.delay_s);
       if (change.after) entry_exists(*change.after);
+      if (change.after) not_after_itself(change);
       conducted_in_lock_step(change);
     }
     if (auto hosts = plan_hosts(expanded_); !hosts) diagnostics_.add(std::move(hosts).error());
@@ -137,6 +138,18 @@ class Checks {
     report(name.where, "`after`: expected the `name` of one entry of `changes`, found {} `{}`{}",
            std::ranges::count(names, *name) == 0 ? "none that is" : "several that are", *name,
            suggestion(*name, names));
+  }
+
+  void not_after_itself(const ChangeFile& change) {
+    const ChangeFile* before = &change;
+    for (std::size_t steps = 0; before->after && steps <= scenario_.changes.size(); ++steps) {
+      const auto next = std::ranges::find(scenario_.changes, **before->after, &ChangeFile::name);
+      if (next == scenario_.changes.end()) return;
+      before = &*next;
+    }
+    if (!before->after) return;
+    report(change.after->where, "`after`: `{}` waits for itself, so it never happens",
+           **change.after);
   }
 
   /// The hosts of a run in real time have no common step at which something could be decided.

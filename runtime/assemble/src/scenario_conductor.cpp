@@ -129,6 +129,13 @@ Status ScenarioConductor::open(const config::ScenarioFile& file, const sim::Engi
     return tl::unexpected(std::move(error));
   }
   pasts_.resize(entries_.size());
+  // Each step tells it to all hosts. The script may fill its memory later.
+  if (state().size() + script::Limits().memory_bytes > kMostState) {
+    return fail(ErrorCode::kInvalidArgument,
+                "{} entries of `changes` are more than a scenario with conditions or a script can "
+                "have",
+                entries_.size());
+  }
   return {};
 }
 
@@ -287,11 +294,13 @@ void ScenarioConductor::call(const char* hook, Arguments arguments) {
   if (hooks_broken_ || ended() || !script_->defines(hook)) return;
   // All that a hook asks for is done, or nothing of it.
   const std::size_t inputs = conducted_->inputs.size();
+  const std::size_t notes = conducted_->notes.size();
   acting_ = true;
   const auto result = script_->call(hook, arguments);
   acting_ = false;
   if (result) return;
   conducted_->inputs.resize(inputs);
+  conducted_->notes.resize(notes);
   verdict_.reset();
   hooks_broken_ = true;
   note(fmt::format("{}; the script is not called again", result.error().text()));

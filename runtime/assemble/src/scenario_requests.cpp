@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "rave/assemble/input_action.hpp"
 #include "rave/assemble/obstacles.hpp"
 #include "rave/assemble/parameter_key.hpp"
 #include "rave/codec/diagnostics.hpp"
@@ -73,6 +74,14 @@ Result<sim::WorldInput> edit_input(const config::ObstacleEdit& edit) {
 
 }  // namespace
 
+std::optional<sim::WorldInput::Action> input_action(const request::Action& action) {
+  if (auto order = request::order_of(action)) return *std::move(order);
+  if (const auto* const stop = std::get_if<request::Stop>(&action)) return *stop;
+  if (const auto* const release = std::get_if<request::Release>(&action)) return *release;
+  if (const auto* const arm = std::get_if<request::Arm>(&action)) return *arm;
+  return std::nullopt;
+}
+
 Result<std::vector<RobotId>> meant_robots(const config::ExpandedScenario& scenario,
                                           std::string_view name) {
   std::vector<RobotId> robots;
@@ -103,17 +112,12 @@ Result<std::vector<sim::WorldInput>> inputs_of(const config::ExpandedScenario& s
     RAVE_TRY(add_set(scenario, spec, request.robot, node, inputs));
     return inputs;
   }
-  sim::WorldInput input{0, request::Stop(), sim::Author::kRun, RobotId()};
-  if (auto order = request::order_of(request.action)) {
-    input.action = *std::move(order);
-  } else if (request.is<request::Release>()) {
-    input.action = request::Release();
-  } else if (request.is<request::Arm>()) {
-    input.action = request::Arm();
-  } else if (!request.is<request::Stop>()) {
+  auto action = input_action(request.action);
+  if (!action) {
     return fail(ErrorCode::kInvalidArgument, "`{}` is for people; a scenario cannot ask for it",
                 request::name_of(request.action));
   }
+  sim::WorldInput input{0, *std::move(action), sim::Author::kRun, RobotId()};
   if (request.robot.empty()) {
     if (request::needs_robot(request.action)) {
       return fail(ErrorCode::kInvalidArgument, "`{}` needs a robot",

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "rave/assemble/input_action.hpp"
 #include "rave/assemble/parameter_key.hpp"
 #include "rave/base/number.hpp"
 #include "rave/control/obstacle_edits.hpp"
@@ -140,16 +141,12 @@ Result<sim::WorldInput> input_for(const sim::EngineSpec& spec, const request::Re
     return fail(ErrorCode::kInvalidArgument, "`{}` needs a robot",
                 request::name_of(request.action));
   }
-  if (auto order = request::order_of(request.action)) {
-    input.action = *std::move(order);
-  } else if (request.is<request::Release>()) {
-    input.action = request::Release();
-  } else if (request.is<request::Arm>()) {
-    input.action = request::Arm();
-  } else if (!request.is<request::Stop>()) {
+  auto action = input_action(request.action);
+  if (!action) {
     return fail(ErrorCode::kInvalidArgument, "`{}` is not an order",
                 request::name_of(request.action));
   }
+  input.action = *std::move(action);
   return input;
 }
 

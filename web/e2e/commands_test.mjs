@@ -17,7 +17,7 @@ import {
   sendByClick,
   slotOf,
 } from './commander.mjs';
-import {clickAt, dragThrough} from './hands.mjs';
+import {clickAt, dragThrough, touch} from './hands.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
 rmSync(folder, {recursive: true, force: true});
@@ -52,6 +52,7 @@ try {
 
     await check(`${what}: the page may command`, async () => {
       await page.goto(server.link);
+      await touch(page);
       await until(page, `${app}?.model?.robots?.length === 3 && ${newest} !== null`);
       await until(page, `${app}.model.may('command')`);
     });

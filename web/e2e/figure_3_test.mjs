@@ -8,6 +8,7 @@ import {join} from 'node:path';
 import {launch, startServer} from './browser.mjs';
 import {app, check, report, showFailures, until, untilHere} from './checks.mjs';
 import {choose, near, newest, slotOf} from './commander.mjs';
+import {touch} from './hands.mjs';
 import {Wire} from './rights/wire.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
@@ -45,6 +46,7 @@ async function person(name) {
   showFailures(page, join(folder, `failure-${name}.png`));
   await page.goto(linkOf(name));
   await page.getByRole('button', {name: 'Join'}).click();
+  await touch(page);
   await until(page, `${app}?.model?.robots?.length === 3 && ${newest} != null`);
   const cookie = (await context.cookies()).map((kept) => `${kept.name}=${kept.value}`).join('; ');
   const heard = (text) => texts.filter((line) => line.includes(text));

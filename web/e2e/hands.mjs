@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a person does with mouse, finger, pen and gamepad, for tests of the page.
+import {until} from './checks.mjs';
 
 const kWorld =
   "(document.querySelector('rave-world') ?? document.querySelector('rave-app').renderRoot.querySelector('rave-world'))";
@@ -29,6 +30,16 @@ export async function freePlace(page, clear_m = 0.6) {
     }
     throw new Error('no free place');
   })()`);
+}
+
+/** A first click, on nothing. A page that was opened just before its hosts loads itself anew, but not
+ * once a person has touched it: what comes after this is not lost in such a load. */
+export async function touch(page) {
+  await page.locator('rave-app .brand').first().click();
+  await until(
+    page,
+    "performance.timeOrigin >= Number(sessionStorage.getItem('rave.reloaded') ?? 0)",
+  );
 }
 
 export async function clickAt(page, x, y, options = {}) {

@@ -45,7 +45,7 @@ TEST_F(Conducted, WhatTheScenarioSaysHappensAndEndsTheRun) {
   for (const char* const what :
        {"the script begins with 9 robots", "goal 3.00, -3.00", "halfway", "stop", "release",
         "a second has passed", "the leader has arrived", "the run ends: success: all is done",
-        "body.scale", "gate", "dock", "crowd-1 touches something"}) {
+        "body.scale", "crowd to bob", "gate", "dock", "crowd-1 touches something"}) {
     EXPECT_NE(all.find(what), std::string::npos) << what << "\n" << all;
   }
   // A condition that fails says so once, and the run goes on.

@@ -20,9 +20,10 @@ class PacedRun : public ::testing::Test {
     static_cast<void>(wait_for(process_));
   }
 
-  void start(const std::string& scenario, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> words = {"run",    scenario,   "--output",   output(),
-                                      "--pace", "realtime", "--duration", "100000"};
+  void start(const std::string& scenario, const std::vector<std::string>& more = {},
+             const std::string& pace = "realtime") {
+    std::vector<std::string> words = {"run",    scenario, "--output",   output(),
+                                      "--pace", pace,     "--duration", "100000"};
     words.insert(words.end(), more.begin(), more.end());
     process_ = start_rave(words, {setting_});
     ASSERT_GT(process_, 0);

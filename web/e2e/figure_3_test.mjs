@@ -5,10 +5,10 @@
 import assert from 'node:assert/strict';
 import {mkdirSync, readdirSync, readFileSync, rmSync} from 'node:fs';
 import {join} from 'node:path';
-import {launch, startServer} from './browser.mjs';
-import {app, check, report, showFailures, until, untilHere} from './checks.mjs';
+import {startServer} from './browser.mjs';
+import {app, check, report, until, untilHere} from './checks.mjs';
 import {choose, near, newest, slotOf} from './commander.mjs';
-import {touch} from './hands.mjs';
+import {goal, invited, linkIn} from './invited.mjs';
 import {Wire} from './rights/wire.mjs';
 
 const [rave, scenario, folder] = process.argv.slice(2);
@@ -30,35 +30,13 @@ const server = await startServer(rave, [
 const {origin} = new URL(server.link);
 const browsers = [];
 
-const linkOf = (name) => new RegExp(`^${name} +(\\S+)`, 'm').exec(server.said())?.[1];
+const linkOf = (name) => linkIn(server.said(), name);
 
-/** Somebody with a browser of their own, who follows the link of the terminal, and every text that
- * the server sent them. */
 async function person(name) {
-  const browser = await launch();
-  browsers.push(browser);
-  const context = await browser.newContext({viewport: {width: 1400, height: 900}});
-  const page = await context.newPage();
-  const texts = [];
-  page.on('websocket', (socket) =>
-    socket.on('framereceived', ({payload}) => typeof payload === 'string' && texts.push(payload)),
-  );
-  showFailures(page, join(folder, `failure-${name}.png`));
-  await page.goto(linkOf(name));
-  await page.getByRole('button', {name: 'Join'}).click();
-  await touch(page);
-  await until(page, `${app}?.model?.robots?.length === 3 && ${newest} != null`);
-  const cookie = (await context.cookies()).map((kept) => `${kept.name}=${kept.value}`).join('; ');
-  const heard = (text) => texts.filter((line) => line.includes(text));
-  return {name, page, heard, cookie, chat: page.locator('rave-chat')};
+  const one = await invited(server, name, 3, join(folder, `failure-${name}.png`));
+  browsers.push(one.browser);
+  return {...one, chat: one.page.locator('rave-chat')};
 }
-
-/** Sends a robot to a place in the way of a page: the answer of who has it. */
-const goal = ({page}, slot, point) =>
-  page.evaluate(
-    ([to, at]) => document.querySelector('rave-app').commands.goal([to], [at]),
-    [slot, point],
-  );
 
 /** All files of the run that are text, as one. */
 const textOf = (where) =>

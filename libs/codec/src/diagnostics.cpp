@@ -9,6 +9,11 @@
 namespace rave::codec {
 
 void Diagnostics::add(Error error) {
+  // A file that many entries name is read for each of them.
+  const auto is_same = [&](const Error& other) {
+    return other.where.text() == error.where.text() && other.message == error.message;
+  };
+  if (!error.where.file.empty() && std::ranges::any_of(errors_, is_same)) return;
   if (errors_.size() < kMaxErrors) errors_.push_back(std::move(error));
 }
 

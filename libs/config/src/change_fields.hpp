@@ -42,6 +42,7 @@ void describe(V& v, ChangeFile& c) {
   describe_edit(v, c.obstacle);
   v.field("request", c.request,
           {.doc = "What a person could ask, such as {do: goal, robot: r1, point: [1, 2]}."});
+  v.field("give", c.give, {.doc = "Gives a team to another commander: {team: red, to: anna}."});
   v.field("mark", c.mark, {.doc = "Text for the events of the run."});
   v.field("end", c.end, {.doc = "Ends the run: success or failure."});
 }

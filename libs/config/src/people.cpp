@@ -66,6 +66,11 @@ class PeopleChecks {
     if (!cycles()) return;
     for (const TeamFile& team : scenario_.teams) check_team(team);
     for (const UserFile& user : scenario_.users) check_user(user);
+    for (const ChangeFile& change : scenario_.changes) {
+      if (!change.give) continue;
+      team_exists("team", change.give->team);
+      check_commander("to", change.give->to);
+    }
     robots();
   }
 
@@ -102,15 +107,17 @@ class PeopleChecks {
 
   void check_team(const TeamFile& team) {
     if (team.leader) check_leader(team, *team.leader);
-    if (!team.commander) return;
-    const Located<std::string>& name = *team.commander;
+    if (team.commander) check_commander("commander", *team.commander);
+  }
+
+  void check_commander(std::string_view key, const Located<std::string>& name) {
     const auto user =
         std::ranges::find_if(scenario_.users, [&](const UserFile& u) { return *u.name == *name; });
     if (user == scenario_.users.end()) {
-      report(name.where, "`commander`: there is no user `{}`{}", *name,
+      report(name.where, "`{}`: there is no user `{}`{}", key, *name,
              suggestion(*name, names_of(scenario_.users)));
     } else if (user->role == UserRole::kObserver) {
-      report(name.where, "`commander`: the user `{}` is an observer; expected `role: commander`",
+      report(name.where, "`{}`: the user `{}` is an observer; expected `role: commander`", key,
              *name);
     }
   }
@@ -158,17 +165,22 @@ class PeopleChecks {
   Diagnostics& diagnostics_;
 };
 
-/// The teams of a user; empty: all.
-std::optional<std::set<std::string, std::less<>>> teams_of(const UserFile& user,
-                                                           const ExpandedScenario& expanded) {
-  const TeamTree tree(expanded.scenario.teams);
+/// All teams that entries or robots name.
+std::set<std::string, std::less<>> all_teams(const ExpandedScenario& expanded) {
   std::set<std::string, std::less<>> all;
   for (const TeamFile& team : expanded.scenario.teams) all.insert(*team.name);
   for (const RobotGroup& group : expanded.groups) {
     if (!group.team.empty()) all.insert(group.team);
   }
+  return all;
+}
+
+/// The teams of a user; empty: all.
+std::optional<std::set<std::string, std::less<>>> teams_of(const UserFile& user,
+                                                           const ExpandedScenario& expanded) {
+  const TeamTree tree(expanded.scenario.teams);
   std::set<std::string, std::less<>> own;
-  for (const std::string& team : all) {
+  for (const std::string& team : all_teams(expanded)) {
     const Located<std::string>* const commander = tree.commander_of(team);
     const bool commands = commander != nullptr && **commander == *user.name;
     const bool is_free = commander == nullptr || user.role != UserRole::kCommander;
@@ -196,6 +208,22 @@ void validate(const UserFile& c, CheckContext& check) {
 
 void check_people(const ExpandedScenario& expanded, Diagnostics& diagnostics) {
   PeopleChecks(expanded, diagnostics).run();
+}
+
+std::vector<std::string> teams_within(const ExpandedScenario& scenario, std::string_view team) {
+  const TeamTree tree(scenario.scenario.teams);
+  std::vector<std::string> within;
+  for (const std::string& one : all_teams(scenario)) {
+    if (tree.is_within(one, team)) within.push_back(one);
+  }
+  return within;
+}
+
+std::optional<std::pair<std::string, std::string>> TeamGift::parse(std::string_view text) {
+  constexpr std::string_view kTo = " to ";
+  const std::size_t at = text.find(kTo);
+  if (at == std::string_view::npos || at == 0 || at + kTo.size() == text.size()) return {};
+  return std::pair(std::string(text.substr(0, at)), std::string(text.substr(at + kTo.size())));
 }
 
 std::vector<PlannedPerson> plan_people(const ExpandedScenario& scenario) {

@@ -40,6 +40,12 @@ void describe(V& v, TeamFile& c) {
                   "commander; null: users with the team among their `teams`."});
 }
 
+template <class V>
+void describe(V& v, TeamGift& c) {
+  v.required("team", c.team, {.doc = "Team, with those below it."});
+  v.required("to", c.to, {.doc = "Commander, or super-user, who alone commands it from then on."});
+}
+
 /// Checks users, teams and robots together.
 void check_people(const ExpandedScenario& expanded, Diagnostics& diagnostics);
 

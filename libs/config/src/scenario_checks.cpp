@@ -151,14 +151,14 @@ void check_trigger(const ChangeFile& c, CheckContext& check) {
 void validate(const ChangeFile& c, CheckContext& check) {
   check_trigger(c, check);
   const int kinds = int{c.robot || c.set || c.hand_over} + int{c.request.has_value()} +
-                    int{c.end.has_value()} + parts_of(c.obstacle) +
+                    int{c.end.has_value()} + int{c.give.has_value()} + parts_of(c.obstacle) +
                     int{c.mark.has_value() && !c.end};
   // One kind per entry, since the order of entries is the order of the changes.
   if (kinds != 1) {
     check.error("",
                 "expected exactly one change per entry, found {}: `robot` with `set` or "
                 "`hand_over`, `add_obstacle`, `move_obstacle`, `remove_obstacle`, `request`, "
-                "`mark` or `end`",
+                "`give`, `mark` or `end`",
                 kinds);
     return;
   }

@@ -96,5 +96,29 @@ TEST(People, ErrorsNameTheirPlace) {
             "s.yaml:6:30: two users are named `iris`; the first is at s.yaml:6:16");
 }
 
+TEST(People, AGiftNamesATeamAndACommanderOfTheScenario) {
+  const auto error_of = [](const std::string& gift) {
+    const auto scenario = scenario_with(
+        "users: [{name: kim, role: commander}, {name: lee}]\n"
+        "teams: [{name: all}, {name: left, parent: all}, {name: right, parent: all}]\n"
+        "changes: [{at_s: 1, give: " +
+        gift + "}]\n");
+    return scenario ? "" : scenario.error().text();
+  };
+  EXPECT_EQ(error_of("{team: left, to: kim}"), "");
+  EXPECT_NE(error_of("{team: lefd, to: kim}").find("no team `lefd`"), std::string::npos);
+  EXPECT_NE(error_of("{team: left, to: kin}").find("no user `kin`"), std::string::npos);
+  EXPECT_NE(error_of("{team: left, to: lee}").find("is an observer"), std::string::npos);
+}
+
+TEST(People, AGiftIsReadAsItIsTold) {
+  const auto gift = TeamGift::parse(TeamGift::text("left", "kim to be"));
+  ASSERT_TRUE(gift);
+  EXPECT_EQ(*gift, std::pair(std::string("left"), std::string("kim to be")));
+  for (const char* const bad : {"", "left", " to kim", "left to "}) {
+    EXPECT_FALSE(TeamGift::parse(bad)) << bad;
+  }
+}
+
 }  // namespace
 }  // namespace rave::config

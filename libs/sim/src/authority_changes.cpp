@@ -44,8 +44,8 @@ void WorldAuthority::Impl::conduct(WorldStep& world) {
   if (world.last) return;
   conducted.clear();
   spec.conductor->decide(TruthLook(truth, step), conducted);
-  for (const std::string& text : conducted.notes) {
-    events.push_back(noted_input(step, RobotId(), EventKind::kScenario, text, Author::kRun, hash));
+  for (const ScenarioNote& note : conducted.notes) {
+    events.push_back(noted_input(step, RobotId(), note.kind, note.text, Author::kRun, hash));
   }
   for (WorldInput& input : conducted.inputs) {
     const Status status = check_and_do(input, world);

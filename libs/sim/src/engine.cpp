@@ -18,7 +18,7 @@ namespace {
 /// How old a real sample may be when it is fused.
 constexpr Duration kHybridHistory{1'000'000'000};
 
-constexpr WordTable<EventKind, 29> kEventWords = {{
+constexpr WordTable<EventKind, 30> kEventWords = {{
     {"contact", EventKind::kContact},
     {"pinned", EventKind::kPinned},
     {"pose stale", EventKind::kPoseStale},
@@ -48,6 +48,7 @@ constexpr WordTable<EventKind, 29> kEventWords = {{
     {"sensor restarted", EventKind::kSensorRestarted},
     {"disarmed", EventKind::kDisarmed},
     {"scenario", EventKind::kScenario},
+    {"team given", EventKind::kTeamGiven},
 }};
 
 Status check_pose_source(const RobotType& type, const std::string& robot) {

@@ -79,8 +79,8 @@ void Engine::Impl::conduct() {
   if (!spec.conductor || spec.conductor->ended()) return;
   conducted.clear();
   spec.conductor->decide(TruthLook(truth, step), conducted);
-  for (std::string& text : conducted.notes) {
-    input_log.note(step, RobotId(), EventKind::kScenario, std::move(text), Author::kRun);
+  for (ScenarioNote& note : conducted.notes) {
+    input_log.note(step, RobotId(), note.kind, std::move(note.text), Author::kRun);
   }
   for (const WorldInput& input : conducted.inputs) {
     const Status status = make_input(input);

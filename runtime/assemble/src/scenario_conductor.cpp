@@ -32,6 +32,7 @@ struct Entry {
   std::optional<std::size_t> condition;  ///< Of the script.
   bool repeat = false;
   std::vector<sim::WorldInput> inputs;
+  std::vector<std::string> gifts;  ///< Texts of events EventKind::kTeamGiven.
   std::optional<std::string> mark;
   std::optional<config::RunVerdict> end;
 };
@@ -50,6 +51,8 @@ config::ExpandedScenario names_in(const config::ExpandedScenario& scenario) {
   config::ExpandedScenario names;
   names.scenario.step_s = scenario.scenario.step_s;
   names.scenario.seed = scenario.scenario.seed;
+  names.scenario.users = scenario.scenario.users;
+  names.scenario.teams = scenario.scenario.teams;
   names.groups = scenario.groups;
   names.robots = scenario.robots;
   return names;
@@ -84,6 +87,7 @@ class ScenarioConductor final : public sim::Conductor {
   [[nodiscard]] Result<Value> act(std::string_view action, Arguments arguments);
   [[nodiscard]] Result<Value> mark(Arguments arguments);
   [[nodiscard]] Result<Value> finish(Arguments arguments);
+  [[nodiscard]] Result<Value> give(Arguments arguments);
   [[nodiscard]] Result<Value> happened(Arguments arguments) const;
   [[nodiscard]] Status check_acting() const;
   Status add(const ChangeFile& file, const std::vector<ChangeFile>& all,
@@ -91,11 +95,12 @@ class ScenarioConductor final : public sim::Conductor {
   [[nodiscard]] std::uint64_t steps(double time_s) const {
     return static_cast<std::uint64_t>(std::llround(time_s / scenario_.scenario.step_s.value));
   }
+  [[nodiscard]] std::vector<std::string> gifts_of(std::string_view team, std::string_view to) const;
   void look_at(std::size_t index, std::int64_t step);
   [[nodiscard]] bool begins_to_hold(const Entry& entry, Past& past);
   void happen(std::size_t index);
   void call(const char* hook, Arguments arguments);
-  void note(std::string text);
+  void note(std::string text, sim::EventKind kind = sim::EventKind::kScenario);
   void end(config::RunVerdict verdict, std::string why);
 
   config::ExpandedScenario scenario_;  ///< Of it the names: see names_in().
@@ -160,6 +165,7 @@ Status ScenarioConductor::add(const ChangeFile& file, const std::vector<ChangeFi
     entry.after = static_cast<std::size_t>(before - all.begin());
   }
   entry.mark = file.mark;
+  if (file.give) entry.gifts = gifts_of(*file.give->team, *file.give->to);
   entry.end = file.end;
   if (file.is_scheduled()) {
     entry.noted = false;
@@ -173,6 +179,7 @@ std::vector<script::Provided> ScenarioConductor::functions() {
   std::vector<script::Provided> all = world_.functions();
   all.push_back({"happened", [this](Arguments arguments) { return happened(arguments); }});
   all.push_back({"mark", [this](Arguments arguments) { return mark(arguments); }});
+  all.push_back({"give", [this](Arguments arguments) { return give(arguments); }});
   all.push_back({"finish", [this](Arguments arguments) { return finish(arguments); }});
   for (const std::string_view action : {"stop", "release", "arm", "set", "edit", "drive", "goal",
                                         "path", "cancel", "text", "place"}) {
@@ -201,6 +208,34 @@ Result<Value> ScenarioConductor::mark(Arguments arguments) {
   RAVE_TRY(check_acting());
   const std::string* const text = arguments.empty() ? nullptr : arguments[0].text();
   note(text != nullptr ? *text : to_text(arguments.empty() ? Value() : arguments[0]));
+  return Value();
+}
+
+std::vector<std::string> ScenarioConductor::gifts_of(std::string_view team,
+                                                     std::string_view to) const {
+  std::vector<std::string> gifts;
+  for (const std::string& one : config::teams_within(scenario_, team)) {
+    gifts.push_back(config::TeamGift::text(one, to));
+  }
+  return gifts;
+}
+
+Result<Value> ScenarioConductor::give(Arguments arguments) {
+  RAVE_TRY(check_acting());
+  const auto text = [&](std::string_view key) {
+    const Value* const member = arguments.empty() ? nullptr : arguments[0].find(key);
+    return member != nullptr && member->text() != nullptr ? *member->text() : std::string();
+  };
+  const auto& users = scenario_.scenario.users;
+  const bool known = std::ranges::any_of(users, [&](const config::UserFile& user) {
+    return *user.name == text("to") && user.role != config::UserRole::kObserver;
+  });
+  const std::vector<std::string> gifts = gifts_of(text("team"), text("to"));
+  if (!known || gifts.empty()) {
+    return fail(ErrorCode::kNotFound,
+                "`give`: expected {{team = TEAM, to = COMMANDER}} of this scenario");
+  }
+  for (const std::string& gift : gifts) note(gift, sim::EventKind::kTeamGiven);
   return Value();
 }
 
@@ -287,6 +322,7 @@ void ScenarioConductor::happen(std::size_t index) {
   if (entry.noted) note(entry.name);
   conducted_->inputs.insert(conducted_->inputs.end(), entry.inputs.begin(), entry.inputs.end());
   if (entry.end) return end(*entry.end, entry.mark.value_or(""));
+  for (const std::string& gift : entry.gifts) note(gift, sim::EventKind::kTeamGiven);
   if (entry.mark) note(*entry.mark);
 }
 
@@ -306,8 +342,8 @@ void ScenarioConductor::call(const char* hook, Arguments arguments) {
   note(fmt::format("{}; the script is not called again", result.error().text()));
 }
 
-void ScenarioConductor::note(std::string text) {
-  if (conducted_->notes.size() < kMostNotes) conducted_->notes.push_back(std::move(text));
+void ScenarioConductor::note(std::string text, sim::EventKind kind) {
+  if (conducted_->notes.size() < kMostNotes) conducted_->notes.push_back({kind, std::move(text)});
 }
 
 void ScenarioConductor::end(config::RunVerdict verdict, std::string why) {

@@ -152,9 +152,9 @@ Status SteppedRun::make_step() {
 void SteppedRun::tell_of_the_scenario() {
   if (!authority_->spec().conductor) return;
   for (const sim::Event& event : authority_->events()) {
-    if (event.kind == sim::EventKind::kScenario && !event.text.empty()) {
-      log(LogLevel::kInfo, "{}", event.text);
-    }
+    if (event.text.empty()) continue;
+    if (event.kind == sim::EventKind::kScenario) log(LogLevel::kInfo, "{}", event.text);
+    if (event.kind == sim::EventKind::kTeamGiven) log(LogLevel::kInfo, "team {}", event.text);
   }
 }
 

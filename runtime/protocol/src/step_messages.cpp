@@ -177,7 +177,7 @@ namespace {
 /// Whether an event may concern no robot.
 bool concerns_world(sim::EventKind kind) noexcept {
   return sim::is_of_obstacle(kind) || kind == sim::EventKind::kChangeRefused ||
-         kind == sim::EventKind::kScenario;
+         kind == sim::EventKind::kScenario || kind == sim::EventKind::kTeamGiven;
 }
 
 template <class Sequence>

@@ -129,6 +129,24 @@ TEST_F(AccountsTest, AnotherRoleIsInForceAtOnceAndOfOpenSessions) {
   EXPECT_TRUE(accounts->set_disabled("ben", true));
 }
 
+TEST_F(AccountsTest, ATeamThatIsGivenHasOneCommander) {
+  const auto accounts = opened();
+  ASSERT_TRUE(accounts->add({"ada", Role::kCommander, {false, {"green", "red"}}}, "correct horse"));
+  ASSERT_TRUE(accounts->add({"ben", Role::kCommander, {false, {}}}, "correct horse"));
+  ASSERT_TRUE(accounts->add({"eve", Role::kObserver, {false, {"green"}}}, "correct horse"));
+  ASSERT_TRUE(accounts->invite(Role::kCommander, {false, {"green"}}, 1, 1, "ada", "cleo"));
+  ASSERT_TRUE(accounts->give_team("green", "ben"));
+  const AccountsFile state = accounts->state();
+  EXPECT_EQ(state.accounts[0].person.teams.text(), "red");
+  EXPECT_EQ(state.accounts[1].person.teams.text(), "green");
+  EXPECT_EQ(state.accounts[2].person.teams.text(), "green") << "an observer only looks on";
+  EXPECT_EQ(state.invitations[0].teams.text(), "-");
+  ASSERT_TRUE(accounts->give_team("red", "cleo"));
+  EXPECT_EQ(accounts->state().invitations[0].teams.text(), "red");
+  EXPECT_EQ(error_of(accounts->give_team("red", "dan")),
+            "there is no account or invitation of `dan`");
+}
+
 TEST_F(AccountsTest, WhoIsDisabledKeepsTheNameAndIsOut) {
   const auto accounts = opened();
   ASSERT_TRUE(accounts->add({"ada", Role::kObserver, {}}, "correct horse"));

@@ -65,6 +65,28 @@ Status Accounts::change_person(const Person& person) {
   });
 }
 
+Status Accounts::give_team(std::string_view team, std::string_view user) {
+  return change([&](AccountsFile& file) -> Status {
+    bool found = false;
+    const auto give = [&](std::string_view name, Role role, Teams& teams) {
+      if (name == user) {
+        found = true;
+        if (!teams.all) teams.names.emplace(team);
+      } else if (role == Role::kCommander && !teams.all) {
+        teams.names.erase(std::string(team));
+      }
+    };
+    for (Account& account : file.accounts) {
+      give(account.person.name, account.person.role, account.person.teams);
+    }
+    for (Invitation& invitation : file.invitations) {
+      give(invitation.name, invitation.role, invitation.teams);
+    }
+    if (found) return {};
+    return fail(ErrorCode::kNotFound, "there is no account or invitation of `{}`", user);
+  });
+}
+
 Status Accounts::give_name(std::string_view name) {
   return change([&](AccountsFile& file) -> Status {
     RAVE_TRY_ASSIGN(Account* const account, known_account(file, name));

@@ -18,7 +18,8 @@ LogEvent::Level level_of(std::string_view kind) {
   for (const std::string_view odd :
        {"pose stale", "guard stopped", "guard slowed", "change refused", "stopped",
         "hand over refused", "panels not changed", "pose refused", "sensor restarted",
-        "disarmed"}) {
+        // Who commands whom must not be lost among contacts.
+        "disarmed", "team given"}) {
     if (kind == odd) return LogEvent::Level::kWarn;
   }
   return LogEvent::Level::kInfo;

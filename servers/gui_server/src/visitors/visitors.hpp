@@ -80,6 +80,8 @@ class Visitors {
   void show_to(Visitor& visitor, bool same_run);
   void show_again_if_other();
   void tell_rights();
+  /// Does what the scenario of a live run says of who commands which team.
+  void give_teams();
   [[nodiscard]] SessionCalls calls_of(std::uint64_t id);
   [[nodiscard]] Result<std::string> set_right(std::uint64_t id, const RightChange& change);
   [[nodiscard]] Result<std::string> see_as(std::uint64_t id, const SeeAsMessage& see);
@@ -113,6 +115,7 @@ class Visitors {
   std::uint64_t accounts_revision_ = 0;             ///< Of the file.
   std::uint64_t accounts_news_ = 1;                 ///< Of the file and of who is there.
   std::set<std::string, std::less<>> known_names_;  ///< Of the accounts.
+  std::uint64_t gifts_seen_ = 0;                    ///< Revision of the events of the run.
   std::string told_people_;
   std::string trouble_;  ///< With the accounts; told once.
 };

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/core.h>
+
 #include <cstdint>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "rave/config/described.hpp"
@@ -38,6 +42,21 @@ struct TeamFile {
   bool operator==(const TeamFile&) const = default;
 };
 
+/// Of a change: the user who alone commands a team and those below it from then on.
+struct TeamGift {
+  Located<std::string> team;
+  Located<std::string> to;
+  bool operator==(const TeamGift&) const = default;
+
+  /// As events tell it: `red to anna`. A team has no space in its name.
+  [[nodiscard]] static std::string text(std::string_view team, std::string_view to) {
+    return fmt::format("{} to {}", team, to);
+  }
+  /// Inverse of text(): team and user; empty if it is none.
+  [[nodiscard]] static std::optional<std::pair<std::string, std::string>> parse(
+      std::string_view text);
+};
+
 /// A person of the run.
 struct PlannedPerson {
   std::string name;
@@ -48,5 +67,8 @@ struct PlannedPerson {
 
 /// The persons of a scenario that was expanded, with the teams below theirs. Sorted as in the file.
 [[nodiscard]] std::vector<PlannedPerson> plan_people(const ExpandedScenario& scenario);
+/// A team and those below it, sorted by name.
+[[nodiscard]] std::vector<std::string> teams_within(const ExpandedScenario& scenario,
+                                                    std::string_view team);
 
 }  // namespace rave::config

@@ -170,6 +170,7 @@ struct ChangeFile {
   std::optional<RawNode> request;  ///< Of a person, such as `{do: goal, robot: r1, point: [1, 2]}`.
   std::optional<std::string> mark;  ///< A text in the events of the run.
   std::optional<RunVerdict> end;    ///< Ends the run.
+  std::optional<TeamGift> give;     ///< Another user commands a team.
   /// A robot, or an entry of `robots:` with several.
   std::optional<Located<std::string>> robot;
   std::optional<RawNode> set;  ///< A mapping from keys such as `program.speed_mps` to values.
@@ -179,7 +180,7 @@ struct ChangeFile {
 
   /// Whether the entry is made at a time by who has the robot or the obstacle; conditions are asked
   /// for all others.
-  [[nodiscard]] bool is_scheduled() const { return at_s && !request && !mark && !end; }
+  [[nodiscard]] bool is_scheduled() const { return at_s && !request && !mark && !end && !give; }
   [[nodiscard]] bool changes_obstacle() const { return !obstacle.empty(); }
 };
 

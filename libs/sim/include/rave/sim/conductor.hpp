@@ -13,6 +13,7 @@
 #include "rave/base/result.hpp"
 #include "rave/base/time.hpp"
 #include "rave/math/pose.hpp"
+#include "rave/sim/event.hpp"
 #include "rave/sim/world_input.hpp"
 
 namespace rave::sim {
@@ -39,10 +40,16 @@ class WorldLook {
   [[nodiscard]] virtual std::optional<Pose2> obstacle(std::string_view name) const = 0;
 };
 
+/// An event of a scenario: of which kind, EventKind::kScenario or kTeamGiven, and its text.
+struct ScenarioNote {
+  EventKind kind = EventKind::kScenario;
+  std::string text;
+};
+
 /// What a conductor decides for one step.
 struct Conducted {
   std::vector<WorldInput> inputs;  ///< Made in this order, with Author::kRun.
-  std::vector<std::string> notes;  ///< Texts of events EventKind::kScenario.
+  std::vector<ScenarioNote> notes;
 
   void clear() {
     inputs.clear();

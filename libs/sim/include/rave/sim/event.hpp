@@ -40,9 +40,12 @@ enum class EventKind : std::uint32_t {
   kSensorRestarted = 39,  ///< Samples of a sensor do not continue those before.
   kDisarmed = 40,         ///< The same of a real robot that drives by it: it has to be armed again.
   kScenario = 41,         ///< Something that the scenario notes: a condition, a mark, an error.
+  kTeamGiven = 42,  ///< The scenario gives a team to a user; the GUI Server sees to it. The text is
+                    ///< team_given_text().
 };
 /// All kinds are below this number; to_string() of one that does not exist is "unknown".
-inline constexpr std::uint32_t kEventKindEnd = static_cast<std::uint32_t>(EventKind::kScenario) + 1;
+inline constexpr std::uint32_t kEventKindEnd =
+    static_cast<std::uint32_t>(EventKind::kTeamGiven) + 1;
 [[nodiscard]] std::string_view to_string(EventKind kind) noexcept;
 
 /// Whether events of this kind concern an obstacle instead of a robot.

@@ -110,6 +110,9 @@ class Accounts {
   /// Changes the role and teams of an account. Errors: kNotFound; kState: no super-user who can
   /// sign in would be left.
   [[nodiscard]] Status change_person(const Person& person);
+  /// Makes a user the only commander of a team: others who are listed for it lose it, in
+  /// invitations too, but not those who command all teams. Error kNotFound: there is no such user.
+  [[nodiscard]] Status give_team(std::string_view team, std::string_view user);
   /// Disables an account, which ends its sessions, or enables it again. Errors: those of
   /// change_person().
   [[nodiscard]] Status set_disabled(std::string_view name, bool disabled);

@@ -62,6 +62,10 @@ class ParamSet {
     find(name).number = number;
     return *this;
   }
+  ParamSet& set_text(std::string_view name, std::string text) {
+    find(name).text = texts_.emplace_back(std::move(text)).c_str();
+    return *this;
+  }
   ParamSet& set(std::string_view name, std::vector<double> list) {
     lists_.push_back(std::move(list));
     ParamValue& value = find(name);
@@ -82,6 +86,7 @@ class ParamSet {
 
   std::vector<ParamValue> values_;
   std::deque<std::vector<double>> lists_;
+  std::deque<std::string> texts_;
 };
 
 /// Keeps what a driver logs.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
+#include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "device_tools.hpp"
 #include "rave/isolation/isolated_program.hpp"
@@ -37,6 +40,22 @@ sim::ProgramProcessFactory isolated_factory(const DeviceContext& context,
   };
 }
 
+/// A program does not know where its robot file is, so the file that it reads gets a whole path.
+codec::RawNode with_whole_path(const plugin::Driver& driver, const codec::RawNode& params,
+                               const std::string& folder) {
+  constexpr std::string_view kFile = "file";
+  const auto specs = driver.info.param_specs();
+  const bool reads = std::any_of(specs.begin(), specs.end(),
+                                 [&](const ParamSpec& spec) { return spec.name == kFile; });
+  const codec::RawNode* const given = reads ? params.find(kFile) : nullptr;
+  const auto path = given == nullptr ? std::nullopt : given->as_text();
+  if (!path || path->empty()) return params;
+  codec::RawNode whole = params;
+  const std::filesystem::path file = std::filesystem::path(folder) / *path;
+  whole.set(kFile, codec::RawNode::text(std::filesystem::absolute(file).string()));
+  return whole;
+}
+
 }  // namespace
 
 Status add_program(const DeviceContext& context, const config::RobotGroup& group,
@@ -49,7 +68,8 @@ Status add_program(const DeviceContext& context, const config::RobotGroup& group
   program.driver = driver->info.name;
   program.where = file.driver.where;
   program.ops = static_cast<const ProgramOps*>(driver->ops);
-  RAVE_TRY_ASSIGN(program.params, read_params(*driver, file.params));
+  RAVE_TRY_ASSIGN(program.params,
+                  read_params(*driver, with_whole_path(*driver, file.params, type.folder)));
   program.param_specs = driver->info.param_specs();
   set_rhythm(context, file, program);
   // The host loads the plug-in all the same, to read its description and parameters; only the

@@ -135,9 +135,10 @@ function(rave_driver name)
   rave_plugin(${name} ${ARGN})
 endfunction()
 
-# rave_program(NAME SOURCES ...): a decision process; it is given the robot library and no more.
+# rave_program(NAME SOURCES ...): a decision process; it is given the robot library and what makes maps
+# of readings, and no more.
 function(rave_program name)
-  rave_plugin(${name} ${ARGN} DEPS rave::robot)
+  rave_plugin(${name} ${ARGN} DEPS rave::estimate rave::robot)
 endfunction()
 
 # rave_executable(NAME SOURCES ... DEPS ...)

@@ -85,6 +85,7 @@ struct Rig {
   std::deque<RigRadio> radios;
   std::vector<ControllerInfo> controllers{{"velocity", CommandKind::kVelocity, 0}};
   std::vector<Command> commands;
+  std::uint64_t state = 0;  ///< Commands::state().
   PoseReading pose;
   std::uint32_t id = 0;
   double radius_m = 0.17;
@@ -159,6 +160,13 @@ class ProgramUnderTest {
     return {};
   }
 
+  /// The map that the program of robot `i` keeps.
+  [[nodiscard]] MapView map(std::size_t i = 0) const {
+    MapView view;
+    if (ops().map != nullptr) ops().map(slot(i), &view);
+    return view;
+  }
+
   std::vector<std::unique_ptr<Rig>> rigs;
 
  private:
@@ -208,6 +216,7 @@ class ProgramUnderTest {
     item.decision = decision_;
     item.robot = rig.id;
     item.seed = seed_;
+    item.state = &rig.state;
     return item;
   }
 

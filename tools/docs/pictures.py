@@ -27,6 +27,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 IMAGES = ROOT / "docs/images"
 BOOK = IMAGES / "pictures.json"
 SCENARIOS = {
+    "collaborative-mapping": "scenarios/collaborative-mapping",
     "flock": "scenarios/flock",
     "hybrid-laser": "scenarios/hybrid-laser",
     "mixed-reality": "scenarios/mixed-reality",

@@ -5,10 +5,12 @@
 #include "rave/estimate/occupancy_grid.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "rave/base/check.hpp"
+#include "rave/base/hash.hpp"
 #include "rave/math/exponential.hpp"
 #include "rave/math/trigonometry.hpp"
 
@@ -78,6 +80,72 @@ void OccupancyGrid::add(const ScanView& scan) {
   }
 }
 
+// Half a cell's diagonal, so that an arc has no gaps.
+constexpr double kHalfArc_cells = 0.75;
+// What an edge of the cone counts, relative to its axis.
+constexpr double kEdgeWeight = 0.25;
+// An end says as much as one of a ray if at most this number of cells could have given it.
+constexpr double kSharpCells = 3;
+
+void OccupancyGrid::add(const ConeView& cone) {
+  if (std::isnan(cone.range_m)) return;
+  ++scan_;
+  const bool returned = cone.range_m <= model_.range_max_m;
+  const double free_m =
+      cone.range_m < kFar ? std::min(cone.range_m, model_.range_max_m) : model_.no_return_free_m;
+  arc_.clear();
+  find_arc({cone.X_WS, cone.bearing_rad, cone.cone_rad, returned ? cone.range_m : kFar}, free_m);
+  double all = 0;
+  for (const ArcCell& cell : arc_) all += cell.share;
+  for (const ArcCell& cell : arc_) {
+    last_scan_[cell.at] = -scan_;
+    change(cell.at, model_.log_odds_hit * std::min(1.0, kSharpCells * cell.share / all));
+  }
+}
+
+/// Frees what lies before the arc, and puts the cells of the arc into `arc_`.
+void OccupancyGrid::find_arc(const ConeView& cone, double free_m) {
+  const double half_rad = 0.5 * cone.cone_rad;
+  const double cell_m = frame_.resolution_m;
+  const double thick_m = kHalfArc_cells * cell_m;
+  const double reach_m = (cone.range_m < kFar ? cone.range_m : free_m) + thick_m;
+  const SinCos edge = sincos(half_rad);
+  const SinCos axis = sincos(cone.X_WS.yaw + cone.bearing_rad);
+  const auto first = [&](double at, double origin) {
+    return static_cast<int>(std::max(0.0, std::floor((at - reach_m - origin) / cell_m)));
+  };
+  const auto last = [&](double at, double origin, int cells) {
+    const double index = std::floor((at + reach_m - origin) / cell_m);
+    return static_cast<int>(std::min(index, static_cast<double>(cells - 1)));
+  };
+  if (!(std::abs(cone.X_WS.x) + std::abs(cone.X_WS.y) < 1e9)) return;
+  const int last_row = last(cone.X_WS.y, frame_.origin_W.y, frame_.rows);
+  const int last_column = last(cone.X_WS.x, frame_.origin_W.x, frame_.columns);
+  for (int row = first(cone.X_WS.y, frame_.origin_W.y); row <= last_row; ++row) {
+    const double y = frame_.origin_W.y + (row + 0.5) * cell_m - cone.X_WS.y;
+    for (int column = first(cone.X_WS.x, frame_.origin_W.x); column <= last_column; ++column) {
+      const double x = frame_.origin_W.x + (column + 0.5) * cell_m - cone.X_WS.x;
+      const double ahead_m = axis.cos * x + axis.sin * y;
+      const double distance_m = std::sqrt(x * x + y * y);
+      // A narrow cone has at least the cells on its axis.
+      const double beside_m = std::abs(axis.cos * y - axis.sin * x);
+      const bool inside = ahead_m >= distance_m * edge.cos || beside_m <= 0.5 * cell_m;
+      if (ahead_m < 0 || distance_m > reach_m || !inside) continue;
+      const double off = half_rad > 0 && half_rad < 1.5 && distance_m > 0
+                             ? std::min(1.0, beside_m / (distance_m * edge.sin))
+                             : 0.0;
+      const double weight = 1 - (1 - kEdgeWeight) * off * off;
+      const std::size_t at = index(column, row);
+      if (std::abs(distance_m - cone.range_m) <= thick_m) {
+        arc_.push_back({at, weight * probability(column, row)});
+      } else if (distance_m < free_m) {
+        last_scan_[at] = scan_;
+        change(at, model_.log_odds_pass * weight);
+      }
+    }
+  }
+}
+
 double OccupancyGrid::probability(int column, int row) const noexcept {
   return 1.0 / (1.0 + exp(-log_odds(column, row)));
 }
@@ -90,8 +158,7 @@ void OccupancyGrid::mark_end(Vec2 p_W) {
   // Once per scan, however many beams end here: beams of one scan are no independent evidence.
   if (last_scan_[at] == -scan_) return;
   last_scan_[at] = -scan_;
-  // Limited, so that a cell can be learnt anew when something has moved.
-  log_odds_[at] = std::min(log_odds_[at] + model_.log_odds_hit, model_.log_odds_limit);
+  change(at, model_.log_odds_hit);
 }
 
 void OccupancyGrid::trace(Vec2 from_W, Vec2 direction, double length_m) {
@@ -119,7 +186,17 @@ void OccupancyGrid::pass(int column, int row) {
   const std::size_t at = index(column, row);
   if (last_scan_[at] == scan_ || last_scan_[at] == -scan_) return;
   last_scan_[at] = scan_;
-  log_odds_[at] = std::max(log_odds_[at] + model_.log_odds_pass, -model_.log_odds_limit);
+  change(at, model_.log_odds_pass);
+}
+
+// Limited, so that a cell can be learnt anew when something has moved.
+void OccupancyGrid::change(std::size_t at, double by) {
+  double& cell = log_odds_[at];
+  const double limit = model_.log_odds_limit;
+  const double changed = std::clamp(cell + by, -limit, limit);
+  if (changed == cell) return;
+  cell = changed;
+  digest_ = mix64(digest_ ^ at) + std::bit_cast<std::uint64_t>(changed);
 }
 
 }  // namespace rave::estimate

@@ -128,6 +128,57 @@ TEST(OccupancyGrid, TracesTheCellsThatTheBeamCrosses) {
   }
 }
 
+TEST(OccupancyGrid, AConeFreesItsSectorAndSharesItsEndAlongTheArc) {
+  OccupancyGrid grid = grid_of();
+  const double cone_rad = 60 * kPi / 180;
+  grid.add(ConeView{{0.05, 0.05, 0}, 0, cone_rad, 1.0});
+  EXPECT_LT(grid.log_odds(25, 10), 0) << "on the axis";
+  EXPECT_LT(grid.log_odds(25, 12), 0) << "beside it";
+  EXPECT_GT(grid.log_odds(25, 12), grid.log_odds(25, 10)) << "off the axis it counts less";
+  EXPECT_FALSE(grid.seen(25, 15)) << "outside of the cone";
+  EXPECT_GT(grid.log_odds(30, 10), 0);
+  EXPECT_GT(grid.log_odds(29, 14), 0) << "the arc has a bend";
+  EXPECT_LT(grid.log_odds(30, 10), 0.5) << "which cell it was is not known";
+  EXPECT_FALSE(grid.seen(32, 10)) << "behind the arc";
+}
+
+TEST(OccupancyGrid, ThePartOfAnArcThatIsKnownAsFreeGetsLittle) {
+  const auto end_after = [](int beams) {
+    OccupancyGrid grid = grid_of();
+    const double bearings_rad[] = {0.0, 0.12, -0.12, 0.2, -0.2};
+    const float ranges_m[] = {1.4F, 1.4F, 1.4F, 1.4F, 1.4F};
+    for (int i = 0; i < beams; ++i) grid.add({{0.05, 0.05, 0}, bearings_rad, ranges_m});
+    const double before = grid.log_odds(29, 14);
+    grid.add(ConeView{{0.05, 0.05, 0}, 0, 60 * kPi / 180, 1.0});
+    return grid.log_odds(29, 14) - before;
+  };
+  EXPECT_GT(end_after(6), 1.2 * end_after(0)) << "the edges must have given the echo";
+}
+
+TEST(OccupancyGrid, ANarrowConeIsARayAndNoReturnHasNoEnd) {
+  OccupancyGrid narrow = grid_of();
+  narrow.add(ConeView{{0.05, 0.05, 0}, 0, 0.01, 1.0});
+  EXPECT_LT(narrow.log_odds(25, 10), 0);
+  EXPECT_DOUBLE_EQ(narrow.log_odds(30, 10), 0.85);
+  EXPECT_FALSE(narrow.seen(25, 12));
+  OccupancyGrid silent = grid_of({.no_return_free_m = 0.5});
+  silent.add(ConeView{{0.05, 0.05, 0}, 0, 0.5, std::numeric_limits<double>::infinity()});
+  EXPECT_LT(silent.log_odds(23, 10), 0);
+  EXPECT_FALSE(silent.seen(30, 10));
+  silent.add(ConeView{{0.05, 0.05, 0}, 0, 0.5, std::nan("")});
+  silent.add(ConeView{{1e300, 0, 0}, 0, 0.5, 1.0});
+}
+
+TEST(OccupancyGrid, TheDigestTellsMapsApart) {
+  OccupancyGrid a = grid_of();
+  OccupancyGrid b = grid_of();
+  a.add(ConeView{{0.05, 0.05, 0}, 0, 0.5, 1.0});
+  b.add(ConeView{{0.05, 0.05, 0}, 0, 0.5, 1.0});
+  EXPECT_EQ(a.digest(), b.digest());
+  b.add(ConeView{{0.05, 0.05, 0}, 0, 0.5, 1.1});
+  EXPECT_NE(a.digest(), b.digest());
+}
+
 TEST(OccupancyGrid, SameScansSameBits) {
   const double bearings_rad[] = {-0.7, 0.1, 0.9};
   const float ranges_m[] = {0.9F, 1.3F, kNoReturn};

@@ -37,6 +37,7 @@ void clear_commands(RobotGroup& group, std::size_t member) {
   const std::size_t controllers = group.controllers.size();
   Command* first = group.program.commands.data() + member * controllers;
   std::fill(first, first + controllers, Command{});
+  group.program.states[member] = 0;
 }
 
 }  // namespace
@@ -130,6 +131,10 @@ void Engine::Impl::accept_commands(RobotGroup& group, std::size_t member, RunHas
     item.add_bytes(std::as_bytes(std::span(&command, 1)));
     sum.add(item);
   }
+  if (program.states[member] == 0) return;
+  ItemHash item(step, group.members[member].value(), HashChannel::kState, 0);
+  item.add(program.states[member]);
+  sum.add(item);
 }
 
 void Engine::Impl::fail_program(RobotGroup& group, std::size_t member, std::string_view text,

@@ -26,6 +26,19 @@ std::span<const Event> Engine::events() const noexcept {
 RunHash Engine::hash() const noexcept { return impl_->host ? impl_->host->hash : impl_->hash; }
 const PhaseTimes& Engine::phase_times() const noexcept { return impl_->phase_times; }
 
+MapView Engine::program_map(RobotId robot) const noexcept {
+  MapView view;
+  const RobotGroup& group = impl_->roster.group_of(robot);
+  const ProgramSlots& program = group.program;
+  if (program.spec == nullptr || program.spec->isolate || program.spec->ops->map == nullptr ||
+      !is_local(robot)) {
+    return view;
+  }
+  const std::size_t m = impl_->roster.member_of(robot);
+  if (program.failed[m] == 0) program.spec->ops->map(program.instances.at(m), &view);
+  return view;
+}
+
 SensorSample Engine::sensor(RobotId robot, std::uint32_t index) const noexcept {
   const RobotGroup& group = impl_->roster.group_of(robot);
   const SensorSlots& slots = group.sensors[index];

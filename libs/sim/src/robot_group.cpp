@@ -190,6 +190,7 @@ void lay_out_program(const GroupContext& context, RobotGroup& group) {
   // The items below point into these arrays, so none of them may grow from here on.
   slots.commands.assign(count * controllers, Command{});
   slots.views.resize(count * sensors);
+  slots.states.assign(count, 0);
   slots.items.assign(count, DecideItem{});
   slots.setups.assign(count, ProgramSetup{});
   slots.failed.assign(count, 0);
@@ -203,6 +204,7 @@ void lay_out_program(const GroupContext& context, RobotGroup& group) {
     item.commands = slots.commands.data() + m * controllers;
     item.robot = group.members[m].value();
     item.seed = context.spec.seed;
+    item.state = &slots.states[m];
     item.communicators = context.radio->views_of(group.members[m]);
     if (slots.spec == nullptr) continue;
     if (slots.spec->takes() != 0) item.answers = context.answers;

@@ -103,8 +103,9 @@ struct ProgramSlots {
   InstanceArray instances;
   std::vector<ProgramSetup> setups;
   std::vector<DecideItem> items;
-  std::vector<Command> commands;  ///< Members x controllers.
-  std::vector<SensorView> views;  ///< Members x sensors.
+  std::vector<Command> commands;      ///< Members x controllers.
+  std::vector<SensorView> views;      ///< Members x sensors.
+  std::vector<std::uint64_t> states;  ///< By member: Commands::state() of this decision.
   std::vector<std::uint8_t> failed;
   std::vector<std::uint64_t> given;
   std::vector<std::unique_ptr<ProgramProcess>> processes;

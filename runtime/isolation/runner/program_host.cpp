@@ -155,6 +155,7 @@ bool ProgramHost::decide(std::uint32_t decision) {
   item.orders = orders_.data();
   item.order_count = static_cast<std::uint32_t>(orders_.size());
   item.driven = asked.driven;
+  item.state = memory_.at<std::uint64_t>(layout_.state);
   answers_->begin();
   if (asked.listens != 0) item.answers = answers_->service();
   const ProgramOps& ops = file_->ops();

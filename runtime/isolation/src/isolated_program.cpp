@@ -38,6 +38,7 @@ struct IsolatedProgram::Impl {
       std::memcpy(item.commands, memory.at<Command>(layout.commands),
                   layout.command_count * sizeof(Command));
     }
+    if (item.state != nullptr) *item.state = *memory.at<std::uint64_t>(layout.state);
     copy_messages_out(item);
     // Copied before it is checked: the child could change the numbers between check and use.
     const SharedAnswers said = *memory.at<SharedAnswers>(layout.answers);
@@ -78,6 +79,7 @@ Status IsolatedProgram::Impl::copy_in(const DecideItem& item) const {
       write_orders(item, memory.at<std::byte>(layout.orders + sizeof(SharedOrders)));
   // Cleared, so that answers of the last decision do not count again if the program gives none.
   *memory.at<SharedAnswers>(layout.answers) = {};
+  *memory.at<std::uint64_t>(layout.state) = 0;
   if (layout.command_count > 0) {
     // The program sees its last commands, as it would inside the host, and may leave them.
     std::memcpy(memory.at<Command>(layout.commands), item.commands,

@@ -56,6 +56,7 @@ Layout make_layout(std::size_t setup_bytes, std::span<const SensorInfo> sensors,
   }
   layout.orders = memory.take(sizeof(SharedOrders) + kOrderBytes);
   layout.answers = memory.take(sizeof(SharedAnswers) + kAnswerBytes);
+  layout.state = memory.take(sizeof(std::uint64_t));
   layout.command_count = command_count;
   layout.commands = memory.take(command_count * sizeof(Command));
   layout.total_bytes = memory.end();

@@ -83,6 +83,7 @@ struct Layout {
   std::vector<Communicator> communicators;
   std::size_t orders = 0;   ///< Offset of the SharedOrders; their bytes follow.
   std::size_t answers = 0;  ///< Offset of the SharedAnswers; their bytes follow.
+  std::size_t state = 0;    ///< Offset of the number of Commands::state().
   std::size_t commands = 0;
   std::size_t command_count = 0;
   std::size_t total_bytes = 0;

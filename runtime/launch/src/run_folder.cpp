@@ -38,6 +38,7 @@ std::optional<std::string> trace_of_run(const fs::path& folder) {
     if (fs::exists(folder / file, error)) return std::string(file);
   }
   if (fs::exists(folder / "companions", error)) return "companions";
+  if (fs::exists(folder / "maps", error)) return "maps";
   if (!fs::exists(folder / "hosts", error)) return std::nullopt;
   // What keeps it there says more.
   for (const auto& entry : fs::recursive_directory_iterator(folder / "hosts", error)) {
@@ -70,6 +71,7 @@ void remove_run(const fs::path& folder, std::error_code& error) {
   fs::remove(folder / "hosts", ended);
   // All of it is theirs.
   fs::remove_all(folder / "companions", ended);
+  fs::remove_all(folder / "maps", ended);
 }
 
 /// The expanded scenario is written as `scenario.yaml`, which is also the usual name of what people

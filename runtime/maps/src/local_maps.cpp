@@ -29,11 +29,12 @@ void LocalMaps::after_step(const sim::Engine& engine) {
   for (const auto& map : maps_) map->follow(engine);
 }
 
-std::vector<MapTile> LocalMaps::changed(Clock::time_point now, int slower) {
+std::vector<MapTile> LocalMaps::changed(const sim::Engine& engine, Clock::time_point now,
+                                        int slower) {
   std::vector<MapTile> tiles;
   if (maps_.empty() || now < next_) return tiles;
   next_ = now + kInterval * slower;
-  for (const auto& map : maps_) map->put_changed(tiles);
+  for (const auto& map : maps_) map->put_changed(engine, tiles);
   return tiles;
 }
 

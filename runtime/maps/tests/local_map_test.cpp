@@ -62,7 +62,7 @@ TEST_F(LocalMapTest, WhatALaserSeesIsFreeUpToWhereItEnds) {
     map.follow(*engine_);
   }
   std::vector<MapTile> tiles;
-  map.put_changed(tiles);
+  map.put_changed(*engine_, tiles);
   ASSERT_FALSE(tiles.empty());
   EXPECT_EQ(tiles.front().source, "a");
   EXPECT_EQ(tiles.front().robot, 0U);
@@ -81,19 +81,19 @@ TEST_F(LocalMapTest, OnlyWhatChangedIsGivenAgain) {
   LocalMap map(*engine_, RobotId(0));
   std::vector<MapTile> tiles;
   map.follow(*engine_);
-  map.put_changed(tiles);
+  map.put_changed(*engine_, tiles);
   EXPECT_FALSE(tiles.empty());
   tiles.clear();
   // The same sample again is none.
   map.follow(*engine_);
-  map.put_changed(tiles);
+  map.put_changed(*engine_, tiles);
   EXPECT_TRUE(tiles.empty());
   // After many scans from one place nothing changes any more.
   for (int k = 0; k < 30; ++k) {
     step();
     map.follow(*engine_);
   }
-  map.put_changed(tiles);
+  map.put_changed(*engine_, tiles);
   EXPECT_FALSE(tiles.empty());
   EXPECT_EQ(tiles.front().revision, 2U);
   tiles.clear();
@@ -101,7 +101,7 @@ TEST_F(LocalMapTest, OnlyWhatChangedIsGivenAgain) {
     step();
     map.follow(*engine_);
   }
-  map.put_changed(tiles);
+  map.put_changed(*engine_, tiles);
   EXPECT_TRUE(tiles.empty());
 }
 
@@ -116,7 +116,7 @@ TEST_F(LocalMapTest, MapsAreMadeOfWhatIsAskedForAlone) {
   const std::vector<std::uint32_t> both{2, 2, 0};
   maps.ask(*engine_, both);
   const auto now = LocalMaps::Clock::now();
-  const auto tiles = maps.changed(now, 1);
+  const auto tiles = maps.changed(*engine_, now, 1);
   std::set<std::string> sources;
   for (const MapTile& tile : tiles) sources.insert(tile.source);
   EXPECT_EQ(sources, (std::set<std::string>{"a", "c"}));
@@ -127,8 +127,8 @@ TEST_F(LocalMapTest, MapsAreMadeOfWhatIsAskedForAlone) {
   }
   step();
   maps.after_step(*engine_);
-  EXPECT_TRUE(maps.changed(now, 1).empty()) << "not yet";
-  EXPECT_FALSE(maps.changed(now + LocalMaps::kInterval, 1).empty());
+  EXPECT_TRUE(maps.changed(*engine_, now, 1).empty()) << "not yet";
+  EXPECT_FALSE(maps.changed(*engine_, now + LocalMaps::kInterval, 1).empty());
 }
 
 TEST_F(LocalMapTest, AMapThatNobodyAsksForMakesRoomForAnother) {
@@ -143,11 +143,12 @@ TEST_F(LocalMapTest, AMapThatNobodyAsksForMakesRoomForAnother) {
   maps.ask(*engine_, asked);
   EXPECT_EQ(maps.count(), LocalMaps::kMost);
   const auto now = LocalMaps::Clock::now();
-  for (const MapTile& tile : maps.changed(now, 1)) EXPECT_LT(tile.robot, LocalMaps::kMost);
+  for (const MapTile& tile : maps.changed(*engine_, now, 1))
+    EXPECT_LT(tile.robot, LocalMaps::kMost);
   const std::vector<std::uint32_t> last{LocalMaps::kMost};
   maps.ask(*engine_, last);
   EXPECT_EQ(maps.count(), LocalMaps::kMost);
-  const auto tiles = maps.changed(now + LocalMaps::kInterval, 1);
+  const auto tiles = maps.changed(*engine_, now + LocalMaps::kInterval, 1);
   ASSERT_FALSE(tiles.empty());
   EXPECT_EQ(tiles.front().robot, LocalMaps::kMost);
 }

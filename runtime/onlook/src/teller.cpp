@@ -113,7 +113,7 @@ void Teller::tell_events(const sim::Engine& engine, std::span<const sim::Event> 
 /// Also runs after the last monitor has left: a later one finds the map complete.
 void Teller::tell_maps(const sim::Engine& engine, Clock::time_point now, int slower) {
   if (!asked_.maps.empty()) maps_.ask(engine, asked_.maps);
-  for (maps::MapTile& tile : maps_.changed(now, slower)) {
+  for (maps::MapTile& tile : maps_.changed(engine, now, slower)) {
     bus::MapTile message = maps::message_of(tile);
     // A monitor that is too slow gets the next tile of this place.
     static_cast<void>(tiles_.write(message));

@@ -254,6 +254,7 @@ void merge(RunFacts from, RunFacts& into) {
   merge_tracks(std::move(from.tracks), into.tracks);
   merge_instant(std::move(from.instant), into.instant);
   append_by_robot(into.shadows, std::move(from.shadows));
+  append_by_robot(into.maps, std::move(from.maps));
   merge_world(std::move(from.world), into.world);
 }
 

@@ -2,7 +2,9 @@
 #include "rave/results/facts_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "rave/maps/map_tile.hpp"
 #include "rave/record/cdr_archive.hpp"
 #include "rave/sim/guard.hpp"
 
@@ -10,7 +12,7 @@ namespace rave::runtime {
 namespace {
 
 constexpr const char* kMark = "rave findings";
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 /// The list of members and their order. A change of it needs another kVersion.
 template <class Archive>
@@ -51,12 +53,17 @@ struct Members {
   void of(InstantRobot& v) { archive(v.robot, v.bodies, v.hits); }
   void of(InstantSighting& v) { archive(v.step, v.robot, v.shown); }
   void of(InstantFacts& v) { archive(v.t_s, v.robots, v.sightings); }
+  void of(MapFacts& v) {
+    archive(v.robot, v.resolution_m, v.origin_W, v.columns, v.rows, v.column, v.row, v.stamp_ns,
+            v.cells);
+  }
   void of(ShadowFacts& v) { archive(v.robot, v.report); }
   void of(WorldFacts& v) { archive(v.first_step, v.next_step, v.events, v.capture); }
   void of(RunFacts& v) {
     archive(v.first_step, v.steps, v.has_world, v.problems, v.events, v.robots, v.devices,
             v.streams, v.transmitters, v.radio, v.inputs_by_hand, v.lateness, v.poses, v.hits,
-            v.closest, v.sightings, v.goals, v.capture, v.tracks, v.instant, v.shadows, v.world);
+            v.closest, v.sightings, v.goals, v.capture, v.tracks, v.instant, v.shadows, v.maps,
+            v.world);
   }
 };
 
@@ -124,6 +131,18 @@ bool fits(const WorldFacts& facts, const FactsLimits& limits) {
          (!facts.capture || fits(*facts.capture, limits));
 }
 
+bool fits(const MapFacts& facts) {
+  constexpr double kFar_m = 1e7;
+  const bool place = std::abs(facts.origin_W.x) < kFar_m && std::abs(facts.origin_W.y) < kFar_m;
+  return facts.resolution_m >= 1e-3 && facts.resolution_m <= 1e3 && place &&
+         facts.columns <= 65'536 && facts.rows <= 65'536 &&
+         maps::MapFrame::side(facts.columns, facts.column) == maps::kTileCells &&
+         maps::MapFrame::side(facts.rows, facts.row) == maps::kTileCells &&
+         facts.cells.size() == std::size_t{maps::kTileCells} * maps::kTileCells &&
+         std::ranges::all_of(
+             facts.cells, [](std::uint8_t cell) { return cell <= 100 || cell == maps::kUnknown; });
+}
+
 bool fits(const RunFacts& facts, const FactsLimits& limits) {
   const auto encounter_fits = [&](const auto& entry) {
     return entry.second.a < limits.bodies && entry.second.b < limits.bodies;
@@ -138,6 +157,8 @@ bool fits(const RunFacts& facts, const FactsLimits& limits) {
                              [&](const TrackFacts& track) {
                                return track.robot < limits.robots && is_kind(track.track.kind);
                              }) &&
+         robots_fit(facts.maps, limits) &&
+         std::ranges::all_of(facts.maps, [](const MapFacts& map) { return fits(map); }) &&
          fits(facts.lateness) && fits(facts.poses) &&
          (!facts.capture || fits(*facts.capture, limits)) &&
          (!facts.instant || fits(*facts.instant, limits));

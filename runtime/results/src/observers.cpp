@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "rave/maps/local_map.hpp"
+
 namespace rave::runtime {
 namespace {
 
@@ -47,6 +49,19 @@ void add_instruments(const sim::Engine& engine, RobotId robot, RunFacts& facts) 
     facts.transmitters.push_back({robot.value(), type.transmitters[t].name,
                                   type.transmitters[t].driver,
                                   engine.transmitter_report(robot, t)});
+  }
+}
+
+/// What the program of a robot knows as a map, if it keeps one.
+void add_map(const sim::Engine& engine, RobotId robot, RunFacts& facts) {
+  if (engine.program_map(robot).log_odds == nullptr) return;
+  maps::LocalMap map(engine, robot);
+  std::vector<maps::MapTile> tiles;
+  map.put_changed(engine, tiles);
+  for (maps::MapTile& tile : tiles) {
+    facts.maps.push_back({robot.value(), tile.frame.resolution_m, tile.frame.origin_W,
+                          tile.frame.columns, tile.frame.rows, tile.column, tile.row, tile.stamp.ns,
+                          std::move(tile.cells)});
   }
 }
 
@@ -107,6 +122,7 @@ RunFacts gather(const Observers& observers, const sim::Engine& engine) {
     if (!engine.is_local(RobotId(r))) continue;
     facts.robots.push_back(robot_facts(observers, engine, RobotId(r)));
     add_instruments(engine, RobotId(r), facts);
+    add_map(engine, RobotId(r), facts);
   }
   facts.radio = engine.radio_counts();
   facts.inputs_by_hand = engine.inputs_by_hand();

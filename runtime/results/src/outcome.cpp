@@ -5,8 +5,10 @@
 
 #include "rave/base/disk_room.hpp"
 #include "rave/base/file.hpp"
+#include "rave/maps/map_save.hpp"
 #include "rave/results/capture_watch.hpp"
 #include "rave/results/event_log.hpp"
+#include "rave/results/map_result.hpp"
 #include "rave/results/sighting_check.hpp"
 #include "stream_losses.hpp"
 
@@ -192,6 +194,21 @@ Descriptor take_room_for_results(const std::filesystem::path& folder, const sim:
   return take_disk_room(folder, kForEvents + kForRobot * spec.robots.size());
 }
 
+namespace {
+
+/// The maps that programs kept, for `map_server` of ROS.
+Status write_maps(const MapResults& maps, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return fail(ErrorCode::kIo, "{}", error.message());
+  for (const auto& tiles : maps.tiles) {
+    if (!tiles.empty()) RAVE_TRY(maps::save(tiles, folder / tiles.front().source));
+  }
+  return {};
+}
+
+}  // namespace
+
 RunOutcome write_results(const RunResults& results, const std::filesystem::path& folder,
                          bool picture) {
   RunOutcome outcome = judge(results);
@@ -216,6 +233,9 @@ RunOutcome write_results(const RunResults& results, const std::filesystem::path&
        write_private_file_atomically(
            folder / "events.log", events_log(results.spec, results.kinds, results.facts.events)));
   note("result.json", write_json());
+  if (const auto maps = map_results(results.spec, results.facts)) {
+    note("maps", write_maps(*maps, folder / "maps"));
+  }
   if (picture) {
     const report::Picture drawn = make_picture(results, outcome);
     note("picture.svg", report::write_svg(drawn, folder / "picture.svg"));

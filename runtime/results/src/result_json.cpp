@@ -6,6 +6,7 @@
 
 #include "rave/observe/event_words.hpp"
 #include "rave/results/capture_watch.hpp"
+#include "rave/results/map_result.hpp"
 #include "rave/results/outcome.hpp"
 #include "rave/results/result_parts.hpp"
 #include "rave/results/sighting_check.hpp"
@@ -224,6 +225,32 @@ void add_poses(const PoseDelayFacts& poses, Json& json) {
                : Json();
 }
 
+double percent(std::size_t part, std::size_t all) {
+  return all == 0 ? 0 : rounded(100 * static_cast<double>(part) / static_cast<double>(all), 2);
+}
+
+Json accuracy_json(const MapAccuracy& map) {
+  return {{"known_m2", rounded(map.known_m2, 2)},
+          {"free", map.free},
+          {"free_right_pct", percent(map.free_right, map.free)},
+          {"occupied", map.occupied},
+          {"occupied_right_pct", percent(map.occupied_right, map.occupied)},
+          {"wall_error_m", rounded(map.wall_error_m, 4)},
+          {"undecided", map.undecided},
+          {"unknown", map.unknown}};
+}
+
+/// The maps that programs kept, and their combination, against the world model.
+void add_maps(const RunResults& results, Json& json) {
+  const auto maps = map_results(results.spec, results.facts);
+  if (!maps) return;
+  Json& all = json["maps"];
+  all["cell_m"] = maps->cell_m;
+  for (const MapAccuracy& map : maps->locals) all["robots"][map.name] = accuracy_json(map);
+  all["global"] = maps->global ? accuracy_json(*maps->global) : Json();
+  if (!maps->problem.empty()) all["problem"] = maps->problem;
+}
+
 }  // namespace
 
 std::string result_json(const RunResults& results, const RunOutcome& outcome) {
@@ -268,6 +295,7 @@ std::string result_json(const RunResults& results, const RunOutcome& outcome) {
   add_hand_overs(results, json);
   if (scenario.checks.capture) json["capture"] = capture_json(results);
   json["robots"] = robots_json(results);
+  add_maps(results, json);
   json["devices"] = instruments_json(results, results.facts.devices, "device");
   json["streams"] = instruments_json(results, results.facts.streams, "sensor");
   if (results.worlds) json["worlds"] = *results.worlds;

@@ -44,6 +44,9 @@ inline RunFacts sample_facts(std::uint32_t robot) {
   report::PictureSighting sighting;
   sighting.tube_W = Vec2{2, 3};
   facts.instant = InstantFacts{1.5, {shown}, {{robot, robot, sighting}}};
+  facts.maps = {{robot, 0.05, {-3.2, 6.4}, 128, 64, 1, 0, 2'000'000'000, {}}};
+  facts.maps.front().cells.assign(64 * 64, 255);
+  facts.maps.front().cells[robot] = 100;
   facts.shadows = {{robot, R"({"robot": "r"})"}};
   facts.world = WorldFacts{robot,
                            300,

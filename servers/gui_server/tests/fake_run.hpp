@@ -62,6 +62,7 @@ class FakeRun : public Source {
     }
     maps_.add({"all", maps::kNoRobot, {0.5, {}, 4, 2}, 0, 0, 1, {}, kGlobalCells});
     maps_.add({"of spy-2", maps::kNoRobot, {0.5, {}, 4, 2}, 0, 0, 1, {}, kSecretCells});
+    maps_.add({"global blue", maps::kNoRobot, {0.5, {}, 4, 2}, 0, 0, 1, {}, kSecretCells});
     for (int i = 0; i < 4; ++i) {
       poses_.robots.push_back({i % 2 == 0 ? 1.0 : kSecretX_m, 0, 0, 0, kKnown});
       poses_.robots.back().variance_xy_m2 = i % 2 == 0 ? kOpenVariance_m2 : kSecretVariance_m2;

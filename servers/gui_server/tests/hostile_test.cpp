@@ -81,6 +81,15 @@ TEST_F(Hostile, AnObserverGetsNothingThatIsWithheldWhateverTheyAsk) {
         << request;
   }
   look_until(eve, 4);
+  // What team blue knows together is theirs alone.
+  EXPECT_EQ(eve.heard().find("global blue"), std::string::npos);
+  eve.send(R"({"type":"look_maps","maps":[]})");
+  eve.send(R"({"type":"look_maps","maps":["global blue","all"]})");
+  for (bool all = false; !all;) {
+    const auto frame = eve.next();
+    ASSERT_TRUE(frame) << "the connection ended";
+    all = frame->opcode == 2 && frame->payload.size() >= 8 && frame->payload[0] == 4;
+  }
   const std::string& heard = eve.heard();
   for (const std::string& secret : secrets()) {
     EXPECT_EQ(heard.find(secret), std::string::npos) << secret;

@@ -58,6 +58,7 @@ void put_commands(LivePicture& picture, const sim::Engine& engine, const LookedA
 Status LiveFeed::run_begins(const runtime::RunView& run) {
   kinds_ = &run.kinds;
   touching_until_s_.assign(run.engine.spec().robots.size(), -1);
+  global_maps_.emplace(maps::mapping_teams(run.engine.spec()));
   return begun_(run);
 }
 
@@ -116,9 +117,21 @@ void LiveFeed::take_news(const runtime::StepView& step) {
 }
 
 void LiveFeed::draw_maps(const sim::Engine& engine, int slower) {
-  maps_.ask(engine, box_->wants.value().maps);
-  auto tiles = maps_.changed(Clock::now(), slower);
+  const auto& teams = global_maps_->teams();
+  mapping_ = box_->wants.value().maps;
+  for (std::uint32_t r = 0; r < teams.size(); ++r) {
+    if (!teams[r].empty() && !std::ranges::binary_search(box_->wants.value().maps, r)) {
+      mapping_.push_back(r);
+    }
+  }
+  maps_.ask(engine, mapping_);
+  auto tiles = maps_.changed(engine, Clock::now(), slower);
   if (tiles.empty()) return;
+  for (const maps::MapTile& tile : tiles) {
+    // A map that does not fit the others of its team can be seen, but is no part of the global one.
+    static_cast<void>(global_maps_->add(tile));
+  }
+  for (maps::MapTile& tile : global_maps_->changed()) tiles.push_back(std::move(tile));
   auto news = std::make_unique<LiveNews>();
   news->tiles = std::move(tiles);
   box_->news.push(std::move(news));

@@ -4,10 +4,12 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "live/live_box.hpp"
 #include "rave/maps/local_maps.hpp"
+#include "rave/maps/team_maps.hpp"
 #include "rave/observe/run_observer.hpp"
 #include "rave/plugin/catalogue.hpp"
 #include "rave/probe/probes.hpp"
@@ -47,6 +49,9 @@ class LiveFeed final : public runtime::RunObserver {
   std::vector<double> touching_until_s_;  ///< By robot.
   Clock::time_point drawn_{};
   maps::LocalMaps maps_;
+  /// The Map Server of a run in one process.
+  std::optional<maps::TeamMaps> global_maps_;
+  std::vector<std::uint32_t> mapping_;  ///< Memory of draw_maps().
   probe::Probes probes_;
   std::uint32_t serial_ = 0;
 };

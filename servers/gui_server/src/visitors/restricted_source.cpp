@@ -215,11 +215,19 @@ const std::string& RestrictedSource::hosts_json() const noexcept {
   return view_->may_all(InfoClass::kPose) ? all_->hosts_json() : Source::hosts_json();
 }
 
+/// `global TEAM` is what that team knows together (maps::TeamMaps).
+bool RestrictedSource::may_global(const std::string& name) const {
+  constexpr std::string_view kOfTeam = "global ";
+  if (!view_->may_some(InfoClass::kMaps) || !view_->may_read(name)) return false;
+  return !name.starts_with(kOfTeam) ||
+         view_->may_of_team(InfoClass::kMaps, std::string_view(name).substr(kOfTeam.size()));
+}
+
 std::vector<MapName> RestrictedSource::map_names() const {
   std::vector<MapName> mine;
   for (MapName& name : all_->map_names()) {
     if (name.global()) {
-      if (view_->may_some(InfoClass::kMaps) && view_->may_read(name.name)) mine.push_back(name);
+      if (may_global(name.name)) mine.push_back(name);
     } else if (view_->may(InfoClass::kMaps, name.slot)) {
       mine.push_back({*view_->slot_of(name.slot), std::move(name.name)});
     }
@@ -229,8 +237,7 @@ std::vector<MapName> RestrictedSource::map_names() const {
 
 const MapShown* RestrictedSource::map(const MapName& name) const {
   if (name.global()) {
-    const bool mine = view_->may_some(InfoClass::kMaps) && view_->may_read(name.name);
-    return mine ? all_->map(name) : nullptr;
+    return may_global(name.name) ? all_->map(name) : nullptr;
   }
   const auto robot = view_->robot_of(name.slot);
   if (!robot || !view_->may(InfoClass::kMaps, *robot)) return nullptr;

@@ -39,7 +39,8 @@ class RestrictedSource final : public Source {
   /// Hosts say how many robots they have, so they are shown to who sees all robots.
   [[nodiscard]] std::uint64_t hosts_revision() const noexcept override;
   [[nodiscard]] const std::string& hosts_json() const noexcept override;
-  /// Global maps go to users who get the map of any robot.
+  /// Global maps go to users who get the map of any robot; that of a team to those who get the maps
+  /// of that team.
   [[nodiscard]] std::vector<MapName> map_names() const override;
   [[nodiscard]] std::uint64_t map_names_revision() const noexcept override {
     return all_->map_names_revision();
@@ -68,6 +69,7 @@ class RestrictedSource final : public Source {
  private:
   void take_events() const;
   void take_bodies() const;
+  [[nodiscard]] bool may_global(const std::string& name) const;
 
   std::shared_ptr<Source> all_;
   std::shared_ptr<const View> view_;

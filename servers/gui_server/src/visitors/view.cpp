@@ -113,6 +113,11 @@ bool View::may_some(InfoClass what) const {
   return may_all(what) || std::any_of(shown_.begin(), shown_.end(),
                                       [&](std::uint32_t robot) { return may(what, robot); });
 }
+bool View::may_of_team(InfoClass what, std::string_view team) const {
+  const auto found = std::ranges::find(teams_, team);
+  return found == teams_.end() ||
+         covers_[column(what)][static_cast<std::size_t>(found - teams_.begin())];
+}
 bool View::may_all(InfoClass what) const { return all_[column(what)]; }
 
 PosesAt View::poses(const PosesAt& all) const {

@@ -59,6 +59,8 @@ class View {
   [[nodiscard]] bool may_any(InfoClass what) const;
   /// Of one robot at least.
   [[nodiscard]] bool may_some(InfoClass what) const;
+  /// Of the robots of a team; true for a word that is no team.
+  [[nodiscard]] bool may_of_team(InfoClass what, std::string_view team) const;
   /// Of every robot, as the recording and run control need it.
   [[nodiscard]] bool may_all(InfoClass what) const;
 

@@ -16,6 +16,7 @@ enum class HashChannel : std::uint32_t {
   kPose = 4,
   kEvent = 5,
   kInput = 6,  ///< A request that changed the run.
+  kState = 7,  ///< Commands::state() of a program.
 };
 
 /// A strong 64-bit mixing step (the finaliser of MurmurHash3, variant 13 by D. Stafford).

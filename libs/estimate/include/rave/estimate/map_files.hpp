@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,6 +20,11 @@ struct MapThresholds {
 /// The grid as a PGM image (P5) for `map_server`: 0 occupied, 254 free, 205 unknown; the first row
 /// has the largest y.
 [[nodiscard]] std::string map_image(const OccupancyGrid& grid, const MapThresholds& thresholds);
+
+/// The same of cells in percent, row by row from the lowest y; more than 100: unknown.
+/// Precondition: as many as the frame has.
+[[nodiscard]] std::string map_image(const GridFrame& frame, std::span<const std::uint8_t> percent,
+                                    const MapThresholds& thresholds);
 
 /// The YAML file of a map. `image` is the file name of the image. Lines of `comment` begin with
 /// `#`; it may be empty.

@@ -40,6 +40,14 @@ struct ScanView {
   std::span<const float> ranges_m;  ///< One per bearing; +infinity: no return; NaN: not known.
 };
 
+/// One reading of a cone sensor, such as a sonar, in the sensor frame.
+struct ConeView {
+  Pose2 X_WS;
+  double bearing_rad = 0;  ///< Of its axis.
+  double cone_rad = 0;     ///< Full opening angle.
+  double range_m = 0;      ///< +infinity: no return.
+};
+
 /// An occupancy grid by the log-odds form of Bayes' rule, cells independent of one another:
 /// H. Moravec, A. Elfes: "High resolution maps from wide angle sonar", ICRA 1985; S. Thrun, W.
 /// Burgard, D. Fox: "Probabilistic Robotics", MIT Press 2005, chapter 9. Beams are traced cell by
@@ -58,6 +66,10 @@ class OccupancyGrid {
   /// Adds a scan. Beams outside of the grid are ignored. Precondition: both spans have the same
   /// size.
   void add(const ScanView& scan);
+  /// Adds a cone: the echo may come from anywhere on its arc, and everything nearer is free. Cells
+  /// off the axis count less. The end is shared among the cells of the arc by their probability of
+  /// being occupied: what is known as free cannot have been the echo. NaN is ignored.
+  void add(const ConeView& cone);
 
   /// The log odds of a cell; 0 if nothing is known.
   [[nodiscard]] double log_odds(int column, int row) const noexcept {
@@ -69,6 +81,12 @@ class OccupancyGrid {
   }
   /// Probability that the cell is occupied, 0 to 1.
   [[nodiscard]] double probability(int column, int row) const noexcept;
+  /// All log odds, row by row.
+  [[nodiscard]] std::span<const double> all_log_odds() const noexcept { return log_odds_; }
+  /// For each cell, not 0 if any beam has reached it.
+  [[nodiscard]] std::span<const std::int32_t> all_seen() const noexcept { return last_scan_; }
+  /// A number that depends on every change of every cell so far, in their order.
+  [[nodiscard]] std::uint64_t digest() const noexcept { return digest_; }
 
  private:
   OccupancyGrid(const GridFrame& frame, const BeamModel& model);
@@ -80,6 +98,8 @@ class OccupancyGrid {
   void mark_end(Vec2 p_W);
   void trace(Vec2 from_W, Vec2 direction, double length_m);
   void pass(int column, int row);
+  void change(std::size_t at, double by);
+  void find_arc(const ConeView& cone, double free_m);
 
   GridFrame frame_;
   BeamModel model_;
@@ -88,6 +108,12 @@ class OccupancyGrid {
   /// scan ended in it.
   std::vector<std::int32_t> last_scan_;
   std::int32_t scan_ = 0;
+  std::uint64_t digest_ = 0;
+  struct ArcCell {
+    std::size_t at = 0;
+    double share = 0;
+  };
+  std::vector<ArcCell> arc_;  ///< Memory of add().
 };
 
 }  // namespace rave::estimate

@@ -59,6 +59,8 @@ constexpr std::uint64_t robot_interface_hash() noexcept {
                                                       sizeof(DecideItem),
                                                       offsetof(DecideItem, pose),
                                                       offsetof(DecideItem, orders),
+                                                      offsetof(DecideItem, state),
+                                                      sizeof(MapView),
                                                       sizeof(OrderItem),
                                                       sizeof(AnswerService),
                                                       sizeof(ProgramOps),

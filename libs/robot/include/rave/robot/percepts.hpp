@@ -35,6 +35,7 @@ struct DecideItem {
   std::uint32_t order_count = 0;
   std::uint32_t driven = 0;                ///< Not 0: a user drives the robot.
   const AnswerService* answers = nullptr;  ///< Null: answers are ignored.
+  std::uint64_t* state = nullptr;          ///< Receives Commands::state(); null: ignored.
 };
 
 /// One received message. A view: valid during decide().
@@ -162,6 +163,11 @@ class Commands {
   /// A point in the world frame to drive to; speed 0: the default of the controller.
   void goal(ControllerHandle controller, Vec2 p_WG, double speed_mps = 0) noexcept {
     set(controller, goal_command(p_WG.x, p_WG.y, speed_mps));
+  }
+  /// A number that stands for what the program knows, such as a digest of its map. It becomes a
+  /// part of the hash of the run, which then shows at once when knowledge differs. 0: nothing.
+  void state(std::uint64_t digest) noexcept {
+    if (item_->state != nullptr) *item_->state = digest;
   }
   /// Sends a message. False, and nothing is sent, if it exceeds the communicator's limit or there
   /// is no room left in this step.

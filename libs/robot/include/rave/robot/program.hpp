@@ -5,6 +5,7 @@
 
 #include "rave/base/result.hpp"
 #include "rave/robot/interface.hpp"
+#include "rave/robot/map_view.hpp"
 #include "rave/robot/percepts.hpp"
 #include "rave/robot/setup.hpp"
 
@@ -15,7 +16,8 @@ namespace rave {
 /// receives readings and gives commands; nothing tells it what is real and what is virtual.
 ///
 /// A program that takes orders of users lists their kinds in a public constant: `static constexpr
-/// OrderSet kTakes = kTakesGoal | kTakesText;`. See Percepts::orders().
+/// OrderSet kTakes = kTakesGoal | kTakesText;`. See Percepts::orders(). One that keeps a map has
+/// a public function `MapView map() const`; viewers and the Map Server then get that map.
 class DecisionProcess {
  public:
   virtual ~DecisionProcess() = default;
@@ -38,6 +40,8 @@ struct ProgramOps {
   void (*decide)(void* first, std::uint64_t stride, const DecideItem* items, std::uint64_t count,
                  std::uint8_t* failed, ErrorText* error) = nullptr;
   UpdateFunction update = nullptr;
+  /// The map of an instance, between two decisions; null: programs of this kind keep none.
+  void (*map)(const void* instance, MapView* view) = nullptr;
   OrderSet takes = 0;  ///< Kinds of orders that are passed to the program.
   std::uint32_t reserved = 0;
 };
@@ -62,6 +66,12 @@ constexpr ProgramOps program_ops() noexcept {
   };
   ops.update = update_function<Program>();
   ops.takes = taken_orders<Program>();
+  if constexpr (requires(const Program& program) { program.map(); }) {
+    ops.map = [](const void* instance, MapView* view) {
+      ErrorText ignored;
+      guarded(&ignored, [&] { *view = static_cast<const Program*>(instance)->map(); });
+    };
+  }
   ops.decide = [](void* first, std::uint64_t stride, const DecideItem* items, std::uint64_t count,
                   std::uint8_t* failed, ErrorText* error) {
     for (std::size_t i = 0; i < count; ++i) {

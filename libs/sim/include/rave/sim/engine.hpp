@@ -112,6 +112,9 @@ class Engine {
   [[nodiscard]] Pose2 true_pose(RobotId robot) const noexcept;
   /// The latest sample of a sensor; `index` in the order of the robot's type.
   [[nodiscard]] SensorSample sensor(RobotId robot, std::uint32_t index) const noexcept;
+  /// The map that the program of a robot keeps; without cells if it keeps none, or if the program
+  /// runs in a process of its own or on another host. Valid until the next step.
+  [[nodiscard]] MapView program_map(RobotId robot) const noexcept;
   /// The readings of both halves behind a hybrid sensor's newest reading; null for other sensors.
   [[nodiscard]] SensorParts sensor_parts(RobotId robot, std::uint32_t index) const noexcept;
   /// The last command of the program to a controller.

@@ -31,7 +31,8 @@ class LocalMaps {
   void after_step(const sim::Engine& engine);
   /// The changed tiles, if they are due; empty otherwise. `slower`: factor of the interval, at
   /// least 1.
-  [[nodiscard]] std::vector<MapTile> changed(Clock::time_point now, int slower);
+  [[nodiscard]] std::vector<MapTile> changed(const sim::Engine& engine, Clock::time_point now,
+                                             int slower);
   [[nodiscard]] bool empty() const noexcept { return maps_.empty(); }
   [[nodiscard]] std::size_t count() const noexcept { return maps_.size(); }
 

@@ -131,6 +131,19 @@ struct InstantSighting {
   report::PictureSighting shown;
 };
 
+/// A tile of the map that the program of a robot kept, as maps::MapTile has it.
+struct MapFacts {
+  std::uint32_t robot = 0;
+  double resolution_m = 0;
+  Vec2 origin_W;
+  std::uint32_t columns = 0;
+  std::uint32_t rows = 0;
+  std::uint32_t column = 0;
+  std::uint32_t row = 0;
+  std::int64_t stamp_ns = 0;
+  std::vector<std::uint8_t> cells;
+};
+
 struct InstantFacts {
   double t_s = 0;
   std::vector<InstantRobot> robots;  ///< By robot.
@@ -185,6 +198,7 @@ struct RunFacts {
   std::vector<TrackFacts> tracks;  ///< By robot; tracks from odometry alone come last.
   std::optional<InstantFacts> instant;
   std::vector<ShadowFacts> shadows;  ///< By robot.
+  std::vector<MapFacts> maps;        ///< By robot.
   /// Set by a host during whose run the manager was replaced.
   std::optional<WorldFacts> world;
 };

@@ -31,7 +31,7 @@ class Maps : public SharedWorld {
 TEST_F(Maps, AMapServerCombinesTheMapsOfAllRobots) {
   start("run", "run",
         std::string(RAVE_SOURCE_DIR) + "/scenarios/collaborative-mapping/scenario.yaml",
-        {"--processes", "2", "--pace", "1", "--no-record", "--no-picture"});
+        {"--processes", "2", "--pace", "realtime", "--no-record", "--no-picture"});
   const std::string said = folder("said");
   const pid_t server = start_rave(beside({"map-server"}), variables(), said);
   wait_until([&] { return content_of(said).find("maps of 3 robots") != std::string::npos; },

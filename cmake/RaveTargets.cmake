@@ -135,10 +135,9 @@ function(rave_driver name)
   rave_plugin(${name} ${ARGN})
 endfunction()
 
-# rave_program(NAME SOURCES ...): a decision process; it is given the robot library and what makes maps
-# of readings, and no more.
+# rave_program(NAME SOURCES ...): a decision process; it is given the robot library and no more.
 function(rave_program name)
-  rave_plugin(${name} ${ARGN} DEPS rave::estimate rave::robot)
+  rave_plugin(${name} ${ARGN} DEPS rave::robot)
 endfunction()
 
 # rave_executable(NAME SOURCES ... DEPS ...)

@@ -46,18 +46,6 @@ struct Past {
   bool broken = false;          ///< The condition failed, and is not asked again.
 };
 
-/// The parts of a scenario that names of robots stand in.
-config::ExpandedScenario names_in(const config::ExpandedScenario& scenario) {
-  config::ExpandedScenario names;
-  names.scenario.step_s = scenario.scenario.step_s;
-  names.scenario.seed = scenario.scenario.seed;
-  names.scenario.users = scenario.scenario.users;
-  names.scenario.teams = scenario.scenario.teams;
-  names.groups = scenario.groups;
-  names.robots = scenario.robots;
-  return names;
-}
-
 std::vector<std::string> robots_of(const config::ExpandedScenario& scenario) {
   std::vector<std::string> names;
   for (const config::ExpandedRobot& robot : scenario.robots) names.push_back(robot.name);
@@ -165,7 +153,7 @@ Status ScenarioConductor::add(const ChangeFile& file, const std::vector<ChangeFi
     entry.after = static_cast<std::size_t>(before - all.begin());
   }
   entry.mark = file.mark;
-  if (file.give) entry.gifts = gifts_of(*file.give->team, *file.give->to);
+  if (file.give) entry.gifts = gifts_of(scenario_, *file.give->team, *file.give->to);
   entry.end = file.end;
   if (file.is_scheduled()) {
     entry.noted = false;
@@ -211,30 +199,11 @@ Result<Value> ScenarioConductor::mark(Arguments arguments) {
   return Value();
 }
 
-std::vector<std::string> ScenarioConductor::gifts_of(std::string_view team,
-                                                     std::string_view to) const {
-  std::vector<std::string> gifts;
-  for (const std::string& one : config::teams_within(scenario_, team)) {
-    gifts.push_back(config::TeamGift::text(one, to));
-  }
-  return gifts;
-}
-
 Result<Value> ScenarioConductor::give(Arguments arguments) {
   RAVE_TRY(check_acting());
-  const auto text = [&](std::string_view key) {
-    const Value* const member = arguments.empty() ? nullptr : arguments[0].find(key);
-    return member != nullptr && member->text() != nullptr ? *member->text() : std::string();
-  };
-  const auto& users = scenario_.scenario.users;
-  const bool known = std::ranges::any_of(users, [&](const config::UserFile& user) {
-    return *user.name == text("to") && user.role != config::UserRole::kObserver;
-  });
-  const std::vector<std::string> gifts = gifts_of(text("team"), text("to"));
-  if (!known || gifts.empty()) {
-    return fail(ErrorCode::kNotFound,
-                "`give`: expected {{team = TEAM, to = COMMANDER}} of this scenario");
-  }
+  const Value nothing;
+  RAVE_TRY_ASSIGN(const auto gifts,
+                  gifts_of(scenario_, arguments.empty() ? nothing : arguments[0]));
   for (const std::string& gift : gifts) note(gift, sim::EventKind::kTeamGiven);
   return Value();
 }

@@ -2,6 +2,7 @@
 // What a scenario and its script ask of a run, as inputs of the run.
 #include "scenario_requests.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "rave/assemble/input_action.hpp"
@@ -181,6 +182,42 @@ Result<request::Request> request_of(std::string_view action, const script::Value
     *value = RawNode::text(value->scalar());
   }
   return request::from_node(node);
+}
+
+config::ExpandedScenario names_in(const config::ExpandedScenario& scenario) {
+  config::ExpandedScenario names;
+  names.scenario.step_s = scenario.scenario.step_s;
+  names.scenario.seed = scenario.scenario.seed;
+  names.scenario.users = scenario.scenario.users;
+  names.scenario.teams = scenario.scenario.teams;
+  names.groups = scenario.groups;
+  names.robots = scenario.robots;
+  return names;
+}
+
+std::vector<std::string> gifts_of(const config::ExpandedScenario& scenario, std::string_view team,
+                                  std::string_view to) {
+  std::vector<std::string> gifts;
+  for (const std::string& one : config::teams_within(scenario, team)) {
+    gifts.push_back(config::TeamGift::text(one, to));
+  }
+  return gifts;
+}
+
+Result<std::vector<std::string>> gifts_of(const config::ExpandedScenario& scenario,
+                                          const script::Value& members) {
+  const auto text = [&](std::string_view key) {
+    const script::Value* const member = members.find(key);
+    return member != nullptr && member->text() != nullptr ? *member->text() : std::string();
+  };
+  const bool known =
+      std::ranges::any_of(scenario.scenario.users, [&](const config::UserFile& user) {
+        return *user.name == text("to") && user.role != config::UserRole::kObserver;
+      });
+  std::vector<std::string> gifts = gifts_of(scenario, text("team"), text("to"));
+  if (known && !gifts.empty()) return gifts;
+  return fail(ErrorCode::kNotFound,
+              "`give`: expected {{team = TEAM, to = COMMANDER}} of this scenario");
 }
 
 }  // namespace rave::runtime

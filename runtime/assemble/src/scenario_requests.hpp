@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +13,9 @@
 #include "rave/sim/world_input.hpp"
 
 namespace rave::runtime {
+
+/// The parts of a scenario that names of robots, teams and users stand in.
+[[nodiscard]] config::ExpandedScenario names_in(const config::ExpandedScenario& scenario);
 
 /// The robots that a name of the scenario stands for: one, or those of an entry. Error: kNotFound,
 /// with the nearest name.
@@ -34,5 +38,13 @@ namespace rave::runtime {
 /// request::from_node().
 [[nodiscard]] Result<request::Request> request_of(std::string_view action,
                                                   const script::Value& members);
+
+/// The texts of events that give a team, and those below it, to a user (config::TeamGift).
+[[nodiscard]] std::vector<std::string> gifts_of(const config::ExpandedScenario& scenario,
+                                                std::string_view team, std::string_view to);
+/// The same of a table `{team = NAME, to = NAME}` of a script. Error kNotFound: no team or
+/// commander of the scenario.
+[[nodiscard]] Result<std::vector<std::string>> gifts_of(const config::ExpandedScenario& scenario,
+                                                        const script::Value& members);
 
 }  // namespace rave::runtime

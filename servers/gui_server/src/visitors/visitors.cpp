@@ -7,10 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "people/secrets.hpp"
-#include "rave/config/people_file.hpp"
 #include "rave/control/obstacle_edits.hpp"
 #include "rave/direct_line/ticket.hpp"
-#include "rave/sim/event.hpp"
 
 namespace rave::gui_server {
 namespace {
@@ -246,25 +244,6 @@ void Visitors::tell_people() {
   const web::Payload text = payload(told_people_);
   for (const auto& [id, visitor] : visitors_) {
     if (visitor.view->may_any(InfoClass::kChat)) visitor.page->send(text);
-  }
-}
-
-void Visitors::give_teams() {
-  if (!source_ || !source_->about().live || gifts_seen_ == source_->events_revision()) return;
-  const std::span<const LogEvent> events = source_->events();
-  const std::size_t first = gifts_seen_ == 0 ? 0 : source_->events_changed_since(gifts_seen_);
-  gifts_seen_ = source_->events_revision();
-  for (const LogEvent& event : events.subspan(std::min(first, events.size()))) {
-    if (event.kind != to_string(sim::EventKind::kTeamGiven)) continue;
-    // Behind the kind, as in the log of pages.
-    const std::string_view text = std::string_view(event.text).substr(event.kind.size());
-    if (!text.starts_with(": ")) continue;
-    const auto gift = config::TeamGift::parse(text.substr(2));
-    if (!gift) continue;
-    const Status given = accounts_ ? accounts_->give_team(gift->first, gift->second)
-                                   : fail(ErrorCode::kState, "the server has no accounts");
-    audit_->note("team",
-                 {{"user", gift->second}, {"detail", given ? gift->first : given.error().text()}});
   }
 }
 

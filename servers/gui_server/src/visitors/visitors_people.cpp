@@ -2,6 +2,8 @@
 // What super-users ask about people, and the answers.
 #include <algorithm>
 
+#include "rave/config/people_file.hpp"
+#include "rave/sim/event.hpp"
 #include "visitors/visitors.hpp"
 
 namespace rave::gui_server {
@@ -87,6 +89,25 @@ void Visitors::tell_accounts() {
       visitor.page->send(
           payload(fmt::format(R"({{"type":"audit_written","lines":{}}})", lines - 1)));
     }
+  }
+}
+
+void Visitors::give_teams() {
+  if (!source_ || !source_->about().live || gifts_seen_ == source_->events_revision()) return;
+  const std::span<const LogEvent> events = source_->events();
+  const std::size_t first = gifts_seen_ == 0 ? 0 : source_->events_changed_since(gifts_seen_);
+  gifts_seen_ = source_->events_revision();
+  for (const LogEvent& event : events.subspan(std::min(first, events.size()))) {
+    if (event.kind != to_string(sim::EventKind::kTeamGiven)) continue;
+    // Behind the kind, as in the log of pages.
+    const std::string_view text = std::string_view(event.text).substr(event.kind.size());
+    if (!text.starts_with(": ")) continue;
+    const auto gift = config::TeamGift::parse(text.substr(2));
+    if (!gift) continue;
+    const Status given = accounts_ ? accounts_->give_team(gift->first, gift->second)
+                                   : fail(ErrorCode::kState, "the server has no accounts");
+    audit_->note("team",
+                 {{"user", gift->second}, {"detail", given ? gift->first : given.error().text()}});
   }
 }
 

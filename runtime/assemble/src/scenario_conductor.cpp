@@ -83,7 +83,6 @@ class ScenarioConductor final : public sim::Conductor {
   [[nodiscard]] std::uint64_t steps(double time_s) const {
     return static_cast<std::uint64_t>(std::llround(time_s / scenario_.scenario.step_s.value));
   }
-  [[nodiscard]] std::vector<std::string> gifts_of(std::string_view team, std::string_view to) const;
   void look_at(std::size_t index, std::int64_t step);
   [[nodiscard]] bool begins_to_hold(const Entry& entry, Past& past);
   void happen(std::size_t index);

@@ -29,6 +29,7 @@ void group_commands(CLI::App& root) {
   const Group groups[] = {
       {"Start a run", {"run", "robot", "env"}},
       {"Files, drivers and programs", {"check", "drivers", "describe", "new", "schema"}},
+      {"Experiments", {"sweep"}},
       {"Recordings", {"info", "verify", "play", "export", "report"}},
       {"Page in the browser", {"gui", "people"}},
       {"Several machines", {"keys", "doctor"}},
@@ -88,6 +89,7 @@ int run_command_line(int argc, const char* const* argv) {
   add_record_commands(root, chosen);
   add_control_commands(root, chosen);
   add_bench_commands(root, chosen);
+  add_experiment_commands(root, chosen);
   add_keys_commands(root, chosen);
   add_people_commands(root, chosen);
   add_watch_commands(root, chosen);

@@ -10,9 +10,11 @@ namespace rave::cli {
 namespace {
 
 void add_check(CLI::App& root, Command& chosen) {
-  const auto [app, c] = add_command(root, chosen, "check",
-                                    "Check robot, world and scenario files, and draw them", check);
-  add_word(app, "files", c.files, "Robot, world or scenario files; the keys tell which", "FILE");
+  const auto [app, c] =
+      add_command(root, chosen, "check",
+                  "Check robot, world, scenario and experiment files, and draw them", check);
+  add_word(app, "files", c.files, "Robot, world, scenario or experiment files; the keys tell which",
+           "FILE");
   app.add_flag("--expand", c.expand, "Print the file with all defaults filled in");
   add_value(app, "--draw", c.draw,
             "Draw a robot with its sensors, or a world with the start poses of robots",
@@ -64,7 +66,7 @@ void add_new(CLI::App& root, Command& chosen) {
 void add_schema(CLI::App& root, Command& chosen) {
   const auto [app, c] =
       add_command(root, chosen, "schema", "Print the JSON Schema of a kind of file", schema);
-  add_word(app, "kind", c.kind, "robot, world or scenario", "KIND");
+  add_word(app, "kind", c.kind, "robot, world, scenario or experiment", "KIND");
   app.footer("Example:\n  rave schema robot > robot.schema.json");
 }
 

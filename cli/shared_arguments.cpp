@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/prctl.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <string_view>
 #include <utility>
 
@@ -138,6 +141,13 @@ void add_run_options(CLI::App& app, RunCommand& c) {
   app.add_flag("--no-record", c.no_record, "Do not write run.mcap");
   app.add_flag("--arm", c.arm, "Arm all robots at the start: real robots may move immediately");
   app.add_flag("--quiet", c.quiet, "Print errors and problems only");
+  // Not for people: a run of a sweep ends with the sweep, however that ends.
+  app.add_option_function<pid_t>("--end-with-parent",
+                                 [](const pid_t& parent) {
+                                   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+                                   if (::getppid() != parent) ::raise(SIGKILL);
+                                 })
+      ->group("");
   add_plugins(app, c.plugins);
 }
 

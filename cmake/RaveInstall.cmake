@@ -89,7 +89,7 @@ foreach(program rave rave-keeper rave-program-runner rave-carmen-map)
     list(APPEND RAVE_RUNTIME_TARGETS ${program})
   endif()
 endforeach()
-foreach(folder scenarios robots worlds data schemas)
+foreach(folder scenarios experiments robots worlds data schemas)
   if(EXISTS "${CMAKE_SOURCE_DIR}/${folder}")
     # scenarios/demo needs the build tree.
     install(DIRECTORY "${CMAKE_SOURCE_DIR}/${folder}" DESTINATION share/rave COMPONENT runtime

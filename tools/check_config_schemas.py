@@ -14,7 +14,7 @@ import tempfile
 import jsonschema
 import yaml
 
-KINDS = ("robot", "world", "scenario")
+KINDS = ("robot", "world", "scenario", "experiment")
 
 
 def compare(tool, committed):
@@ -41,10 +41,10 @@ def is_map(path):
 
 
 def good_files(source):
-    """(kind, path) of every shipped robot, world and scenario file."""
+    """(kind, path) of every shipped robot, world, scenario and experiment file."""
     for base in (source, source / "libs/config/tests/data"):
         for kind in KINDS:
-            for path in sorted((base / f"{kind}s").glob("*.yaml")):
+            for path in sorted((base / f"{kind}s").glob("**/*.yaml" if kind == "experiment" else "*.yaml")):
                 if not is_map(path):
                     yield kind, path
             if base == source:

@@ -10,6 +10,7 @@
 
 #include "build_errors.hpp"
 #include "error_text.hpp"
+#include "experiment_plan.hpp"
 #include "places.hpp"
 #include "rave/assemble/build.hpp"
 #include "rave/assemble/warnings.hpp"
@@ -47,6 +48,7 @@ std::string summary_of(const config::AnyFile& input, const runtime::BuiltScenari
     case config::FileKind::kWorld:
       return fmt::format("world with {}", counted(obstacles, "obstacle"));
     case config::FileKind::kScenario:
+    case config::FileKind::kExperiment:
       break;
   }
   std::set<std::string> drivers;
@@ -106,7 +108,9 @@ class Checker {
     std::error_code error;
     if (std::filesystem::is_regular_file(word, error)) return word;
     const auto found = find_scenario(word);
-    return found ? found->string() : word;
+    if (found) return found->string();
+    const auto experiment = find_experiment(word);
+    return experiment ? experiment->string() : word;
   }
 
   /// Programs and drivers check what they are given when they start. With hardware that would open
@@ -122,6 +126,10 @@ class Checker {
     const std::string file = file_of(word);
     const auto kind = config::recognise(file);
     if (!kind) return bad(file, "", kind.error());
+    if (*kind == config::FileKind::kExperiment) {
+      const Status checked = check_experiment(file, catalogue_);
+      return checked ? true : bad(file, to_string(*kind), checked.error());
+    }
     auto input = config::read_any_file(file, options_.set);
     if (!input) return bad(file, to_string(*kind), input.error());
     runtime::BuildOptions build_options;

@@ -24,7 +24,7 @@
 namespace rave::cli {
 namespace {
 
-constexpr Duration kSearch = from_seconds(3);
+constexpr Duration kTopSearch = from_seconds(3);
 /// Rates need two messages of each process, which come once a second.
 constexpr double kOnce_s = 2.5;
 
@@ -65,7 +65,7 @@ Result<Look> join(bus::BusConfig config, const bus::RunId& run) {
 Result<Look> find_shared_run(const bus::BusConfig& config, const std::string& word,
                              const std::stop_token& stop) {
   RAVE_TRY_ASSIGN(const bus::RunId run,
-                  client::find_bus_run(config, word, client::SearchFor::kLook, kSearch, stop));
+                  client::find_bus_run(config, word, client::SearchFor::kLook, kTopSearch, stop));
   return join(config, run);
 }
 

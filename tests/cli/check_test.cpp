@@ -237,7 +237,7 @@ TEST(Check, FileOfNoKind) {
   EXPECT_EQ(
       complaint("no_kind.yaml", ""),
       "no_kind.yaml:2:1: found the key colour; expected a robot file (with `body`), a world file "
-      "(`obstacles` or `maps`) or a scenario file (`robots`)\n"
+      "(`obstacles` or `maps`), a scenario file (`robots`) or an experiment file (`factors`)\n"
       "    2 | colour: blue\n"
       "      | ^\n");
 }

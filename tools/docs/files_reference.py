@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes docs/reference/files.md: the keys of robot, world and scenario files.
+"""Writes docs/reference/files.md: the keys of robot, world, scenario and experiment files.
 
     tools/docs/files_reference.py [--check]
 
@@ -15,9 +15,9 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PAGE = ROOT / "docs/reference/files.md"
-KINDS = ("robot", "world", "scenario")
+KINDS = ("robot", "world", "scenario", "experiment")
 INTRODUCTION = """\
-# Keys of robot, world and scenario files
+# Keys of robot, world, scenario and experiment files
 
 Made by `tools/docs/files_reference.py` from the [schemas](../../schemas/config); edit the
 descriptions in the code instead. The keys under `params` of a driver are in
@@ -34,6 +34,7 @@ WHAT = {
     "robot": "The parts of a robot, their drivers, and its program.",
     "world": "The static bodies.",
     "scenario": "Which robots run where, for how long, and which checks must hold.",
+    "experiment": "What `rave sweep` varies, how often it runs, and what it measures.",
 }
 UNITS = re.compile(r"^\[([^\]]+)\]\s*")
 

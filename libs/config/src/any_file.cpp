@@ -21,6 +21,7 @@ constexpr std::array<std::string_view, 8> kRobotKeys = {"body",         "sensors
                                                         "controllers",  "program",  "pose_from",
                                                         "source_frame", "variables"};
 constexpr std::array<std::string_view, 2> kWorldKeys = {"obstacles", "maps"};
+constexpr std::array<std::string_view, 3> kExperimentKeys = {"factors", "metrics", "repetitions"};
 constexpr std::array<std::string_view, 10> kScenarioKeys = {
     "robots", "name",    "world", "seed",   "duration_s",
     "step_s", "threads", "pace",  "checks", "picture"};
@@ -61,9 +62,10 @@ std::string quoted(const std::string& file_name) {
 }  // namespace
 
 std::string_view to_string(FileKind kind) noexcept {
-  constexpr WordTable<FileKind, 3> kWords = {{{"robot", FileKind::kRobot},
+  constexpr WordTable<FileKind, 4> kWords = {{{"robot", FileKind::kRobot},
                                               {"world", FileKind::kWorld},
-                                              {"scenario", FileKind::kScenario}}};
+                                              {"scenario", FileKind::kScenario},
+                                              {"experiment", FileKind::kExperiment}}};
   return kWords.of(kind);
 }
 
@@ -73,14 +75,15 @@ Result<FileKind> recognise(const std::filesystem::path& path) {
   const std::size_t robot = count_keys(root, kRobotKeys);
   const std::size_t world = count_keys(root, kWorldKeys);
   const std::size_t scenario = count_keys(root, kScenarioKeys);
+  if (count_keys(root, kExperimentKeys) > 0) return FileKind::kExperiment;
   if (robot > scenario) return FileKind::kRobot;
   if (scenario > 0) return FileKind::kScenario;
   if (world > 0) return FileKind::kWorld;
   const bool has_keys = root.is_mapping() && root.size() > 0;
   return fail_at(
       has_keys ? root.key_where(0) : root.where(), ErrorCode::kParse,
-      "found {}; expected a robot file (with `body`), a world file (`obstacles` or `maps`) "
-      "or a scenario file (`robots`)",
+      "found {}; expected a robot file (with `body`), a world file (`obstacles` or `maps`), "
+      "a scenario file (`robots`) or an experiment file (`factors`)",
       has_keys
           ? fmt::format("{} {}", root.size() == 1 ? "the key" : "the keys", join_names(root.keys()))
           : root.found_text());
@@ -88,6 +91,10 @@ Result<FileKind> recognise(const std::filesystem::path& path) {
 
 Result<AnyFile> read_any_file(const std::filesystem::path& path, Settings settings) {
   RAVE_TRY_ASSIGN(const FileKind kind, recognise(path));
+  if (kind == FileKind::kExperiment) {
+    return fail(ErrorCode::kInvalidArgument, "`{}` is an experiment file, which has no robots",
+                path.string());
+  }
   if (kind != FileKind::kScenario && !settings.empty()) {
     return fail(ErrorCode::kInvalidArgument, "--set: expected a scenario, but `{}` is a {} file",
                 path.string(), to_string(kind));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rave/base/file.hpp"
+#include "rave/config/experiment_file.hpp"
 #include "rave/config/robot_file.hpp"
 #include "rave/config/scenario_file.hpp"
 #include "rave/config/world_file.hpp"
@@ -23,6 +24,7 @@ int main(int argc, char** argv) {
       {"robot", rave::config::robot_schema()},
       {"world", rave::config::world_schema()},
       {"scenario", rave::config::scenario_schema()},
+      {"experiment", rave::config::experiment_schema()},
   };
   for (const auto& [name, text] : schemas) {
     const auto path = folder / (std::string(name) + ".schema.json");

@@ -10,7 +10,7 @@
 
 namespace rave::config {
 
-enum class FileKind { kRobot, kWorld, kScenario };
+enum class FileKind { kRobot, kWorld, kScenario, kExperiment };
 
 [[nodiscard]] std::string_view to_string(FileKind kind) noexcept;
 
@@ -26,9 +26,9 @@ struct AnyFile {
   ExpandedScenario scenario;
 };
 
-/// Reads a file of any kind and what it refers to. Places in errors are those of the file.
-/// `settings` are for scenarios; see apply_settings(). Errors: kInvalidArgument (settings for
-/// another kind).
+/// Reads a robot, world or scenario file and what it refers to. Places in errors are those of the
+/// file. `settings` are for scenarios; see apply_settings(). Errors: kInvalidArgument (settings for
+/// another kind, an experiment).
 [[nodiscard]] Result<AnyFile> read_any_file(const std::filesystem::path& path,
                                             Settings settings = {});
 

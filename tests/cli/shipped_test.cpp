@@ -55,5 +55,32 @@ TEST_F(Shipped, AClassEndsWhenAllRobotsAreAtTheirFlags) {
   EXPECT_NE(events().find("success: all robots are at their flags"), std::string::npos);
 }
 
+TEST_F(Shipped, APreyGetsFasterUntilItGetsAway) {
+  const auto first = result_of("predator-prey/hunt.yaml", {"--seed", "1"});
+  EXPECT_EQ(first["whole"], true) << first["problems"];
+  EXPECT_NE(at("capture 4 after"), std::string::npos) << events_;
+  EXPECT_NE(at("captures; a prey of 0.40 m/s gets away"), std::string::npos) << events_;
+  EXPECT_EQ(first["events"]["contact"], 0);
+  // Another seed is another start: the first capture is at another time.
+  const std::string events = events_.substr(0, events_.find("capture 2"));
+  const auto second = result_of("predator-prey/hunt.yaml", {"--seed", "2"});
+  EXPECT_NE(second["hash"], first["hash"]);
+  EXPECT_NE(events_.substr(0, events_.find("capture 2")), events);
+  const auto threads = result_of("predator-prey/hunt.yaml", {"--seed", "2", "--threads", "2"});
+  EXPECT_EQ(threads["hash"], second["hash"]);
+}
+
+TEST_F(Shipped, AWarehouseOf500RobotsFetchesGoodsWithoutContact) {
+  const auto alone = result_of("warehouse", {"--duration", "62", "--no-record"});
+  EXPECT_EQ(alone["robots"].size(), 500U);
+  EXPECT_EQ(alone["events"]["contact"], 0);
+  const std::size_t minute = events_.find(" goals, ");
+  ASSERT_NE(minute, std::string::npos);
+  const std::size_t begin = events_.rfind(' ', minute - 1) + 1;
+  // Each robot has fetched at least once.
+  EXPECT_GE(std::stoi(events_.substr(begin, minute - begin)), 700);
+  EXPECT_EQ(events_.find("is not called again"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace rave::cli_test

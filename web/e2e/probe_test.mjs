@@ -161,8 +161,10 @@ try {
   });
 
   await check('every virtual sensor of the catalogue can be tried', async () => {
-    for (const {name} of drivers) {
+    for (const {name, params} of drivers) {
       await choosesDriver(name);
+      // What has no default has to be given first.
+      for (const {name: key, required} of params) if (required) await fill(key, 7);
       await until(page, `${app}.model.probes.sensor(${kFirst})?.driver === '${name}'`);
       await until(page, `${reading(real)} != null`);
       assert.match(await copied(), new RegExp(`driver: ${name}`));

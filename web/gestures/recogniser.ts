@@ -137,9 +137,11 @@ function limitsOf(known: readonly Known[]): {refuse: number; doubt: number} {
   return {refuse: between(own, foreign, each), doubt};
 }
 
-/** The distance that parts two sets best: most of `own` below it, most of `foreign` above. `each`: templates
- * of a gesture. With no other gesture it is twice the largest of one's own; with single templates half of the way to
- * another gesture. */
+/**
+ * The distance that parts two sets best: most of `own` below it, most of `foreign` above.
+ * `each`: templates of a gesture. With no other gesture it is twice the largest of one's own;
+ * with single templates half of the way to another gesture.
+ */
 function between(own: number[], foreign: number[], each: number): number {
   const others = foreign.filter(Number.isFinite);
   if (others.length === 0) return 2 * Math.max(...own, 0.25);

@@ -40,7 +40,8 @@ describe('a file of templates', () => {
       /unknown key "template".*did you mean templates/,
     );
     expect(errorWith('"gather"', '"gathr"')).toBe(
-      'templates[0].gesture: expected one of gather, spread, stop, found "gathr"; did you mean gather?',
+      'templates[0].gesture: expected one of gather, spread, stop, ' +
+        'found "gathr"; did you mean gather?',
     );
     expect(errorWith(/\[-?[\d.]+,/, '[1e9,')).toMatch(
       /templates\[0\]\.points\[0\]\[0\]: expected a number from -100 to 100, found 1000000000/,

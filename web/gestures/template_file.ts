@@ -55,7 +55,10 @@ function templateOf(template: unknown, gestures: readonly string[], where: strin
   const {gesture, points} = template as {gesture: unknown; points: unknown};
   if (typeof gesture !== 'string' || !gestures.includes(gesture)) {
     const near = typeof gesture === 'string' ? nearest(gesture, gestures) : '';
-    return `${where}.gesture: expected one of ${gestures.join(', ')}, found ${shown(gesture)}${near}`;
+    return (
+      `${where}.gesture: expected one of ${gestures.join(', ')}, ` +
+      `found ${shown(gesture)}${near}`
+    );
   }
   if (!Array.isArray(points) || points.length !== kPoints)
     return `${where}.points: expected ${kPoints} points`;
@@ -66,7 +69,10 @@ function templateOf(template: unknown, gestures: readonly string[], where: strin
       return `${where}.points[${i}]: expected ${axes} numbers, as the first point has`;
     for (const [axis, value] of point.entries())
       if (typeof value !== 'number' || !(Math.abs(value) <= kLargest))
-        return `${where}.points[${i}][${axis}]: expected a number from ${-kLargest} to ${kLargest}, found ${shown(value)}`;
+        return (
+          `${where}.points[${i}][${axis}]: expected a number from ${-kLargest} to ${kLargest}, ` +
+          `found ${shown(value)}`
+        );
   }
   return '';
 }
@@ -76,7 +82,10 @@ function keysOf(value: unknown, keys: readonly string[], where: string): string 
     return `${where}: expected an object with ${keys.join(' and ')}, found ${shown(value)}`;
   for (const key of Object.keys(value))
     if (!keys.includes(key))
-      return `${where}: unknown key ${shown(key)}; expected ${keys.join(' and ')}${nearest(key, keys)}`;
+      return (
+        `${where}: unknown key ${shown(key)}; ` +
+        `expected ${keys.join(' and ')}${nearest(key, keys)}`
+      );
   const missing = keys.find((key) => !Object.hasOwn(value, key));
   return missing === undefined ? '' : `${where}: ${missing} is missing`;
 }

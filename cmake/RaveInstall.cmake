@@ -2,6 +2,8 @@
 # What `cmake --install` puts where, and the package that find_package(rave) finds.
 #   component runtime     bin/, the plug-ins, share/rave (scenarios, robots, worlds, data, ...), man
 #                         pages, completion of bash
+#   component host        what commands real robots, without the simulator: bin/ and the plug-ins that
+#                         are not virtual, with a scenario to start from; the page is the component gui
 #   component gui         share/rave/web: the page of the GUI Server, with declarations for panels; share/rave/foxglove: a layout;
 #                         and bin/rave once more, so that it shows recordings without the runtime
 #   component doc         share/doc/rave: all pages, with the files that they link to
@@ -82,10 +84,15 @@ get_property(RAVE_PLUGINS GLOBAL PROPERTY RAVE_PLUGIN_TARGETS)
 if(RAVE_PLUGINS)
   install(TARGETS ${RAVE_PLUGINS} LIBRARY DESTINATION ${RAVE_PLUGIN_DIR} COMPONENT runtime)
 endif()
+get_property(RAVE_HOST_PLUGINS GLOBAL PROPERTY RAVE_HOST_PLUGIN_TARGETS)
+if(RAVE_HOST_PLUGINS)
+  install(TARGETS ${RAVE_HOST_PLUGINS} LIBRARY DESTINATION ${RAVE_PLUGIN_DIR} COMPONENT host)
+endif()
 set(RAVE_RUNTIME_TARGETS ${RAVE_PLUGINS})
 foreach(program rave rave-keeper rave-program-runner rave-carmen-map)
   if(TARGET ${program})
     install(TARGETS ${program} RUNTIME DESTINATION bin COMPONENT runtime)
+    install(TARGETS ${program} RUNTIME DESTINATION bin COMPONENT host)
     list(APPEND RAVE_RUNTIME_TARGETS ${program})
   endif()
 endforeach()
@@ -98,8 +105,14 @@ foreach(folder scenarios experiments robots worlds data schemas)
 endforeach()
 install(DIRECTORY "${CMAKE_SOURCE_DIR}/share/templates" DESTINATION share/rave COMPONENT runtime)
 
-install(DIRECTORY "${CMAKE_BINARY_DIR}/share/man" "${CMAKE_BINARY_DIR}/share/bash-completion"
-  DESTINATION share COMPONENT runtime)
+install(DIRECTORY "${CMAKE_SOURCE_DIR}/scenarios/remote-create"
+  DESTINATION share/rave/scenarios COMPONENT host)
+install(DIRECTORY "${CMAKE_SOURCE_DIR}/schemas" DESTINATION share/rave COMPONENT host)
+
+foreach(component runtime host)
+  install(DIRECTORY "${CMAKE_BINARY_DIR}/share/man" "${CMAKE_BINARY_DIR}/share/bash-completion"
+    DESTINATION share COMPONENT ${component})
+endforeach()
 
 install(DIRECTORY "${CMAKE_BINARY_DIR}/share/rave/web" DESTINATION share/rave COMPONENT gui OPTIONAL)
 install(DIRECTORY "${CMAKE_SOURCE_DIR}/share/foxglove" DESTINATION share/rave COMPONENT gui)

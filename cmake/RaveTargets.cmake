@@ -114,10 +114,14 @@ function(rave_library name)
   endif()
 endfunction()
 
-# rave_plugin(NAME SOURCES ... [DEPS ...])
-# The plug-in NAME.so, loaded at run time and linked by nobody.
+# rave_plugin(NAME SOURCES ... [DEPS ...] [VIRTUAL])
+# The plug-in NAME.so, loaded at run time and linked by nobody. VIRTUAL: it needs the simulator, as
+# one that links it always does; the component `host` goes without it.
 function(rave_plugin name)
-  cmake_parse_arguments(ARG "" "" "DEPS;SOURCES" ${ARGN})
+  cmake_parse_arguments(ARG "VIRTUAL" "" "DEPS;SOURCES" ${ARGN})
+  if(NOT ARG_VIRTUAL AND NOT "rave::sim" IN_LIST ARG_DEPS AND NOT "rave::world" IN_LIST ARG_DEPS)
+    set_property(GLOBAL APPEND PROPERTY RAVE_HOST_PLUGIN_TARGETS rave_plugin_${name})
+  endif()
   add_library(rave_plugin_${name} MODULE ${ARG_SOURCES})
   rave_unity(rave_plugin_${name})
   target_link_libraries(rave_plugin_${name} PRIVATE rave_build_flags ${ARG_DEPS})
@@ -130,7 +134,7 @@ function(rave_plugin name)
   set_property(GLOBAL APPEND PROPERTY RAVE_PLUGIN_TARGETS rave_plugin_${name})
 endfunction()
 
-# rave_driver(NAME SOURCES ... DEPS ...): a plug-in that serves devices.
+# rave_driver(NAME SOURCES ... DEPS ... [VIRTUAL]): a plug-in that serves devices, or virtual ones.
 function(rave_driver name)
   rave_plugin(${name} ${ARGN})
 endfunction()

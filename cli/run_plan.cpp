@@ -2,6 +2,7 @@
 #include "run_plan.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "rave/codec/nodes.hpp"
+#include "rave/config/people_file.hpp"
 #include "rave/gui_server/rights.hpp"
 
 namespace rave::cli {
@@ -51,6 +53,9 @@ class Plan {
 
   void processes(const std::vector<config::PlannedHost>& hosts) {
     const std::string page = options_.gui ? " and the page" : "";
+    for (const config::CompanionFile& companion : file_.companions) {
+      line("  companion `{}`: {}", *companion.name, fmt::join(*companion.command, " "));
+    }
     if (hosts.empty()) {
       std::vector<std::size_t> all(scenario_.robots.size());
       std::iota(all.begin(), all.end(), 0);
@@ -96,6 +101,13 @@ class Plan {
   }
 
   void people() {
+    for (const config::PlannedPerson& person : config::plan_people(scenario_)) {
+      const std::string teams = !person.teams ? "all teams"
+                                : person.teams->empty()
+                                    ? "no team"
+                                    : fmt::format("{}", fmt::join(*person.teams, ", "));
+      line("  `{}`, {}: {}", person.name, config::kUserRoles.of(person.role), teams);
+    }
     if (file_.gui.rights.empty()) line("  the rights of their roles");
     for (const config::GuiRightFile& right : file_.gui.rights) {
       std::vector<std::string> classes;
@@ -149,6 +161,9 @@ class Plan {
     if (change.end) {
       return fmt::format("the run ends as a {}",
                          *change.end == config::RunVerdict::kSuccess ? "success" : "failure");
+    }
+    if (change.give) {
+      return fmt::format("team `{}` is given to `{}`", *change.give->team, *change.give->to);
     }
     if (change.mark) return fmt::format("mark \"{}\"", *change.mark);
     if (change.request) return codec::to_json_line(*change.request);

@@ -108,6 +108,22 @@ TEST(Run, ADryRunPrintsThePlanAndStartsNothing) {
   EXPECT_EQ(run_rave({"run", "unusable_driver.yaml", "--dry-run"}).exit_code, 2);
 }
 
+TEST(Run, ThePlanHasPeopleAndCompanions) {
+  const std::string scenarios = RAVE_SOURCE_DIR "/scenarios/";
+  const Ended convoy = run_rave({"run", scenarios + "convoy", "--dry-run"});
+  EXPECT_EQ(convoy.exit_code, 0) << convoy.err;
+  for (const char* const line :
+       {"  `ann`, commander: front, rear\n", "  `bob`, commander: no team\n",
+        "  `sue`, super_user: all teams\n",
+        "  after `the front is through`, 10 s later: team `rear` is given to `bob`\n"}) {
+    EXPECT_NE(convoy.out.find(line), std::string::npos) << line << convoy.out;
+  }
+  const Ended figure = run_rave({"run", scenarios + "figure-3", "--dry-run"});
+  EXPECT_NE(figure.out.find("  companion `stand-in`: rave-stand-in-create --link "),
+            std::string::npos)
+      << figure.out << figure.err;
+}
+
 TEST(Run, SomeRobotsOfAnEntryAreReal) {
   const Ended ended = run_rave({"run", RAVE_SOURCE_DIR "/scenarios/corridor/hand-over.yaml",
                                 "--dry-run", "--set", "robots.create.pose=null", "--set",

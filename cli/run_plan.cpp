@@ -106,7 +106,7 @@ class Plan {
                                 : person.teams->empty()
                                     ? "no team"
                                     : fmt::format("{}", fmt::join(*person.teams, ", "));
-      line("  `{}`, {}: {}", person.name, config::kUserRoles.of(person.role), teams);
+      line("  `{}`, {}: {}", person.name, role(person.role), teams);
     }
     if (file_.gui.rights.empty()) line("  the rights of their roles");
     for (const config::GuiRightFile& right : file_.gui.rights) {
@@ -114,6 +114,15 @@ class Plan {
       for (const auto what : right.classes) classes.emplace_back(gui_server::to_string(what));
       line("  {}: {} of {}", who(right), join(classes), reach(right));
     }
+  }
+
+  static std::string_view role(config::UserRole role) {
+    switch (role) {
+      case config::UserRole::kObserver: return "observer";
+      case config::UserRole::kCommander: return "commander";
+      case config::UserRole::kSuperUser: return "super-user";
+    }
+    return "";
   }
 
   static std::string who(const config::GuiRightFile& right) {

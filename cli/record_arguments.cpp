@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
 #include "commands/export.hpp"
 #include "commands/gui.hpp"
 #include "commands/info.hpp"
@@ -84,9 +86,25 @@ void add_export(CLI::App& root, Command& chosen) {
 }
 
 void add_report(CLI::App& root, Command& chosen) {
-  CLI::App& parent = *root.add_subcommand("report", "Analyse a recording");
-  parent.require_subcommand(1);
-  parent.footer("Example:\n  rave report gap run.mcap --robot walker-3");
+  CLI::App& parent =
+      *root.add_subcommand("report", "Report what an experiment shows, or analyse a recording");
+  const auto options = std::make_shared<ReportCommand>();
+  ReportCommand& e = *options;
+  parent.require_subcommand(0, 1);
+  // The command below it is the one that was meant.
+  parent.callback([&chosen, app = &parent, options] {
+    if (app->get_subcommands().empty()) chosen = [options] { return report_experiment(*options); };
+  });
+  add_value(parent, "folder", e.folder, "Folder of a sweep", "FOLDER");
+  add_value(parent, "--output", e.output, "Folder for report.html and conditions.csv [FOLDER]",
+            "DIR");
+  parent.add_flag("--quiet", e.quiet, "Print errors only");
+  parent.footer(
+      "The page has the question, the answer and the evidence, and asks for nothing else. Exit\n"
+      "code: 0, 1 if the runs do not show what the experiment file expects, 2 for bad input.\n\n"
+      "Examples:\n"
+      "  rave report sweeps/prey-speed\n"
+      "  rave report gap run.mcap --robot walker-3");
   const auto [app, c] = add_command(
       parent, chosen, "gap",
       "Compare a recorded robot with its simulated twin under the same commands", report_gap);

@@ -4,11 +4,16 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 #include "error_text.hpp"
 #include "places.hpp"
 #include "rave/base/file.hpp"
 #include "rave/base/table.hpp"
+#include "rave/experiment/sweep.hpp"
+#include "rave/experiment_report/page.hpp"
+#include "rave/experiment_report/summary.hpp"
 
 namespace rave::cli {
 namespace {
@@ -40,6 +45,32 @@ std::string table_of(const runtime::GapReport& gap) {
 }
 
 }  // namespace
+
+Result<int> report_experiment(const ReportCommand& options) {
+  namespace fs = std::filesystem;
+  const fs::path folder = options.folder;
+  if (folder.empty()) {
+    return fail(ErrorCode::kInvalidArgument,
+                "report: expected the folder of a sweep, or `gap` with a recording");
+  }
+  RAVE_TRY_ASSIGN(auto plan, experiment::read_plan(folder));
+  RAVE_TRY_ASSIGN(const auto rows, experiment::RunRows::read(folder));
+  RAVE_TRY_ASSIGN(const auto analysis, experiment::analyse(std::move(plan), rows));
+  const fs::path output = options.output.empty() ? folder : fs::path(options.output);
+  RAVE_TRY(create_folder(output));
+  RAVE_TRY(write_private_file_atomically(output / "report.html",
+                                         experiment::report_page(analysis, RAVE_VERSION)));
+  RAVE_TRY(write_private_file_atomically(output / "conditions.csv",
+                                         experiment::condition_table(analysis)));
+  if (!options.quiet) {
+    const Terminal terminal = terminal_of(stdout);
+    std::optional<std::size_t> width;
+    if (terminal.is_terminal) width = terminal.width;
+    put(stdout, experiment::report_summary(analysis, width, terminal.colour));
+    put(stdout, fmt::format("{}: report.html, conditions.csv\n", output.string()));
+  }
+  return analysis.as_expected() ? kGood : kNotGood;
+}
 
 Result<int> report_gap(const GapCommand& options) {
   RAVE_TRY_ASSIGN(const auto catalogue, open_catalogue(options.plugins));

@@ -9,6 +9,17 @@
 
 namespace rave::cli {
 
+/// `rave report FOLDER`.
+struct ReportCommand {
+  std::string folder;  ///< Of a sweep.
+  std::string output;  ///< Folder for the page; empty: that of the sweep.
+  bool quiet = false;
+};
+
+/// Writes report.html and conditions.csv of a sweep and prints a summary. Returns 0, or 1 if the
+/// runs do not show what the experiment file expects.
+[[nodiscard]] Result<int> report_experiment(const ReportCommand& options);
+
 /// `rave report gap`.
 struct GapCommand {
   std::string file;  ///< A record, or the folder of a run.

@@ -59,14 +59,14 @@ class Sweep : public testing::Test {
 TEST_F(Sweep, DoesAllRunsOnceAndThenOnlyWhatIsMissing) {
   const Ended first = sweep("a");
   EXPECT_EQ(first.exit_code, 0) << first.err;
-  EXPECT_TRUE(has(first.out, "20 runs, 20 of them now\n")) << first.out;
+  EXPECT_TRUE(has(first.out, "28 runs, 28 of them now\n")) << first.out;
   const std::string all = table("a");
-  EXPECT_EQ(lines_of(all), 21U);
+  EXPECT_EQ(lines_of(all), 29U);
   EXPECT_TRUE(all.starts_with(
       "condition,duration,mass,seed,failure,way,contacts,simulated_s,hash,command\n"));
   EXPECT_TRUE(has(all, "\n4,2,4,7,,")) << all;
   const Ended second = sweep("a");
-  EXPECT_TRUE(has(second.out, "20 runs, 0 of them now\n")) << second.out;
+  EXPECT_TRUE(has(second.out, "28 runs, 0 of them now\n")) << second.out;
   EXPECT_EQ(table("a"), all);
   // What the command of a row gives is what the row says.
   const std::size_t row = all.find("\n4,2,4,7,,");
@@ -89,7 +89,7 @@ TEST_F(Sweep, DoesAgainWhatHasOtherInputs) {
   EXPECT_EQ(sweep("a", {}, written(text)).exit_code, 0);
   text.replace(text.find("values: [1, 4]"), 14, "values: [1, 5]");
   const Ended changed = sweep("a", {}, written(text));
-  EXPECT_TRUE(has(changed.out, "20 runs, 10 of them now\n")) << changed.out << changed.err;
+  EXPECT_TRUE(has(changed.out, "28 runs, 14 of them now\n")) << changed.out << changed.err;
 }
 
 TEST_F(Sweep, ThatIsKilledAtAnyMomentLosesNothing) {
@@ -117,11 +117,11 @@ TEST_F(Sweep, InShardsGivesTheSameTable) {
   ASSERT_EQ(sweep("whole", {"--jobs", "1"}).exit_code, 0);
   const Ended first = sweep("parts", {"--shard", "2/3"});
   EXPECT_EQ(first.exit_code, 0) << first.err;
-  EXPECT_TRUE(has(first.out, "7 runs, 7 of them now")) << first.out;
+  EXPECT_TRUE(has(first.out, "9 runs, 9 of them now")) << first.out;
   EXPECT_FALSE(fs::exists(fs::path(out("parts")) / "runs.csv"));
   EXPECT_EQ(sweep("parts", {"--shard", "1/3"}).exit_code, 0);
   const Ended rest = sweep("parts");
-  EXPECT_TRUE(has(rest.out, "20 runs, 6 of them now")) << rest.out;
+  EXPECT_TRUE(has(rest.out, "28 runs, 9 of them now")) << rest.out;
   EXPECT_EQ(table("parts"), table("whole"));
   EXPECT_EQ(sweep("parts", {"--shard", "4/3"}).exit_code, 2);
 }
@@ -250,13 +250,42 @@ TEST_F(Sweep, AMetricThatNoRunHasEndsItWithTheNearestName) {
   EXPECT_TRUE(has(ended.err, "did you mean `way_m`?")) << ended.err;
 }
 
+TEST_F(Sweep, TheReportSaysWhetherTheRunsShowWhatTheFileExpects) {
+  ASSERT_EQ(sweep("a").exit_code, 0);
+  const Ended good = run_rave({"report", out("a")});
+  EXPECT_EQ(good.exit_code, 0) << good.err;
+  EXPECT_TRUE(good.out.starts_with("Does a longer way take longer?\n")) << good.out;
+  const std::string page = content_of(fs::path(out("a")) / "report.html");
+  EXPECT_TRUE(has(page, "<h1>Does a longer way take longer?</h1>"));
+  EXPECT_TRUE(has(content_of(fs::path(out("a")) / "conditions.csv"), "\n4,2,4,way,7,7,"));
+  std::string text = content_of(fs::path(out("a")) / "experiment.yaml");
+  text.replace(text.find("expect: more"), 12, "expect: less");
+  std::ofstream(fs::path(out("a")) / "experiment.yaml", std::ios::trunc) << text;
+  const Ended bad = run_rave({"report", out("a"), "--output", out("page")});
+  EXPECT_EQ(bad.exit_code, 1);
+  EXPECT_TRUE(has(content_of(fs::path(out("page")) / "report.html"), "expected: less"));
+  EXPECT_EQ(run_rave({"report"}).exit_code, 2);
+  EXPECT_TRUE(has(run_rave({"report", out("nowhere")}).err, "is not the folder of a sweep"));
+}
+
+/// What comes with RAVE shows what its file expects.
+TEST_F(Sweep, ShippedExperimentsHaveTheirExpectedConclusion) {
+  for (const char* const name : {"prey-speed", "rear-sonar"}) {
+    const Ended swept = sweep(name, {}, name);
+    EXPECT_EQ(swept.exit_code, 0) << swept.err;
+    const Ended report = run_rave({"report", out(name)});
+    EXPECT_EQ(report.exit_code, 0) << report.out;
+    EXPECT_TRUE(has(report.out, "As expected.")) << report.out;
+  }
+}
+
 TEST_F(Sweep, CheckPrintsThePlan) {
   const Ended ended = run_rave({"check", "study.yaml"});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_TRUE(has(ended.out, "experiment with 4 conditions of 5 runs each, 20 in all\n"))
+  EXPECT_TRUE(has(ended.out, "experiment with 4 conditions of 7 runs each, 28 in all\n"))
       << ended.out;
   EXPECT_TRUE(has(ended.out, "question: Does a longer way take longer?\n"));
-  EXPECT_TRUE(has(ended.out, "seeds 3 to 7, the same in every condition\n"));
+  EXPECT_TRUE(has(ended.out, "seeds 3 to 9, the same in every condition\n"));
   EXPECT_TRUE(has(ended.out, "  at most about "));
 }
 

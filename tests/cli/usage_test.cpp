@@ -58,7 +58,8 @@ TEST(Usage, ValuesAreComplainedOfLikeThoseOfFiles) {
   EXPECT_EQ(first_line({"info"}), "rave: missing FILE: Recording (run.mcap), or folder of a run");
   EXPECT_EQ(first_line({"robot", "small"}),
             "rave: missing option --host NAME: Name of the host in the scenario");
-  EXPECT_EQ(first_line({"report"}), "rave: missing subcommand of `rave report`: there are gap");
+  EXPECT_EQ(first_line({"report"}),
+            "rave: report: expected the folder of a sweep, or `gap` with a recording");
 }
 
 TEST(Usage, HiddenOptionsAreNotOffered) {

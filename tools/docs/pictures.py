@@ -8,13 +8,11 @@ A picture of a run is its `picture.png`. docs/images/pictures.json has the run h
 of corridor.png (`scenarios/demo corridor`) is live and has none, so it is made by hand. Pictures of
 the page are taken by web/e2e/pictures.mjs, with the page beside the program.
 With --check nothing is written: the runs are made again without pictures, their hashes are compared
-with those of the file, and the figures in the pages with those of the runs and of the sweep of
-predator-prey. The figures of hybrid-laser are compared by the tests that compute them
+with those of the file, and the figures in the pages with those of the runs. The figures of hybrid-laser are compared by the tests that compute them
 (tests/scenarios).
 The test page_pictures takes the pictures of the page again and compares them.
 """
 import argparse
-import csv
 import json
 import pathlib
 import re
@@ -75,31 +73,6 @@ def check_figures(summaries):
             yield f"{page}: says {said.group(1)}, the run of {name} {known.group(1)}"
 
 
-def check_sweep(rave, scratch):
-    """The sentence on capture times, computed as the page says."""
-    table = pathlib.Path(scratch, "sweep.csv")
-    subprocess.run([sys.executable, ROOT / "scenarios/predator-prey/sweep.py", "--rave", rave, "--seeds", "3",
-                    "--csv", table], check=True, stdout=subprocess.DEVNULL, timeout=600)
-    times = {}
-    with table.open(encoding="utf-8", newline="") as file:
-        for row in csv.DictReader(file):
-            times.setdefault((row["parameter"], row["value"]), []).append(row["captured_at_s"])
-    if set(times["program.max_speed_mps", "0.5"]) != {""}:
-        yield "scenarios/predator-prey/README.md: a prey of 0.5 m/s is caught"
-    usual = [float(time) for time in times["program.max_speed_mps", "0.3"]]
-
-    def shift(parameter):
-        return max(abs(float(time) - other) for (name, _), row in times.items() if name == parameter
-                   for time, other in zip(row, usual))
-
-    sentence = (f"A prey of 0.3 m/s is captured after {min(usual):.1f} to {max(usual):.1f} s, a prey of 0.5 m/s never. "
-                f"The size changes the capture time by up to {shift('body.scale'):.1f} s, the turning rate by up to "
-                f"{shift('program.max_turn_rate_radps'):.1f} s.")
-    page = (ROOT / "scenarios/predator-prey/README.md").read_text(encoding="utf-8")
-    if sentence not in " ".join(page.split()):
-        yield f"scenarios/predator-prey/README.md: does not say: {sentence}"
-
-
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--rave", required=True)
@@ -118,9 +91,7 @@ def main():
                 findings.append(f"docs/images/{name}.png: made by a run with the hash "
                                 f"{book.get(name)}, which is {made[name]} now; run "
                                 "tools/docs/pictures.py and look at the pictures")
-        if arguments.check:
-            findings += check_sweep(rave, scratch)
-        else:
+        if not arguments.check:
             renew_page(rave, scratch)
     findings += check_figures(summaries)
     if not arguments.check:

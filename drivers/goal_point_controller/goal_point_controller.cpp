@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "rave/math/scalar.hpp"
+#include "rave/math/transform.hpp"
 #include "rave/robot/plugin_entry.hpp"
+#include "rave/robot/pure_pursuit.hpp"
 
 namespace rave {
 namespace {
@@ -21,6 +23,8 @@ constexpr ParamSpec kParams[] = {
                  "Turning rate per radian of heading error."),
     number_param("turn_in_place_rad", "rad", 1.0, 0.1, 1.5,
                  "With a larger heading error it turns without driving."),
+    number_param("min_turn_radius_m", "m", 0, 0, 100,
+                 "Radius of the narrowest curve of a car; 0: it turns on the spot."),
     number_param("watchdog_s", "s", 1.0, 0.001, 3600,
                  "Age of the last command after which the robot stops."),
 };
@@ -48,6 +52,8 @@ class GoalPointController final : public Controller {
     distance_gain_per_s_ = params.number("distance_gain_per_s");
     heading_gain_per_s_ = params.number("heading_gain_per_s");
     turn_in_place_rad_ = params.number("turn_in_place_rad");
+    min_radius_m_ = params.number("min_turn_radius_m");
+    pursuit_ = PursuitOfCar(min_radius_m_);
     watchdog_s_ = params.number("watchdog_s");
     return {};
   }
@@ -63,6 +69,11 @@ class GoalPointController final : public Controller {
     const double dy_m = goal.value[1] - input.pose.y_m;
     const double distance_m = hypot(dx_m, dy_m);
     if (distance_m <= tolerance_m_) return kStop;
+    if (min_radius_m_ > 0) {
+      const Pose2 X_WR{input.pose.x_m, input.pose.y_m, input.pose.yaw_rad};
+      return pursue(transform_back(X_WR, {goal.value[0], goal.value[1]}), distance_m,
+                    speed_limit(goal.value[2]));
+    }
     return drive(distance_m, wrap_angle(atan2(dy_m, dx_m) - input.pose.yaw_rad),
                  speed_limit(goal.value[2]));
   }
@@ -99,6 +110,15 @@ class GoalPointController final : public Controller {
     return velocity_command(scale * v_mps, scale * w_radps);
   }
 
+  /// A car: on the arc through the goal, slower near it.
+  Command pursue(Vec2 goal_R, double distance_m, double limit_mps) {
+    const double braking_mps = std::sqrt(2.0 * max_deceleration_mps2_ * distance_m);
+    const double speed_mps = std::min({limit_mps, braking_mps, distance_gain_per_s_ * distance_m,
+                                       max_turn_rate_radps_ * min_radius_m_});
+    const PursuitOfCar::Velocity velocity = pursuit_.toward(goal_R, speed_mps);
+    return velocity_command(velocity.v_mps, velocity.w_radps);
+  }
+
   void complain() {
     if (complained_) return;
     complained_ = true;
@@ -115,6 +135,8 @@ class GoalPointController final : public Controller {
   double distance_gain_per_s_ = 0;
   double heading_gain_per_s_ = 0;
   double turn_in_place_rad_ = 0;
+  double min_radius_m_ = 0;
+  PursuitOfCar pursuit_;
   double watchdog_s_ = 0;
   bool complained_ = false;
 };

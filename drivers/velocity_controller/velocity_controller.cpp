@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rave/math/scalar.hpp"
 #include "rave/robot/plugin_entry.hpp"
 
 namespace rave {
@@ -38,25 +39,32 @@ class VelocityController final : public Controller {
     if (input.command.kind != kAccepts || !(input.command_age_s <= watchdog_s_)) return kStop;
     const double v_mps = input.command.value[0];
     const double w_radps = input.command.value[1];
-    if (!std::isfinite(v_mps) || !std::isfinite(w_radps)) {
-      complain(v_mps, w_radps);
+    const double vy_mps = input.command.count > 2 ? input.command.value[2] : 0;
+    if (!std::isfinite(v_mps) || !std::isfinite(w_radps) || !std::isfinite(vy_mps)) {
+      complain(v_mps, w_radps, vy_mps);
       return kStop;
     }
-    return velocity_command(std::clamp(v_mps, -max_speed_mps_, max_speed_mps_),
-                            std::clamp(w_radps, -max_turn_rate_radps_, max_turn_rate_radps_));
+    const double turn_radps = std::clamp(w_radps, -max_turn_rate_radps_, max_turn_rate_radps_);
+    if (vy_mps == 0) {
+      return velocity_command(std::clamp(v_mps, -max_speed_mps_, max_speed_mps_), turn_radps);
+    }
+    // Scaled together, so that the direction stays.
+    const double speed_mps = hypot(v_mps, vy_mps);
+    const double scale = speed_mps > max_speed_mps_ ? max_speed_mps_ / speed_mps : 1;
+    return velocity_command(scale * v_mps, turn_radps, scale * vy_mps);
   }
 
  private:
   static constexpr Command kStop = velocity_command(0, 0);
 
   // Logged once, because a faulty program repeats the same command.
-  void complain(double v_mps, double w_radps) {
+  void complain(double v_mps, double w_radps, double vy_mps) {
     if (complained_) return;
     complained_ = true;
     host_.write(LogLevel::kWarning,
-                fmt::format("a velocity command is not finite (v = {} m/s, w = {} rad/s); "
-                            "the robot stops; later ones are not reported",
-                            v_mps, w_radps));
+                fmt::format("a velocity command is not finite (v = {} m/s, w = {} rad/s, vy = {} "
+                            "m/s); the robot stops; later ones are not reported",
+                            v_mps, w_radps, vy_mps));
   }
 
   HostServices host_;

@@ -7,6 +7,7 @@
 #include "rave/math/scalar.hpp"
 #include "rave/robot/ordered_way.hpp"
 #include "rave/robot/plugin_entry.hpp"
+#include "rave/robot/pure_pursuit.hpp"
 #include "rave/robot/steering.hpp"
 
 namespace rave {
@@ -24,6 +25,8 @@ constexpr ParamSpec kParams[] = {
     number_param("max_turn_rate_radps", "rad/s", 1.5, 0.1, 10, "Largest turning rate."),
     number_param("margin_m", "m", 0.1, 0, 10, "Clearance beside the body."),
     number_param("look_m", "m", 1.0, 0.1, 2.5, "Distance ahead that must be free."),
+    number_param("min_turn_radius_m", "m", 0, 0, 100,
+                 "Radius of the narrowest curve of a car; 0: it turns on the spot."),
     number_param("patience_s", "s", 10, 0.1, 3600,
                  "Time without progress after which it follows the wall."),
 };
@@ -61,6 +64,10 @@ class GoToGoal final : public DecisionProcess {
     turn_gain_per_s_ = params.number("turn_gain_per_s");
     max_turn_rate_radps_ = params.number("max_turn_rate_radps");
     patience_ = from_seconds(params.number("patience_s"));
+    if (params.number("min_turn_radius_m") == min_radius_m_) return {};
+    min_radius_m_ = params.number("min_turn_radius_m");
+    pursuit_ = PursuitOfCar(min_radius_m_);
+    way_ = OrderedWay(min_radius_m_ == 0);
     return {};
   }
 
@@ -107,7 +114,8 @@ class GoToGoal final : public DecisionProcess {
 
   /// Where to drive now, for people or for itself. None: `commands` has what to do instead.
   std::optional<Vec2> next_goal(const Percepts& percepts, const Pose2& X_WR, Commands& commands) {
-    if (way_.update(percepts, commands, tolerance_m_)) begin_goal();
+    // A car cuts corners, instead of circling about points that it has missed.
+    if (way_.update(percepts, commands, tolerance_m_, min_radius_m_)) begin_goal();
     switch (way_.state()) {
       case OrderedWay::State::kGoing:
         return way_.next();
@@ -129,6 +137,7 @@ class GoToGoal final : public DecisionProcess {
   /// Nothing is known of the way to the goal that comes now.
   void begin_goal() {
     side_ = 0;
+    pursuit_.begin();
     nearest_m_ = kFar_m;
   }
 
@@ -222,6 +231,7 @@ class GoToGoal final : public DecisionProcess {
   }
 
   void drive(const FreeHeading& way, double distance_m, Commands& commands) {
+    if (min_radius_m_ > 0) return drive_car(way, distance_m, commands);
     // Slower where it is narrow and near the goal; none while it still has to turn far.
     const double room = std::clamp(way.free_m / kFollowLook_m, 0.0, 1.0);
     const double turned = std::max(0.0, 1.0 - std::abs(way.heading_rad) / deg_to_rad(60));
@@ -232,8 +242,30 @@ class GoToGoal final : public DecisionProcess {
                                  max_turn_rate_radps_));
   }
 
+  /// To a point in the free direction, at most one look ahead.
+  void drive_car(const FreeHeading& way, double distance_m, Commands& commands) {
+    const double most_mps = way_.asked() ? way_.speed_mps(cruise_mps_) : cruise_mps_;
+    const double behind_m = steering_.free_m(points_R_, kPi, kFollowLook_m);
+    const SinCos heading = sincos(way.heading_rad);
+    const double reach_m = std::min(distance_m, std::max(look_m_, 2 * min_radius_m_));
+    PursuitOfCar::Velocity velocity =
+        pursuit_.toward({reach_m * heading.cos, reach_m * heading.sin},
+                        std::min(most_mps, distance_m), behind_m >= kFollowLook_m);
+    // Slower where it is narrow, on the same curve; the chord of what it drives next counts, too.
+    const double chord_m = steering_.free_m(points_R_, 0.5 * way.heading_rad, kFollowLook_m);
+    double free_m = velocity.v_mps < 0 ? behind_m : std::min(way.free_m, chord_m);
+    if (velocity.v_mps > 0 && free_m < kBump_m && behind_m >= kFollowLook_m) {
+      const double side = way.heading_rad < 0 ? -1 : 1;
+      velocity = {-velocity.v_mps, side * velocity.v_mps / min_radius_m_};
+      free_m = behind_m;
+    }
+    const double room = std::clamp(free_m / kFollowLook_m, 0.0, 1.0);
+    commands.velocity(drive_, room * velocity.v_mps, room * velocity.w_radps);
+  }
+
   static constexpr double kFar_m = 1e9;
   static constexpr double kFollowLook_m = 0.4;
+  static constexpr double kBump_m = 0.05;
 
   std::optional<Setup> setup_;
   ControllerHandle drive_;
@@ -248,6 +280,8 @@ class GoToGoal final : public DecisionProcess {
   double turn_gain_per_s_ = 0;
   double max_turn_rate_radps_ = 0;
   Duration patience_;
+  double min_radius_m_ = 0;
+  PursuitOfCar pursuit_;
 
   OrderedWay way_;
   std::size_t current_ = 0;    ///< Of the goals.

@@ -115,8 +115,9 @@ Result<Value> LuaRobot::nearest(Arguments arguments) {
 Result<Value> LuaRobot::velocity(Arguments arguments) {
   RAVE_TRY_ASSIGN(const double v_mps, number(arguments, 0, "velocity"));
   RAVE_TRY_ASSIGN(const double w_radps, number(arguments, 1, "velocity", 0));
+  RAVE_TRY_ASSIGN(const double vy_mps, number(arguments, 2, "velocity", 0));
   RAVE_TRY_ASSIGN(const ControllerHandle drive, setup_->controller(CommandKind::kVelocity));
-  commands_->velocity(drive, v_mps, w_radps);
+  commands_->velocity(drive, v_mps, w_radps, vy_mps);
   return Value();
 }
 

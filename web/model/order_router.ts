@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {Answer, ServerMessage} from '../protocol/messages';
-import type {LineAnswer, LineOrder} from '../protocol/line';
+import type {LineAnswer, LineOrder, LinePedals} from '../protocol/line';
 import type {DirectLines} from './direct_lines';
 import type {RunModel} from './run_model';
 
 /** What pages ask of robots, as they would say it to the server. */
-interface Routed {
+interface Routed extends Partial<LinePedals> {
   type: string;
   request?: number;
   kind?: LineOrder['kind'];
@@ -14,10 +14,19 @@ interface Routed {
   points?: readonly [number, number][];
   v?: number;
   w?: number;
+  vy?: number;
   yaw?: number;
   speed?: number;
   text?: string;
   to?: string;
+}
+
+/** What a drive has beside both velocities. */
+function wide({vy, steering, throttle, brake, gear}: Routed): Partial<LineOrder> {
+  return {
+    ...(vy === undefined ? {} : {vy}),
+    ...(throttle === undefined ? {} : {steering, throttle, brake, gear}),
+  };
 }
 
 /** Sends by the direct lines what can go there. */
@@ -115,7 +124,7 @@ export class OrderRouter {
     return {
       kind: kind ?? 'cancel',
       robot,
-      ...(kind === 'drive' ? {v: v ?? 0, w: w ?? 0, echo: true} : {}),
+      ...(kind === 'drive' ? {v: v ?? 0, w: w ?? 0, echo: true, ...wide(message)} : {}),
       ...(points === undefined ? {} : {points: [...points]}),
       ...(yaw === undefined ? {} : {yaw}),
       ...(speed === undefined ? {} : {speed}),

@@ -2,9 +2,17 @@
 // What goes over the direct line to a host, and how a page gets the ticket for it;
 // docs/explanation/gui-protocol.md describes both.
 
+/** What a person does with a car, as shares; steering is positive to the left. */
+export interface LinePedals {
+  steering: number;
+  throttle: number;
+  brake: number;
+  gear: -1 | 0 | 1;
+}
+
 /** What is asked of a robot. Without a robot: of all that the ticket covers (stop, release,
  * cancel). */
-export interface LineOrder {
+export interface LineOrder extends Partial<LinePedals> {
   kind:
     | 'drive'
     | 'goal'
@@ -19,6 +27,7 @@ export interface LineOrder {
   robot?: string;
   v?: number;
   w?: number;
+  vy?: number;
   points?: [number, number][];
   yaw?: number;
   speed?: number;

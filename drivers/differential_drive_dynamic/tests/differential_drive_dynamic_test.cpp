@@ -3,6 +3,7 @@
 
 #include "../second_order.hpp"
 #include "programs/testing/driver_harness.hpp"
+#include "rave/driver_testing/step_response.hpp"
 #include "rave/math/scalar.hpp"
 
 namespace rave {
@@ -41,19 +42,14 @@ class DynamicDriveTest : public ::testing::Test {
   testing::ActuatorUnderTest driver{rave_register_plugin, "differential_drive_dynamic"};
 };
 
-double underdamped(double omega, double zeta, double t_s) {
-  const double root = std::sqrt(1.0 - zeta * zeta);
-  const double phase = omega * root * t_s;
-  return 1.0 - exp(-zeta * omega * t_s) * (cos(phase) + zeta / root * sin(phase));
-}
-
 TEST_F(DynamicDriveTest, StepResponseIsTheTextbooks) {
   for (const double zeta : {0.2, 0.5, 0.8}) {
     driver.params.set("damping_ratio", zeta);
     const std::vector<double> speeds_mps = response(2000);
     for (std::size_t k = 0; k < speeds_mps.size(); ++k) {
       const double t_s = kDt_s * static_cast<double>(k + 1);
-      ASSERT_NEAR(speeds_mps[k], underdamped(10, zeta, t_s), 1e-9) << zeta << " at " << t_s;
+      ASSERT_NEAR(speeds_mps[k], testing::underdamped(10, zeta, t_s), 1e-9)
+          << zeta << " at " << t_s;
     }
     const double root = std::sqrt(1.0 - zeta * zeta);
     const auto peak = std::max_element(speeds_mps.begin(), speeds_mps.end());

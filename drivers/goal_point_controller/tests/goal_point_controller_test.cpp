@@ -82,6 +82,25 @@ TEST_F(GoalPointTest, TurnsOnTheSpotWhenTheGoalLiesBehind) {
   EXPECT_EQ(answer(goal_command(-2, -0.5), {}).value[1], -1.5);
 }
 
+TEST_F(GoalPointTest, LeadsACarToGoalsAllAround) {
+  driver.params.set("min_turn_radius_m", 0.8);
+  driver.start();
+  for (int k = 0; k < 48; ++k) {
+    const double bearing_rad = k * kPi / 12.0;
+    const double far_m = k < 24 ? 3.0 : 0.5;
+    const Vec2 p_WG{far_m * cos(bearing_rad), far_m * sin(bearing_rad)};
+    Pose2 X_WR{0, 0, 0};
+    int steps = 0;
+    for (; steps < 6000; ++steps) {
+      const Command out = answer(goal_command(p_WG.x, p_WG.y), X_WR);
+      if (out == velocity_command(0, 0)) break;
+      ASSERT_LE(std::abs(out.value[1]) * 0.8, std::abs(out.value[0]) + 1e-12) << "a car cannot";
+      X_WR = integrate(X_WR, {out.value[0], 0, out.value[1]}, 0.01);
+    }
+    EXPECT_LE(distance_m(X_WR, p_WG), 0.02) << "goal " << k;
+  }
+}
+
 TEST_F(GoalPointTest, HonoursTheSpeedOfTheCommand) {
   EXPECT_NEAR(answer(goal_command(5, 0, 0.1), {}).value[0], 0.1, 1e-12);
   EXPECT_NEAR(answer(goal_command(5, 0, 7.0), {}).value[0], 0.5, 1e-12);

@@ -36,6 +36,15 @@ TEST_F(VelocityControllerTest, LimitsEachWay) {
   EXPECT_EQ(answer(velocity_command(-9, 9)), velocity_command(-0.5, 1.5));
 }
 
+TEST_F(VelocityControllerTest, LimitsTheSpeedOfOneThatMovesSideways) {
+  EXPECT_EQ(answer(velocity_command(0.3, 1, -0.4)), velocity_command(0.3, 1, -0.4));
+  const Command out = answer(velocity_command(0.6, 9, -0.8));
+  EXPECT_NEAR(out.value[0], 0.3, 1e-12);
+  EXPECT_EQ(out.value[1], 1.5);
+  EXPECT_NEAR(out.value[2], -0.4, 1e-12);
+  EXPECT_EQ(answer(velocity_command(0.3, 1, kNaN)), velocity_command(0, 0));
+}
+
 TEST_F(VelocityControllerTest, StopsWhenCommandsStopComing) {
   EXPECT_EQ(answer(velocity_command(0.3, 1), 0.5), velocity_command(0.3, 1));
   EXPECT_EQ(answer(velocity_command(0.3, 1), 0.51), velocity_command(0, 0));

@@ -36,6 +36,13 @@ inline Status check_range(std::string_view field, double range_m) {
   return invalid("{} is {}, not within 0 and {}", field, range_m, kMaxPosition_m);
 }
 
+inline Status check_pedals(const rave_wire_Pedals& pedals) {
+  RAVE_TRY(check_number("pedals.steering", pedals.steering, 1));
+  RAVE_TRY(check_number("pedals.throttle", pedals.throttle, 1));
+  RAVE_TRY(check_number("pedals.brake", pedals.brake, 1));
+  return check_number("pedals.gear", pedals.gear, 1);
+}
+
 template <class Sequence>
 Status check_numbers(std::string_view list, std::string_view field, const Sequence& numbers,
                      std::size_t size, double limit) {

@@ -113,6 +113,8 @@ Status validate(const Command& sample) {
   RAVE_TRY(check_number("yaw_rad", sample.yaw_rad, kMaxAngle_rad));
   RAVE_TRY(check_number("v_mps", sample.v_mps, kMaxSpeed_mps));
   RAVE_TRY(check_number("w_radps", sample.w_radps, kMaxTurn_radps));
+  RAVE_TRY(check_number("vy_mps", sample.vy_mps, kMaxSpeed_mps));
+  RAVE_TRY(check_pedals(sample.pedals));
   return check_number("speed_mps", sample.speed_mps, kMaxSpeed_mps);
 }
 

@@ -130,6 +130,8 @@ Status check_order(const rave_wire_WorldInput& input) {
   RAVE_TRY(check_number("inputs.yaw_rad", input.yaw_rad, kMaxAngle_rad));
   RAVE_TRY(check_number("inputs.v_mps", input.v_mps, kMaxSpeed_mps));
   RAVE_TRY(check_number("inputs.w_radps", input.w_radps, kMaxTurn_radps));
+  RAVE_TRY(check_number("inputs.vy_mps", input.vy_mps, kMaxSpeed_mps));
+  RAVE_TRY(check_pedals(input.pedals));
   return check_number("inputs.speed_mps", input.speed_mps, kMaxSpeed_mps);
 }
 

@@ -78,9 +78,21 @@ void describe(V& v, Give& c) {
   v.field("to", c.to, text_of("New holder; empty: none.", kMostOrderAuthor, 0));
 }
 template <class V>
+void describe(V& v, Pedals& c) {
+  v.field("steering", c.steering, {.doc = "Right -1 to left 1.", .min = -1, .max = 1});
+  v.field("throttle", c.throttle, {.doc = "Share of full throttle.", .min = 0, .max = 1});
+  v.field("brake", c.brake, {.doc = "Share of full brake.", .min = 0, .max = 1});
+  v.field("gear", c.gear, {.doc = "1, 0 or -1 for reverse.", .min = -1, .max = 1});
+}
+inline void validate(const Pedals& c, codec::CheckContext& check) {
+  if (!c.is_valid()) check.error("gear", "expected -1, 0 or 1");
+}
+template <class V>
 void describe(V& v, Drive& c) {
   v.required("v", c.v_mps, speed("Forward, m/s."));
   v.required("w", c.w_radps, speed("Counter-clockwise, rad/s."));
+  v.field("vy", c.vy_mps, speed("To the left, m/s."));
+  v.field("pedals", c.pedals, {.doc = "For cars, instead of the velocity."});
 }
 template <class V>
 void describe(V& v, Goal& c) {

@@ -23,6 +23,8 @@ Result<Order> make(const OrderParts& parts) {
   if constexpr (requires { one.yaw_rad; }) one.yaw_rad = parts.yaw_rad;
   if constexpr (requires { one.v_mps; }) one.v_mps = parts.v_mps;
   if constexpr (requires { one.w_radps; }) one.w_radps = parts.w_radps;
+  if constexpr (requires { one.vy_mps; }) one.vy_mps = parts.vy_mps;
+  if constexpr (requires { one.pedals; }) one.pedals = parts.pedals;
   if constexpr (requires { one.speed_mps; }) one.speed_mps = parts.speed_mps;
   if constexpr (requires { one.text; }) one.text = parts.text;
   return Order(std::move(one));
@@ -54,6 +56,8 @@ OrderParts parts_of(const Order& order) noexcept {
         if constexpr (requires { one.yaw_rad; }) parts.yaw_rad = one.yaw_rad;
         if constexpr (requires { one.v_mps; }) parts.v_mps = one.v_mps;
         if constexpr (requires { one.w_radps; }) parts.w_radps = one.w_radps;
+        if constexpr (requires { one.vy_mps; }) parts.vy_mps = one.vy_mps;
+        if constexpr (requires { one.pedals; }) parts.pedals = one.pedals;
         if constexpr (requires { one.speed_mps; }) parts.speed_mps = one.speed_mps;
         if constexpr (requires { one.text; }) parts.text = one.text;
         return parts;

@@ -36,6 +36,21 @@ std::string error_of(std::string_view line) {
   return request ? "read: " + to_json_line(*request) : request.error().message;
 }
 
+TEST(Request, ADriveIsAsWideAsTheDrive) {
+  for (const Drive& drive : {Drive{0, 0, 0.5}, Drive{0.1, 0, 0, Pedals{-0.5, 1, 0.25, -1}}}) {
+    const Request request{drive, "r1", "anna"};
+    const auto again = from_json(to_json_line(request));
+    ASSERT_TRUE(again.has_value()) << to_json_line(request) << ": " << again.error().message;
+    EXPECT_EQ(*again, request);
+  }
+  EXPECT_NE(error_of(R"({"do":"drive","robot":"a","v":0,"w":0,"pedals":{"gear":0.5}})")
+                .find("expected -1, 0 or 1"),
+            std::string::npos);
+  EXPECT_TRUE((Drive{0, 0, 0, Pedals{}}.stands()));
+  EXPECT_FALSE((Drive{0, 0, 0, Pedals{.throttle = 0.1}}.stands()));
+  EXPECT_FALSE((Drive{0, 0, 0.1}.stands()));
+}
+
 TEST(Request, EachIsReadAsItWasWritten) {
   const auto all = one_of_each();
   ASSERT_EQ(all.size(), action_names().size());

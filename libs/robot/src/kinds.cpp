@@ -16,12 +16,13 @@ constexpr WordTable<OrderKind, 7> kOrders = {{
     {"place", OrderKind::kPlace},
 }};
 
-constexpr WordTable<CommandKind, 5> kCommands = {{
+constexpr WordTable<CommandKind, 6> kCommands = {{
     {"nothing", CommandKind::kNone},
     {"velocity", CommandKind::kVelocity},
     {"goal", CommandKind::kGoal},
     {"joint", CommandKind::kJoint},
     {"values", CommandKind::kValues},
+    {"pedals", CommandKind::kPedals},
 }};
 
 }  // namespace

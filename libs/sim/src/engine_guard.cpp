@@ -59,12 +59,15 @@ Command Engine::Impl::guarded(const RobotGroup& group, const ActuatorSlots& slot
   const CommandKind expected =
       controller != nullptr ? controller->spec->ops->gives : CommandKind::kVelocity;
   // What does not obey cannot be guarded, and a simulated robot is only if its file says so.
-  if (!limits || slots.obeys[member] == 0) return robot_guard.limit(command, expected);
+  if (!limits || slots.obeys[member] == 0) {
+    return robot_guard.limit(command, expected, slots.drive(member));
+  }
 
   const ReportedPose& pose = reported[r];
   GuardInput input;
   input.command = command;
   input.expected = expected;
+  input.drive = slots.drive(member);
   // A program that never spoke is as silent as one that stopped speaking.
   if (controller != nullptr && group.program.spec != nullptr) {
     const std::int64_t given = controller->last_step[member];
@@ -128,10 +131,12 @@ void Engine::Impl::halt(RobotGroup& group) noexcept {
     if (slots.spec == nullptr || slots.spec->hardware_ops == nullptr) continue;
     for (std::size_t m = 0; m < slots.open.size(); ++m) {
       if (group.has_guard(m) || slots.open[m] == 0) continue;
-      // Only an actuator that takes velocities can be commanded to stand; the rest is left to its
+      // Only an actuator that moves the robot can be commanded to stand; the rest is left to its
       // close().
-      if (slots.commands[m].kind != CommandKind::kVelocity) continue;
-      const Command stand = velocity_command(0, 0);
+      const Command stand = slots.commands[m].kind == CommandKind::kNone
+                                ? Command{}
+                                : slots.drive(m).standing(slots.commands[m].kind);
+      if (stand.kind == CommandKind::kNone) continue;
       ErrorText ignored;
       slots.spec->hardware_ops->write(slots.instances.at(m), &stand, now.ns, &ignored);
     }

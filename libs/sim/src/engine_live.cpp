@@ -171,6 +171,7 @@ void Engine::Impl::give_order(RobotGroup& group, std::uint32_t member) {
     ActuatorDemand& demand = order.demands[a];
     demand.command = group.actuators[a].commands[member];
     demand.expected = speaker != nullptr ? speaker->spec->ops->gives : CommandKind::kVelocity;
+    demand.drive = group.actuators[a].drive(member);
     // A robot without a program has no watchdog: no program has to command it.
     demand.watched = speaker != nullptr && group.program.spec != nullptr;
     demand.given = demand.watched ? guarded.given[group.index_of(*speaker)] : std::nullopt;
@@ -195,6 +196,7 @@ void Engine::Impl::fill_neighbours(RobotId robot, const RobotGroup& group, Guard
   // Who may come into question until the next order, however late the guard and that may be.
   GuardInput input;
   input.command = order.demands.front().command;
+  input.drive = order.demands.front().drive;
   input.velocity = order.reported.velocity;
   // The worst case of all that the thread may see before the next order, so the reach is an upper
   // bound: the oldest pose that still counts and the longest gap.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "rave/robot/command.hpp"
+#include "rave/sim/drive.hpp"
 
 namespace rave::sim {
 
@@ -19,9 +19,9 @@ class FrozenWatch {
   explicit FrozenWatch(double after_s) noexcept : after_s_(after_s) {}
 
   /// The robot obeyed a velocity for `dt_s`.
-  void note_told(const Command& told, double dt_s) noexcept {
-    const double v_mps = std::abs(told.value[0]);
-    const double w_radps = std::abs(told.value[1]);
+  void note_told(const Twist2& told, double dt_s) noexcept {
+    const double v_mps = speed_of(told);
+    const double w_radps = std::abs(told.wz);
     if (v_mps == 0 && w_radps == 0) return;
     told_s_ += dt_s;
     way_m_ += v_mps * dt_s;

@@ -34,23 +34,26 @@ constexpr std::uint32_t bit(GuardLimit limit) noexcept {
   return 1U << static_cast<std::uint32_t>(limit);
 }
 
-struct Drive {
-  double v_mps = 0;
-  double w_radps = 0;
-  friend bool operator==(const Drive&, const Drive&) = default;
-};
-
-Drive scaled(const Drive& drive, double share) noexcept {
-  return {share * drive.v_mps, share * drive.w_radps};
+Twist2 scaled(const Twist2& drive, double share) noexcept {
+  return {share * drive.vx, share * drive.vy, share * drive.wz};
 }
 
-/// Both scaled until `value` is within `limit`: the curve stays.
-bool cap(Drive& drive, double Drive::*value, double limit) noexcept {
-  const double size = std::abs(drive.*value);
+/// All scaled until the speed is within `limit`: the curve stays.
+bool cap_speed(Twist2& drive, double limit) noexcept {
+  const double size = speed_of(drive);
   if (!(size > limit)) return false;
   drive = scaled(drive, limit / size);
   // limit / size * size may exceed the limit by a bit.
-  drive.*value = std::clamp(drive.*value, -limit, limit);
+  drive.vx = std::clamp(drive.vx, -limit, limit);
+  return true;
+}
+
+/// The same for the turning rate.
+bool cap_turn(Twist2& drive, double limit) noexcept {
+  const double size = std::abs(drive.wz);
+  if (!(size > limit)) return false;
+  drive = scaled(drive, limit / size);
+  drive.wz = std::clamp(drive.wz, -limit, limit);
   return true;
 }
 
@@ -71,17 +74,17 @@ class Motion {
   }
 
   /// The limits that forbid a drive.
-  [[nodiscard]] std::uint32_t forbidding(const Drive& drive) const noexcept {
-    const double speed = std::abs(drive.v_mps);
+  [[nodiscard]] std::uint32_t forbidding(const Twist2& drive) const noexcept {
+    const double speed = speed_of(drive);
     return forbidding(
         drive, speed * (in_.dt_s + spec_.reaction_s) + blind_way_m(drive) + braking_way_m(speed));
   }
 
   /// The limits that the robot would breach if it were not told to brake now.
   [[nodiscard]] std::uint32_t braking_needed() const noexcept {
-    const Drive now{in_.velocity.vx, in_.velocity.wz};
+    const Twist2 now = in_.drive.own(in_.velocity);
     // The measured velocity, whatever was commanded: after a push or a slide it can be higher.
-    const double speed = std::abs(now.v_mps);
+    const double speed = speed_of(now);
     if (!(speed > kMoving_mps)) return 0;
     // A little less than what was allowed, or rounding would make it brake at each limit.
     // Without the step in_.dt_s: the stop would be commanded now, not after one more step.
@@ -94,10 +97,10 @@ class Motion {
     return speed_mps * speed_mps / (2 * spec_.deceleration_mps2);
   }
   /// What it may have gone since its pose was taken.
-  [[nodiscard]] double blind_way_m(const Drive& drive) const noexcept {
+  [[nodiscard]] double blind_way_m(const Twist2& drive) const noexcept {
     // The speed since the pose is unknown; each of the three is a speed that it may have had.
     return in_.pose_age_s *
-           std::max({std::abs(drive.v_mps), std::abs(in_.velocity.vx), in_.fastest_mps});
+           std::max({speed_of(drive), speed_of(in_.drive.own(in_.velocity)), in_.fastest_mps});
   }
   /// Whether a drive takes it away from the fence by half of its way at least.
   [[nodiscard]] bool leads_inward(const GuardPath& path, double way_m) const noexcept {
@@ -105,12 +108,12 @@ class Motion {
     return later_m - in_.radius_m >= clearance_m_ + 0.5 * way_m;
   }
 
-  [[nodiscard]] std::uint32_t forbidding(const Drive& drive, double way_m,
+  [[nodiscard]] std::uint32_t forbidding(const Twist2& drive, double way_m,
                                          bool commanded = true) const noexcept {
     std::uint32_t limits = 0;
-    const GuardPath path{in_.X_WR, drive.v_mps, drive.w_radps, std::max(way_m, 0.0)};
+    const GuardPath path{in_.X_WR, drive, std::max(way_m, 0.0)};
     if (!spec_.fence_W.empty()) {
-      const double step_m = std::abs(drive.v_mps) * in_.dt_s;
+      const double step_m = speed_of(drive) * in_.dt_s;
       // After a contact the body may slide along an obstacle, where no arc leads. So the next step
       // may use up the clearance at most, in any direction.
       const bool slides = commanded && in_.touching && step_m > std::max(clearance_m_, 0.0) &&
@@ -126,9 +129,9 @@ class Motion {
   }
 
   /// The robot may come no nearer to anybody than the limit, or than it would by standing.
-  [[nodiscard]] bool keeps_apart(const Drive& drive, double way_m) const noexcept {
-    const double speed = std::abs(drive.v_mps);
-    const double turning = std::abs(drive.w_radps);
+  [[nodiscard]] bool keeps_apart(const Twist2& drive, double way_m) const noexcept {
+    const double speed = speed_of(drive);
+    const double turning = std::abs(drive.wz);
     // A robot that only turns does so until it has obeyed the next command.
     const double time_s = speed > 0 ? way_m / speed : in_.dt_s + spec_.reaction_s;
     for (const GuardNeighbour& other : in_.neighbours) {
@@ -151,9 +154,9 @@ class Motion {
 
   /// Distance above what is allowed after `t_s`, whether the other one stands or continues for as
   /// long as it takes to obey.
-  [[nodiscard]] double worst_m(const Drive& drive, const GuardNeighbour& other,
+  [[nodiscard]] double worst_m(const Twist2& drive, const GuardNeighbour& other,
                                double t_s) const noexcept {
-    const Pose2 X_later = integrate(in_.X_WR, {drive.v_mps, 0, drive.w_radps}, t_s);
+    const Pose2 X_later = integrate(in_.X_WR, drive, t_s);
     Pose2 X_WB = other.X_WB;
     double worst = above_limit(X_later, other, X_WB);
     // The other is extrapolated for as long as this robot needs to obey, not longer: the guard
@@ -182,10 +185,14 @@ class Motion {
 
 /// The fastest drive between standing and `wanted` that is allowed: slower with the turning kept,
 /// so that the robot can turn away, or if turning is what is forbidden, slower on the same curve.
-Drive slowed(const Motion& motion, const Drive& wanted) noexcept {
-  const bool may_turn = motion.forbidding({0, wanted.w_radps}) == 0;
+Twist2 slowed(const Motion& motion, const ActuatorDrive& by, const Twist2& wanted) noexcept {
+  const Twist2 turn{0, 0, wanted.wz};
+  // A car does not turn on the spot.
+  const bool turns = by.is_plain() || by.motion(by.command(turn)) == turn;
+  const bool may_turn = turns && motion.forbidding(turn) == 0;
   const auto at = [&](double share) {
-    return may_turn ? Drive{share * wanted.v_mps, wanted.w_radps} : scaled(wanted, share);
+    return may_turn ? Twist2{share * wanted.vx, share * wanted.vy, wanted.wz}
+                    : scaled(wanted, share);
   };
   // Slower is safer along the same curve, so the allowed shares are an interval from 0.
   double low = 0;
@@ -194,31 +201,32 @@ Drive slowed(const Motion& motion, const Drive& wanted) noexcept {
     const double middle = 0.5 * (low + high);
     (motion.forbidding(at(middle)) == 0 ? low : high) = middle;
   }
-  Drive drive = at(low);
-  if (std::abs(drive.v_mps) < kCrawl_mps) drive = may_turn ? at(0) : Drive{};
+  Twist2 drive = at(low);
+  if (speed_of(drive) < kCrawl_mps) drive = may_turn ? at(0) : Twist2{};
   return drive;
 }
 
-std::uint32_t limit_motion(const GuardSpec& spec, const GuardInput& in, Drive& drive) noexcept {
+std::uint32_t limit_motion(const GuardSpec& spec, const GuardInput& in, Twist2& drive) noexcept {
   const bool fenced = !spec.fence_W.empty();
-  if ((!fenced && in.neighbours.empty()) || drive == Drive{}) return 0;
+  if ((!fenced && in.neighbours.empty()) || drive == Twist2{}) return 0;
   std::uint32_t acted = 0;
   // Commands far beyond any robot would make the predicted way, and so this function, too long.
   const double delay_s = in.dt_s + spec.reaction_s + in.pose_age_s;
-  if (cap(drive, &Drive::v_mps, sane_speed_mps(delay_s, spec.deceleration_mps2))) {
+  if (cap_speed(drive, sane_speed_mps(delay_s, spec.deceleration_mps2))) {
     acted |= bit(GuardLimit::kSpeed);
   }
-  if (cap(drive, &Drive::w_radps, kSaneTurn_radps)) acted |= bit(GuardLimit::kTurn);
+  if (cap_turn(drive, kSaneTurn_radps)) acted |= bit(GuardLimit::kTurn);
   const Motion motion(spec, in);
   const std::uint32_t braking = motion.braking_needed();
   // A command to stand or to drive back brakes by itself and may lead away from the limit.
-  if (braking != 0 && drive.v_mps * in.velocity.vx > 0) {
+  const Twist2 now = in.drive.own(in.velocity);
+  if (braking != 0 && drive.vx * now.vx + drive.vy * now.vy > 0) {
     drive = {};
     return acted | braking;
   }
   const std::uint32_t forbidding = motion.forbidding(drive);
   if (forbidding == 0) return acted;
-  drive = slowed(motion, drive);
+  drive = slowed(motion, in.drive, drive);
   return acted | forbidding;
 }
 
@@ -255,9 +263,10 @@ std::optional<GuardLimit> hold_reason(const GuardSpec& spec, const GuardInput& i
 double guard_reach_m(const GuardSpec& spec, const GuardInput& input) noexcept {
   const double delay_s = input.dt_s + spec.reaction_s + input.pose_age_s;
   const double sane_mps = sane_speed_mps(delay_s, spec.deceleration_mps2);
-  const double speed_mps = std::clamp(
-      std::max({std::abs(input.command.value[0]), std::abs(input.velocity.vx), input.fastest_mps}),
-      0.0, sane_mps);
+  const double speed_mps =
+      std::clamp(std::max({speed_of(input.drive.motion(input.command)),
+                           speed_of(input.drive.own(input.velocity)), input.fastest_mps}),
+                 0.0, sane_mps);
   // NaN is clamped to itself; such a command goes nowhere.
   const double way_m =
       std::isfinite(speed_mps)
@@ -267,10 +276,10 @@ double guard_reach_m(const GuardSpec& spec, const GuardInput& input) noexcept {
 }
 
 GuardOutput guard(const GuardSpec& spec, const GuardInput& input) noexcept {
-  const bool velocity = input.expected == CommandKind::kVelocity;
+  const bool moves_robot = input.drive.moves(input.expected);
   GuardOutput output;
   if (const auto reason = hold_reason(spec, input)) {
-    if (velocity) output.command = velocity_command(0, 0);
+    output.command = input.drive.standing(input.expected);
     const auto asks = [](double value) { return value != 0; };
     // A limit acts, and is an event, only if it changes something: not for a robot that stands
     // anyway.
@@ -283,24 +292,25 @@ GuardOutput guard(const GuardSpec& spec, const GuardInput& input) noexcept {
     return output;
   }
   output.command = input.command;
-  if (!velocity || input.command.kind == CommandKind::kNone) return output;
-  const Drive wanted{input.command.value[0], input.command.value[1]};
+  if (!moves_robot || input.command.kind == CommandKind::kNone) return output;
+  const Twist2 wanted = input.drive.motion(input.command);
   // Plain caps first: what fence and separation have to predict is then already slower.
-  Drive drive = wanted;
-  if (cap(drive, &Drive::v_mps, spec.max_speed_mps)) output.acted |= bit(GuardLimit::kSpeed);
-  if (cap(drive, &Drive::w_radps, spec.max_turn_radps)) output.acted |= bit(GuardLimit::kTurn);
+  Twist2 drive = wanted;
+  if (cap_speed(drive, spec.max_speed_mps)) output.acted |= bit(GuardLimit::kSpeed);
+  if (cap_turn(drive, spec.max_turn_radps)) output.acted |= bit(GuardLimit::kTurn);
   const bool slow =
       spec.world_lost == WorldLostPolicy::kSlow && !(input.world_age_s <= spec.world_timeout_s);
-  if (slow && cap(drive, &Drive::v_mps, spec.slow_speed_mps)) {
+  if (slow && cap_speed(drive, spec.slow_speed_mps)) {
     output.acted |= bit(GuardLimit::kWorldLost);
   }
   // It may turn, and then it sees.
-  if (drive.v_mps > 0 ? input.is_blind_ahead : drive.v_mps < 0 && input.is_blind_behind) {
-    drive.v_mps = 0;
+  if (drive.vx > 0 ? input.is_blind_ahead : drive.vx < 0 && input.is_blind_behind) {
+    drive.vx = 0;
     output.acted |= bit(GuardLimit::kBlind);
   }
   output.acted |= limit_motion(spec, input, drive);
-  output.command = velocity_command(drive.v_mps, drive.w_radps);
+  // Not the way there and back if nothing was limited: that of a car rounds.
+  if (input.drive.is_plain() || drive != wanted) output.command = input.drive.command(drive);
   return output;
 }
 

@@ -8,6 +8,7 @@
 
 #include "rave/math/scalar.hpp"
 #include "rave/math/transform.hpp"
+#include "rave/sim/drive.hpp"
 
 namespace rave::sim {
 namespace {
@@ -93,15 +94,15 @@ Piece piece_of(const GuardPath& path, double s0_m, double s1_m) noexcept {
   const Pose2 X_from = path.at(s0_m);
   piece.from = X_from.position();
   piece.to = path.at(s1_m).position();
-  const double radius_m = path.w_radps == 0 ? kStraight_m : std::abs(path.v_mps / path.w_radps);
+  const double radius_m = path.circle_m();
   if (radius_m >= kStraight_m) return piece;
   piece.straight = false;
   piece.radius_m = radius_m;
-  piece.sense = path.w_radps > 0 ? 1 : -1;
-  // The centre lies abreast: to the left for v/w > 0.
-  const SinCos yaw = sincos(X_from.yaw);
-  const double left_m = path.v_mps / path.w_radps;
-  piece.centre = piece.from + left_m * Vec2{-yaw.sin, yaw.cos};
+  const Twist2& drive = path.drive;
+  piece.sense = drive.wz > 0 ? 1 : -1;
+  // The centre lies abreast of the motion: to the left of a robot that goes ahead for v/w > 0.
+  piece.centre =
+      piece.from + rotate(sincos(X_from.yaw), {-drive.vy / drive.wz, drive.vx / drive.wz});
   return piece;
 }
 
@@ -111,8 +112,8 @@ bool comes_inward(std::span<const Vec2> fence_W, const GuardPath& path, double r
   // Narrow circles are looked at more closely; a whole one says everything.
   double length_m = path.length_m;
   double look_m = kInward_m;
-  if (path.w_radps != 0) {
-    const double circle_m = std::abs(path.v_mps / path.w_radps);
+  if (path.drive.wz != 0) {
+    const double circle_m = path.circle_m();
     length_m = std::min(length_m, 2 * kPi * circle_m);
     look_m = std::max(std::min(look_m, 0.05 * circle_m), 1e-12);
   }
@@ -139,7 +140,13 @@ bool comes_inward(std::span<const Vec2> fence_W, const GuardPath& path, double r
 
 // integrate() along the exact arc: s metres take s / |v| seconds, whatever the sign of v.
 Pose2 GuardPath::at(double s_m) const noexcept {
-  return v_mps == 0 ? X_WR : integrate(X_WR, {v_mps, 0, w_radps}, s_m / std::abs(v_mps));
+  const double speed_mps = speed_of(drive);
+  return speed_mps == 0 ? X_WR : integrate(X_WR, drive, s_m / speed_mps);
+}
+
+double GuardPath::circle_m() const noexcept {
+  return drive.wz == 0 ? std::numeric_limits<double>::infinity()
+                       : std::abs(speed_of(drive) / drive.wz);
 }
 
 double inside_distance(std::span<const Vec2> fence_W, Vec2 p_W) noexcept {
@@ -160,7 +167,7 @@ double inside_distance(std::span<const Vec2> fence_W, Vec2 p_W) noexcept {
 
 bool stays_inside(std::span<const Vec2> fence_W, const GuardPath& path, double radius_m) noexcept {
   const double clearance_m = inside_distance(fence_W, path.X_WR.position()) - radius_m;
-  if (path.v_mps == 0 || !(path.length_m > 0)) return true;
+  if (speed_of(path.drive) == 0 || !(path.length_m > 0)) return true;
   // Outside (put there, or fenced in later): forbidding every motion would leave it there.
   if (clearance_m < -kSlack_m) return comes_inward(fence_W, path, radius_m, clearance_m);
   // A whole circle says everything.
@@ -168,8 +175,8 @@ bool stays_inside(std::span<const Vec2> fence_W, const GuardPath& path, double r
   // Half the radius of the body: an arc that crossed an edge between its ends would have an end
   // nearer to the edge than the radius. See Piece::distance_to().
   double piece_m = std::min(kMaxPiece_m, 0.5 * radius_m);
-  if (path.w_radps != 0) {
-    const double circle_m = std::abs(path.v_mps / path.w_radps);
+  if (path.drive.wz != 0) {
+    const double circle_m = path.circle_m();
     length_m = std::min(length_m, 2 * kPi * circle_m);
     piece_m = std::min(piece_m, kMaxPieceTurn_rad * circle_m);
   }

@@ -10,11 +10,12 @@ namespace rave::sim {
 /// A drive of the middle of a disc: the arc of a twist from a pose, so long.
 struct GuardPath {
   Pose2 X_WR;
-  double v_mps = 0;  ///< Backward: negative.
-  double w_radps = 0;
+  Twist2 drive;  ///< In the frame of the robot.
   double length_m = 0;
 
   [[nodiscard]] Pose2 at(double s_m) const noexcept;
+  /// Radius of the circle that it is an arc of; infinite: none.
+  [[nodiscard]] double circle_m() const noexcept;
 };
 
 /// Distance from a point to the border of a simple polygon: positive inside, negative outside.

@@ -135,7 +135,9 @@ void GuardThread::write_all(bool stands) {
   const SimTime now = setup_.clock->now();
   const std::size_t count = std::min(order_.demands.size(), allowed_.size());
   if (stands) {
-    for (std::size_t a = 0; a < count; ++a) allowed_[a] = standing(order_.demands[a].expected);
+    for (std::size_t a = 0; a < count; ++a) {
+      allowed_[a] = order_.demands[a].drive.standing(order_.demands[a].expected);
+    }
     guard_.stand();
   } else {
     guard_.limit(order_, now, allowed_);

@@ -107,6 +107,14 @@ Event noted_order(std::uint64_t step, const WorldInput& input, EventKind kind, R
        {order.yaw_rad.value_or(0), order.v_mps, order.w_radps, order.speed_mps}) {
     item.add(number);
   }
+  // Only if they are there: what was recorded before keeps its hash.
+  if (order.vy_mps != 0) item.add(order.vy_mps);
+  if (order.pedals) {
+    const request::Pedals& pedals = *order.pedals;
+    for (const double number : {pedals.steering, pedals.throttle, pedals.brake, pedals.gear}) {
+      item.add(number);
+    }
+  }
   item.add_bytes(std::as_bytes(std::span(order.text)));
   item.add_bytes(std::as_bytes(std::span(input.author.name)));
   hash.add(item);

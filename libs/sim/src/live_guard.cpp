@@ -170,13 +170,14 @@ void LiveGuard::limit(const GuardOrder& order, SimTime now, std::span<Command> a
     input.sensors = ages_;
     input.command = demand.command;
     input.expected = demand.expected;
+    input.drive = demand.drive;
     if (demand.watched) {
       input.command_age_s =
           demand.given ? age_s(now, *demand.given) : std::numeric_limits<double>::infinity();
     }
     const GuardOutput output = guard_.limit(limits_, input);
     allowed[a] = output.command;
-    if (demand.expected == CommandKind::kVelocity) told_ = output.command;
+    if (demand.drive.moves(demand.expected)) told_ = demand.drive.motion(output.command);
     if (output.by(GuardLimit::kSensorLost)) lost_sensor_ = output.lost_sensor;
     if (output.by(GuardLimit::kFrozen)) frozen_sensor_ = *input.frozen_sensor;
     begun_ |= guard_.begin(output.acted, now.ns, kQuiet_ns);

@@ -21,9 +21,10 @@ namespace rave::sim {
 /// What the engine wants of one actuator of a real robot.
 struct ActuatorDemand {
   Command command;                                ///< From the controller that speaks.
-  CommandKind expected = CommandKind::kVelocity;  ///< What the actuator takes.
+  CommandKind expected = CommandKind::kVelocity;  ///< What the controller gives.
   bool watched = false;                           ///< A program has to command again and again.
   std::optional<SimTime> given;  ///< When it did last, by the clock of the run; nothing: never.
+  ActuatorDrive drive{};         ///< What the actuator makes of commands.
 };
 
 /// What the guard of a real robot has to know in a live run, as of one step. Moments are by the
@@ -105,7 +106,7 @@ class LiveGuard {
   std::optional<PoseReading> last_pose_;  ///< As it was read.
   SimTime changed_;  ///< Stamp of the first sample that said what the last one says.
   std::vector<RangeWatch> ranges_;
-  Command told_;      ///< The velocity that the robot obeys.
+  Twist2 told_;       ///< The motion that the robot obeys.
   GuardHolds holds_;  ///< Of the last order.
   GuardInput input_;  ///< Without what differs by actuator.
   std::vector<GuardNeighbour> neighbours_;

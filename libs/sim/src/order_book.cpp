@@ -41,10 +41,24 @@ double tolerance_of(const ControllerSlots& slots, std::size_t m) {
   return kTolerance_m;
 }
 
+/// The controller of a drive: that of the pedals if the person has some and the robot, too.
+std::optional<std::uint32_t> controller_of(const RobotGroup& group, std::size_t m,
+                                           const request::Drive& drive) {
+  const auto velocity = controller_for(group, m, CommandKind::kVelocity);
+  if (!drive.pedals && velocity) return velocity;
+  const auto pedals = controller_for(group, m, CommandKind::kPedals);
+  return pedals ? pedals : velocity;
+}
+
 /// The command of an order that a controller carries out: a drive or a goal.
-Command command_of(const WorldInput& input) {
+Command command_of(const WorldInput& input, CommandKind accepted) {
   if (const auto* const drive = input.as<request::Drive>()) {
-    return velocity_command(drive->v_mps, drive->w_radps);
+    if (accepted == CommandKind::kVelocity) {
+      return velocity_command(drive->v_mps, drive->w_radps, drive->vy_mps);
+    }
+    // Without pedals the foot is on the brake.
+    const request::Pedals pedals = drive->pedals.value_or(request::Pedals{.brake = 1});
+    return pedals_command(pedals.steering, pedals.throttle, pedals.brake, pedals.gear);
   }
   const auto* const goal = input.as<request::Goal>();
   RAVE_CHECK(goal != nullptr);
@@ -68,7 +82,7 @@ OrderSet OrderBook::takes(RobotId robot) const {
   const std::size_t m = roster_.member_of(robot);
   OrderSet set = 0;
   if (group.type->simulated) set |= order_bit(OrderKind::kPlace);
-  if (controller_for(group, m, CommandKind::kVelocity)) set |= order_bit(OrderKind::kDrive);
+  if (controller_of(group, m, {})) set |= order_bit(OrderKind::kDrive);
   if (controller_for(group, m, CommandKind::kGoal)) set |= order_bit(OrderKind::kGoal);
   for (const OrderKind kind : {OrderKind::kGoal, OrderKind::kPath, OrderKind::kText}) {
     if (takes_by_program(group, m, kind)) set |= order_bit(kind);
@@ -128,8 +142,8 @@ Result<std::optional<std::uint32_t>> OrderBook::taker(const WorldInput& input) c
   if (input.is<request::Path>()) {
     return refused_order(spec_, input, ErrorCode::kInvalidArgument, "its program takes no paths");
   }
-  const auto controller =
-      controller_for(group, m, drive ? CommandKind::kVelocity : CommandKind::kGoal);
+  const auto controller = drive ? controller_of(group, m, *input.as<request::Drive>())
+                                : controller_for(group, m, CommandKind::kGoal);
   if (controller) return controller;
   return refused_order(spec_, input, ErrorCode::kInvalidArgument,
                        drive ? "none of its controllers takes a velocity that an actuator obeys"
@@ -154,11 +168,12 @@ void OrderBook::give_to_controller(std::uint64_t step, const WorldInput& input,
   const bool drive = input.is<request::Drive>();
   OrderedRobot& robot = robots_[input.robot.value()];
   // A joystick sends many times a second: only the first velocity is an event.
-  const bool goes_on = drive && robot.driven && robot.by == input.author.name;
+  const bool goes_on =
+      drive && robot.driven && robot.by == input.author.name && robot.controller == controller;
   if (!goes_on) give_back(input.robot, robot);
   if (robot.of_program) tell_cancelled(input, robot);
   robot.controller = controller;
-  robot.command = command_of(input);
+  robot.command = command_of(input, group.controllers[controller].spec->accepts);
   robot.driven = drive;
   robot.reached = false;
   robot.tolerance_m = drive ? 0 : tolerance_of(group.controllers[controller], m);

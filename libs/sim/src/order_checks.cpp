@@ -142,7 +142,9 @@ Status check_points(const EngineSpec& spec, const WorldInput& input) {
 OrderSet declared_orders(const RobotType& type) noexcept {
   OrderSet set = type.simulated ? order_bit(OrderKind::kPlace) : 0;
   for (const ControllerSpec& controller : type.controllers) {
-    if (controller.accepts == CommandKind::kVelocity) set |= order_bit(OrderKind::kDrive);
+    const bool drives =
+        controller.accepts == CommandKind::kVelocity || controller.accepts == CommandKind::kPedals;
+    if (drives) set |= order_bit(OrderKind::kDrive);
     if (controller.accepts == CommandKind::kGoal) set |= order_bit(OrderKind::kGoal);
   }
   if (type.program) set |= type.program->takes();
@@ -167,21 +169,29 @@ bool is_order_formed(const WorldInput& input) noexcept {
                 input.author.name.size() <= kMostOrderAuthor;
   for (const Vec2 p_W : order.points_W) formed = formed && is_finite(p_W);
   for (const double number :
-       {order.yaw_rad.value_or(0), order.v_mps, order.w_radps, order.speed_mps}) {
+       {order.yaw_rad.value_or(0), order.v_mps, order.w_radps, order.vy_mps, order.speed_mps}) {
     formed = formed && std::isfinite(number);
   }
+  formed = formed && (!order.pedals || order.pedals->is_valid());
   return formed && (!input.is<request::Path>() || order.points_W.size() >= 2);
 }
 
 namespace {
 
 Status check_drive(const EngineSpec& spec, const WorldInput& input, const request::Drive& drive) {
-  if (std::abs(drive.v_mps) <= kFastest_mps && std::abs(drive.w_radps) <= kFastest_radps) {
+  if (drive.pedals && !drive.pedals->is_valid()) {
+    return wrong(
+        spec, input,
+        "expected a steering from -1 to 1, throttle and brake from 0 to 1, gear -1, 0 or 1");
+  }
+  if (std::abs(drive.v_mps) <= kFastest_mps && std::abs(drive.w_radps) <= kFastest_radps &&
+      std::abs(drive.vy_mps) <= kFastest_mps) {
     return {};
   }
-  return wrong(spec, input,
-               fmt::format("{} m/s, {} rad/s: expected at most {} m/s and {} rad/s", drive.v_mps,
-                           drive.w_radps, kFastest_mps, kFastest_radps));
+  return wrong(
+      spec, input,
+      fmt::format("{} m/s, {} rad/s, {} m/s sideways: expected at most {} m/s and {} rad/s",
+                  drive.v_mps, drive.w_radps, drive.vy_mps, kFastest_mps, kFastest_radps));
 }
 
 Status check_text(const EngineSpec& spec, const WorldInput& input, const std::string& text) {
@@ -223,7 +233,13 @@ std::string order_text(const WorldInput& input) {
   const request::OrderParts order = order_parts(input);
   std::string text(to_string(order_kind(input)));
   if (const auto* const drive = input.as<request::Drive>()) {
-    return text + fmt::format(" {:.2f} m/s, {:.2f} rad/s", drive->v_mps, drive->w_radps);
+    text += fmt::format(" {:.2f} m/s, {:.2f} rad/s", drive->v_mps, drive->w_radps);
+    if (drive->vy_mps != 0) text += fmt::format(", {:.2f} m/s to the left", drive->vy_mps);
+    if (const auto& pedals = drive->pedals) {
+      text += fmt::format(", steering {:.2f}, throttle {:.2f}, brake {:.2f}, gear {}",
+                          pedals->steering, pedals->throttle, pedals->brake, pedals->gear);
+    }
+    return text;
   }
   if (const auto* const words = input.as<request::Text>()) return text + ": " + words->text;
   if (input.is<request::Path>()) text += fmt::format(" of {} points to", order.points_W.size());

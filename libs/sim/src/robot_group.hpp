@@ -96,6 +96,12 @@ struct ActuatorSlots {
   std::vector<std::string> trouble;  ///< Of hardware that failed: what its driver says.
   std::vector<std::uint8_t> obeys;
   std::vector<std::uint8_t> open;
+
+  /// What its commands do; valid as long as the instances.
+  [[nodiscard]] ActuatorDrive drive(std::size_t member) const noexcept {
+    return {spec->virtual_ops != nullptr ? spec->virtual_ops->drive : spec->hardware_ops->drive,
+            instances.at(member)};
+  }
 };
 
 struct ProgramSlots {

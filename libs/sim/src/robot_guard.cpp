@@ -4,7 +4,6 @@
 #include "robot_guard.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace rave::sim {
@@ -22,8 +21,9 @@ bool RobotGuard::arm() noexcept { return !std::exchange(holds_.armed, true); }
 
 bool RobotGuard::disarm() noexcept { return std::exchange(holds_.armed, false); }
 
-Command RobotGuard::limit(const Command& command, CommandKind expected) const noexcept {
-  return is_free() ? command : standing(expected);
+Command RobotGuard::limit(const Command& command, CommandKind expected,
+                          const ActuatorDrive& drive) const noexcept {
+  return is_free() ? command : drive.standing(expected);
 }
 
 GuardOutput RobotGuard::limit(const GuardSpec& limits, GuardInput input) noexcept {
@@ -31,8 +31,8 @@ GuardOutput RobotGuard::limit(const GuardSpec& limits, GuardInput input) noexcep
   input.stopped = holds_.stopped;
   input.armed = holds_.armed;
   const GuardOutput output =
-      holds_.held ? GuardOutput{standing(input.expected), 0} : guard(limits, input);
-  if (input.expected == CommandKind::kVelocity) remember(output.command);
+      holds_.held ? GuardOutput{input.drive.standing(input.expected), 0} : guard(limits, input);
+  if (input.drive.moves(input.expected)) remember(input.drive.motion(output.command));
   return output;
 }
 
@@ -47,9 +47,9 @@ void RobotGuard::recall(GuardInput& input) noexcept {
   input.touching = touching_;
 }
 
-void RobotGuard::remember(const Command& told) noexcept {
-  told_mps_ = std::abs(told.value[0]);
-  stands_ = told.value[0] == 0 && told.value[1] == 0;
+void RobotGuard::remember(const Twist2& told) noexcept {
+  told_mps_ = speed_of(told);
+  stands_ = told == Twist2{};
   fastest_mps_ = std::max(fastest_mps_, told_mps_);
 }
 
@@ -63,10 +63,6 @@ std::uint32_t RobotGuard::begin(std::uint32_t acted, std::int64_t now,
     last_[i] = now;
   }
   return beginning;
-}
-
-Command standing(CommandKind kind) noexcept {
-  return kind == CommandKind::kVelocity ? velocity_command(0, 0) : Command{};
 }
 
 std::string_view text_of(GuardLimit limit) noexcept {

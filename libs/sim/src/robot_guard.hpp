@@ -43,7 +43,8 @@ class RobotGuard {
   /// Whether a robot without limits executes commands.
   [[nodiscard]] bool is_free() const noexcept { return !holds_.held && !holds_.stopped; }
   /// The command that a robot without limits gets.
-  [[nodiscard]] Command limit(const Command& command, CommandKind expected) const noexcept;
+  [[nodiscard]] Command limit(const Command& command, CommandKind expected,
+                              const ActuatorDrive& drive = {}) const noexcept;
   /// The command that a robot with limits gets. `stopped` and `armed` of the input do not count.
   /// `touching` is that of the last motion, `fastest_mps` is known here.
   [[nodiscard]] GuardOutput limit(const GuardSpec& limits, GuardInput input) noexcept;
@@ -55,7 +56,7 @@ class RobotGuard {
 
  private:
   void recall(GuardInput& input) noexcept;
-  void remember(const Command& told) noexcept;
+  void remember(const Twist2& told) noexcept;
 
   static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min() / 2;
 
@@ -71,8 +72,6 @@ class RobotGuard {
 /// A limit that has not acted for so long begins anew when it acts again.
 inline constexpr double kGuardQuiet_s = 0.5;
 
-/// What makes an actuator that takes commands of a kind stand; kNone: nothing does.
-[[nodiscard]] Command standing(CommandKind kind) noexcept;
 /// For people: what a limit does.
 [[nodiscard]] std::string_view text_of(GuardLimit limit) noexcept;
 /// Which event it is when a limit begins to act.

@@ -29,6 +29,33 @@ TEST(EngineOrders, ADriveTakesThePlaceOfTheProgram) {
   EXPECT_NEAR(engine->true_pose(kDriver).x - before_m, 0.08, 1e-9) << "the program has it again";
 }
 
+TEST(EngineOrders, PedalsGoToARobotThatHasSome) {
+  EngineSpec spec;
+  const RobotId robot = add_robot(spec, cart_type());
+  const auto engine = make_engine(std::move(spec));
+  // Without pedals it is the velocity that counts, and of a robot without pedals always.
+  ASSERT_TRUE(engine->order(drive(robot, 0.5, 0)));
+  run(*engine, 10);
+  EXPECT_NEAR(engine->true_pose(robot).x, 0.05, 1e-9);
+  ASSERT_TRUE(engine->order(
+      order(robot, request::Drive{0.5, 0, 0, request::Pedals{.throttle = 0.3, .gear = -1}})));
+  const auto events = of_kind(run(*engine, 10), EventKind::kOrdered);
+  ASSERT_EQ(events.size(), 1U) << "another controller has it now";
+  EXPECT_EQ(events[0].text,
+            "drive 0.50 m/s, 0.00 rad/s, steering 0.00, throttle 0.30, brake 0.00, gear -1 (by "
+            "hand: anna)");
+  EXPECT_NEAR(engine->true_pose(robot).x, 0.02, 1e-9);
+  ASSERT_TRUE(engine->order(drive(robot, 0, 0)));
+  run(*engine, 10);
+  EXPECT_NEAR(engine->true_pose(robot).x, 0.02, 1e-9);
+  engine->stop(robot);
+  run(*engine, 2);
+  EXPECT_EQ(engine->actuator_command(robot, 0), pedals_command(0, 0, 1, 1)) << "it brakes";
+  const auto bad = engine->order(order(robot, request::Drive{0, 0, 0, request::Pedals{.gear = 3}}));
+  ASSERT_FALSE(bad);
+  EXPECT_NE(bad.error().message.find("gear -1, 0 or 1"), std::string::npos) << bad.error().message;
+}
+
 TEST(EngineOrders, AProgramIsToldThatItIsDriven) {
   const auto engine = make_engine(small_world());
   ASSERT_TRUE(engine->order(drive(kListener, 0.1, 0)));

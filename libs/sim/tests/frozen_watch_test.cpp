@@ -7,7 +7,7 @@ namespace rave::sim {
 namespace {
 
 /// Tells the robot `told` for some periods of 0.1 s, with a sample in each.
-void watch_drive(FrozenWatch& watch, const Command& told, int periods, bool same = true) {
+void watch_drive(FrozenWatch& watch, const Twist2& told, int periods, bool same = true) {
   for (int i = 0; i < periods; ++i) {
     watch.note_told(told, 0.1);
     watch.note_sample(same);
@@ -15,24 +15,24 @@ void watch_drive(FrozenWatch& watch, const Command& told, int periods, bool same
 }
 
 TEST(FrozenWatch, TheSameAgainAndAgainWhileItIsToldToMoveIsFrozen) {
-  for (const Command& told : {velocity_command(0.2, 0), velocity_command(-0.2, 0),
-                              velocity_command(0, 0.5), velocity_command(0, -0.5)}) {
+  for (const Twist2& told :
+       {Twist2{0.2, 0, 0}, Twist2{-0.2, 0, 0}, Twist2{0, 0, 0.5}, Twist2{0, 0, -0.5}}) {
     FrozenWatch watch(0.55);
     watch_drive(watch, told, 5);
     EXPECT_FALSE(watch.is_frozen()) << "its drive may still have to begin";
     watch_drive(watch, told, 1);
     EXPECT_TRUE(watch.is_frozen());
     // It stands then, and so does what the sensor says.
-    watch_drive(watch, velocity_command(0, 0), 100);
+    watch_drive(watch, Twist2{0, 0, 0}, 100);
     EXPECT_TRUE(watch.is_frozen());
-    watch_drive(watch, velocity_command(0, 0), 1, false);
+    watch_drive(watch, Twist2{0, 0, 0}, 1, false);
     EXPECT_FALSE(watch.is_frozen());
   }
 }
 
 TEST(FrozenWatch, WhoStandsSeesTheSame) {
   FrozenWatch watch(0.55);
-  watch_drive(watch, velocity_command(0, 0), 1000);
+  watch_drive(watch, Twist2{0, 0, 0}, 1000);
   EXPECT_FALSE(watch.is_frozen());
   EXPECT_EQ(watch.told_s(), 0);
 }
@@ -40,25 +40,25 @@ TEST(FrozenWatch, WhoStandsSeesTheSame) {
 TEST(FrozenWatch, WhatChangesNowAndThenIsAlive) {
   FrozenWatch watch(0.55);
   for (int i = 0; i < 100; ++i) {
-    watch_drive(watch, velocity_command(0.2, 0), 5);
+    watch_drive(watch, Twist2{0.2, 0, 0}, 5);
     EXPECT_FALSE(watch.is_frozen());
     EXPECT_NEAR(watch.told_s(), 0.5, 1e-9);
-    watch_drive(watch, velocity_command(0.2, 0), 1, false);
+    watch_drive(watch, Twist2{0.2, 0, 0}, 1, false);
     EXPECT_EQ(watch.told_s(), 0);
   }
 }
 
 TEST(FrozenWatch, AMotionThatNoSensorCouldNoticeProvesNothing) {
   FrozenWatch watch(0.55);
-  watch_drive(watch, velocity_command(0.001, 0.002), 100);
+  watch_drive(watch, Twist2{0.001, 0, 0.002}, 100);
   EXPECT_FALSE(watch.is_frozen());
-  watch_drive(watch, velocity_command(0.001, 0.002), 500);
+  watch_drive(watch, Twist2{0.001, 0, 0.002}, 500);
   EXPECT_TRUE(watch.is_frozen());
 }
 
 TEST(FrozenWatch, ASlowSensorHasSaidTheSameOnlyOnce) {
   FrozenWatch watch(0.55);
-  watch.note_told(velocity_command(0.5, 0), 10);
+  watch.note_told(Twist2{0.5, 0, 0}, 10);
   EXPECT_EQ(watch.told_s(), 0) << "nothing has come";
   watch.note_sample(true);
   watch.note_sample(true);
@@ -71,7 +71,7 @@ TEST(FrozenWatch, ASlowSensorHasSaidTheSameOnlyOnce) {
 
 TEST(FrozenWatch, ItIsOffForSourcesWithoutNoise) {
   FrozenWatch watch(0);
-  watch_drive(watch, velocity_command(0.5, 0.5), 1000);
+  watch_drive(watch, Twist2{0.5, 0, 0.5}, 1000);
   EXPECT_FALSE(watch.is_frozen());
 }
 

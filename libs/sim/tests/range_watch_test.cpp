@@ -31,7 +31,7 @@ class RangeWatchTest : public ::testing::Test {
         queue_.publish(clock_.now(), ranges_m.data(), static_cast<std::uint32_t>(ranges_m.size())));
     watch_->update();
     watch_->update();  // the same sample is no second one
-    watch_->frozen().note_told(velocity_command(0.5, 0), 0.1);
+    watch_->frozen().note_told({0.5, 0, 0}, 0.1);
   }
   [[nodiscard]] Sectors blind() const {
     Sight sight;

@@ -70,6 +70,53 @@ TEST(GoToGoal, ReachesAGoalInTheOpenInAboutTheTimeOfAStraightLine) {
   EXPECT_LT(result.arrived_s, 20);
 }
 
+/// A car from the origin to a point; it never asks for a curve that a car cannot drive.
+Trip drive_car(const Room& room, Vec2 goal_W, double limit_s) {
+  constexpr double kRadius_m = 0.6;
+  testing::ProgramUnderTest program(rave_register_plugin, "go_to_goal");
+  Rig& rig = program.add_robot();
+  testing::add_suite(rig, Suite::kLaser);
+  rig.params.set("goal_x_m", goal_W.x)
+      .set("goal_y_m", goal_W.y)
+      .set("min_turn_radius_m", kRadius_m);
+  EXPECT_EQ(program.start(1), "");
+  Trip result;
+  for (int k = 0; k * kPeriod_s < limit_s; ++k) {
+    room.sense(rig, {k * 100'000'000LL});
+    program.decide({k * 100'000'000LL});
+    const Command& told = rig.command();
+    EXPECT_LE(std::abs(told.value[1]) * kRadius_m, std::abs(told.value[0]) + 1e-9) << k;
+    if (!rig.log.lines.empty()) {
+      result.arrived_s = k * kPeriod_s;
+      return result;
+    }
+    testing::move(rig, kPeriod_s);
+    const double gap_m = room.distance_m({rig.pose.x_m, rig.pose.y_m}) - rig.radius_m;
+    result.nearest_m = std::min(result.nearest_m, gap_m);
+  }
+  return result;
+}
+
+TEST(GoToGoal, ACarReachesGoalsAllAround) {
+  Room room;
+  room.box(-10, -10, 10, 10);
+  for (int degrees = 0; degrees < 360; degrees += 30) {
+    for (const double distance_m : {0.4, 3.0}) {
+      const double bearing_rad = deg_to_rad(degrees);
+      const Vec2 goal_W{distance_m * cos(bearing_rad), distance_m * sin(bearing_rad)};
+      EXPECT_GT(drive_car(room, goal_W, 90).arrived_s, 0) << degrees << " deg, " << distance_m;
+    }
+  }
+}
+
+TEST(GoToGoal, ACarGoesAroundABox) {
+  Room room;
+  room.box(-5, -5, 9, 5).box(2, -0.8, 3, 0.6);
+  const Trip result = drive_car(room, {6, 0}, 120);
+  EXPECT_GT(result.arrived_s, 0);
+  EXPECT_GT(result.nearest_m, 0);
+}
+
 TEST(GoToGoal, GoesAroundBoxes) {
   Room room;
   room.box(-3, -4, 9, 4).box(1.5, -0.6, 2.3, 0.7).box(3.6, -1.8, 4.2, 0.1).box(3.6, 0.9, 4.2, 2.0);

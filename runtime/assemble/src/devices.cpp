@@ -220,7 +220,12 @@ Status add_controllers(const DeviceContext& context, const config::RobotGroup& g
     // The kinds must agree here. A mismatch would otherwise show only during the run, as commands
     // that the actuator does not understand.
     const auto wanted = static_cast<CommandKind>(served->info.data_kind);
-    if (controller.ops->gives != wanted) {
+    // A drive knows which of its commands lead to a velocity.
+    const DriveOps& drive = actuator.virtual_ops != nullptr ? actuator.virtual_ops->drive
+                                                            : actuator.hardware_ops->drive;
+    const bool of_velocity =
+        drive.command != nullptr && controller.ops->gives == CommandKind::kVelocity;
+    if (controller.ops->gives != wanted && !of_velocity) {
       return fail_at(file.driver.where, ErrorCode::kInvalidArgument,
                      "controller `{}` gives {} commands, but actuator `{}` (driver `{}`) takes {}",
                      controller.name, to_string(controller.ops->gives), actuator.name,

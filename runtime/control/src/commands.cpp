@@ -43,6 +43,8 @@ Result<request::Action> action_of(const bus::Command& command) {
   request::OrderParts parts{points_W,          {},          command.v_mps, command.w_radps,
                             command.speed_mps, command.text};
   if (command.has_yaw) parts.yaw_rad = command.yaw_rad;
+  parts.vy_mps = command.vy_mps;
+  parts.pedals = request::pedals_of(command.pedals);
   const auto kind = static_cast<OrderKind>(command.kind + 1);
   if (kind == OrderKind::kPath) RAVE_TRY(request::check_path_size(points_W.size()));
   RAVE_TRY_ASSIGN(auto order, request::make_order(kind, parts));
@@ -137,6 +139,8 @@ Status to_command(const request::Request& request, bus::Command& command,
   command.yaw_rad = parts.yaw_rad.value_or(0);
   command.v_mps = parts.v_mps;
   command.w_radps = parts.w_radps;
+  command.vy_mps = parts.vy_mps;
+  request::put_pedals(parts.pedals, command.pedals);
   command.speed_mps = parts.speed_mps;
   return {};
 }

@@ -174,9 +174,8 @@ Result<std::string> OrderDesk::drive(const request::Request& request,
   RAVE_TRY(leases_.use(request.robot, person_of(request), HostLeases::Use::kLook, now));
   // A drive that is renewed unchanged is no new input of the run.
   const bool known = watch_.drives(request.robot) && is_driven(request.robot);
-  const bool changed = watch_.driven(request.robot, request.by, velocity.v_mps, velocity.w_radps,
-                                     now, request.page) ||
-                       !known;
+  const bool changed =
+      watch_.driven(request.robot, request.by, velocity, now, request.page) || !known;
   Result<std::string> answer = fmt::format("{} is driven", request.robot);
   if (changed) answer = give(request);
   if (!answer) {

@@ -58,8 +58,18 @@ bool read_points(Words& words, std::vector<Vec2>& points) {
   return !points.empty();
 }
 
+bool read_pedals(Words& words, request::Pedals& pedals) {
+  for (double* const value : {&pedals.steering, &pedals.throttle, &pedals.brake, &pedals.gear}) {
+    const auto number = words.number();
+    if (!number) return false;
+    *value = *number;
+  }
+  return pedals.is_valid();
+}
+
 bool read_word(Words& words, ReadParts& read) {
   const std::string_view word = words.next();
+  if (word == "pedals") return read_pedals(words, read.parts.pedals.emplace());
   if (word == "points") return read_points(words, read.points);
   const auto number = words.number();
   if (!number) return false;
@@ -69,6 +79,7 @@ bool read_word(Words& words, ReadParts& read) {
   }
   for (const auto& [name, value] : {std::pair<std::string_view, double*>{"v", &read.parts.v_mps},
                                     {"w", &read.parts.w_radps},
+                                    {"vy", &read.parts.vy_mps},
                                     {"speed", &read.parts.speed_mps}}) {
     if (name != word) continue;
     *value = *number;
@@ -81,7 +92,13 @@ std::string order_words(const request::Order& order) {
   const request::OrderParts parts = request::parts_of(order);
   if (const auto* const text = std::get_if<request::Text>(&order)) return text->text;
   if (std::holds_alternative<request::Drive>(order)) {
-    return fmt::format("v {} w {}", parts.v_mps, parts.w_radps);
+    std::string drive = fmt::format("v {} w {}", parts.v_mps, parts.w_radps);
+    if (parts.vy_mps != 0) drive += fmt::format(" vy {}", parts.vy_mps);
+    if (const auto& pedals = parts.pedals) {
+      drive += fmt::format(" pedals {} {} {} {}", pedals->steering, pedals->throttle, pedals->brake,
+                           pedals->gear);
+    }
+    return drive;
   }
   std::string words;
   const auto add = [&words](std::string_view word) {

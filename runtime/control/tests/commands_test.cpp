@@ -57,6 +57,8 @@ class CommandsTest : public ::testing::Test {
 TEST_F(CommandsTest, EveryKindComesBackAsItWasSent) {
   std::vector<request::Request> sent;
   sent.push_back(order(request::Drive{0.25, -0.5}));
+  sent.push_back(order(request::Drive{0, 0, -0.5}));
+  sent.push_back(order(request::Drive{0.5, 0, 0, request::Pedals{-0.25, 0.5, 0, -1}}));
   sent.push_back(order(request::Goal{{1.5, -2.25}, 0.1, 0.3}));
   sent.push_back(order(request::Path{{{1, 2}, {3, 4}, {5, 6}}, 0}));
   sent.push_back(order(request::Cancel()));

@@ -25,6 +25,16 @@ Result<std::vector<Vec2>> read_points(JsonMembers& members, OrderKind kind, std:
   return fail(ErrorCode::kParse, "`points`: expected one for each robot, {}", robots);
 }
 
+/// All four or none.
+Status read_pedals(JsonMembers& members, request::Pedals& pedals) {
+  RAVE_TRY_ASSIGN(pedals.steering, members.number_in("steering", -1, 1));
+  RAVE_TRY_ASSIGN(pedals.throttle, members.number_in("throttle", 0, 1));
+  RAVE_TRY_ASSIGN(pedals.brake, members.number_in("brake", 0, 1));
+  RAVE_TRY_ASSIGN(pedals.gear, members.number_in("gear", -1, 1));
+  if (pedals.is_valid()) return {};
+  return fail(ErrorCode::kParse, "`gear`: expected -1, 0 or 1");
+}
+
 }  // namespace
 
 Result<Vec2> point_of(const Json& pair, const char* name) {
@@ -45,6 +55,12 @@ Result<ReadOrder> read_order(JsonMembers& members, OrderKind kind, std::size_t r
   if (kind == OrderKind::kDrive) {
     RAVE_TRY_ASSIGN(parts.v_mps, members.number_in("v", -kFastest, kFastest));
     RAVE_TRY_ASSIGN(parts.w_radps, members.number_in("w", -kFastest, kFastest));
+    if (members.has("vy")) {
+      RAVE_TRY_ASSIGN(parts.vy_mps, members.number_in("vy", -kFastest, kFastest));
+    }
+    if (members.has("throttle")) {
+      RAVE_TRY(read_pedals(members, parts.pedals.emplace()));
+    }
   } else if (kind == OrderKind::kText) {
     RAVE_TRY_ASSIGN(text, members.text("text", kLongestText, true));
     if (text.empty()) return fail(ErrorCode::kParse, "`text`: expected text");

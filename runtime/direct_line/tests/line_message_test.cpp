@@ -26,6 +26,11 @@ TEST(LineMessage, SaysEveryKindOfOrder) {
   EXPECT_EQ(drive.request.action, request::Action(request::Drive{0.25, -1}));
   EXPECT_EQ(drive.request.robot, "r1");
   EXPECT_TRUE(drive.echo);
+  const auto wide = order_of(
+      R"({"type":"order","id":3,"kind":"drive","robot":"r1","v":0,"w":0,"vy":0.5,"steering":-1,)"
+      R"("throttle":0.5,"brake":0,"gear":-1})");
+  EXPECT_EQ(wide.request.action,
+            request::Action(request::Drive{0, 0, 0.5, request::Pedals{-1, 0.5, 0, -1}}));
   const auto goal = order_of(
       R"({"type":"order","id":4,"kind":"goal","robot":"r1","points":[[1,2]],"yaw":3,"speed":1})");
   EXPECT_EQ(goal.request.action, request::Action(request::Goal{{1, 2}, 3, 1}));
@@ -57,6 +62,9 @@ TEST(LineMessage, RefusesWhatIsNoOrder) {
   EXPECT_EQ(refused(R"("kind":"drive","v":null,"w":0)"), "`v`: expected a finite number");
   EXPECT_EQ(refused(R"("kind":"drive","v":NaN,"w":0)"), "not a valid message");
   EXPECT_EQ(refused(R"("kind":"drive","v":1e999,"w":0)"), "not a valid message");
+  EXPECT_EQ(refused(R"("kind":"drive","v":0,"w":0,"throttle":1)"), "`steering` is missing");
+  EXPECT_EQ(refused(R"("kind":"drive","v":0,"w":0,"throttle":1,"steering":0,"brake":0,"gear":0.5)"),
+            "`gear`: expected -1, 0 or 1");
   EXPECT_EQ(refused(R"("kind":"drive","v":101,"w":0)"), "`v`: expected a number from -100 to 100");
   EXPECT_EQ(refused(R"("kind":"drive","v":1)"), "`w` is missing");
   EXPECT_EQ(refused(R"("kind":"goal","points":[])"), "`points`: expected one for each robot, 1");

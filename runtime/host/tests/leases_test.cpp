@@ -163,20 +163,20 @@ TEST(HostLeases, WhatAPageLeavesTheNextPageOfThePersonHas) {
 
 TEST(DriveWatch, TellsWhoHasFallenSilentOnce) {
   DriveWatch watch;
-  EXPECT_TRUE(watch.driven("r1", "anna", 0.3, 0, kStart));
-  EXPECT_FALSE(watch.driven("r1", "anna", 0.3, 0, kStart + 200ms)) << "nothing new";
+  EXPECT_TRUE(watch.driven("r1", "anna", {0.3, 0}, kStart));
+  EXPECT_FALSE(watch.driven("r1", "anna", {0.3, 0}, kStart + 200ms)) << "nothing new";
   EXPECT_TRUE(watch.take_silent(kStart + 399ms).empty());
   EXPECT_EQ(watch.take_silent(kStart + 400ms), (std::vector<DriveWatch::Silent>{{"r1", "anna"}}));
   EXPECT_TRUE(watch.take_silent(kStart + 900ms).empty());
-  EXPECT_TRUE(watch.driven("r1", "anna", 0.3, 0, kStart + 1s)) << "it stands: that is another";
+  EXPECT_TRUE(watch.driven("r1", "anna", {0.3, 0}, kStart + 1s)) << "it stands: that is another";
 }
 
 TEST(DriveWatch, AStickHeldAtZeroIsNotSilent) {
   DriveWatch watch;
-  EXPECT_TRUE(watch.driven("r1", "anna", 0, 0, kStart));
+  EXPECT_TRUE(watch.driven("r1", "anna", {0, 0}, kStart));
   EXPECT_TRUE(watch.take_silent(kStart + 1s).empty());
-  EXPECT_TRUE(watch.driven("r1", "anna", 0, 0.1, kStart + 1s));
-  EXPECT_TRUE(watch.driven("r1", "bert", 0, 0.1, kStart + 1s)) << "another driver";
+  EXPECT_TRUE(watch.driven("r1", "anna", {0, 0.1}, kStart + 1s));
+  EXPECT_TRUE(watch.driven("r1", "bert", {0, 0.1}, kStart + 1s)) << "another driver";
   watch.ended("r1");
   EXPECT_FALSE(watch.any());
   EXPECT_TRUE(watch.take_silent(kStart + 1min).empty());

@@ -340,6 +340,8 @@ TEST(RecordedWords, ComeBackBitByBit) {
       request::Place{{1, 2}, -0.1},
       request::Text{"points 1 2, please"},
       request::Drive{-0.1, 2.0 / 3},
+      request::Drive{0, 0, -1.0 / 3},
+      request::Drive{0.1, 0, 0, request::Pedals{-1.0 / 3, 1, 0.1, -1}},
       request::Goal{{1, 2}, {}, 0.5},
       request::Cancel(),
       request::Stop(),
@@ -370,6 +372,9 @@ TEST(RecordedWords, RefusesWhatIsNone) {
   for (const char* const words : {"", "points", "points 1", "points a b", "yaw", "v 1 w", "fast",
                                   "points 1 2 yaw x", "v 1m", "points 1 2 3 4"}) {
     EXPECT_FALSE(recorded_action({"goal", "", words})) << words;
+  }
+  for (const char* const words : {"pedals 0 1 0", "pedals 2 0 0 1", "pedals 0 1 0 0.5"}) {
+    EXPECT_FALSE(recorded_action({"drive", "", words})) << words;
   }
   EXPECT_FALSE(recorded_action({"fly", "", ""}));
 }

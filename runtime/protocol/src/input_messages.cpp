@@ -98,6 +98,8 @@ Status to_wire(const sim::WorldInput& input, rave_wire_WorldInput& wire,
   wire.yaw_rad = order.yaw_rad.value_or(0);
   wire.v_mps = order.v_mps;
   wire.w_radps = order.w_radps;
+  wire.vy_mps = order.vy_mps;
+  request::put_pedals(order.pedals, wire.pedals);
   wire.speed_mps = order.speed_mps;
   return {};
 }
@@ -138,6 +140,8 @@ Result<Action> action_from(const rave_wire_WorldInput& wire) {
   for (const auto& point : elements(wire.points)) points_W.push_back({point.x_m, point.y_m});
   request::OrderParts parts{points_W, {}, wire.v_mps, wire.w_radps, wire.speed_mps, wire.text};
   if (wire.has_yaw) parts.yaw_rad = wire.yaw_rad;
+  parts.vy_mps = wire.vy_mps;
+  parts.pedals = request::pedals_of(wire.pedals);
   const auto kind = static_cast<OrderKind>(wire.kind - kFirstOrder + 1);
   RAVE_TRY_ASSIGN(auto order, request::make_order(kind, parts));
   return order;

@@ -41,6 +41,7 @@ const ControllerOps* pass_ops(CommandKind kind) {
       detail::controller_ops<Pass<CommandKind::kGoal>>(),
       detail::controller_ops<Pass<CommandKind::kJoint>>(),
       detail::controller_ops<Pass<CommandKind::kValues>>(),
+      detail::controller_ops<Pass<CommandKind::kPedals>>(),
   };
   for (const ControllerOps& ops : kOps) {
     if (ops.gives == kind) return &ops;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {afterEach, beforeEach, expect, it, vi} from 'vitest';
 import type {Commands} from '../../model/commands';
-import {Car, kIdle, pedalsOf, together} from './car';
+import {Car, carPedals, kIdle, pedalsOf, together} from './car';
 import {CarDesk} from './car_desk';
 import {DriveLoop} from './drive_loop';
 import {DriveKeys} from './keys';
@@ -187,4 +187,13 @@ it('triggers are pedals, and shoulder buttons gears', () => {
   });
   vi.stubGlobal('navigator', {getGamepads: () => [null]});
   expect(readCarPad()).toBeNull();
+});
+
+it('a car gets the pedals themselves, its steering positive to the left', () => {
+  expect(carPedals(-1, {steering: 0.5, throttle: 0.7, brake: 0.01})).toEqual({
+    steering: -0.5,
+    throttle: 0.7,
+    brake: 0,
+    gear: -1,
+  });
 });

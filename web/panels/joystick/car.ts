@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steering, throttle, brake and gear of a vehicle, as the two velocities of an order.
+import type {LinePedals} from '../../protocol/line';
 
 export type Gear = -1 | 0 | 1;
 export const kGears: readonly {gear: Gear; letter: string; name: string}[] = [
@@ -75,6 +76,13 @@ export class Car {
   get place(): [number, number] {
     return [this.gear * this.steering || 0, this.gear * this.speed || 0];
   }
+}
+
+/** As a car gets them: its steering is positive to the left. */
+export function carPedals(gear: Gear, {steering, throttle, brake}: Pedals): LinePedals {
+  const share = (value: number) => (value > kSlack ? Math.min(value, 1) : 0);
+  const left = Math.abs(steering) > kSlack ? Math.max(-1, Math.min(1, -steering)) : 0;
+  return {steering: left, throttle: share(throttle), brake: share(brake), gear};
 }
 
 /** The stronger of two: a foot on a pedal of the screen and a key at once. */

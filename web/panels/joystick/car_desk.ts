@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import {Car, kIdle, pedalsOf, together, type Gear, type Pedals} from './car';
+import {Car, carPedals, kIdle, pedalsOf, together, type Gear, type Pedals} from './car';
 import type {DriveLoop} from './drive_loop';
 import type {DriveKeys} from './keys';
 import {readCarPad} from './pad';
@@ -81,8 +81,9 @@ export class CarDesk {
       this.car.release();
       return;
     }
-    this.car.step(source === 'pad' ? this.ofPad : hands, dt_s);
-    this.loop.holdBoth(source, ...this.car.place);
+    const pedals = source === 'pad' ? this.ofPad : hands;
+    this.car.step(pedals, dt_s);
+    this.loop.holdBoth(source, ...this.car.place, carPedals(this.car.gear, pedals));
   }
 
   /** Focus, link or robot is lost: whatever is still pressed counts only when it is pressed

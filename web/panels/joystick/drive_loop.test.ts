@@ -116,3 +116,24 @@ it('says at once that the stick has moved, at most 60 times a second', () => {
   expect(ask.mock.calls.length).toBe(let_go);
   expect(last()).toMatchObject({v: 0, w: 0});
 });
+
+it('moves sideways instead of turning, as wide as the drive', () => {
+  const {loop, last} = made();
+  loop.slides = true;
+  loop.hold('touch', -1, 0);
+  expect(last()).toMatchObject({v: 0, w: 0, vy: 0.4});
+  loop.release();
+  expect(last()).toMatchObject({v: 0, w: 0, vy: 0});
+});
+
+it('sends pedals beside the velocity, also when only the brake changes', () => {
+  const {loop, last} = made();
+  loop.holdBoth('touch', 0, 0.5, {steering: 0, throttle: 0.5, brake: 0, gear: 1});
+  expect(last()).toMatchObject({v: 0.2, w: 0, throttle: 0.5, gear: 1});
+  vi.advanceTimersByTime(20);
+  loop.holdBoth('touch', 0, 0.5, {steering: 0, throttle: 0.5, brake: 1, gear: 1});
+  vi.advanceTimersByTime(20);
+  expect(last()).toMatchObject({brake: 1});
+  loop.release();
+  expect(last()).not.toHaveProperty('throttle');
+});

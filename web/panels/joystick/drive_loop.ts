@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {Commands} from '../../model/commands';
+import type {LinePedals} from '../../protocol/line';
 
 /** So often a velocity is sent while the stick is held. */
 export const kPeriod_ms = 1000 / 30;
@@ -24,6 +25,10 @@ export class DriveLoop {
   /** Full speed, m/s and rad/s. */
   v_mps = 0.4;
   w_radps = 1.2;
+  /** Left and right move the robot sideways instead of turning it. */
+  slides = false;
+  /** What a car gets beside the velocity; null: no pedals. */
+  private pedals: LinePedals | null = null;
   private slot: number | null = null;
   private timer = 0;
   private soon = 0;
@@ -41,7 +46,12 @@ export class DriveLoop {
 
   /** The velocity of the present position: forward, m/s, and to the left, rad/s. */
   get velocity(): [number, number] {
-    return [this.y * this.v_mps || 0, -this.x * this.w_radps || 0];
+    return [this.y * this.v_mps || 0, this.slides ? 0 : -this.x * this.w_radps || 0];
+  }
+
+  /** Sideways, to the left, m/s. */
+  get sideways_mps(): number {
+    return this.slides ? -this.x * this.v_mps || 0 : 0;
   }
 
   /** The driven robot is let go first: a stick never moves from one robot to the next. */
@@ -66,17 +76,20 @@ export class DriveLoop {
     this.holdBoth(source, x * scale, y * scale);
   }
 
-  /** As hold(), of two controls that do not limit each other; each from -1 to 1. */
-  holdBoth(source: StickSource, x: number, y: number): void {
+  /** As hold(), of two controls that do not limit each other; each from -1 to 1. `pedals`: what they
+   * come from. */
+  holdBoth(source: StickSource, x: number, y: number, pedals: LinePedals | null = null): void {
     if (this.slot === null || source === this.spent || (this.held !== null && this.held !== source))
       return;
     const [from_x, from_y] = [this.x, this.y];
+    const other = JSON.stringify(pedals) !== JSON.stringify(this.pedals);
+    this.pedals = pedals;
     [this.x, this.y] = [Math.max(-1, Math.min(1, x)), Math.max(-1, Math.min(1, y))];
     if (this.held === null) {
       this.held = source;
       this.refusal = '';
       this.send();
-    } else if (this.x !== from_x || this.y !== from_y) {
+    } else if (this.x !== from_x || this.y !== from_y || other) {
       this.sendSoon();
     }
     this.changed();
@@ -90,6 +103,7 @@ export class DriveLoop {
     if (source === undefined) this.spent = this.held;
     this.held = null;
     this.x = this.y = 0;
+    this.pedals = null;
     this.send();
     this.changed();
   }
@@ -113,23 +127,26 @@ export class DriveLoop {
     if (this.held !== null) this.timer = window.setTimeout(() => this.send(), kPeriod_ms);
     const slot = this.slot;
     const [v, w] = this.velocity;
+    const wide = {...(this.slides ? {vy: this.sideways_mps} : {}), ...(this.pedals ?? {})};
     const sent_ms = performance.now();
     this.sent_ms = sent_ms;
-    void this.commands.ask({type: 'order', kind: 'drive', slots: [slot], v, w}).then((answer) => {
-      if (slot !== this.slot) return;
-      if (answer.good) {
-        this.delay_ms = performance.now() - sent_ms;
-        this.delays_ms = [...this.delays_ms.slice(-39), this.delay_ms];
-      } else {
-        // Asked again and again it would be refused again and again.
-        const held = this.held !== null;
-        if (held) [this.spent, this.refused] = [this.held, slot];
-        this.stopTimers();
-        this.held = null;
-        this.x = this.y = 0;
-        if (held) this.refusal = answer.text;
-      }
-      this.changed();
-    });
+    void this.commands
+      .ask({type: 'order', kind: 'drive', slots: [slot], v, w, ...wide})
+      .then((answer) => {
+        if (slot !== this.slot) return;
+        if (answer.good) {
+          this.delay_ms = performance.now() - sent_ms;
+          this.delays_ms = [...this.delays_ms.slice(-39), this.delay_ms];
+        } else {
+          // Asked again and again it would be refused again and again.
+          const held = this.held !== null;
+          if (held) [this.spent, this.refused] = [this.held, slot];
+          this.stopTimers();
+          this.held = null;
+          this.x = this.y = 0;
+          if (held) this.refusal = answer.text;
+        }
+        this.changed();
+      });
   }
 }

@@ -22,6 +22,11 @@ const kPad_ms = 1000 / 60;
 const kLayout = 'rave.joystick';
 const kHand = 'rave.joystick.hand';
 
+/** What the stick does, or that there are pedals instead. */
+type Layout = 'stick' | 'slide' | 'pedals';
+const layoutOf = (kept: string | null): Layout =>
+  kept === 'pedals' || kept === 'slide' ? kept : 'stick';
+
 /** A stick for the selected robot: pointer, finger, pen, keys or gamepad; it drives only while
  * held. */
 export class JoystickPanel extends LiveElement {
@@ -37,11 +42,12 @@ export class JoystickPanel extends LiveElement {
   private readonly keys = new DriveKeys();
   private pad = '';
   private car!: CarDesk;
-  private pedals = localStorage.getItem(kLayout) === 'pedals';
+  private layout: Layout = layoutOf(localStorage.getItem(kLayout));
 
   protected override listen(): (() => void)[] {
     const {model, selection, commands, link, windows} = this.context;
     this.loop ??= new DriveLoop(commands, () => this.requestUpdate());
+    this.loop.slides = this.layout === 'slide';
     this.car ??= new CarDesk(this.loop, this.keys);
     this.swapped ??= localStorage.getItem(kHand) === 'right';
     let chosen = this.driven;
@@ -108,11 +114,16 @@ export class JoystickPanel extends LiveElement {
     this.loop.release();
   }
 
-  private setLayout(pedals: boolean): void {
-    if (pedals === this.pedals) return;
+  private get pedals(): boolean {
+    return this.layout === 'pedals';
+  }
+
+  private setLayout(layout: Layout): void {
+    if (layout === this.layout) return;
     this.letGo();
-    this.pedals = pedals;
-    localStorage.setItem(kLayout, pedals ? 'pedals' : 'stick');
+    this.layout = layout;
+    this.loop.slides = layout === 'slide';
+    localStorage.setItem(kLayout, layout);
     this.dispatchEvent(new CustomEvent('covers'));
     this.requestUpdate();
   }
@@ -279,20 +290,20 @@ export class JoystickPanel extends LiveElement {
   }
 
   private renderLayouts(): TemplateResult {
-    const layout = (pedals: boolean, text: string, title: string) =>
+    const layout = (name: Layout, text: string, title: string) =>
       html`<button
         role="radio"
-        aria-checked=${this.pedals === pedals}
+        aria-checked=${this.layout === name}
         title=${title}
-        @click=${() => this.setLayout(pedals)}>
+        @click=${() => this.setLayout(name)}>
         ${text}
       </button>`;
     return html`<div class="segments" role="radiogroup" aria-label="Controls">
-      ${layout(false, 'Stick', 'One stick for both velocities')}${layout(
-        true,
-        'Pedals',
-        'Steering, throttle, brake and gear',
-      )}
+      ${layout('stick', 'Stick', 'One stick for both velocities')}${layout(
+        'slide',
+        'Slide',
+        'The stick moves robots sideways that can, instead of turning them',
+      )}${layout('pedals', 'Pedals', 'Steering, throttle, brake and gear')}
     </div>`;
   }
 

@@ -11,6 +11,7 @@
 
 #include "rave/base/result.hpp"
 #include "rave/math/pose.hpp"
+#include "rave/request/pedals.hpp"
 #include "rave/robot/order.hpp"
 
 // Orders: what a robot is asked to do. Each needs a robot, and a person needs its lease. Points are
@@ -23,7 +24,13 @@ struct Drive {
   static constexpr std::string_view kName = "drive";
   double v_mps = 0;    ///< Forward.
   double w_radps = 0;  ///< Counter-clockwise.
-  [[nodiscard]] bool stands() const noexcept { return v_mps == 0 && w_radps == 0; }
+  double vy_mps = 0;   ///< To the left; robots that do not move sideways ignore it.
+  /// For a robot with a controller of pedals, which then ignores the velocity.
+  std::optional<Pedals> pedals{};
+  [[nodiscard]] bool stands() const noexcept {
+    const bool still = !pedals || (pedals->throttle == 0 && pedals->steering == 0);
+    return v_mps == 0 && w_radps == 0 && vy_mps == 0 && still;
+  }
   friend bool operator==(const Drive&, const Drive&) = default;
 };
 
@@ -91,6 +98,8 @@ struct OrderParts {
   double w_radps = 0;
   double speed_mps = 0;
   std::string_view text{};
+  double vy_mps = 0;
+  std::optional<Pedals> pedals{};
 };
 /// Valid as long as the order; nothing for nullptr.
 [[nodiscard]] OrderParts parts_of(const Order& order) noexcept;

@@ -19,7 +19,7 @@
 namespace rave {
 
 /// Increased by hand when the meaning of the interface changes but its layout does not.
-inline constexpr std::uint64_t kRobotInterfaceVersion = 6;
+inline constexpr std::uint64_t kRobotInterfaceVersion = 7;
 
 namespace detail {
 constexpr std::uint64_t hash_layout(std::uint64_t version,
@@ -69,6 +69,7 @@ constexpr std::uint64_t robot_interface_hash() noexcept {
                                                       offsetof(ControlInput, velocity),
                                                       sizeof(ControllerOps),
                                                       sizeof(MotionInput),
+                                                      sizeof(DriveOps),
                                                       sizeof(VirtualActuatorOps),
                                                       sizeof(HardwareActuatorOps),
                                                       sizeof(HardwareSetup),

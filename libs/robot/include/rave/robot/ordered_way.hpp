@@ -24,15 +24,19 @@ class OrderedWay {
     kThere,    ///< At the end; standing until the next order.
   };
 
-  /// Takes the orders of this decision and advances past points that are nearer than `tolerance_m`.
-  /// Sends an answer on arrival. Returns true if the path, its state or the next
-  /// point has changed.
-  bool update(const Percepts& percepts, Commands& commands, double tolerance_m) {
+  OrderedWay() = default;
+  /// `turns`: the robot turns on the spot; otherwise an ordered heading does not count.
+  explicit OrderedWay(bool turns) noexcept : turns_(turns) {}
+
+  /// Takes the orders of this decision and advances past points that are nearer than `tolerance_m`,
+  /// or before the last one than `pass_m` if that is more. Sends an answer on arrival. Returns true
+  /// if the path, its state or the next point has changed.
+  bool update(const Percepts& percepts, Commands& commands, double tolerance_m, double pass_m = 0) {
     const State before = state_;
     const std::size_t point = next_;
     bool changed = false;
     for (const Order order : percepts.orders()) changed |= take(order);
-    if (state_ == State::kGoing) go(percepts.pose(), tolerance_m);
+    if (state_ == State::kGoing) go(percepts.pose(), tolerance_m, pass_m);
     if (state_ == State::kTurning && std::abs(turn_left_rad(percepts.pose())) < kNear_rad) {
       state_ = State::kThere;
     }
@@ -73,17 +77,20 @@ class OrderedWay {
     state_ = State::kGoing;
     return true;
   }
-  void go(const PoseReading& pose, double tolerance_m) {
-    while (state_ == State::kGoing &&
-           squared_norm(next() - Vec2{pose.x_m, pose.y_m}) <= tolerance_m * tolerance_m) {
+  void go(const PoseReading& pose, double tolerance_m, double pass_m) {
+    while (state_ == State::kGoing) {
+      const bool last = next_ + 1 == points_W_.size();
+      const double near_m = last ? tolerance_m : std::max(tolerance_m, pass_m);
+      if (squared_norm(next() - Vec2{pose.x_m, pose.y_m}) > near_m * near_m) return;
       if (++next_ < points_W_.size()) continue;
-      state_ = yaw_rad_ ? State::kTurning : State::kThere;
+      state_ = yaw_rad_ && turns_ ? State::kTurning : State::kThere;
     }
   }
   [[nodiscard]] double turn_left_rad(const PoseReading& pose) const noexcept {
     return wrap_angle(yaw_rad_.value_or(pose.yaw_rad) - pose.yaw_rad);
   }
 
+  bool turns_ = true;
   State state_ = State::kNone;
   std::vector<Vec2> points_W_;
   std::size_t next_ = 0;

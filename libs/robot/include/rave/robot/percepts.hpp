@@ -160,6 +160,10 @@ class Commands {
   void velocity(ControllerHandle controller, double v_mps, double w_radps) noexcept {
     set(controller, velocity_command(v_mps, w_radps));
   }
+  /// The same with a velocity to the left, for robots that move sideways.
+  void velocity(ControllerHandle controller, double v_mps, double w_radps, double vy_mps) noexcept {
+    set(controller, velocity_command(v_mps, w_radps, vy_mps));
+  }
   /// A point in the world frame to drive to; speed 0: the default of the controller.
   void goal(ControllerHandle controller, Vec2 p_WG, double speed_mps = 0) noexcept {
     set(controller, goal_command(p_WG.x, p_WG.y, speed_mps));

@@ -12,6 +12,7 @@
 #include "rave/math/pose.hpp"
 #include "rave/robot/command.hpp"
 #include "rave/robot/sight.hpp"
+#include "rave/sim/drive.hpp"
 #include "rave/world/body.hpp"
 
 namespace rave::sim {
@@ -84,7 +85,8 @@ struct GuardSensor {
 /// The input of one robot's guard in one step.
 struct GuardInput {
   Command command;                                ///< Command of the controller.
-  CommandKind expected = CommandKind::kVelocity;  ///< The kind that the actuator accepts.
+  CommandKind expected = CommandKind::kVelocity;  ///< The kind that the controller gives.
+  ActuatorDrive drive;                            ///< What the actuator makes of commands.
   double command_age_s = 0;  ///< Age of the program's last command; infinite: none yet.
   bool stopped = false;
   bool armed = true;
@@ -129,9 +131,9 @@ struct GuardOutput {
 /// Limits one command. Pure: the same input gives the same bits; any thread; no allocation.
 /// Formulas and assumptions: docs/explanation/guard.md.
 ///
-/// Velocities are limited. `kJoint` and `kValues` pass unchanged if they are finite and no limit
-/// stops the robot; otherwise the actuator gets no command. `kGoal` is never passed on, because the
-/// actuator itself would choose the path.
+/// Motions are limited, whatever commands lead to them: see ActuatorDrive. `kJoint` and `kValues`
+/// pass unchanged if they are finite and no limit stops the robot; otherwise the actuator gets no
+/// command. `kGoal` is never passed on, because the actuator itself would choose the path.
 [[nodiscard]] GuardOutput guard(const GuardSpec& spec, const GuardInput& input) noexcept;
 
 }  // namespace rave::sim

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "rave/request/order.hpp"
+
 namespace rave::runtime {
 
 /// The dead-man's switch for robots that users drive: a drive command that is not renewed ends. It
@@ -17,8 +19,8 @@ class DriveWatch {
   /// A drive command that was not renewed for this long becomes a zero velocity.
   static constexpr std::chrono::milliseconds kSilence{200};
 
-  /// Records or renews a drive command. Returns true if the velocity is new or has changed.
-  bool driven(const std::string& robot, const std::string& by, double v_mps, double w_radps,
+  /// Records or renews a drive command. Returns true if it is new or has changed.
+  bool driven(const std::string& robot, const std::string& by, const request::Drive& drive,
               Time now, std::uint64_t page = 0);
   /// The robot is no longer driven, or was stopped.
   void ended(const std::string& robot) { drives_.erase(robot); }
@@ -41,11 +43,9 @@ class DriveWatch {
 
  private:
   struct Drive {
-    [[nodiscard]] bool moves() const noexcept { return v_mps != 0 || w_radps != 0; }
     std::string by;
     std::uint64_t page = 0;
-    double v_mps = 0;
-    double w_radps = 0;
+    request::Drive asked;
     Time renewed;
   };
   std::map<std::string, Drive, std::less<>> drives_;

@@ -100,6 +100,44 @@ inline RobotType goal_type() {
   return type;
 }
 
+/// Throttle and gear are its speed in m/s.
+class Cart final : public VirtualActuator {
+ public:
+  static constexpr CommandKind kAccepts = CommandKind::kPedals;
+  Status start(const DeviceSetup& /*setup*/) override { return {}; }
+  Twist2 propose(const MotionInput& input) override { return motion_of(input.command); }
+  [[nodiscard]] Twist2 motion_of(const Command& command) const noexcept {
+    if (command.kind != CommandKind::kPedals) return asked_velocity(command);
+    return {command.value[1] * command.value[3] * (1 - command.value[2]), 0, 0};
+  }
+  [[nodiscard]] Command command_for(const Twist2& motion) const noexcept {
+    return pedals_command(0, std::abs(motion.vx), motion.vx == 0 ? 1 : 0, motion.vx < 0 ? -1 : 1);
+  }
+};
+
+/// Hands pedals on.
+class Foot final : public Controller {
+ public:
+  static constexpr CommandKind kGives = CommandKind::kPedals;
+  Status start(const DeviceSetup& /*setup*/) override { return {}; }
+  Command control(const ControlInput& input) override { return input.command; }
+};
+
+/// Its program drives ahead; a person may take the wheel or the pedals.
+inline RobotType cart_type() {
+  static constexpr VirtualActuatorOps kCart = detail::virtual_actuator_ops<Cart>();
+  static constexpr ControllerOps kFoot = detail::controller_ops<Foot>();
+  RobotType type = driver_type();
+  type.actuators[0].virtual_ops = &kCart;
+  ControllerSpec spec;
+  spec.name = "foot";
+  spec.driver = "foot";
+  spec.ops = &kFoot;
+  spec.accepts = CommandKind::kPedals;
+  type.controllers.push_back(std::move(spec));
+  return type;
+}
+
 inline WorldInput order(RobotId robot, request::Order what) {
   WorldInput input;
   input.action = std::move(what);

@@ -29,7 +29,7 @@ void group_commands(CLI::App& root) {
   const Group groups[] = {
       {"Start a run", {"run", "robot", "env"}},
       {"Files, drivers and programs", {"check", "drivers", "describe", "new", "schema"}},
-      {"Experiments", {"sweep"}},
+      {"Experiments", {"sweep", "branch", "diff"}},
       {"Recordings", {"info", "verify", "play", "export", "report"}},
       {"Page in the browser", {"gui", "people"}},
       {"Several machines", {"keys", "doctor"}},

@@ -22,7 +22,7 @@ void add_file_commands(CLI::App& root, Command& chosen);        ///< About files
 void add_record_commands(CLI::App& root, Command& chosen);      ///< About recordings.
 void add_control_commands(CLI::App& root, Command& chosen);     ///< For runs in progress.
 void add_bench_commands(CLI::App& root, Command& chosen);       ///< Below `bench`.
-void add_experiment_commands(CLI::App& root, Command& chosen);  ///< `sweep`.
+void add_experiment_commands(CLI::App& root, Command& chosen);  ///< `sweep`, `branch`, `diff`.
 void add_keys_commands(CLI::App& root, Command& chosen);        ///< Below `keys`.
 void add_people_commands(CLI::App& root, Command& chosen);      ///< Below `people`.
 void add_watch_commands(CLI::App& root, Command& chosen);       ///< `top` and `doctor`.

@@ -9,7 +9,6 @@
 #include "played_files.hpp"
 #include "rave/assemble/build.hpp"
 #include "rave/control/obstacle_edits.hpp"
-#include "rave/control/order_words.hpp"
 #include "rave/control/requests.hpp"
 #include "rave/pace/stall_watch.hpp"
 #include "rave/pace/wall_pace.hpp"
@@ -21,6 +20,7 @@
 #include "rave/recording/recorded_scenario.hpp"
 #include "rave/results/capture_watch.hpp"
 #include "record_match.hpp"
+#include "recorded_run.hpp"
 
 namespace rave::runtime {
 namespace {
@@ -55,31 +55,6 @@ class Scratch {
   fs::path path_;
 };
 
-/// The run hash after each step; empty for recordings without hashes.
-Result<std::vector<std::uint64_t>> read_hashes(const record::McapReader& reader) {
-  std::vector<std::uint64_t> hashes;
-  const auto take = [&](const record::MessageView& message) -> Status {
-    RAVE_TRY_ASSIGN(const record::StepHash hash, record::decode_hash(message.bytes));
-    // By step without gaps; a duplicate of a merged recording is ignored.
-    if (hash.step == hashes.size()) hashes.push_back(hash.hash);
-    return {};
-  };
-  RAVE_TRY(record::for_each_message(reader, record::topic::kHash, take));
-  return hashes;
-}
-
-/// The requests made by hand in the recorded run, in their order.
-Result<std::vector<record::RunInput>> read_inputs(const record::McapReader& reader) {
-  std::vector<record::RunInput> inputs;
-  const auto take = [&](const record::MessageView& message) -> Status {
-    RAVE_TRY_ASSIGN(record::RunInput input, record::decode_input(message.bytes));
-    inputs.push_back(std::move(input));
-    return {};
-  };
-  RAVE_TRY(record::for_each_message(reader, record::topic::kInputs, take));
-  return inputs;
-}
-
 /// The repeated run: all robots in one engine, or one host of several.
 struct Again {
   sim::Engine& engine;
@@ -99,12 +74,6 @@ Again again_of(HostAgain& host) {
   return {host.engine(), [&host] { return host.step(); },
           [&host](const request::Request& request) { return host.ask(request); },
           [&host] { return host.beside(); }, true};
-}
-
-/// Converts a recorded request.
-Result<request::Request> request_of(const record::RunInput& input) {
-  RAVE_TRY_ASSIGN(auto action, recorded_action({input.kind, input.key, input.value}));
-  return request::Request{std::move(action), input.robot, input.by};
 }
 
 /// Repeats the recorded requests at the same steps.

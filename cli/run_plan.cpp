@@ -118,9 +118,12 @@ class Plan {
 
   static std::string_view role(config::UserRole role) {
     switch (role) {
-      case config::UserRole::kObserver: return "observer";
-      case config::UserRole::kCommander: return "commander";
-      case config::UserRole::kSuperUser: return "super-user";
+      case config::UserRole::kObserver:
+        return "observer";
+      case config::UserRole::kCommander:
+        return "commander";
+      case config::UserRole::kSuperUser:
+        return "super-user";
     }
     return "";
   }

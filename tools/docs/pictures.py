@@ -26,12 +26,17 @@ IMAGES = ROOT / "docs/images"
 BOOK = IMAGES / "pictures.json"
 SCENARIOS = {
     "collaborative-mapping": "scenarios/collaborative-mapping",
+    "convoy": "scenarios/convoy",
     "flock": "scenarios/flock",
+    "hunt": "scenarios/predator-prey/hunt.yaml",
     "hybrid-laser": "scenarios/hybrid-laser",
     "mixed-reality": "scenarios/mixed-reality",
     "predator-prey": "scenarios/predator-prey",
     "rear-sonar": "scenarios/rear-sonar",
+    "warehouse": "scenarios/warehouse",
 }
+# Long runs of which the begin says enough.
+LENGTH_S = {"warehouse": 30}
 # A figure in a page, and the same in the summary of a run.
 FIGURES = [
     ("README.md", r"each of the (\d+) real sightings", "mixed-reality", r"of (\d+) real sightings"),
@@ -46,6 +51,8 @@ FIGURES = [
 def run(rave, name, folder, with_picture):
     """The hash and the summary of a run; its files are left in the folder."""
     options = [] if with_picture else ["--no-picture"]
+    if name in LENGTH_S:
+        options += ["--duration", str(LENGTH_S[name])]
     done = subprocess.run([rave, "run", str(ROOT / SCENARIOS[name]), "--pace", "max", "--no-record",
                            "--output", str(folder), *options], cwd=ROOT, capture_output=True,
                           text=True, timeout=600, check=False)

@@ -30,6 +30,7 @@ SCENARIOS = {
     "flock": "scenarios/flock",
     "hunt": "scenarios/predator-prey/hunt.yaml",
     "hybrid-laser": "scenarios/hybrid-laser",
+    "lab-team": "scenarios/lab-team",
     "mixed-reality": "scenarios/mixed-reality",
     "predator-prey": "scenarios/predator-prey",
     "rear-sonar": "scenarios/rear-sonar",

@@ -20,7 +20,15 @@ void add_sweep(CLI::App& root, Command& chosen) {
             "Instead of missing runs, repeat N finished ones chosen at random and compare them",
             "N")
       ->check(whole_number_in(1, 1000000));
-  app.add_flag("--retry", c.retry, "Also repeat runs that have failed");
+  auto* const slurm =
+      add_value(app, "--slurm", c.slurm,
+                "Do the runs as a job array of Slurm with N tasks, and wait for it", "N")
+          ->check(whole_number_in(1, 100000));
+  add_values(app, "--slurm-option", c.slurm_options,
+             "Word for `sbatch`, such as --partition=short; repeatable", "WORD")
+      ->needs(slurm);
+  app.get_option("--shard")->excludes(slurm);
+  app.add_flag("--retry", c.retry, "Also repeat runs that have failed")->excludes(slurm);
   app.add_flag("--quiet", c.quiet, "Print errors and failures only");
   add_plugins(app, c.plugins);
   app.footer(

@@ -14,6 +14,7 @@
 #include "interrupt.hpp"
 #include "places.hpp"
 #include "rave/base/number.hpp"
+#include "rave/experiment/slurm.hpp"
 #include "rave/experiment/sweep.hpp"
 #include "terminal.hpp"
 
@@ -156,7 +157,9 @@ Result<int> sweep(const SweepCommand& options) {
   how.on_progress = [&](const experiment::SweepProgress& progress) {
     line.show(progress, plan.conditions.size());
   };
-  const auto outcome = experiment::sweep(plan, how);
+  const auto outcome =
+      options.slurm ? experiment::sweep_on_slurm(plan, how, {*options.slurm, options.slurm_options})
+                    : experiment::sweep(plan, how);
   line.clear();
   if (!outcome) return tl::unexpected(outcome.error());
   return tell(plan, how, *outcome, options);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +17,8 @@ struct SweepCommand {
   std::optional<std::uint64_t> jobs;
   std::string shard;                    ///< `I/N`; empty: all runs.
   std::optional<std::uint64_t> verify;  ///< Repeat this number of finished runs instead.
+  std::optional<std::uint64_t> slurm;   ///< Tasks of a job array; unset: runs on this machine.
+  std::vector<std::string> slurm_options;
   bool retry = false;
   bool quiet = false;
   std::vector<std::string> plugins;

@@ -110,6 +110,8 @@ std::vector<std::string> shipped_scenarios() {
   return names_in({share_folder() / kScenarios.folder}, kScenarios);
 }
 
+std::vector<std::string> known_scenarios() { return names_in(folders_of(kScenarios), kScenarios); }
+
 fs::path program_runner() { return executable_folder() / "rave-program-runner"; }
 
 Result<fs::path> record_file(std::string_view word) {

@@ -22,6 +22,10 @@ namespace rave::cli {
 /// The names of the scenarios of the share folder, sorted; empty if it has none.
 [[nodiscard]] std::vector<std::string> shipped_scenarios();
 
+/// The names that stand for a scenario here: those, and the ones of `scenarios` of the current
+/// folder; sorted.
+[[nodiscard]] std::vector<std::string> known_scenarios();
+
 /// The experiment file that a word on the command line stands for: like find_scenario(), with
 /// `experiment.yaml` and `experiments`.
 [[nodiscard]] Result<std::filesystem::path> find_experiment(std::string_view word);

@@ -132,16 +132,22 @@ void add_report(CLI::App& root, Command& chosen) {
 void add_gui(CLI::App& root, Command& chosen) {
   const auto [app, c] =
       add_command(root, chosen, "gui", "Show a run or a recording in the browser", gui);
-  add_word(app, "what", c.file, "Recording, folder of a run, or scenario of a run in progress",
-           "WHAT");
+  add_value(
+      app, "what", c.file,
+      "Recording, folder of a run, or scenario of a run in progress [a page that starts runs]",
+      "WHAT");
   add_page_options(app, c.page);
   add_processes(app, c.run.processes, "Number of hosts among which the robots are divided", 2);
   add_plugins(app, c.run.plugins);
   add_bus_options(app, c.run.bus);
   app.footer(
       "With a scenario, shows its run of several processes, found on the bus, even if it starts\n"
-      "later. For a run of one process use `rave run --gui`.\n\n"
+      "later. For a run of one process use `rave run --gui`.\n"
+      "Without an argument, the page lists scenarios and recordings, and who may do so starts, "
+      "ends\n"
+      "and restarts runs there, one at a time; their results are below `runs`.\n\n"
       "Examples:\n"
+      "  rave gui\n"
       "  rave gui runs/20260101-120000-mixed-reality\n"
       "  rave gui lab --interface 192.168.1.7 --peer 192.168.1.2");
 }

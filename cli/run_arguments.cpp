@@ -28,6 +28,11 @@ void add_run(CLI::App& root, Command& chosen) {
                "Print the plan of the run and start nothing: processes with their robots, people, "
                "what happens when");
   add_processes(app, c.processes, "Divide the robots evenly among N processes", 1);
+  app.add_flag("--on-bus", c.on_bus,
+               "Run the robots in a process of their own even if there is only one, so that `rave "
+               "gui` and other monitors find the run");
+  // Not for people: for a run that another process conducts.
+  app.add_flag("--with-parent", c.with_parent)->group("");
   auto* const gui = app.add_flag(
       "--gui", c.gui,
       "Show the run in the browser (at --pace realtime unless set), then its recording, until "
@@ -63,6 +68,8 @@ void add_robot(CLI::App& root, Command& chosen) {
   add_value(app, "--wait-for-manager", c.manager_patience_s,
             "Seconds to wait for an environment manager [no limit]", "S")
       ->check(number_in(0.1, 1e9));
+  // Not for people: for hosts that `rave run` starts.
+  app.add_flag("--with-parent", c.run.with_parent)->group("");
   add_run_options(app, c.run);
   add_processes(app, c.run.processes, "Number of hosts among which the robots are divided", 2);
   add_line_options(app, c.run.line);

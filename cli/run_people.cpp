@@ -2,11 +2,16 @@
 #include "run_people.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdlib>
+#include <string_view>
 
 #include "error_text.hpp"
+#include "rave/base/number.hpp"
 #include "rave/control/folder.hpp"
 #include "rave/gui_server/accounts.hpp"
 
@@ -28,9 +33,27 @@ Role role_of(config::UserRole role) {
   return Role::kSuperUser;
 }
 
+constexpr std::string_view kFolderPrefix = "people-";
+
+/// Removes the folders of processes that were killed, which could not do so.
+void remove_left_folders(const std::filesystem::path& folder) {
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(kFolderPrefix)) continue;
+    const std::string_view rest = std::string_view(name).substr(kFolderPrefix.size());
+    const auto process = number_of<pid_t>(rest.substr(0, rest.find('-')));
+    std::error_code ignored;
+    const bool gone = process && *process > 0 && ::kill(*process, 0) != 0 && errno == ESRCH;
+    if (gone) std::filesystem::remove_all(entry->path(), ignored);
+  }
+}
+
 Result<std::filesystem::path> temporary_folder() {
   RAVE_TRY_ASSIGN(const auto folder, control::socket_folder());
-  std::string name = folder / "people-XXXXXX";
+  remove_left_folders(folder);
+  std::string name = folder / fmt::format("{}{}-XXXXXX", kFolderPrefix, ::getpid());
   if (::mkdtemp(name.data()) != nullptr) return name;
   return fail(ErrorCode::kIo, "cannot create a folder in `{}`", folder.string());
 }
@@ -49,13 +72,24 @@ Result<std::unique_ptr<RunPeople>> RunPeople::of(const config::ExpandedScenario&
   std::unique_ptr<RunPeople> people(new RunPeople);
   people->people_ = config::plan_people(scenario);
   if (people->people_.empty()) return people;
+  RAVE_TRY(people->find_accounts(page));
+  return people;
+}
+
+Result<std::unique_ptr<RunPeople>> RunPeople::of_page(PageOptions& page) {
+  std::unique_ptr<RunPeople> people(new RunPeople);
+  RAVE_TRY(people->find_accounts(page));
+  return people;
+}
+
+Status RunPeople::find_accounts(PageOptions& page) {
   if (page.accounts.empty() && page.listen == gui_server::GuiOptions().listen) {
-    RAVE_TRY_ASSIGN(people->temporary_, temporary_folder());
-    page.accounts = people->temporary_;
+    RAVE_TRY_ASSIGN(temporary_, temporary_folder());
+    page.accounts = temporary_;
   }
   if (page.accounts.empty()) page.accounts = Accounts::usual_folder();
-  people->accounts_ = page.accounts;
-  return people;
+  accounts_ = page.accounts;
+  return {};
 }
 
 RunPeople::~RunPeople() {

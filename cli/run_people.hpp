@@ -19,6 +19,8 @@ class RunPeople {
   /// Errors: kIo.
   [[nodiscard]] static Result<std::unique_ptr<RunPeople>> of(
       const config::ExpandedScenario& scenario, PageOptions& page);
+  /// The same for a page that stays while runs with users come and go; no person is invited yet.
+  [[nodiscard]] static Result<std::unique_ptr<RunPeople>> of_page(PageOptions& page);
   RunPeople(const RunPeople&) = delete;
   RunPeople& operator=(const RunPeople&) = delete;
   ~RunPeople();
@@ -28,6 +30,7 @@ class RunPeople {
 
  private:
   RunPeople() = default;
+  [[nodiscard]] Status find_accounts(PageOptions& page);
 
   std::vector<config::PlannedPerson> people_;
   std::filesystem::path accounts_;

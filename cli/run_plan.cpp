@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
 
+#include "rave/base/json_text.hpp"
 #include "rave/codec/nodes.hpp"
 #include "rave/config/people_file.hpp"
 #include "rave/gui_server/rights.hpp"
@@ -20,6 +22,44 @@ std::string join(const std::vector<std::string>& words) {
   std::string line;
   for (const std::string& word : words) line += (line.empty() ? "" : ", ") + word;
   return line;
+}
+
+std::string trigger_of(const config::ChangeFile& change) {
+  if (change.at_s) return fmt::format("at {:g} s", **change.at_s);
+  if (change.every_s) return fmt::format("every {:g} s", **change.every_s);
+  const std::string later =
+      *change.delay_s > 0 ? fmt::format(", {:g} s later", *change.delay_s) : "";
+  if (change.after) return fmt::format("after `{}`{}", **change.after, later);
+  return fmt::format("{} {}{}", change.repeat ? "each time that" : "when", **change.when, later);
+}
+
+std::string text_of(const config::ChangeFile& change) {
+  if (change.end) {
+    return fmt::format("the run ends as a {}",
+                       *change.end == config::RunVerdict::kSuccess ? "success" : "failure");
+  }
+  if (change.give) {
+    return fmt::format("team `{}` is given to `{}`", *change.give->team, *change.give->to);
+  }
+  if (change.mark) return fmt::format("mark \"{}\"", *change.mark);
+  if (change.request) return codec::to_json_line(*change.request);
+  if (!change.obstacle.empty()) return config::write_edit(change.obstacle);
+  if (change.hand_over) return fmt::format("`{}` is handed over", **change.robot);
+  std::vector<std::string> values;
+  for (std::size_t i = 0; i < change.set->size(); ++i) {
+    values.push_back(
+        fmt::format("{} = {}", change.set->key(i), codec::to_json_line(change.set->child(i))));
+  }
+  return fmt::format("`{}`: {}", **change.robot, join(values));
+}
+
+/// Of equal times the order of the file is the order of the changes; conditions come last.
+std::vector<const config::ChangeFile*> by_time(const config::ScenarioFile& scenario) {
+  std::vector<const config::ChangeFile*> changes;
+  for (const config::ChangeFile& change : scenario.changes) changes.push_back(&change);
+  std::ranges::stable_sort(
+      changes, {}, [](const auto* change) { return change->at_s ? **change->at_s : HUGE_VAL; });
+  return changes;
 }
 
 class Plan {
@@ -143,12 +183,7 @@ class Plan {
   }
 
   void events() {
-    std::vector<const config::ChangeFile*> changes;
-    for (const config::ChangeFile& change : file_.changes) changes.push_back(&change);
-    // Of equal times the order of the file is the order of the changes; conditions come last.
-    std::ranges::stable_sort(
-        changes, {}, [](const auto* change) { return change->at_s ? **change->at_s : HUGE_VAL; });
-    for (const config::ChangeFile* change : changes) {
+    for (const config::ChangeFile* change : by_time(file_)) {
       line("  {}: {}", trigger_of(*change), text_of(*change));
     }
     if (file_.script) line("  each step: `{}`", **file_.script);
@@ -158,35 +193,6 @@ class Plan {
     }
     if (file_.duration_s.is_open()) return line("  at Ctrl-C or `rave end`: the run ends");
     line("  at {:g} s: the run ends", file_.duration_s.seconds);
-  }
-
-  static std::string trigger_of(const config::ChangeFile& change) {
-    if (change.at_s) return fmt::format("at {:g} s", **change.at_s);
-    if (change.every_s) return fmt::format("every {:g} s", **change.every_s);
-    const std::string later =
-        *change.delay_s > 0 ? fmt::format(", {:g} s later", *change.delay_s) : "";
-    if (change.after) return fmt::format("after `{}`{}", **change.after, later);
-    return fmt::format("{} {}{}", change.repeat ? "each time that" : "when", **change.when, later);
-  }
-
-  static std::string text_of(const config::ChangeFile& change) {
-    if (change.end) {
-      return fmt::format("the run ends as a {}",
-                         *change.end == config::RunVerdict::kSuccess ? "success" : "failure");
-    }
-    if (change.give) {
-      return fmt::format("team `{}` is given to `{}`", *change.give->team, *change.give->to);
-    }
-    if (change.mark) return fmt::format("mark \"{}\"", *change.mark);
-    if (change.request) return codec::to_json_line(*change.request);
-    if (!change.obstacle.empty()) return config::write_edit(change.obstacle);
-    if (change.hand_over) return fmt::format("`{}` is handed over", **change.robot);
-    std::vector<std::string> values;
-    for (std::size_t i = 0; i < change.set->size(); ++i) {
-      values.push_back(
-          fmt::format("{} = {}", change.set->key(i), codec::to_json_line(change.set->child(i))));
-    }
-    return fmt::format("`{}`: {}", **change.robot, join(values));
   }
 
   const RunCommand& options_;
@@ -202,6 +208,16 @@ std::string run_plan(const RunCommand& options, const config::ExpandedScenario& 
                      const std::vector<config::PlannedHost>& hosts,
                      const runtime::BuiltScenario& built) {
   return Plan(options, scenario, built).text(hosts);
+}
+
+std::string due_json(const config::ExpandedScenario& scenario) {
+  nlohmann::ordered_json due = nlohmann::ordered_json::array();
+  for (const config::ChangeFile* change : by_time(scenario.scenario)) {
+    due.push_back(
+        {{"name", change->name}, {"trigger", trigger_of(*change)}, {"text", text_of(*change)}});
+    if (change->at_s) due.back()["at_s"] = **change->at_s;
+  }
+  return json_text(due);
 }
 
 }  // namespace rave::cli

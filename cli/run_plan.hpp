@@ -17,4 +17,7 @@ namespace rave::cli {
                                    const std::vector<config::PlannedHost>& hosts,
                                    const runtime::BuiltScenario& built);
 
+/// What happens when, in the order of the plan, as the array `due` of the message `conduct`.
+[[nodiscard]] std::string due_json(const config::ExpandedScenario& scenario);
+
 }  // namespace rave::cli

@@ -24,6 +24,8 @@ Status override_settings(const RunCommand& options, config::ScenarioFile& scenar
     scenario.hosts.clear();
     if (*options.processes == 1) scenario.processes.reset();
   }
+  const bool lone = !scenario.processes && scenario.hosts.empty();
+  if (options.on_bus && lone) scenario.processes = 1;
   if (!options.duration_s) return {};
   scenario.duration_s = *options.duration_s;
   // An instant that a shorter run never reaches: the middle instead.

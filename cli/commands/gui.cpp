@@ -17,7 +17,9 @@
 #include "rave/client/bus_search.hpp"
 #include "rave/client/sought_run.hpp"
 #include "rave/protocol/agreement.hpp"
+#include "run_conductor.hpp"
 #include "run_page.hpp"
+#include "run_people.hpp"
 #include "run_scenario.hpp"
 
 namespace rave::cli {
@@ -154,6 +156,19 @@ Result<std::unique_ptr<gui_server::GuiServer>> serve(const GuiCommand& options,
   return page->serve();
 }
 
+/// A page that outlives the runs that it starts.
+Result<int> stay(const GuiCommand& options, const sigset_t& signals) {
+  RunCommand run = options.run;
+  run.page = options.page;
+  RAVE_TRY_ASSIGN(const auto people, RunPeople::of_page(run.page));
+  RAVE_TRY_ASSIGN(const auto server, serve_page(run.page));
+  RAVE_TRY_ASSIGN(const auto conductor, RunConductor::start(run, *server));
+  int signal = 0;
+  sigwait(&signals, &signal);
+  conductor->close();
+  return kGood;
+}
+
 }  // namespace
 
 Result<int> gui(const GuiCommand& options) {
@@ -164,6 +179,7 @@ Result<int> gui(const GuiCommand& options) {
   sigaddset(&signals, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
+  if (options.file.empty()) return stay(options, signals);
   Afterwards afterwards;
   std::unique_ptr<ScenarioPage> page;
   RAVE_TRY_ASSIGN(const auto server, serve(options, afterwards, page));

@@ -11,8 +11,9 @@ namespace rave::cli {
 
 /// `rave gui`.
 struct GuiCommand {
-  std::string file;  ///< A recording, the folder of a run, or a scenario.
-  RunCommand run;    ///< Of a scenario: where its run is, and plug-ins.
+  /// A recording, the folder of a run, or a scenario; empty: the page starts runs itself.
+  std::string file;
+  RunCommand run;  ///< Of a scenario: where its run is, and plug-ins.
   PageOptions page;
 };
 

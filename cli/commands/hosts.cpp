@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "error_text.hpp"
+#include "parent_watch.hpp"
 #include "places.hpp"
 #include "rave/base/control_characters.hpp"
 #include "rave/control/bus_requests.hpp"
@@ -57,6 +58,10 @@ Result<int> robot(const RobotCommand& options) {
   how.begin_request = control::bus_requests_of(control, &relay);
   RAVE_TRY_ASSIGN(how.begin_command, control::commands_of(control, scenario, options.host));
   start.serve(how.run.run_name, "host", "this host");
+  ParentWatch parent;
+  if (run.with_parent) {
+    RAVE_TRY(parent.start(how.bus, how.manager_patience, control, start.console()));
+  }
   const auto line =
       launch::open_host_line(run.line, options.host, how.bus, control, start.console());
   if (!line) {

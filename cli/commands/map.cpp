@@ -14,7 +14,7 @@
 namespace rave::cli {
 namespace {
 
-constexpr Duration kSearch = from_seconds(10);
+constexpr Duration kMapSearch = from_seconds(10);
 constexpr Duration kFetch = from_seconds(5);
 
 Result<bus::BusConfig> join(const BusOptions& options, const std::string& word, const char* who,
@@ -22,7 +22,7 @@ Result<bus::BusConfig> join(const BusOptions& options, const std::string& word, 
   RAVE_TRY_ASSIGN(auto config, bus_config(options, who, 0));
   make_room(config, kMostHosts);
   RAVE_TRY_ASSIGN(const bus::RunId run,
-                  client::find_bus_run(config, word, client::SearchFor::kLook, kSearch, stop));
+                  client::find_bus_run(config, word, client::SearchFor::kLook, kMapSearch, stop));
   config.run = run;
   return config;
 }

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/run.hpp"
 
+#include <sys/prctl.h>
+
+#include <csignal>
+
 #include "places.hpp"
 #include "rave/config/expanded_scenario.hpp"
 #include "rave/control/folder.hpp"
@@ -91,6 +95,8 @@ Result<int> show_plan(const RunCommand& options, const config::ExpandedScenario&
 }  // namespace
 
 Result<int> run(const RunCommand& options) {
+  // As Ctrl-C: its results are written.
+  if (options.with_parent) ::prctl(PR_SET_PDEATHSIG, SIGINT);
   RAVE_TRY_ASSIGN(auto scenario, read_scenario(options));
   if (options.gui && !options.pace) scenario.scenario.pace = config::Pace{1};
   RAVE_TRY_ASSIGN(const auto hosts, config::plan_hosts(scenario));

@@ -23,6 +23,10 @@ struct RunCommand : launch::RunSettings {
   bool paused = false;   ///< Wait before the first step until a person resumes it.
   bool quiet = false;
   bool gui = false;  ///< Show it in the browser, then its recording.
+  /// Run the robots in a process of their own even if the scenario names no hosts, so that pages of
+  /// other processes can look on.
+  bool on_bus = false;
+  bool with_parent = false;  ///< End when the process that started this one has ended.
   PageOptions page;
 };
 

@@ -37,6 +37,7 @@ import {
 } from './page_states';
 import type {RunBar} from './run_bar';
 import {controls} from '../ui/styles';
+import './start_page';
 import './top_bar';
 import {pageStyles} from './page_styles';
 
@@ -313,9 +314,12 @@ export class RaveApp extends LitElement {
     if (link.state === 'refused') return renderRefused(link.refusal);
     if (link.state === 'empty') return renderNoRun();
     const old = link.state === 'lost';
+    const none = model.hello?.run.source === 'none';
     return html` <rave-top-bar
         .context=${this.context}
-        .layout=${this.phone.is || innerWidth < kLayouts_px ? '' : (this.dock?.name ?? 'Watch')}
+        .layout=${none || this.phone.is || innerWidth < kLayouts_px
+          ? ''
+          : (this.dock?.name ?? 'Watch')}
         @layout=${(event: CustomEvent<LayoutName>) => {
           this.dock?.choose(event.detail);
           this.requestUpdate();
@@ -343,7 +347,14 @@ export class RaveApp extends LitElement {
               Close
             </button>
           </div>`}
-      ${renderAway(this.dock)} ${!model.rosterCame && !old ? renderOpening() : nothing}
+      ${none ? html`<rave-start .context=${this.context}></rave-start>` : this.renderPanels(old)}
+      ${this.renderSheets()}`;
+  }
+
+  /** The run, in panels. */
+  private renderPanels(old: boolean): TemplateResult {
+    return html`${renderAway(this.dock)}
+      ${!this.model.rosterCame && !old ? renderOpening() : nothing}
       <main class=${old ? 'old' : ''}>
         ${this.phone.is
           ? this.phone.render()
@@ -351,8 +362,7 @@ export class RaveApp extends LitElement {
       </main>
       ${this.phone.is
         ? this.phone.renderBars()
-        : html`<rave-run-bar .context=${this.context}></rave-run-bar>`}
-      ${this.renderSheets()}`;
+        : html`<rave-run-bar .context=${this.context}></rave-run-bar>`}`;
   }
 
   /** What lies over the page while it is open. */

@@ -41,6 +41,7 @@ export class TopBar extends LiveElement {
     const {model, link} = this.context;
     if (link.state === 'lost') return ['Link lost', 'lost'];
     if (model.hello === null) return ['Opening', 'opening'];
+    if (model.hello.run.source === 'none') return ['No run in progress', 'opening'];
     if (!model.live) return ['Replay', 'replay'];
     if (model.time?.state === 'waiting') return ['Waits', 'waits'];
     if (model.time?.state === 'paused') return ['Paused', 'waits'];
@@ -50,7 +51,7 @@ export class TopBar extends LiveElement {
   private about(): string {
     const {model} = this.context;
     const run = model.hello?.run;
-    if (run === undefined) return '';
+    if (run === undefined || run.source === 'none') return '';
     if (!model.live)
       return [run.started && startedText(run.started), run.hash && `hash ${run.hash.slice(0, 8)}`]
         .filter(Boolean)

@@ -64,14 +64,15 @@ export async function knowsHosts(link, hosts, timeout_ms = 30000) {
 
 /**
  * Starts a process that serves the page (`gui RECORDING`, `run SCENARIO --gui`) and waits for its link.
- * `end()` stops it and gives its exit code.
+ * `options` are those of spawn(). `end()` stops it and gives its exit code.
  */
-export async function startServer(rave, words) {
+export async function startServer(rave, words, options = {}) {
   // Another page than the one that was built with the program, while the page is worked on.
   const page = process.env.RAVE_PAGE ? ['--page', process.env.RAVE_PAGE] : [];
   const port = words.includes('--port') ? [] : ['--port', '0'];
   const child = spawn(rave, [...words, '--no-open', ...port, ...page], {
     stdio: ['ignore', 'pipe', 'inherit'],
+    ...options,
   });
   let text = '';
   const exited = new Promise((resolve) => child.once('exit', resolve));

@@ -2,6 +2,7 @@
 import type {
   Answer,
   AskAudit,
+  AskConduct,
   ChangeAccount,
   ChangeInvitation,
   Edit,
@@ -44,7 +45,8 @@ type Request =
   | Unnumbered<Say>
   | Unnumbered<ChangeAccount>
   | Unnumbered<ChangeInvitation>
-  | Unnumbered<AskAudit>;
+  | Unnumbered<AskAudit>
+  | Unnumbered<AskConduct>;
 
 /** A taken order that no robot says it follows is over after so long. */
 const kTold_ms = 1200;

@@ -15,6 +15,7 @@ import type {
   AuditWritten,
   Body,
   Chat,
+  Conduct,
   DriveState,
   Event,
   Hello,
@@ -66,6 +67,8 @@ export class RunModel {
   rights: Rights | null = null;
   /** Who may come in and who is here; of super-users alone. */
   accounts: Accounts | null = null;
+  /** Runs that the server starts; null: it starts none, or has not said it yet. */
+  conduct: Conduct | null = null;
   /** Lines of the audit log that were asked for last. */
   audit: AuditLines | null = null;
   /** A link that was received and not taken yet. */
@@ -91,6 +94,7 @@ export class RunModel {
   readonly peopleChanged = new Signal();
   readonly rightsChanged = new Signal();
   readonly accountsChanged = new Signal();
+  readonly conductChanged = new Signal();
   /** The audit log has lines that this page has not received. */
   readonly auditChanged = new Signal();
   readonly drivesChanged = new Signal();
@@ -231,6 +235,10 @@ export class RunModel {
         break;
       case 'roster':
         this.takeRoster(message);
+        break;
+      case 'conduct':
+        this.conduct = message;
+        this.conductChanged.emit();
         break;
       case 'answer':
         this.answered.emit(message);

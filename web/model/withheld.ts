@@ -39,6 +39,7 @@ export const kUsualRights = {
   command: {what: 'command robots', to: 'do', reach: ['none', 'own', 'all']},
   edit: {what: 'change obstacles and place robots', to: 'do', reach: ['none', 'none', 'all']},
   probe: {what: 'try virtual sensors', to: 'do', reach: ['none', 'own', 'all']},
+  conduct: {what: 'start and end runs', to: 'do', reach: ['none', 'none', 'all']},
 } as const satisfies Record<string, RightsRow>;
 
 export type RightsClass = keyof typeof kUsualRights;

@@ -32,7 +32,8 @@ constexpr auto enum_names(EnumTag<GuiClass> /*tag*/) {
                     EnumName{GuiClass::kRunControl, "run_control"},
                     EnumName{GuiClass::kCommand, "command"},
                     EnumName{GuiClass::kEdit, "edit"},
-                    EnumName{GuiClass::kProbe, "probe"}};
+                    EnumName{GuiClass::kProbe, "probe"},
+                    EnumName{GuiClass::kConduct, "conduct"}};
 }
 
 constexpr auto enum_names(EnumTag<GuiReach> /*tag*/) {
@@ -47,7 +48,7 @@ void describe(V& v, GuiRightFile& c) {
   v.required("classes", c.classes,
              {.doc = "Classes of information or requests that are granted or withdrawn.",
               .min_items = 1,
-              .max_items = 17});
+              .max_items = kGuiClasses});
   v.required(
       "reach", c.reach,
       {.doc =

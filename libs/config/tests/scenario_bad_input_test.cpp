@@ -229,7 +229,7 @@ const FileCase kScenarios[] = {
      "s.yaml:2:43: item 1 of `classes`: found the text \"poses\", expected one of pose, true_pose, "
      "readings, "
      "hybrid_parts, obstacles, goals, maps, chat, log, video, recording, stop, release, "
-     "run_control, command, edit and probe; did you mean `pose`?"},
+     "run_control, command, edit, probe and conduct; did you mean `pose`?"},
     {"GuiFileAndMore",
      "name: a\ngui: {file: gui.yaml, relay: true}\nrobots: [{name: r, file: r.yaml}]\n",
      "s.yaml:2:30: `relay`: expected in `gui.yaml`, which `file` names"},

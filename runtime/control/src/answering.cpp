@@ -4,7 +4,7 @@
 namespace rave::control {
 namespace {
 
-/// Pause, resume and step, which a live run refuses.
+/// Pause, resume, step and pace, which a live run refuses.
 Answer hold(runtime::RunControl& control, const Request& request) {
   if (const auto idle = control.idle(); !idle.empty()) return {false, std::string(idle), {}};
   const runtime::RunStatus status = control.status();
@@ -12,6 +12,10 @@ Answer hold(runtime::RunControl& control, const Request& request) {
     return {false, "this host follows its environment manager: send the request there", {}};
   }
   if (status.live) return {false, "a live run cannot be paused: the real world continues", {}};
+  if (const auto* const pace = request.as<Pace>()) {
+    control.set_pace(pace->factor);
+    return {true, pace->factor == 0 ? "no limit" : fmt::format("{}x", pace->factor), {}};
+  }
   const std::string waits =
       status.waits_for.empty() ? "" : fmt::format("; the run waits for {}", status.waits_for);
   if (request.as<Pause>() != nullptr) {

@@ -29,6 +29,11 @@ void describe(V& v, Step& c) {
   v.field("count", c.count, {.doc = "Number of steps.", .min = 1, .max = 1e9});
 }
 template <class V>
+void describe(V& v, Pace& c) {
+  v.field("factor", c.factor,
+          {.doc = "Simulated seconds per second; 0: no limit.", .min = 0, .max = 1e6});
+}
+template <class V>
 void describe(V&, End&) {}
 
 namespace {
@@ -84,12 +89,17 @@ Result<Request> parse_request(std::string_view line) {
   RAVE_TRY_ASSIGN(RawNode node, codec::parse_json(line));
   RAVE_TRY(check_form(node));
   node.erase(kVersion);
-  if (is_named(*node.find(codec::kVariantKey), Own::kNames)) return own_request(std::move(node));
-  Request request{std::nullopt, {}, false};
-  if (const RawNode* const relay = node.find(kRelay)) {
-    RAVE_TRY_ASSIGN(request.relay, codec::read_node<bool>(*relay));
+  bool relay = false;
+  if (const RawNode* const found = node.find(kRelay)) {
+    RAVE_TRY_ASSIGN(relay, codec::read_node<bool>(*found));
     node.erase(kRelay);
   }
+  if (is_named(*node.find(codec::kVariantKey), Own::kNames)) {
+    RAVE_TRY_ASSIGN(Request own, own_request(std::move(node)));
+    own.relay = relay;
+    return own;
+  }
+  Request request{std::nullopt, {}, relay};
   RAVE_TRY_ASSIGN(request.run, request::from_node(node));
   return request;
 }

@@ -129,6 +129,7 @@ class SharedRun::Crew {
                                       member.folders.back().string(),
                                       "--wait-for-manager",
                                       fmt::format("{}", patience_s_),
+                                      "--with-parent",
                                       "--quiet"};
     for (const std::string& word : bus::words_of(settings.bus, options_.bus.run))
       words.push_back(word);

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 
 #include "foxglove/foxglove_door.hpp"
@@ -13,6 +12,7 @@
 #include "people/door.hpp"
 #include "people/link_file.hpp"
 #include "rave/base/file.hpp"
+#include "rave/gui_server/conductor.hpp"
 #include "rave/gui_server/source.hpp"
 #include "rave/web/rate_limit.hpp"
 #include "rave/web/server.hpp"
@@ -105,6 +105,12 @@ class GuiServer::Impl final : public web::Handler {
     });
   }
 
+  void conduct_by(std::shared_ptr<Conductor> conductor) {
+    server_->post([this, conductor = std::move(conductor)] {
+      tickets_.expect_lines_at(server_->origin());
+      visitors_.conduct_by(conductor);
+    });
+  }
   void offer_lines(std::shared_ptr<direct_line::Lines> lines, const direct_line::SigningKey& key) {
     server_->post([this, lines = std::move(lines), key] { tickets_.offer(lines, key); });
   }
@@ -377,6 +383,9 @@ Result<std::unique_ptr<GuiServer>> GuiServer::start(const GuiOptions& options,
 }
 
 void GuiServer::show(std::shared_ptr<Source> source) { impl_->show(std::move(source)); }
+void GuiServer::conduct_by(std::shared_ptr<Conductor> conductor) {
+  impl_->conduct_by(std::move(conductor));
+}
 void GuiServer::offer_lines(std::shared_ptr<direct_line::Lines> lines,
                             const direct_line::SigningKey& key) {
   impl_->offer_lines(std::move(lines), key);

@@ -10,11 +10,12 @@
 
 namespace rave::gui_server::testing {
 
-/// A port to no run: it has no control, knows no robots, and refuses what it is asked. Tests
+/// A port to no run: it holds nothing, knows no robots, and refuses what it is asked. Tests
 /// override what they look at.
 class FakePort : public RunPort {
  public:
-  [[nodiscard]] runtime::RunControl* control() override { return nullptr; }
+  [[nodiscard]] RunHold held() const override { return {}; }
+  void hold(const TransportMessage& /*transport*/) override {}
   [[nodiscard]] std::string why_not_held() const override { return ""; }
   [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override { return {}; }
   [[nodiscard]] Result<std::future<Result<std::string>>> post(

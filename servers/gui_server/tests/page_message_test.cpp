@@ -52,6 +52,25 @@ CommandMessage command_in(const char* text) {
   return message ? std::get<CommandMessage>(*message) : CommandMessage{};
 }
 
+TEST(PageMessage, RequestsAboutRunsAreRead) {
+  const auto start =
+      parse_page_message(R"({"type":"conduct","request":7,"do":"start","name":"flock","seed":3})");
+  ASSERT_TRUE(start) << start.error().text();
+  EXPECT_EQ(std::get<ConductMessage>(*start),
+            (ConductMessage{ConductMessage::Do::kStart, 7, "flock", 3}));
+  const auto end = parse_page_message(R"({"type":"conduct","request":8,"do":"end"})");
+  ASSERT_TRUE(end) << end.error().text();
+  EXPECT_EQ(std::get<ConductMessage>(*end).what, ConductMessage::Do::kEnd);
+  for (const char* const text :
+       {R"({"type":"conduct","request":1,"do":"start"})",
+        R"({"type":"conduct","request":1,"do":"end","name":"flock"})",
+        R"({"type":"conduct","request":1,"do":"open","name":"a","seed":1})",
+        R"({"type":"conduct","request":1,"do":"restart","seed":-1})",
+        R"({"type":"conduct","request":1,"do":"kill"})"}) {
+    EXPECT_FALSE(parse_page_message(text)) << text;
+  }
+}
+
 TEST(PageMessage, RequestsAboutPeopleAreRead) {
   const auto people = [](const char* text) {
     const auto message = parse_page_message(text);

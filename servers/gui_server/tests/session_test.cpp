@@ -32,7 +32,8 @@ class KeptSocket final : public web::Socket {
 class HeldPort final : public testing::FakePort {
  public:
   explicit HeldPort(runtime::RunControl& run) : run_(run) {}
-  [[nodiscard]] runtime::RunControl* control() override { return &run_; }
+  [[nodiscard]] RunHold held() const override { return gui_server::held(run_); }
+  void hold(const TransportMessage& transport) override { gui_server::hold(run_, transport); }
   [[nodiscard]] std::optional<runtime::RunStatus> own_status() const override {
     runtime::RunStatus status;
     status.scenario = "yard";

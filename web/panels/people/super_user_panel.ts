@@ -5,14 +5,15 @@ import {controls} from '../../ui/styles';
 import './audit_view';
 import './invitations';
 import './people_list';
+import '../conduct/run_control';
 import '../rights/rights_panel';
 import {renderWithheld, withheldStyles} from '../withheld';
 
-type Part = 'rights' | 'people' | 'invitations' | 'audit';
+type Part = 'run' | 'rights' | 'people' | 'invitations' | 'audit';
 /** From this width on the rights stand beside the others. */
 const kWide_px = 1340;
 
-/** Rights, people, invitations and the audit log; for super-users. */
+/** Run control, rights, people, invitations and the audit log; for super-users. */
 export class SuperUserPanel extends LiveElement {
   private chosen: Part = 'rights';
   private wide = false;
@@ -26,7 +27,12 @@ export class SuperUserPanel extends LiveElement {
     });
     size.observe(this);
     return [
-      ...this.renderAfter(model.accountsChanged, model.runChanged, model.peopleChanged),
+      ...this.renderAfter(
+        model.accountsChanged,
+        model.runChanged,
+        model.peopleChanged,
+        model.conductChanged,
+      ),
       () => size.disconnect(),
     ];
   }
@@ -40,7 +46,8 @@ export class SuperUserPanel extends LiveElement {
       ['invitations', `Invitations${number(accounts?.invitations.length ?? 0)}`],
       ['audit', 'Audit log'],
     ];
-    return this.wide ? all.slice(1) : all;
+    const shown = this.wide ? all.slice(1) : all;
+    return this.context.model.conduct === null ? shown : [['run', 'Run control'], ...shown];
   }
 
   override render(): TemplateResult {
@@ -84,6 +91,7 @@ export class SuperUserPanel extends LiveElement {
       return html`<rave-people
         .context=${context}
         @invite=${() => this.choose('invitations')}></rave-people>`;
+    if (part === 'run') return html`<rave-run-control .context=${context}></rave-run-control>`;
     if (part === 'invitations')
       return html`<rave-invitations .context=${context}></rave-invitations>`;
     return part === 'audit'

@@ -25,6 +25,15 @@ bool is_host(const control::BusPeer& peer, const std::string& /*scenario*/) {
   return !peer.manager;
 }
 
+/// What a host hears of its manager; nothing: it hears nothing.
+std::optional<RunHold> hold_of_manager(control::BusRun& bus, const control::BusPeer& host) {
+  control::Request status;
+  status.relay = true;
+  const auto answer = bus.ask(host, status, kStatusPatience);
+  if (!answer || !answer->good) return std::nullopt;
+  return RunHold{answer->status.paused, answer->status.pace};
+}
+
 /// What processes of a run answer to one request.
 struct Replies {
   std::string done;
@@ -70,16 +79,8 @@ Result<std::unique_ptr<BusPort>> BusPort::open(const bus::BusConfig& bus, bool l
   BusPort* const self = port.get();
   RAVE_TRY_ASSIGN(port->commands_,
                   control::CommandSender::open(bus, robots, [self] { self->stir(); }));
-  const auto lane = [self,
-                     &bus](Answer (BusPort::*does)(control::BusRun&, const request::Request&)) {
-    return RequestLane::open(bus, [self, does](control::BusRun& end, const auto& request) {
-      Answer answer = (self->*does)(end, request);
-      self->stir();
-      return answer;
-    });
-  };
-  RAVE_TRY_ASSIGN(port->holds_, lane(&BusPort::hold_all));
-  RAVE_TRY_ASSIGN(port->requests_, lane(&BusPort::ask));
+  RAVE_TRY_ASSIGN(port->holds_, RequestLane::open(bus));
+  RAVE_TRY_ASSIGN(port->requests_, RequestLane::open(bus));
   RAVE_TRY(start_thread(port->watcher_, "the status of robots",
                         [self](const std::stop_token& stop) { self->watch(stop); }));
   return port;
@@ -88,6 +89,57 @@ Result<std::unique_ptr<BusPort>> BusPort::open(const bus::BusConfig& bus, bool l
 BusPort::~BusPort() {
   watcher_.request_stop();
   if (watcher_.joinable()) watcher_.join();
+}
+
+std::future<BusPort::Answer> BusPort::send(RequestLane& lane,
+                                           Answer (BusPort::*how)(control::BusRun&,
+                                                                  const request::Request&),
+                                           request::Request request) {
+  return lane.queue([this, how, request = std::move(request)](control::BusRun& bus) {
+    Answer answer = (this->*how)(bus, request);
+    stir();
+    return answer;
+  });
+}
+
+RunHold BusPort::held() const {
+  const std::lock_guard lock(mutex_);
+  return hold_;
+}
+
+void BusPort::hold(const TransportMessage& transport) {
+  using Do = TransportMessage::Do;
+  std::vector<control::ProcessAction> actions;
+  {
+    // Shown at once; what the manager says of before does not take it back.
+    const std::lock_guard lock(mutex_);
+    if (transport.what == Do::kPace) {
+      hold_.pace = transport.value;
+      actions.emplace_back(control::Pace{transport.value});
+    } else {
+      hold_.paused = transport.what != Do::kPlay;
+      if (hold_.paused) actions.emplace_back(control::Pause());
+      if (transport.what == Do::kPlay) actions.emplace_back(control::Resume());
+      if (transport.what == Do::kStep) {
+        actions.emplace_back(control::Step{static_cast<std::uint64_t>(transport.value)});
+      }
+    }
+    ++holds_asked_;
+  }
+  static_cast<void>(requests_->queue([this, actions](control::BusRun& bus) -> Answer {
+    Answer answer = fail(ErrorCode::kState, "nothing was asked");
+    for (const control::ProcessAction& action : actions) {
+      control::Request request;
+      request.own = action;
+      answer = ask_manager(bus, "", std::move(request));
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      --holds_asked_;
+    }
+    stir();
+    return answer;
+  }));
 }
 
 void BusPort::stir() {
@@ -104,15 +156,22 @@ std::vector<runtime::RunStatus::Robot> BusPort::robots() const {
 void BusPort::watch(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     std::vector<runtime::RunStatus::Robot> robots;
+    std::unique_lock asking(mutex_);
+    const bool asked = holds_asked_ > 0;
+    asking.unlock();
+    std::optional<control::BusPeer> host;
     for (control::BusReply& reply :
          status_->ask_each(control::Request{}, is_host, kStatusPatience)) {
       if (!reply.answer || !reply.answer->good) continue;
+      host = reply.peer;
       auto& told = reply.answer->status.robots;
       robots.insert(robots.end(), std::make_move_iterator(told.begin()),
                     std::make_move_iterator(told.end()));
     }
+    const auto hold = host && lock_step_ ? hold_of_manager(*status_, *host) : std::nullopt;
     std::unique_lock lock(mutex_);
     robots_ = std::move(robots);
+    if (hold && !asked && holds_asked_ == 0) hold_ = *hold;
     changed_.wait_for(lock, stop, kStatusEvery, [this] { return stirred_; });
     stirred_ = false;
   }
@@ -121,10 +180,13 @@ void BusPort::watch(const std::stop_token& stop) {
 Result<std::future<Result<std::string>>> BusPort::post(request::Request request) {
   if (request.is<request::Drive>()) return drive(request);
   const bool hold = request::is_hold(request.action);
-  if (request.robot.empty() && hold) return holds_->queue(std::move(request));
+  if (request.robot.empty() && hold) {
+    return send(*holds_, &BusPort::hold_all, std::move(request));
+  }
   // A cancel of all names no robot: it is a request to each host.
   const bool command = (hold || request::is_order(request.action)) && !request.robot.empty();
-  return command ? commands_->post(std::move(request)) : requests_->queue(std::move(request));
+  if (command) return commands_->post(std::move(request));
+  return send(*requests_, &BusPort::ask, std::move(request));
 }
 
 Result<std::future<Result<std::string>>> BusPort::drive(const request::Request& request) {
@@ -133,8 +195,9 @@ Result<std::future<Result<std::string>>> BusPort::drive(const request::Request& 
   auto& asked = asked_[request.robot];
   if (now - asked < kAskDriver) return sent;
   asked = now;
-  return requests_->queue({request::Take{.force = false, .drives = true}, request.robot, request.by,
-                           false, request.page});
+  return send(*requests_, &BusPort::ask,
+              {request::Take{.force = false, .drives = true}, request.robot, request.by, false,
+               request.page});
 }
 
 BusPort::Answer BusPort::ask(control::BusRun& bus, const request::Request& request) {
@@ -142,7 +205,7 @@ BusPort::Answer BusPort::ask(control::BusRun& bus, const request::Request& reque
   const bool of_body = set != nullptr && set->key.starts_with("body.");
   const bool of_world = request.is<request::Edit, request::ListObstacles>() ||
                         (lock_step_ && (of_body || request.is<request::Chat>()));
-  if (of_world) return ask_manager(bus, request);
+  if (of_world) return ask_manager(bus, request.robot, control::request_of(request));
   const auto host = host_of_.find(request.robot);
   if (host != host_of_.end()) return ask_host(bus, host->second, control::request_of(request));
   Replies replies;
@@ -155,20 +218,20 @@ BusPort::Answer BusPort::hold_all(control::BusRun& bus, const request::Request& 
   replies.add(bus.ask_each(control::request_of(request), is_host, kHoldPatience));
   // In lock-step the manager also knows the robots of hosts that are lost and may come back.
   if (lock_step_) {
-    const Answer managed = ask_manager(bus, request);
+    const Answer managed = ask_manager(bus, request.robot, control::request_of(request));
     replies.add("manager", managed.has_value(), managed ? *managed : managed.error().message);
   }
   return replies.result(false);
 }
 
-BusPort::Answer BusPort::ask_manager(control::BusRun& bus, const request::Request& request) {
-  control::Request relayed = control::request_of(request);
-  relayed.relay = true;
-  const auto host = host_of_.find(request.robot);
-  if (host != host_of_.end()) return ask_host(bus, host->second, relayed);
+BusPort::Answer BusPort::ask_manager(control::BusRun& bus, const std::string& robot,
+                                     control::Request request) {
+  request.relay = true;
+  const auto host = host_of_.find(robot);
+  if (host != host_of_.end()) return ask_host(bus, host->second, request);
   const std::vector<control::BusPeer> hosts = bus.all(kHostPatience);
   if (hosts.empty()) return fail(ErrorCode::kNotFound, "no process of the run answers");
-  return ask_host(bus, hosts.front().name, relayed);
+  return ask_host(bus, hosts.front().name, request);
 }
 
 std::vector<runtime::RunStatus::Robot> ManagedPort::robots() const {

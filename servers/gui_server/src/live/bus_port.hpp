@@ -30,10 +30,11 @@ class BusPort final : public RunPort {
   BusPort& operator=(const BusPort&) = delete;
   ~BusPort() override;
 
-  [[nodiscard]] runtime::RunControl* control() override { return nullptr; }
+  [[nodiscard]] RunHold held() const override;
   [[nodiscard]] std::string why_not_held() const override {
-    return "Only the process that manages the run can pause it: `rave run --gui` does.";
+    return lock_step_ ? "" : "A run in real time cannot be paused.";
   }
+  void hold(const TransportMessage& transport) override;
   [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override;
   [[nodiscard]] Result<std::future<Result<std::string>>> post(request::Request request) override;
 
@@ -46,10 +47,16 @@ class BusPort final : public RunPort {
 
   void watch(const std::stop_token& stop);
   [[nodiscard]] Answer ask(control::BusRun& bus, const request::Request& request);
+  /// Carries out a request of a page in a lane.
+  [[nodiscard]] std::future<Answer> send(RequestLane& lane,
+                                         Answer (BusPort::*how)(control::BusRun&,
+                                                                const request::Request&),
+                                         request::Request request);
   /// Stops, releases or arms all robots.
   [[nodiscard]] Answer hold_all(control::BusRun& bus, const request::Request& request);
   /// What only the manager does, by way of a host: that of the robot, or any.
-  [[nodiscard]] Answer ask_manager(control::BusRun& bus, const request::Request& request);
+  [[nodiscard]] Answer ask_manager(control::BusRun& bus, const std::string& robot,
+                                   control::Request request);
   /// A drive gets no answer; now and then its robot is asked whether it listens to this driver.
   [[nodiscard]] Result<std::future<Answer>> drive(const request::Request& request);
   /// Lets watch() ask for the robots soon.
@@ -63,6 +70,8 @@ class BusPort final : public RunPort {
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   std::vector<runtime::RunStatus::Robot> robots_;
+  RunHold hold_;                   ///< As the manager said last, or a page asked since.
+  std::uint64_t holds_asked_ = 0;  ///< Requests of pages that the manager has not answered.
   bool stirred_ = false;  ///< Something was done, so that `robots_` are to be asked for again.
   std::unique_ptr<control::CommandSender> commands_;
   std::unique_ptr<RequestLane>
@@ -79,8 +88,9 @@ class ManagedPort final : public RunPort {
   ManagedPort(runtime::RunControl& control, std::unique_ptr<BusPort> hosts)
       : manager_(control), hosts_(std::move(hosts)) {}
 
-  [[nodiscard]] runtime::RunControl* control() override { return &manager_; }
+  [[nodiscard]] RunHold held() const override { return gui_server::held(manager_); }
   [[nodiscard]] std::string why_not_held() const override { return ""; }
+  void hold(const TransportMessage& transport) override { gui_server::hold(manager_, transport); }
   [[nodiscard]] std::vector<runtime::RunStatus::Robot> robots() const override;
   [[nodiscard]] Result<std::future<Result<std::string>>> post(request::Request request) override;
 

@@ -206,10 +206,7 @@ void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience)
   }
 }
 
-bool LiveSource::paused() const {
-  const auto* const run = port_->control();
-  return run != nullptr && run->paused();
-}
+bool LiveSource::paused() const { return port_->held().paused; }
 
 void LiveSource::take_news() {
   for (const auto& news : box_->news.take()) {
@@ -270,7 +267,7 @@ void LiveSource::take_picture(Playhead::Clock::time_point now) {
   if (measured) state_.speed = std::max(0.0, (state_.now_s - measured_s_) / passed_s);
   measured_at_ = now;
   measured_s_ = state_.now_s;
-  if (const auto* const run = port_->control()) state_.pace = run->pace();
+  state_.pace = port_->held().pace.value_or(state_.pace);
   if (const auto status = port_->own_status()) {
     own_host_.look(now, start_.about.name, poses_.step, *status);
   }
@@ -321,29 +318,16 @@ std::string LiveSource::take(const TransportMessage& transport) {
   if (transport.what == Do::kSeek) return kSeekLater;
   if (std::string why_not = port_->why_not_held(); !why_not.empty()) return why_not;
   if (state_.kind == PlayState::Kind::kEnded) return "The run has ended.";
-  runtime::RunControl& run = *port_->control();
-  switch (transport.what) {
-    case Do::kPlay:
-      run.resume();
-      break;
-    case Do::kPause:
-      run.pause();
-      break;
-    case Do::kStep:
-      // The bar of the page steps back as well, which only a replay can do.
-      if (transport.value < 1) return "A run cannot go back in time.";
-      run.pause();
-      // Paused first: a run that is stepped while it runs would not stop after the steps.
-      run.step(static_cast<std::uint64_t>(std::min(std::round(transport.value), 1e6)));
-      break;
-    case Do::kPace:
-      run.set_pace(transport.value <= 0 ? 0
-                                        : std::clamp(transport.value, kSlowestRun, kFastestRun));
-      state_.pace = run.pace();
-      break;
-    case Do::kSeek:
-      break;
+  TransportMessage asked = transport;
+  if (asked.what == Do::kStep) {
+    // The bar of the page steps back as well, which only a replay can do.
+    if (asked.value < 1) return "A run cannot go back in time.";
+    asked.value = std::min(std::round(asked.value), 1e6);
+  } else if (asked.what == Do::kPace) {
+    asked.value = asked.value <= 0 ? 0 : std::clamp(asked.value, kSlowestRun, kFastestRun);
   }
+  port_->hold(asked);
+  state_.pace = port_->held().pace.value_or(state_.pace);
   state_.kind = paused() ? PlayState::Kind::kPaused : PlayState::Kind::kRunning;
   return {};
 }

@@ -13,9 +13,9 @@ constexpr std::chrono::milliseconds kLook{500};
 
 }  // namespace
 
-Result<std::unique_ptr<RequestLane>> RequestLane::open(const bus::BusConfig& config, Ask ask) {
+Result<std::unique_ptr<RequestLane>> RequestLane::open(const bus::BusConfig& config) {
   RAVE_TRY_ASSIGN(auto bus, control::BusRun::open(config, "GUI Server"));
-  std::unique_ptr<RequestLane> lane(new RequestLane(std::move(bus), std::move(ask)));
+  std::unique_ptr<RequestLane> lane(new RequestLane(std::move(bus)));
   RequestLane* const self = lane.get();
   RAVE_TRY(start_thread(lane->thread_, "requests of pages",
                         [self](const std::stop_token& stop) { self->work(stop); }));
@@ -27,9 +27,9 @@ RequestLane::~RequestLane() {
   if (thread_.joinable()) thread_.join();
 }
 
-std::future<RequestLane::Answer> RequestLane::queue(request::Request request) {
+std::future<RequestLane::Answer> RequestLane::queue(Work work) {
   const std::lock_guard lock(mutex_);
-  auto& [asked, promise] = waiting_.emplace_back(std::move(request), std::promise<Answer>());
+  auto& [waits, promise] = waiting_.emplace_back(std::move(work), std::promise<Answer>());
   auto answer = promise.get_future();
   changed_.notify_all();
   return answer;
@@ -45,13 +45,13 @@ void RequestLane::work(const std::stop_token& stop) {
       static_cast<void>(bus_->all(Duration{}));
       continue;
     }
-    auto [request, promise] = std::move(waiting_.front());
+    auto [carry_out, promise] = std::move(waiting_.front());
     waiting_.pop_front();
     lock.unlock();
-    promise.set_value(ask_(*bus_, request));
+    promise.set_value(carry_out(*bus_));
   }
   const std::lock_guard lock(mutex_);
-  for (auto& [request, promise] : waiting_) {
+  for (auto& [carry_out, promise] : waiting_) {
     promise.set_value(fail(ErrorCode::kState, "the server is shutting down"));
   }
 }

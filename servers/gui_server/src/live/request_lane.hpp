@@ -23,30 +23,27 @@ class RequestLane {
  public:
   using Answer = Result<std::string>;
   /// Carries out a request, in the thread of the lane.
-  using Ask = std::function<Answer(control::BusRun& bus, const request::Request& request)>;
+  using Work = std::function<Answer(control::BusRun& bus)>;
 
   /// `config`: of the bus of the run. Errors: those of control::BusRun::open(), kIo (no thread).
-  [[nodiscard]] static Result<std::unique_ptr<RequestLane>> open(const bus::BusConfig& config,
-                                                                 Ask ask);
+  [[nodiscard]] static Result<std::unique_ptr<RequestLane>> open(const bus::BusConfig& config);
   RequestLane(const RequestLane&) = delete;
   RequestLane& operator=(const RequestLane&) = delete;
   /// What waits is answered with an error.
   ~RequestLane();
 
   /// Any thread; does not wait.
-  [[nodiscard]] std::future<Answer> queue(request::Request request);
+  [[nodiscard]] std::future<Answer> queue(Work work);
 
  private:
-  RequestLane(std::unique_ptr<control::BusRun> bus, Ask ask)
-      : bus_(std::move(bus)), ask_(std::move(ask)) {}
+  explicit RequestLane(std::unique_ptr<control::BusRun> bus) : bus_(std::move(bus)) {}
 
   void work(const std::stop_token& stop);
 
   std::unique_ptr<control::BusRun> bus_;
-  Ask ask_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::deque<std::pair<request::Request, std::promise<Answer>>> waiting_;
+  std::deque<std::pair<Work, std::promise<Answer>>> waiting_;
   std::jthread thread_;
 };
 

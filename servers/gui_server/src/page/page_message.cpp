@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "page/command_message.hpp"
+#include "page/conduct_message.hpp"
 #include "page/members.hpp"
 #include "rave/base/number.hpp"
 #include "rave/direct_line/order_members.hpp"
@@ -215,6 +216,7 @@ Result<PageMessage> message_of(std::string_view type, Members& members) {
   // These return nothing for types that are not theirs, so each module knows its own types.
   if (auto command = command_of(type, members)) return *std::move(command);
   if (auto people = people_message_of(type, members)) return *std::move(people);
+  if (auto conduct = conduct_message_of(type, members)) return *std::move(conduct);
   return fail(ErrorCode::kParse, "unknown type of message");
 }
 

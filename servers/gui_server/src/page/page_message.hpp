@@ -11,6 +11,7 @@
 #include "page/probe_message.hpp"
 #include "rave/base/result.hpp"
 #include "rave/base/word_table.hpp"
+#include "rave/gui_server/conductor.hpp"
 #include "rave/gui_server/rights.hpp"
 #include "rave/gui_server/source.hpp"
 
@@ -74,7 +75,7 @@ inline constexpr WordTable<ChatMessage::To, 5> kChatTo = {{{"all", ChatMessage::
 using PageMessage =
     std::variant<LookMessage, AckMessage, TransportMessage, HaltMessage, SetRightMessage,
                  SeeAsMessage, CommandMessage, ChatMessage, PeopleMessage, LookMapsMessage,
-                 LookProbesMessage, AskCatalogueMessage, PageKeyMessage>;
+                 LookProbesMessage, AskCatalogueMessage, PageKeyMessage, ConductMessage>;
 
 /// Errors: kParse with what was expected.
 [[nodiscard]] Result<PageMessage> parse_page_message(std::string_view text);

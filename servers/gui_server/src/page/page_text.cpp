@@ -39,12 +39,15 @@ std::string hello_text(const Source& source, const Greeting& greeting) {
   Powers powers = source.powers();
   if (greeting.user.role == Role::kSuperUser && !greeting.seen_by)
     powers.may.emplace_back("rights");
+  if (greeting.conducts) powers.may.emplace_back("conduct");
   Json hello = {{"type", "hello"},
                 {"protocol", 1},
                 {"server", "rave"},
                 {"run",
                  {{"name", about.name},
-                  {"source", about.live ? "live" : "replay"},
+                  {"source", about.none   ? "none"
+                             : about.live ? "live"
+                                          : "replay"},
                   {"clock", about.lock_step ? "lock_step" : "real_time"},
                   {"started", about.started},
                   {"step_s", about.step_s},

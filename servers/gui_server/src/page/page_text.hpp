@@ -29,6 +29,7 @@ struct Greeting {
   std::optional<Person> seen_by{};  ///< The super-user who sees what `user` gets.
   Author author{};                  ///< As whom the run knows who looks.
   bool foxglove = false;            ///< `/foxglove` gives addresses for Foxglove clients.
+  bool conducts = false;            ///< The user may start and end runs here.
 };
 
 /// What became of a request of a page.

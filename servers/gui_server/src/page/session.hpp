@@ -48,6 +48,8 @@ struct SessionCalls {
   std::function<void(const PageKeyMessage&)> page_key;
   /// Answers by itself.
   std::function<void(const PeopleMessage&)> people;
+  /// Answers by itself.
+  std::function<void(const ConductMessage&)> conduct;
 };
 
 /// A virtual sensor that a page tries.
@@ -114,6 +116,7 @@ class Session {
   void take(const CommandMessage& command) { commands_.take(command); }
   void take(const ChatMessage& chat);
   void take(const PeopleMessage& people) { calls_.people(people); }
+  void take(const ConductMessage& conduct) { calls_.conduct(conduct); }
   void take(const PageKeyMessage& page) { calls_.page_key(page); }
   void keep_place(const PlayState& before);
   void forget_foreign_sensors();

@@ -46,6 +46,8 @@ constexpr std::array<Line, kInfoClasses> kLines = {{
      "add, move and remove virtual obstacles; place simulated robots"},
     {InfoClass::kProbe, "probe", Kind::kNone, Kind::kOwn,
      "try virtual sensors on it; needs `readings`"},
+    {InfoClass::kConduct, "conduct", Kind::kNone, Kind::kNone,
+     "start, end and restart runs; open recordings"},
 }};
 
 const Line& line_of(InfoClass what) { return kLines[static_cast<std::size_t>(what)]; }

@@ -155,13 +155,19 @@ void TicketDesk::raise(const std::string& user) {
 }
 
 std::vector<std::string> TicketDesk::ends() const {
-  std::vector<std::string> ends;
+  std::vector<std::string> ends = expected_;
   if (!lines_) return ends;
   for (const HostLine& line : lines_->hosts()) {
     const std::size_t host = line.url.find("://");
     ends.push_back(line.url.substr(0, line.url.find('/', host + 3)));
   }
   return ends;
+}
+
+void TicketDesk::expect_lines_at(std::string_view origin) {
+  // `http://HOST:PORT` becomes `ws://HOST:*`, and `https` `wss`.
+  const std::string host(origin.substr(4, origin.rfind(':') - 4));
+  expected_ = {"ws" + host + ":*"};
 }
 
 }  // namespace rave::gui_server

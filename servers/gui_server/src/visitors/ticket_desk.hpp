@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "people/audit_log.hpp"
@@ -46,6 +47,9 @@ class TicketDesk {
 
   /// Where the lines end, for the Content-Security-Policy of the page.
   [[nodiscard]] std::vector<std::string> ends() const;
+  /// Lines of runs to come may end at any port of the machine of `origin`: a page that is open
+  /// already cannot be given another policy.
+  void expect_lines_at(std::string_view origin);
 
  private:
   struct Given {
@@ -59,6 +63,7 @@ class TicketDesk {
 
   std::shared_ptr<AuditLog> audit_;            ///< Shared with all who note something.
   std::shared_ptr<direct_line::Lines> lines_;  ///< Shared with the command line; may be null.
+  std::vector<std::string> expected_;          ///< Always in ends().
   direct_line::SigningKey key_{};
   std::uint64_t first_epoch_;
   std::map<std::string, std::uint64_t, std::less<>> epochs_;  ///< By person, above the first one.

@@ -103,6 +103,7 @@ void Visitors::opened(std::uint64_t id, web::Socket& socket, const std::string& 
   }
   ++accounts_news_;
   tell_accounts();
+  tell_conduct();
 }
 
 void Visitors::closed(std::uint64_t id) {
@@ -148,12 +149,13 @@ void Visitors::show_to(Visitor& visitor, bool same_run) {
   if (visitor.eyes) greeting.seen_by = visitor.person;
   greeting.author = author_of(visitor);
   greeting.foxglove = foxglove_;
+  greeting.conducts = conducts_runs(visitor);
   visitor.page->show(source_for(visitor.view), greeting, same_run, texts_);
   visitor.page->send(payload(
       room_.text_for({known_as(visitor.eyes.value_or(visitor.person)), *visitor.view}, 0, true)));
   visitor.told_chat = room_.newest();
   // The page has forgotten them.
-  visitor.told_accounts = visitor.told_audit = 0;
+  visitor.told_accounts = visitor.told_audit = visitor.told_conduct = 0;
   told_people_.clear();
 }
 
@@ -284,6 +286,7 @@ void Visitors::check() {
   }
   if (source_ && changed) tell_rights();
   tell_accounts();
+  tell_conduct();
 }
 
 std::shared_ptr<const View> Visitors::view_of(const Person& person) {
@@ -307,6 +310,7 @@ SessionCalls Visitors::calls_of(std::uint64_t id) {
   };
   calls.may_give = [this, id](const CommandMessage& give) { return may_give(id, give); };
   calls.people = [this, id](const PeopleMessage& asked) { take_people(id, asked); };
+  calls.conduct = [this, id](const ConductMessage& asked) { take_conduct(id, asked); };
   calls.malformed = [this, id](std::string_view why, bool cut) { note_malformed(id, why, cut); };
   calls.page_key = [this, id](const PageKeyMessage& page) {
     const auto found = visitors_.find(id);

@@ -31,6 +31,8 @@ class Visitors {
   void offer_foxglove(bool offered) noexcept { foxglove_ = offered; }
   /// All see this run from now on.
   void show(std::shared_ptr<Source> source);
+  /// Who starts and ends runs for pages; without one they cannot.
+  void conduct_by(std::shared_ptr<Conductor> conductor);
   /// A page came whose session the door knows.
   void opened(std::uint64_t id, web::Socket& socket, const std::string& session);
   void received(std::uint64_t id, std::string_view text);
@@ -71,6 +73,7 @@ class Visitors {
     std::uint64_t told_chat = 0;
     std::uint64_t told_accounts = 0;  ///< Revision; 0: nothing yet.
     std::uint64_t told_audit = 0;     ///< Lines, and one.
+    std::uint64_t told_conduct = 0;   ///< Revision; 0: nothing yet.
 
     [[nodiscard]] bool conducts() const {
       return person.role == Role::kSuperUser && !eyes.has_value();
@@ -86,6 +89,10 @@ class Visitors {
   [[nodiscard]] Result<std::string> set_right(std::uint64_t id, const RightChange& change);
   [[nodiscard]] Result<std::string> see_as(std::uint64_t id, const SeeAsMessage& see);
   [[nodiscard]] Result<std::string> chat(std::uint64_t id, const ChatMessage& chat);
+  void take_conduct(std::uint64_t id, const ConductMessage& message);
+  void tell_conduct();
+  /// Whether the person, or the one with whose eyes they look, may start and end runs here.
+  [[nodiscard]] bool conducts_runs(const Visitor& visitor) const;
   void take_people(std::uint64_t id, const PeopleMessage& message);
   void told_of_people(std::uint64_t id, const PeopleDesk::Outcome& outcome);
   void tell_accounts();
@@ -106,7 +113,8 @@ class Visitors {
   std::shared_ptr<Accounts> accounts_;
   std::shared_ptr<AuditLog> audit_;
   bool foxglove_ = false;
-  std::shared_ptr<Source> source_;  ///< Null: none yet.
+  std::shared_ptr<Source> source_;        ///< Null: none yet.
+  std::shared_ptr<Conductor> conductor_;  ///< Null: runs are started elsewhere. Shared with it.
   std::map<const View*, std::weak_ptr<RestrictedSource>> restricted_;
   SharedTexts texts_;
   std::map<std::uint64_t, Visitor> visitors_;

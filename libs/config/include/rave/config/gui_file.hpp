@@ -35,8 +35,9 @@ enum class GuiClass : std::uint8_t {
   kCommand,     ///< Orders to robots, and changes of their parameters.
   kEdit,        ///< Adding and moving virtual obstacles; placing simulated robots.
   kProbe,       ///< Probes: trying virtual sensors.
+  kConduct,     ///< Starting, ending and restarting runs.
 };
-inline constexpr std::size_t kGuiClasses = 17;
+inline constexpr std::size_t kGuiClasses = 18;
 
 /// The robots that a rule applies to.
 enum class GuiReach : std::uint8_t {

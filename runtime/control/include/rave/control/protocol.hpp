@@ -38,19 +38,24 @@ struct Step {
   std::uint64_t count = 1;  ///< 1 to 1e9.
   friend bool operator==(const Step&, const Step&) = default;
 };
+/// Changes the pace of a run in lock-step.
+struct Pace {
+  static constexpr std::string_view kName = "pace";
+  double factor = 1;  ///< Simulated seconds per second, up to 1e6; 0: no limit.
+  friend bool operator==(const Pace&, const Pace&) = default;
+};
 struct End {
   static constexpr std::string_view kName = "end";
   friend bool operator==(const End&, const End&) = default;
 };
-using ProcessAction = std::variant<AskStatus, Pause, Resume, Step, End>;
+using ProcessAction = std::variant<AskStatus, Pause, Resume, Step, Pace, End>;
 
 /// One request to a process of a run.
 struct Request {
   /// Empty: `run` is a request to the run; otherwise only its sender is set.
   std::optional<ProcessAction> own = AskStatus{};
   request::Request run{};
-  /// To the run, over the bus: a host forwards it to the Environment Manager and returns its
-  /// answer.
+  /// Over the bus: a host forwards it to the Environment Manager and returns its answer.
   bool relay = false;
 
   template <class One>

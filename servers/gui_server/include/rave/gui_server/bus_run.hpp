@@ -26,7 +26,7 @@ using OnOver = std::function<void(std::shared_ptr<Source> replay, const std::str
 /// `built`: of the scenario, for the appearance of robots; not referred to later. `bus`: that of
 /// the run. `described`: the plug-ins of the run, for the thread of the server; null: no probes.
 /// `control`: of the run's Environment Manager in lock-step, if it is in this process; must outlive
-/// the source. Null: robots are stopped over the bus, and pages cannot pause the run. `file`: of
+/// the source. Null: robots are stopped, and a run in lock-step is paused, over the bus. `file`: of
 /// the scenario, for panels that are added during the run; may be empty. `on_over` may be empty.
 /// Errors: those of bus::Bus::open().
 [[nodiscard]] Result<std::shared_ptr<Source>> watch_run(

@@ -12,6 +12,7 @@
 
 namespace rave::gui_server {
 
+class Conductor;
 class Source;
 
 struct GuiOptions {
@@ -45,6 +46,9 @@ class GuiServer {
 
   /// Shows another source in all pages, without a reload. Any thread.
   void show(std::shared_ptr<Source> source);
+
+  /// Lets who may do so start and end runs from a page. Any thread.
+  void conduct_by(std::shared_ptr<Conductor> conductor);
 
   /// Gives pages tickets for these direct lines, whose hosts have the public half of `key`. Any
   /// thread.

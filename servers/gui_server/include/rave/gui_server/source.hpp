@@ -43,6 +43,7 @@ struct PageComponent {
 /// The name and origin of a run.
 struct RunAbout {
   bool live = false;  ///< In progress; otherwise a recording.
+  bool none = false;  ///< There is no run: pages show what can be started.
   std::string name;
   std::string started;  ///< ISO 8601; empty if unknown.
   double step_s = 0;

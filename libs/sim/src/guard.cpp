@@ -76,8 +76,11 @@ class Motion {
   /// The limits that forbid a drive.
   [[nodiscard]] std::uint32_t forbidding(const Twist2& drive) const noexcept {
     const double speed = speed_of(drive);
-    return forbidding(
-        drive, speed * (in_.dt_s + spec_.reaction_s) + blind_way_m(drive) + braking_way_m(speed));
+    const double way_m =
+        speed * (in_.dt_s + spec_.reaction_s) + blind_way_m(drive) + braking_way_m(speed);
+    std::uint32_t limits = forbidding(drive, way_m);
+    if (!in_.drive.is_plain()) limits |= forbidding(lagging(drive), way_m, false);
+    return limits;
   }
 
   /// The limits that the robot would breach if it were not told to brake now.
@@ -93,6 +96,16 @@ class Motion {
   }
 
  private:
+  /// The steering of a car takes time, and so does a change of direction. Until then the robot
+  /// moves as it does now, though as fast as `drive`, if that is the same way.
+  [[nodiscard]] Twist2 lagging(const Twist2& drive) const noexcept {
+    const Twist2 now = in_.drive.own(in_.velocity);
+    const double speed = speed_of(now);
+    if (!(speed > kMoving_mps)) return {};
+    const bool same = drive.vx * now.vx + drive.vy * now.vy > 0;
+    const double wanted = speed_of(drive);
+    return scaled(now, same ? wanted / speed : std::min(wanted / speed, 1.0));
+  }
   [[nodiscard]] double braking_way_m(double speed_mps) const noexcept {
     return speed_mps * speed_mps / (2 * spec_.deceleration_mps2);
   }

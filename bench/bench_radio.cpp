@@ -22,7 +22,7 @@ void radio_step(benchmark::State& state) {
         type, {{"range_m", static_cast<double>(state.range(1))}, {"loss", 0.05}, {"messages", 64}});
     type.program = program<Beaconing>();
   } else {
-    type.program = program<sim::Drive>({{"quiet_after", 1}});
+    type.program = program<sim::testing::Drive>({{"quiet_after", 1}});
   }
   add_robot(spec, std::move(type));
   std::uint32_t columns = 1;

@@ -26,7 +26,7 @@ constexpr double kTimeout_s = 2;
 sim::EngineSpec two_robots() {
   sim::EngineSpec spec;
   sim::RobotType type = simulated_type();
-  type.program = program<Drive>({{"v", 0.5}});
+  type.program = program<sim::testing::Drive>({{"v", 0.5}});
   add_robot(spec, std::move(type));
   add_twin(spec, {0, 3, 0});
   return spec;

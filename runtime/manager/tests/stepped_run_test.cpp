@@ -22,7 +22,7 @@ constexpr std::uint64_t kMoment = 7;  ///< When something happens.
 sim::EngineSpec driving_pair() {
   sim::EngineSpec spec;
   sim::RobotType type = simulated_type();
-  type.program = program<Drive>({{"v", 0.5}});
+  type.program = program<sim::testing::Drive>({{"v", 0.5}});
   add_robot(spec, std::move(type));
   add_twin(spec, {0, 3, 0});
   return spec;

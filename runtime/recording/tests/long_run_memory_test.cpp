@@ -53,7 +53,7 @@ sim::EngineSpec walkers() {
   spec.world.obstacles.push_back(box({2, 0.5, 0.3}, 0.6, 0.4));
   sim::RobotType type = simulated_type();
   type.sensors.push_back(laser(16, 3, 3));
-  type.program = program<sim::Drive>({{"v", 0.5}, {"w", 1}});
+  type.program = program<sim::testing::Drive>({{"v", 0.5}, {"w", 1}});
   add_robot(spec, std::move(type));
   for (int i = 1; i < 20; ++i) add_twin(spec, {4.0 * i, 0, 0});
   add_robot(spec, real_type({{"y", 9}, {"vx", 0.1}}));

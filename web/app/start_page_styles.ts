@@ -65,6 +65,7 @@ export const startStyles = css`
   .cards {
     display: grid;
     grid-template-columns: repeat(auto-fill, minmax(230px, 1fr));
+    grid-auto-rows: max-content;
     align-content: start;
     gap: 10px;
     padding: 12px 14px;

@@ -5,12 +5,15 @@ import {clockText} from '../../ui/clock';
 import {icon} from '../../ui/icons';
 import {LiveElement} from '../../ui/live_element';
 import {controls} from '../../ui/styles';
+import {completions, readLine} from './command_line';
 import {dueState, inProgress, stateText} from './conduct';
 import {conductStyles} from './styles';
 
 /** The run that this server started: end it, start it again, what it has in store, its log. */
 export class RunControl extends LiveElement {
   private note = '';
+  private line = '';
+  private said = '';
   /** As it is typed; empty: the same. */
   private seed = '';
 
@@ -42,7 +45,7 @@ export class RunControl extends LiveElement {
         ${conduct.may ? this.renderButtons(run) : nothing}
       </div>
       ${this.note === '' ? nothing : html`<p class="note bad" role="alert">${this.note}</p>`}
-      ${run === null ? nothing : this.renderRun(run)}`;
+      ${run === null ? nothing : this.renderRun(run)} ${conduct.may ? this.renderLine() : nothing}`;
   }
 
   private renderButtons(run: ConductedRun | null): TemplateResult {
@@ -66,7 +69,7 @@ export class RunControl extends LiveElement {
           class="plain bad end"
           title=${run?.state === 'ending' ? 'Kill it: results may be missing' : 'End the run'}
           @click=${() => void this.ask({type: 'conduct', do: 'end'})}>
-          ${icon('boxSelect', 14)} ${run?.state === 'ending' ? 'Kill it' : 'End run'}
+          ${icon('x', 14)} ${run?.state === 'ending' ? 'Kill it' : 'End run'}
         </button>`
       : html`<button
           class="plain close"
@@ -109,6 +112,52 @@ export class RunControl extends LiveElement {
         >${state === 'waits' ? 'waits' : times_s.map((t) => clockText(t)).join(', ')}</span
       >
     </li>`;
+  }
+
+  private renderLine(): TemplateResult {
+    const known = completions(this.line);
+    return html`${this.said === '' ? nothing : html`<p class="said" role="status">${this.said}</p>`}
+      <form
+        class="line"
+        @submit=${(event: Event) => {
+          event.preventDefault();
+          void this.obey();
+        }}>
+        <span aria-hidden="true">›</span
+        ><input
+          aria-label="Command"
+          placeholder="start, end, restart, pace ..."
+          autocomplete="off"
+          spellcheck="false"
+          .value=${this.line}
+          @keydown=${(event: KeyboardEvent) => {
+            if (event.key !== 'Tab' || event.shiftKey || known.length !== 1) return;
+            event.preventDefault();
+            this.type(`${known[0][0].split(' ')[0]} `);
+          }}
+          @input=${(event: Event) => this.type((event.target as HTMLInputElement).value)} /><small
+          >${known.map(([usage, what]) => `${usage}: ${what}`).join(' · ')}</small
+        >
+      </form>`;
+  }
+
+  private type(line: string): void {
+    this.line = line;
+    this.requestUpdate();
+  }
+
+  private async obey(): Promise<void> {
+    const {model, link} = this.context;
+    const asked = readLine(
+      this.line,
+      (model.conduct?.scenarios ?? []).map(({name}) => name),
+    );
+    this.said = 'text' in asked ? asked.text : '';
+    this.note = 'error' in asked ? asked.error : '';
+    if ('error' in asked) return this.requestUpdate();
+    this.type('');
+    if ('transport' in asked) link.send(asked.transport);
+    if ('conduct' in asked) await this.ask(asked.conduct);
   }
 
   private restart(): Promise<void> {
@@ -191,6 +240,37 @@ export class RunControl extends LiveElement {
       }
       .due .waits svg {
         color: var(--text-3);
+      }
+      .said {
+        margin: 0;
+        padding: 4px 14px;
+      }
+      .line {
+        display: flex;
+        flex-wrap: wrap;
+        align-items: center;
+        gap: 8px;
+        flex: none;
+        margin: 6px 10px 8px;
+        padding: 4px 10px;
+        border: 1px solid var(--line-2);
+        border-radius: var(--r-3);
+      }
+      .line:focus-within {
+        border-color: var(--intent);
+      }
+      .line input {
+        flex: 1 1 160px;
+        min-width: 0;
+        min-height: 24px;
+        border: 0;
+        outline: 0;
+        background: none;
+        color: var(--text-1);
+        font: 400 var(--fs-12) var(--font-code);
+      }
+      .line small {
+        color: var(--text-2);
       }
       pre {
         margin: 0;

@@ -11,7 +11,7 @@ import {renderWithheld, withheldStyles} from '../withheld';
 
 type Part = 'run' | 'rights' | 'people' | 'invitations' | 'audit';
 /** From this width on the rights stand beside the others. */
-const kWide_px = 1340;
+const kWide_px = 1350;
 
 /** Run control, rights, people, invitations and the audit log; for super-users. */
 export class SuperUserPanel extends LiveElement {
@@ -134,11 +134,11 @@ export class SuperUserPanel extends LiveElement {
       }
       /* All classes of rights without a scrollbar. */
       section.beside {
-        flex: 1 0 930px;
+        flex: 1 0 976px;
         border-right: 1px solid var(--line-1);
       }
       section.beside ~ section {
-        flex: 0 1 420px;
+        flex: 0 1 374px;
       }
       .tabs {
         display: flex;
@@ -155,7 +155,7 @@ export class SuperUserPanel extends LiveElement {
         color: var(--text-2);
         font-size: var(--fs-12);
         font-weight: var(--fw-medium);
-        white-space: pre;
+        white-space: nowrap;
         border-bottom: 2px solid transparent;
       }
       .tabs button[aria-selected='true'] {

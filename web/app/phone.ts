@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {css, html, nothing, type TemplateResult} from 'lit';
 import type {PanelContext, PanelElement, PanelKind} from '../panel_api';
+import '../panels/gesture/gesture_key';
 import '../panels/joystick/joystick_panel';
 import type {JoystickPanel} from '../panels/joystick/joystick_panel';
 import type {Tool} from '../panels/world/orders/order_desk';
@@ -104,6 +105,9 @@ export class Phone {
             over
             .context=${context}
             @covers=${() => this.host.update()}></rave-joystick>`
+        : nothing}
+      ${this.commands && this.panel === 'world' && !this.driving
+        ? html`<rave-gesture .context=${context} .world=${() => this.host.world()}></rave-gesture>`
         : nothing}
       ${glances ? html`<rave-sheet .context=${context}></rave-sheet>` : nothing}`;
   }

@@ -61,6 +61,7 @@ import message from 'lucide-static/icons/message-square.svg?raw';
 import packageX from 'lucide-static/icons/package-x.svg?raw';
 import pointer from 'lucide-static/icons/mouse-pointer-2.svg?raw';
 import move from 'lucide-static/icons/move.svg?raw';
+import send from 'lucide-static/icons/send.svg?raw';
 import route from 'lucide-static/icons/route.svg?raw';
 import trash from 'lucide-static/icons/trash-2.svg?raw';
 import userPlus from 'lucide-static/icons/user-plus.svg?raw';
@@ -117,6 +118,7 @@ const kIcons = {
   target,
   triangleAlert,
   wifiOff,
+  send,
   x,
   zap,
   boxSelect,

@@ -43,7 +43,8 @@ export class WorldPanel extends LiveElement {
   first_ms = 0;
   private mode: Mode = 'top';
   private stage!: Stage;
-  private top!: TopStage;
+  /** The view from above. */
+  top!: TopStage;
   private orders!: WorldOrders;
   private perspective: Stage | null = null;
   private layers: Layers = kLayers;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs that have lost their manager, hosts, or both: what goes on, what is said of it, and how it
 // ends.
+#include <unistd.h>
+
 #include <csignal>
 #include <sstream>
 
@@ -145,6 +147,26 @@ TEST_F(LostRuns, AForgottenHostInRealTimeIsNotTakenIntoANewRun) {
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   // By themselves, whether or not the host that was in no run yet counts as a part that is missing.
   for (const char* const who : {"second", "one", "two"}) EXPECT_NE(end_of(who), -1) << console(who);
+}
+
+TEST_F(LostRuns, AHostWhoseStarterWasKilledEndsUnlessThereIsAManager) {
+  start("env", "env", "live.yaml", of_run());
+  start_host("two", "live.yaml", of_run());
+  const pid_t starter = ::fork();
+  if (starter == 0) {
+    Words words = of_run({"robot", "live.yaml", "--host", "one", "--with-parent",
+                          "--wait-for-manager", "2", "--output", folder("one")});
+    for (const std::string& word : apart()) words.push_back(word);
+    static_cast<void>(start_rave(words, {"XDG_RUNTIME_DIR=" + folder_.path().string()}));
+    for (;;) ::pause();
+  }
+  wait_for_line("env", "all hosts have joined");
+  ::kill(starter, SIGKILL);
+  EXPECT_EQ(wait_for(starter), -1);
+  wait_for_line("one", "the process that started this host has ended");
+  kill_process("env");
+  wait_for_line("one", "no environment manager has taken its place");
+  EXPECT_TRUE(runs("two")) << "it was started by hand, and waits without limit";
 }
 
 TEST_F(LostRuns, EndEndsARunWithItsHosts) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Real hand motions: the uWave gesture library (J. Liu et al., Pervasive and Mobile Computing,
-// 2009), rows of a class and 315 triples of accelerations. The data do not ship: these tests are skipped
-// where no folder above this one has shared/data/uwave.
+// 2009), rows of a class and 315 triples of accelerations. The data do not ship: these tests are
+// skipped where no folder above this one has shared/data/uwave.
 import {existsSync, readFileSync} from 'node:fs';
 import {dirname, join} from 'node:path';
 import {gunzipSync} from 'node:zlib';

@@ -49,7 +49,7 @@ export class MotionCutter {
   }
 }
 
-/** Listens to the phone's sensor; returns what ends it. `said`: why there is nothing to listen to. */
+/** Listens to the phone's sensor; returns what ends it. `said`: why there is nothing to hear. */
 export function listenToMotion(
   cutter: MotionCutter,
   made: (motion: Acceleration[]) => void,

@@ -76,8 +76,8 @@ export class DriveLoop {
     this.holdBoth(source, x * scale, y * scale);
   }
 
-  /** As hold(), of two controls that do not limit each other; each from -1 to 1. `pedals`: what they
-   * come from. */
+  /** As hold(), of two controls that do not limit each other; each from -1 to 1. `pedals`: what
+   * they come from. */
   holdBoth(source: StickSource, x: number, y: number, pedals: LinePedals | null = null): void {
     if (this.slot === null || source === this.spent || (this.held !== null && this.held !== source))
       return;

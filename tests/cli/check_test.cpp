@@ -177,7 +177,7 @@ TEST(Check, AllUnknownDriversAndParametersAtOnce) {
                 "    7 |     params: {cone_deg: 500}\n"
                 "      |                        ^\n"
                 "unknown_driver.yaml:11:27: there is no controller `flying_carpet`; there are "
-                "goal_point and velocity" +
+                "goal_point, pedals and velocity" +
                 own +
                 "   11 |   - {name: drive, driver: flying_carpet, actuator: wheels}\n"
                 "      |                           ^\n"),

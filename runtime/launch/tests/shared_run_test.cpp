@@ -73,7 +73,7 @@ class SharedRunTest : public ::testing::Test {
   RunSettings settings_;
   NullLogSink log_;
   runtime::RunControl control_;
-  double sim_s_ = 0;  ///< Of the last progress.
+  double sim_s_ = -1;  ///< Of the last progress; -1: there was none.
 };
 
 TEST_F(SharedRunTest, TwoProcessesGiveTheHashOfOne) {
@@ -84,7 +84,8 @@ TEST_F(SharedRunTest, TwoProcessesGiveTheHashOfOne) {
   ASSERT_TRUE(shared) << shared.error().text();
   EXPECT_TRUE(shared->whole) << (shared->problems.empty() ? "" : shared->problems.front());
   EXPECT_EQ(shared->hash, alone->hash);
-  EXPECT_GT(sim_s_, 0);
+  // A fast machine is through before the second one.
+  EXPECT_GE(sim_s_, 0);
   // Each host was a process with a folder of its own.
   const auto folders = fs::directory_iterator(folder_ / "shared" / "hosts");
   EXPECT_EQ(std::distance(fs::begin(folders), fs::end(folders)), 2);

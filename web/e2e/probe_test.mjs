@@ -46,9 +46,9 @@ try {
     await panel.getByLabel('Virtual sensor').waitFor();
   };
   const choosesDriver = (name) => panel.getByLabel('Virtual sensor').selectOption(name);
-  const fill = async (field, value) => {
-    await panel.getByLabel(`${field}, value`, {exact: true}).fill(String(value));
-    await panel.getByLabel(`${field}, value`, {exact: true}).press('Enter');
+  const fill = async (field, value, what = 'value') => {
+    await panel.getByLabel(`${field}, ${what}`, {exact: true}).fill(String(value));
+    await panel.getByLabel(`${field}, ${what}`, {exact: true}).press('Enter');
   };
   const start = async (words) => {
     servers.push(await startServer(rave, words));
@@ -164,7 +164,8 @@ try {
     for (const {name, params} of drivers) {
       await choosesDriver(name);
       // What has no default has to be given first.
-      for (const {name: key, required} of params) if (required) await fill(key, 7);
+      for (const {name: key, type, required} of params)
+        if (required) await fill(key, 7, type === 'list' ? 'numbers' : 'value');
       await until(page, `${app}.model.probes.sensor(${kFirst})?.driver === '${name}'`);
       await until(page, `${reading(real)} != null`);
       assert.match(await copied(), new RegExp(`driver: ${name}`));

@@ -199,7 +199,8 @@ void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience)
     // A pause that was asked for is shown at once, before the run says that it stands.
     const bool held = paused() && standing->kind != PlayState::Kind::kEnded;
     state_.kind = held ? PlayState::Kind::kPaused : standing->kind;
-    state_.reason = held ? "" : standing->reason;
+    // With a reason once the run itself says so.
+    state_.reason = held && standing->kind != PlayState::Kind::kPaused ? "" : standing->reason;
     state_.speed = standing->speed;
   } else {
     state_.kind = paused() ? PlayState::Kind::kPaused : PlayState::Kind::kRunning;

@@ -200,7 +200,7 @@ void LiveSource::tick(Playhead::Clock::time_point now, const Audience& audience)
     const bool held = paused() && standing->kind != PlayState::Kind::kEnded;
     state_.kind = held ? PlayState::Kind::kPaused : standing->kind;
     // With a reason once the run itself says so.
-    state_.reason = held && standing->kind != PlayState::Kind::kPaused ? "" : standing->reason;
+    state_.reason = held && standing->kind == PlayState::Kind::kRunning ? "" : standing->reason;
     state_.speed = standing->speed;
   } else {
     state_.kind = paused() ? PlayState::Kind::kPaused : PlayState::Kind::kRunning;

@@ -4,51 +4,30 @@
 #include <cmath>
 #include <limits>
 
-#include "programs/testing/driver_harness.hpp"
+#include "rave/driver_testing/drive_fixture.hpp"
 #include "rave/driver_testing/step_response.hpp"
 
 namespace rave {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDt_s = 0.001;
 
-class OmniDriveTest : public ::testing::Test {
+class OmniDriveTest : public testing::DriveTest {
  protected:
+  OmniDriveTest() : DriveTest("omnidirectional_drive") {}
   void SetUp() override {
-    driver.step_s = kDt_s;
     driver.params.set("wheels", 3)
         .set("wheel_circle_m", 0.2)
         .set("first_wheel_deg", 60)
         .set("max_wheel_speed_mps", 1);
     driver.start();
   }
-  Twist2 step(const Command& command, std::uint32_t number = 0) {
-    MotionInput input;
-    input.command = command;
-    input.dt_s = kDt_s;
-    input.seed = 7;
-    input.step = number;
-    return driver.propose(input);
-  }
-  Twist2 motion_of(const Command& command) {
-    Twist2 motion;
-    driver.ops().drive.motion(driver.instance(), &command, &motion);
-    return motion;
-  }
-  Command command_for(const Twist2& motion) {
-    Command command;
-    driver.ops().drive.command(driver.instance(), &motion, &command);
-    return command;
-  }
-
-  testing::ActuatorUnderTest driver{rave_register_plugin, "omnidirectional_drive"};
 };
 
-class DynamicOmniTest : public ::testing::Test {
+class DynamicOmniTest : public testing::DriveTest {
  protected:
+  DynamicOmniTest() : DriveTest("omnidirectional_drive_dynamic") {}
   void SetUp() override {
-    driver.step_s = kDt_s;
     driver.params.set("wheels", 3)
         .set("wheel_circle_m", 0.2)
         .set("first_wheel_deg", 60)
@@ -57,16 +36,6 @@ class DynamicOmniTest : public ::testing::Test {
         .set("damping_ratio", 0.5)
         .set("max_wheel_acceleration_mps2", 1000);
   }
-  Twist2 step(const Command& command, std::uint32_t number = 0) {
-    MotionInput input;
-    input.command = command;
-    input.dt_s = kDt_s;
-    input.seed = 7;
-    input.step = number;
-    return driver.propose(input);
-  }
-
-  testing::ActuatorUnderTest driver{rave_register_plugin, "omnidirectional_drive_dynamic"};
 };
 
 TEST_F(OmniDriveTest, GoesSidewaysAndTurnsAtOnce) {

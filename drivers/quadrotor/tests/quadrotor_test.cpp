@@ -4,64 +4,33 @@
 #include <cmath>
 #include <limits>
 
-#include "programs/testing/driver_harness.hpp"
+#include "rave/driver_testing/drive_fixture.hpp"
 #include "rave/driver_testing/step_response.hpp"
 
 namespace rave {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDt_s = 0.001;
 
-class QuadrotorTest : public ::testing::Test {
+class QuadrotorTest : public testing::DriveTest {
  protected:
+  QuadrotorTest() : DriveTest("quadrotor") {}
   void SetUp() override {
-    driver.step_s = kDt_s;
     driver.params.set("max_speed_mps", 2).set("max_turn_rate_radps", 1.5);
     driver.start();
   }
-  Twist2 step(const Command& command, std::uint32_t number = 0) {
-    MotionInput input;
-    input.command = command;
-    input.dt_s = kDt_s;
-    input.seed = 7;
-    input.step = number;
-    return driver.propose(input);
-  }
-  Twist2 motion_of(const Command& command) {
-    Twist2 motion;
-    driver.ops().drive.motion(driver.instance(), &command, &motion);
-    return motion;
-  }
-  Command command_for(const Twist2& motion) {
-    Command command;
-    driver.ops().drive.command(driver.instance(), &motion, &command);
-    return command;
-  }
-
-  testing::ActuatorUnderTest driver{rave_register_plugin, "quadrotor"};
 };
 
-class DynamicQuadrotorTest : public ::testing::Test {
+class DynamicQuadrotorTest : public testing::DriveTest {
  protected:
+  DynamicQuadrotorTest() : DriveTest("quadrotor_dynamic") {}
   void SetUp() override {
-    driver.step_s = kDt_s;
     driver.params.set("max_speed_mps", 2)
         .set("max_turn_rate_radps", 1.5)
         .set("natural_frequency_radps", 10)
         .set("damping_ratio", 0.5)
         .set("max_tilt_deg", 80);
   }
-  Twist2 step(const Command& command, std::uint32_t number = 0) {
-    MotionInput input;
-    input.command = command;
-    input.dt_s = kDt_s;
-    input.seed = 7;
-    input.step = number;
-    return driver.propose(input);
-  }
-
-  testing::ActuatorUnderTest driver{rave_register_plugin, "quadrotor_dynamic"};
 };
 
 TEST_F(QuadrotorTest, FliesInAnyDirectionWithinItsLimits) {

@@ -3,50 +3,28 @@
 
 #include <cmath>
 
-#include "programs/testing/driver_harness.hpp"
+#include "rave/driver_testing/drive_fixture.hpp"
 #include "rave/driver_testing/step_response.hpp"
 
 namespace rave {
 namespace {
 
-constexpr double kDt_s = 0.001;
-
-class SkidSteerTest : public ::testing::Test {
+class SkidSteerTest : public testing::DriveTest {
  protected:
+  SkidSteerTest() : DriveTest("skid_steer_drive") {}
   void SetUp() override {
-    driver.step_s = kDt_s;
     driver.params.set("wheel_separation_m", 0.4)
         .set("slide_factor", 2)
         .set("turn_centre_m", 0.1)
         .set("max_wheel_speed_mps", 1.2);
     driver.start();
   }
-  Twist2 step(const Command& command, std::uint32_t number = 0) {
-    MotionInput input;
-    input.command = command;
-    input.dt_s = kDt_s;
-    input.seed = 7;
-    input.step = number;
-    return driver.propose(input);
-  }
-  Twist2 motion_of(const Command& command) {
-    Twist2 motion;
-    driver.ops().drive.motion(driver.instance(), &command, &motion);
-    return motion;
-  }
-  Command command_for(const Twist2& motion) {
-    Command command;
-    driver.ops().drive.command(driver.instance(), &motion, &command);
-    return command;
-  }
-
-  testing::ActuatorUnderTest driver{rave_register_plugin, "skid_steer_drive"};
 };
 
-class DynamicSkidSteerTest : public ::testing::Test {
+class DynamicSkidSteerTest : public testing::DriveTest {
  protected:
+  DynamicSkidSteerTest() : DriveTest("skid_steer_drive_dynamic") {}
   void SetUp() override {
-    driver.step_s = kDt_s;
     driver.params.set("wheel_separation_m", 0.4)
         .set("slide_factor", 2)
         .set("turn_centre_m", 0.1)
@@ -55,16 +33,6 @@ class DynamicSkidSteerTest : public ::testing::Test {
         .set("damping_ratio", 0.5)
         .set("max_wheel_acceleration_mps2", 1000);
   }
-  Twist2 step(const Command& command, std::uint32_t number = 0) {
-    MotionInput input;
-    input.command = command;
-    input.dt_s = kDt_s;
-    input.seed = 7;
-    input.step = number;
-    return driver.propose(input);
-  }
-
-  testing::ActuatorUnderTest driver{rave_register_plugin, "skid_steer_drive_dynamic"};
 };
 
 TEST_F(SkidSteerTest, TurnsAboutItsTurnCentreAsIfItWereWider) {
